@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A running 64-bit hash of what a run did.
+//
+// Every step maps (state, word) to a state, and is a bijection of the state for a given word and of the word for a
+// given state. So two sequences of equal length that differ in exactly one word always have different digests: no
+// single changed bit can be lost. Against several independent changes it is a 64-bit hash (2^-64). It is no
+// cryptographic hash: it guards against accidents, not against an adversary.
+//
+// What is added is defined by value, not by memory: integers as they are, doubles by their bits with every NaN made one
+// and -0 kept, text by its length and bytes. No padding and no pointer can get in.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace waitpoint {
+
+class Digest {
+ public:
+  constexpr Digest() = default;
+  explicit constexpr Digest(std::uint64_t start) : state_(start) {}
+
+  constexpr void add(std::uint64_t word) {
+    // Odd multipliers are invertible modulo 2^64, rotations and xor-shifts too.
+    state_ = (std::rotl(state_, 29) ^ word) * 0x9E3779B97F4A7C15u;
+    state_ ^= state_ >> 32;
+  }
+  constexpr void add(double value) { add(value != value ? canonical_nan : std::bit_cast<std::uint64_t>(value)); }
+  void add(std::string_view text);
+
+  constexpr std::uint64_t value() const { return mix(state_); }
+  friend constexpr bool operator==(const Digest&, const Digest&) = default;
+
+  /// Scatters the bits of a word; a bijection. (The finaliser of splitmix64: Steele, Lea, Flood 2014.)
+  static constexpr std::uint64_t mix(std::uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+    return x ^ (x >> 31);
+  }
+
+ private:
+  static constexpr std::uint64_t canonical_nan = 0x7FF8000000000000u;
+  std::uint64_t state_ = 0x77616974706F696Eu;  // "waitpoin"
+};
+
+/// The printed form: "wp1:" and 16 hexadecimal digits. The prefix changes when the definition of what is hashed does.
+std::string to_string(const Digest& digest);
+
+}  // namespace waitpoint

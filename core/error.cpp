@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/error.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace waitpoint {
+
+BadInput::BadInput(const std::string& file, int line, const std::string& message)
+    : std::runtime_error(line > 0 ? file + ":" + std::to_string(line) + ": " + message : file + ": " + message) {}
+
+BadInput::BadInput(const std::string& where, const std::string& message) : BadInput(where, 0, message) {}
+
+void bug(const char* file, int line, const char* condition, const char* message) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "waitpoint: bug: %s (%s) at %s:%d\n", message, condition, file, line);
+  if (waitpoint_describe_run != nullptr) waitpoint_describe_run();
+  std::fflush(stderr);
+  std::abort();
+}
+
+}  // namespace waitpoint

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The three classes of error.
+//
+//   a bug                an invariant of ours or a contract of a caller is broken: WAITPOINT_CHECK, always on; prints
+//   the
+//                        place, the virtual time, the task, the seed and the replay line, then aborts
+//   bad input            a file, an option or a scenario is wrong: BadInput, thrown before time 0; one line, exit
+//   status 2 an expected outcome  a timeout, a full mailbox, a stale poster: a value, see the function that returns it
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace waitpoint {
+
+/// Input that cannot be used. what() is the one line shown to the user: "file:line: what was expected".
+class BadInput : public std::runtime_error {
+ public:
+  /// `line` counts from 1; 0 where the input has no lines (a missing file, an option).
+  BadInput(const std::string& file, int line, const std::string& message);
+  /// For input that is no file: `where` is the option or key at fault.
+  BadInput(const std::string& where, const std::string& message);
+};
+
+/// Reports a broken invariant and aborts. Used by WAITPOINT_CHECK.
+[[noreturn]] void bug(const char* file, int line, const char* condition, const char* message);
+
+/// Writes what the run was doing (virtual time, task, seed, replay line) to the error stream. The kernel defines it; a
+/// program without the kernel has none, and a bug is then reported by its place alone.
+extern "C" void waitpoint_describe_run() __attribute__((weak));
+
+}  // namespace waitpoint
+
+/// Stops the run where `condition` does not hold; `message` says what that means.
+#define WAITPOINT_CHECK(condition, message)                    \
+  (__builtin_expect(static_cast<bool>(condition), 1) ? (void)0 \
+                                                     : ::waitpoint::bug(__FILE__, __LINE__, #condition, message))

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The declared fields of a value: what the digest hashes, what a scenario may set, what a recorder writes.
+//
+// A type declares its fields once, in order, next to its members:
+//
+//   struct Battery {
+//     Time date;
+//     double volts = 0;
+//     static constexpr auto fields() { return std::tuple(field("date", &Battery::date), field("volts",
+//     &Battery::volts)); }
+//   };
+//
+// Fields are integers, enums, bool, double, Time, Duration, Point, Pose, std::array and Bounded of such, and other
+// types with declared fields. No pointers: a value is what it says.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+#include "core/digest.hpp"
+#include "core/error.hpp"
+#include "core/pose.hpp"
+#include "core/time.hpp"
+
+namespace waitpoint {
+
+template <class Owner, class Member>
+struct Field {
+  std::string_view name;
+  Member Owner::*member;
+};
+
+template <class Owner, class Member>
+constexpr Field<Owner, Member> field(std::string_view name, Member Owner::*member) {
+  return {name, member};
+}
+
+template <class T>
+concept HasFields = requires {
+  T::fields();
+};
+
+/// An array of at most `Capacity` elements in place: values without pointers, of which only the first size() count.
+template <class T, std::size_t Capacity>
+class Bounded {
+ public:
+  static constexpr std::size_t capacity() { return Capacity; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  bool full() const { return size_ == Capacity; }
+  void clear() { size_ = 0; }
+  /// The new elements are value-initialised; more than the capacity is a bug.
+  void resize(std::size_t n) {
+    WAITPOINT_CHECK(n <= Capacity, "more elements than a bounded array holds");
+    for (std::size_t i = size_; i < n; ++i) items_[i] = T{};
+    size_ = static_cast<std::uint32_t>(n);
+  }
+  /// Appending to a full array is a bug.
+  void push_back(const T& item) {
+    WAITPOINT_CHECK(size_ < Capacity, "more elements than a bounded array holds");
+    items_[size_++] = item;
+  }
+  T& operator[](std::size_t i) { return items_[i]; }
+  const T& operator[](std::size_t i) const { return items_[i]; }
+  T* begin() { return items_.data(); }
+  T* end() { return items_.data() + size_; }
+  const T* begin() const { return items_.data(); }
+  const T* end() const { return items_.data() + size_; }
+
+ private:
+  std::uint32_t size_ = 0;
+  std::array<T, Capacity> items_{};
+};
+
+/// Calls `visit(name, member)` for every declared field, in order.
+template <HasFields T, class Visit>
+constexpr void for_each_field(T& value, Visit&& visit) {
+  std::apply([&](auto... f) { (visit(f.name, value.*(f.member)), ...); }, std::remove_const_t<T>::fields());
+}
+
+template <class T>
+void add_value(Digest& digest, const T& value);
+
+template <class T, std::size_t N>
+void add_elements(Digest& digest, const std::array<T, N>& items) {
+  for (const T& item : items) add_value(digest, item);
+}
+template <class T, std::size_t N>
+void add_elements(Digest& digest, const Bounded<T, N>& items) {
+  digest.add(static_cast<std::uint64_t>(items.size()));
+  for (const T& item : items) add_value(digest, item);
+}
+
+/// Adds a value by its declared fields, recursively.
+template <class T>
+void add_value(Digest& digest, const T& value) {
+  if constexpr (HasFields<T>) {
+    for_each_field(value, [&](std::string_view, const auto& member) { add_value(digest, member); });
+  } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
+    digest.add(static_cast<std::uint64_t>(value));
+  } else if constexpr (std::is_floating_point_v<T>) {
+    digest.add(static_cast<double>(value));
+  } else if constexpr (std::is_same_v<T, Time> || std::is_same_v<T, Duration>) {
+    digest.add(static_cast<std::uint64_t>(value.ns()));
+  } else if constexpr (std::is_same_v<T, Point>) {
+    digest.add(value.x);
+    digest.add(value.y);
+  } else if constexpr (std::is_same_v<T, Pose>) {
+    digest.add(value.x);
+    digest.add(value.y);
+    digest.add(value.heading);
+  } else {
+    add_elements(digest, value);
+  }
+}
+
+}  // namespace waitpoint

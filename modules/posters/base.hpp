@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mobile base: what its controller is told and tells (the hardware's side of `rflex`), and what `rflex` makes of
+// it.
+#pragma once
+
+#include "core/fields.hpp"
+#include "modules/posters/position.hpp"
+
+namespace waitpoint::posters {
+
+inline constexpr std::size_t sonar_count_max = 48;
+
+/// To the controller: the speeds to hold until the next command.
+struct BaseCommand {
+  double v_m_s = 0, w_rad_s = 0;
+  bool sonars_on = false;
+
+  static constexpr auto fields() {
+    return std::tuple(field("v_m_s", &BaseCommand::v_m_s), field("w_rad_s", &BaseCommand::w_rad_s),
+                      field("sonars_on", &BaseCommand::sonars_on));
+  }
+};
+
+/// From the controller: its report at `date`. Travel and turn are accumulated in the controller's own units (RFLEX:
+/// about 103 000 a metre and 35 000 a radian on a B21r), quantised there.
+struct BaseReading {
+  Time date;
+  std::int64_t travel_units = 0, turn_units = 0;
+  double v_m_s = 0, w_rad_s = 0;
+  double battery_volts = 0;
+  bool stalled = false;
+  Bounded<double, sonar_count_max> sonar_m;  ///< no echo: the sonar's greatest range; empty while they are off
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &BaseReading::date), field("travel_units", &BaseReading::travel_units),
+                      field("turn_units", &BaseReading::turn_units), field("v_m_s", &BaseReading::v_m_s),
+                      field("w_rad_s", &BaseReading::w_rad_s), field("battery_volts", &BaseReading::battery_volts),
+                      field("stalled", &BaseReading::stalled), field("sonar_m", &BaseReading::sonar_m));
+  }
+};
+
+/// The speed that a motion module wants, tracked by `rflex` (the LAAS name of this poster is GENPOS_CART_SPEED).
+struct SpeedReference {
+  Time date;
+  double v_m_s = 0, w_rad_s = 0;
+  std::uint32_t number = 0;  ///< counts the references: a number that stands still is a writer that stopped
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &SpeedReference::date), field("v_m_s", &SpeedReference::v_m_s),
+                      field("w_rad_s", &SpeedReference::w_rad_s), field("number", &SpeedReference::number));
+  }
+};
+
+struct Battery {
+  Time date;
+  double volts = 0;
+  bool low = false;
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &Battery::date), field("volts", &Battery::volts), field("low", &Battery::low));
+  }
+};
+
+/// One sonar's last range, with where it looks from: the transducer in the robot's frame.
+struct SonarEcho {
+  Pose mount;
+  double range_m = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(field("mount", &SonarEcho::mount), field("range_m", &SonarEcho::range_m));
+  }
+};
+
+struct Sonars {
+  Time date;
+  Bounded<SonarEcho, sonar_count_max> echoes;
+
+  static constexpr auto fields() { return std::tuple(field("date", &Sonars::date), field("echoes", &Sonars::echoes)); }
+};
+
+}  // namespace waitpoint::posters

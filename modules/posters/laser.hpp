@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planar laser: what the device is told and tells (the hardware's side of `sick`), and what `sick` makes of it.
+#pragma once
+
+#include "core/fields.hpp"
+
+namespace waitpoint::posters {
+
+inline constexpr std::size_t beam_count_max = 721;
+inline constexpr std::size_t segment_count_max = 64;
+
+/// To the device.
+struct LaserCommand {
+  bool on = false;
+
+  static constexpr auto fields() { return std::tuple(field("on", &LaserCommand::on)); }
+};
+
+/// From the device: one scan, counter-clockwise, in the device's own frame.
+struct LaserReading {
+  Time date;                 ///< of the scan
+  std::uint32_t number = 0;  ///< counts the scans, from 1
+  double first_angle_rad = 0, angle_step_rad = 0;
+  double range_max_m = 0;                  ///< a beam without echo reads this
+  Bounded<float, beam_count_max> range_m;  ///< quantised as the device does
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &LaserReading::date), field("number", &LaserReading::number),
+                      field("first_angle_rad", &LaserReading::first_angle_rad),
+                      field("angle_step_rad", &LaserReading::angle_step_rad),
+                      field("range_max_m", &LaserReading::range_max_m), field("range_m", &LaserReading::range_m));
+  }
+};
+
+/// `sick`: the last scan and where the device sits on the robot.
+struct Echoes {
+  LaserReading scan;
+  Pose mount;
+
+  static constexpr auto fields() { return std::tuple(field("scan", &Echoes::scan), field("mount", &Echoes::mount)); }
+};
+
+/// A straight run of echoes in the robot's frame, from `start` to `end` counter-clockwise as seen from the device. Its
+/// line is x cos(normal) + y sin(normal) = distance >= 0, with the covariance of (normal, distance).
+struct Segment {
+  Point start, end;
+  double normal_rad = 0, distance_m = 0;
+  std::array<double, 3>
+      covariance{};  ///< rad^2, rad m, m^2: (normal, normal), (normal, distance), (distance, distance)
+  std::uint32_t points = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(field("start", &Segment::start), field("end", &Segment::end),
+                      field("normal_rad", &Segment::normal_rad), field("distance_m", &Segment::distance_m),
+                      field("covariance", &Segment::covariance), field("points", &Segment::points));
+  }
+};
+
+/// `sick`: the segments of the scan taken at `date`, longest first where there are more than the poster holds.
+struct Segments {
+  Time date;
+  std::uint32_t number = 0;  ///< of the scan
+  Bounded<Segment, segment_count_max> items;
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &Segments::date), field("number", &Segments::number),
+                      field("items", &Segments::items));
+  }
+};
+
+/// `segloc`: its map, as segments in the map frame.
+struct MapSegment {
+  Point start, end;
+
+  static constexpr auto fields() {
+    return std::tuple(field("start", &MapSegment::start), field("end", &MapSegment::end));
+  }
+};
+
+inline constexpr std::size_t map_segment_count_max = 512;
+
+struct SegmentMap {
+  Time date;
+  Bounded<MapSegment, map_segment_count_max> items;
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &SegmentMap::date), field("items", &SegmentMap::items));
+  }
+};
+
+}  // namespace waitpoint::posters

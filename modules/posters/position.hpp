@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Positions that modules tell each other. Frames: a pose is that of the robot's centre in the frame the module names.
+#pragma once
+
+#include <array>
+
+#include "core/fields.hpp"
+
+namespace waitpoint::posters {
+
+/// A pose with its uncertainty: a 3 x 3 covariance of (x, y, heading) in row order; m^2, m rad, rad^2.
+struct PositionEstimate {
+  Time date;  ///< when the robot was there, not when this was computed
+  Pose pose;
+  std::array<double, 9> covariance{};
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &PositionEstimate::date), field("pose", &PositionEstimate::pose),
+                      field("covariance", &PositionEstimate::covariance));
+  }
+};
+
+/// `rflex`: dead reckoning since the start, in the frame where it was set. The covariance grows without bound.
+struct Odometry {
+  PositionEstimate position;
+  double v_m_s = 0, w_rad_s = 0;  ///< measured speeds
+  bool stalled = false;           ///< the base reports that it cannot move as commanded
+
+  static constexpr auto fields() {
+    return std::tuple(field("position", &Odometry::position), field("v_m_s", &Odometry::v_m_s),
+                      field("w_rad_s", &Odometry::w_rad_s), field("stalled", &Odometry::stalled));
+  }
+};
+
+/// `segloc`: the pose in the map frame as matched against the segment map, at the date of the scan used.
+struct Localisation {
+  PositionEstimate position;
+  std::uint32_t matched = 0;   ///< segments of the scan that were matched to the map
+  std::uint32_t observed = 0;  ///< segments that the scan had
+
+  static constexpr auto fields() {
+    return std::tuple(field("position", &Localisation::position), field("matched", &Localisation::matched),
+                      field("observed", &Localisation::observed));
+  }
+};
+
+/// What `pom` thinks of its own answer.
+enum class FusionState : std::uint8_t {
+  good,       ///< all sources agree
+  uncertain,  ///< the uncertainty is above the bound that was set
+  disagree,   ///< a source contradicts the others and is left out
+};
+
+/// `pom`: the robot's reference position, predicted to `date` (the present).
+struct FusedPosition {
+  PositionEstimate position;
+  FusionState state = FusionState::good;
+  Duration correction_age;  ///< how old the newest absolute position is that went in; Duration::max() if none did
+
+  static constexpr auto fields() {
+    return std::tuple(field("position", &FusedPosition::position), field("state", &FusedPosition::state),
+                      field("correction_age", &FusedPosition::correction_age));
+  }
+};
+
+}  // namespace waitpoint::posters
