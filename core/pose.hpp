@@ -48,4 +48,10 @@ inline Pose between(const Pose& a, const Pose& b) {
   return {c * dx + s * dy, c * dy - s * dx, exact::wrap_angle(b.heading - a.heading)};
 }
 
+/// `fraction` of the way from `a` (0) to `b` (1), the heading along the shorter turn. Meant for poses that are close.
+inline Pose interpolate(const Pose& a, const Pose& b, double fraction) {
+  const Pose whole = between(a, b);
+  return compose(a, {fraction * whole.x, fraction * whole.y, fraction * whole.heading});
+}
+
 }  // namespace waitpoint

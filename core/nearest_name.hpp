@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "Did you mean": which of the known names a misspelt one was probably meant to be.
+//
+// Distance: inserted, missing, changed letters and swapped neighbours, one each (optimal string alignment, after
+// Damerau, "A technique for computer detection and correction of spelling errors", CACM 1964).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace waitpoint {
+
+/// The least number of edits that make `a` into `b`.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The known name that is nearest to `word`, the first of equals; "" if none is near: more than a third of the longer
+/// one's letters would have to be edited.
+std::string nearest_name(std::string_view word, std::span<const std::string_view> known);
+
+/// ", did you mean 'step_ms'?", or "" where no known name is near: the end of a message about an unknown `word`.
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
+
+}  // namespace waitpoint

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one door for choices: everything about a schedule that is not fixed by virtual time is decided here.
+//
+//   fifo    events of one instant run in the order in which they were put into the list; the first waiter is served
+//   first; a
+//           task at its own waitpoint goes on although others tie with it, so a debugger stays where it is
+//   seeded  the order of ties and who is served are hashes of (seed, task, its sequence number): never drawn from a
+//   shared
+//           stream, so that what one robot does cannot shift another's choices
+#pragma once
+
+#include <cstdint>
+
+#include "core/digest.hpp"
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::kernel {
+
+enum class Order : std::uint8_t { fifo, seeded };
+
+class Chooser {
+ public:
+  Chooser(Order order, std::uint64_t seed) : order_(order), seed_(seed) {}
+
+  Order order() const { return order_; }
+  std::uint64_t seed() const { return seed_; }
+
+  /// The tie of an event that `task` puts into the list now.
+  std::uint64_t tie(const Task& task) {
+    if (order_ == Order::fifo) return ++insertions_;
+    return Digest::mix(seed_ ^ Digest::mix(task.id + task.sequence * 0x9E3779B97F4A7C15u));
+  }
+  /// The tie of a timer's event: timers fire in the order of their numbers within a robot, robots by their names' hash.
+  static std::uint64_t tie(const Object& timer) {
+    return (timer.robot->id & 0xFFFFFFFF) << 28 | (timer.number & 0x0FFFFFFF);
+  }
+
+  /// Which of `count` waiters `waker` serves; `count` is positive.
+  std::uint32_t waiter(const Task& waker, std::uint32_t count) const {
+    if (order_ == Order::fifo || count == 1) return 0;
+    const std::uint64_t draw = Digest::mix(~seed_ ^ Digest::mix(waker.id + waker.sequence * 0x9E3779B97F4A7C15u));
+    return static_cast<std::uint32_t>((draw >> 32) * count >> 32);
+  }
+
+ private:
+  Order order_;
+  std::uint64_t seed_;
+  std::uint64_t insertions_ = 0;
+};
+
+}  // namespace waitpoint::kernel

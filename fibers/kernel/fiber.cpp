@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/kernel/fiber.hpp"
+
+#include <cxxabi.h>
+
+#include <boost/context/detail/fcontext.hpp>
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace waitpoint::kernel {
+namespace {
+
+namespace context = boost::context::detail;
+
+// What make_fcontext's function gets by its first switch.
+struct Start {
+  void (*entry)(void*);
+  void* argument;
+};
+
+// The context of a fiber is known only to whom it switched to: that one writes it down.
+void note_where_left(const context::transfer_t& transfer) {
+  static_cast<Fiber*>(transfer.data)->context = transfer.fctx;
+}
+
+void run_entry(context::transfer_t transfer) {
+  // The outermost frame of the fiber: debuggers and unwinders stop here.
+  asm volatile(".cfi_undefined rip");
+  // prepare() switched here once so that the start could be read from its frame; the first real switch comes after.
+  Start start;
+  std::memcpy(&start, transfer.data, sizeof start);
+  transfer = context::jump_fcontext(transfer.fctx, nullptr);
+  note_where_left(transfer);
+  start.entry(start.argument);
+  bug(__FILE__, __LINE__, "entry returned", "a fiber's entry function returned");
+}
+
+// The Itanium C++ ABI fixes the first two members of the record that __cxa_get_globals returns.
+struct Globals {
+  void* caught_exceptions;
+  unsigned int uncaught_exceptions;
+};
+
+Globals& globals() { return *reinterpret_cast<Globals*>(abi::__cxa_get_globals()); }
+
+}  // namespace
+
+void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), void* argument) {
+  fiber.stack = stack;
+  fiber.thread_state = {};
+  Start start{entry, argument};
+  context::fcontext_t fresh = context::make_fcontext(top, static_cast<std::size_t>(top - stack.low), run_entry);
+  fiber.context = context::jump_fcontext(fresh, &start).fctx;
+}
+
+void switch_fiber(Fiber& from, Fiber& to) {
+  Globals& state = globals();
+  from.thread_state = {state.caught_exceptions, state.uncaught_exceptions, errno};
+  state.caught_exceptions = to.thread_state.caught_exceptions;
+  state.uncaught_exceptions = static_cast<unsigned int>(to.thread_state.uncaught_exceptions);
+  errno = to.thread_state.error_number;
+  void* target = to.context;
+  to.context = nullptr;
+  note_where_left(context::jump_fcontext(target, &from));
+}
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A stack that can be left and re-entered: the one user of Boost.Context.
+//
+// Boost 1.74 keeps no exception state per fiber: one that switches inside a catch block, or in a destructor during
+// unwinding, would see another's exceptions. So the runtime's per-thread record of exceptions in flight, and errno, are
+// saved and restored at every switch.
+#pragma once
+
+#include <cstdint>
+
+#include "fibers/kernel/stack_arena.hpp"
+
+namespace waitpoint::kernel {
+
+/// What the C++ runtime and the C library keep per thread, of which every fiber needs its own.
+struct ThreadState {
+  void* caught_exceptions = nullptr;
+  std::uint64_t uncaught_exceptions = 0;
+  int error_number = 0;
+};
+
+struct Fiber {
+  void* context = nullptr;  ///< where it goes on; null while it runs. A debugger reads it.
+  ThreadState thread_state;
+  Stack stack;
+};
+
+/// Makes `fiber` ready to run `entry(argument)` on `stack` below `top`. `entry` must not return.
+void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), void* argument);
+
+/// Leaves `from` and goes on in `to`; returns when something switches back to `from`.
+void switch_fiber(Fiber& from, Fiber& to);
+
+}  // namespace waitpoint::kernel

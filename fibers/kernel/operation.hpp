@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a task is about to do at a waitpoint. Part of the digest: new operations go to the end.
+#pragma once
+
+#include <cstdint>
+
+namespace waitpoint::kernel {
+
+enum class Operation : std::uint8_t {
+  start,    ///< a task's first event
+  end,      ///< its last
+  resume,   ///< woken from a block
+  timeout,  ///< a finite timeout ran out
+  yield,
+  sleep,
+  lock,
+  try_lock,
+  unlock,
+  wait,
+  notify_one,
+  notify_all,
+  acquire,
+  try_acquire,
+  release,
+  join,
+  timer_wait,
+  timer_tick,
+  step,  ///< of the world
+};
+
+/// The operation's name, as reports and event files show it.
+constexpr const char* name(Operation operation) {
+  constexpr const char* names[] = {"start",      "end",        "resume",     "timeout",     "yield",
+                                   "sleep",      "lock",       "try_lock",   "unlock",      "wait",
+                                   "notify_one", "notify_all", "acquire",    "try_acquire", "release",
+                                   "join",       "timer_wait", "timer_tick", "step"};
+  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::step) + 1);
+  return names[static_cast<int>(operation)];
+}
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scheduler is the event list (the paper's Algorithms 1 and 2).
+//
+// Every primitive begins with waitpoint(): the task's event stands in the list at its local virtual time, and the task
+// goes on when that event is the least. The global time is the time of the event now executing; it never goes back. So
+// all uses of primitives happen in time order, whatever computing the tasks do between them.
+//
+// Hand-over is direct, from the fiber that cannot go on to the one whose event is next. A task whose own event is the
+// least already does not switch at all. The context that called run_before() is re-entered only when the run stops.
+//
+// Nothing here throws, allocates while running, or prints.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/time.hpp"
+#include "fibers/kernel/chooser.hpp"
+#include "fibers/kernel/event_list.hpp"
+#include "fibers/kernel/stack_arena.hpp"
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::kernel {
+
+/// How run_before() came back.
+enum class RunState : std::uint8_t {
+  reached,  ///< the time asked for; more events may follow
+  idle,     ///< no event is left; tasks may be blocked
+  stopped,  ///< see StopCause
+};
+
+enum class StopCause : std::uint8_t {
+  none,
+  ended,        ///< no task remains but services
+  deadlock,     ///< a cycle of owners without finite timeouts
+  no_progress,  ///< virtual time stands still while tasks spin
+  requested,    ///< by a task
+};
+
+/// One executed event, as a watch sees it.
+struct EventRecord {
+  Time time;
+  const Task* task;
+  Operation operation;
+  const Object* object;  ///< null for start, end, yield and sleep
+};
+
+/// Hangs on the waitpoint: tracing and recording. Costs one predictable branch when there is none.
+struct Watch {
+  void (*event)(Watch&, const EventRecord&) = nullptr;
+};
+
+struct SpawnOptions {
+  const char* name = "task";  ///< cut to 47 characters
+  StackSize stack = StackSize::medium;
+  Phase phase = Phase::tasks;
+  bool service = false;
+};
+
+inline constexpr std::uint32_t tasks_max = 1u << 20;
+/// Waitpoints that a task may pass at one instant before its ties get a turn.
+inline constexpr std::uint32_t turns_max = 1000;
+
+class Scheduler {
+ public:
+  Scheduler(Order order, std::uint64_t seed);
+  ~Scheduler();
+  Scheduler(const Scheduler&) = delete;
+  Scheduler& operator=(const Scheduler&) = delete;
+
+  /// Adds a robot; the record must outlive the run.
+  void add(Robot& robot, const char* name);
+
+  /// A new task of `robot`, starting at the local time of the caller (at the start of the run from outside). Null when
+  /// no stack is left.
+  Task* spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument);
+
+  /// Executes all events before `until`.
+  RunState run_before(Time until);
+  StopCause stop_cause() const { return cause_; }
+  /// Stops the run from within a task; run_before() returns at once.
+  void stop(StopCause cause);
+
+  /// Takes every task that is left off its stack: blocking calls report Wake::unwinding. The run is over then.
+  void unwind();
+
+  // --- what primitives are made of; only within a task ---
+
+  /// The task's event stands at its local time; returns when it is the least. False while unwinding.
+  bool waitpoint(Operation operation, Object* object);
+  /// As waitpoint, but behind all tasks of this instant.
+  bool yield();
+  /// Moves the task to `time` (not before its local time) and waits there.
+  bool sleep_until(Time time);
+  /// Blocks the running task on `object` until it is woken or `deadline` comes; Time::max() is for ever.
+  Wake block(Object& object, Time deadline);
+  /// Wakes one waiter of `object`, of the chooser's choice; null if there is none. The waiter's local time becomes the
+  /// global.
+  Task* wake_one(Object& object);
+  void wake_all(Object& object);
+  /// Makes `object` belong to this run; true if it was not yet, so that a primitive can take its initial state.
+  bool enter(Object& object);
+  /// Adds words to the digest of the running task's robot.
+  void record_output(std::uint64_t name, std::uint64_t value);
+
+  // --- timers ---
+
+  /// Puts a timer's event into the list, ahead of the tasks of that instant; `timer` has entered the run.
+  void schedule(EventNode& node, Time time, const Object& timer);
+  void cancel(EventNode& node) { events_.remove(node); }
+
+  Time global_time() const { return now_; }
+  Chooser& chooser() { return chooser_; }
+  Task* first_task() const { return first_task_; }
+  Robot* first_robot() const { return first_robot_; }
+  /// Events executed so far, by tasks of all robots.
+  std::uint64_t events() const { return executed_; }
+  bool unwinding() const { return unwinding_; }
+  /// The task that found the deadlock.
+  Task* culprit() const { return culprit_; }
+  void set_watch(Watch* watch) { watch_ = watch; }
+  /// What waitpoint_describe_run() prints as the way to repeat this run; must outlive the run.
+  void set_replay(const char* text) { replay_ = text; }
+  const char* replay() const { return replay_; }
+  /// What the layer above hangs on the run.
+  void set_client(void* client) { client_ = client; }
+  void* client() const { return client_; }
+
+  /// Writes the call stack of `task` (not running, started) to `frames`, at most `room`, innermost first; returns how
+  /// many.
+  std::size_t call_stack(Task& task, void** frames, std::size_t room);
+
+ private:
+  static void task_main(void* task);
+  [[noreturn]] void end_task(Task& task);
+  void arrive(Task& task);
+  void execute(Task& task, Operation operation, const Object* object);
+  void take_turn(Task& task);
+  void check_progress(Task& task);
+  EventKey key(const Task& task, Time time) { return {time, make_order(task.phase, chooser_.tie(task))}; }
+  bool precedes(const Task& task, const EventKey& other);
+  void run_next();
+  bool dispatch(EventNode& node, Time time);
+  void switch_to(Task& task);
+  void leave_to_main(RunState state);
+  void rest();
+  void reclaim_ended();
+  void append_waiter(Object& object, Task& task);
+  void remove_waiter(Task& task);
+  void wake(Task& task);
+  bool owners_form_a_cycle(const Task& task) const;
+
+  EventList events_;
+  StackArena arena_;
+  Chooser chooser_;
+  Fiber main_;
+  Time now_;
+  Time until_;
+  Task* first_task_ = nullptr;
+  Task* last_task_ = nullptr;
+  Robot* first_robot_ = nullptr;
+  Robot* last_robot_ = nullptr;
+  Task* paused_ = nullptr;  // its event is the least, but not before `until_`
+  Task* ended_ = nullptr;   // its stack is still underfoot until the next switch is done
+  Task* culprit_ = nullptr;
+  Watch* watch_ = nullptr;
+  const char* replay_ = "";
+  void* client_ = nullptr;
+  std::uint64_t epoch_;
+  std::uint64_t executed_ = 0;
+  std::uint32_t live_tasks_ = 0;
+  std::uint32_t tasks_ = 0;
+  std::uint64_t turns_given_ = 0;  // since virtual time last moved
+  Time turns_given_at_;
+  RunState state_ = RunState::idle;
+  StopCause cause_ = StopCause::none;
+  bool unwinding_ = false;
+  void** frames_ = nullptr;  // where call_stack() wants them
+  std::size_t frames_room_ = 0;
+  std::size_t frames_found_ = 0;
+};
+
+}  // namespace waitpoint::kernel

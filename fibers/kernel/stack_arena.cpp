@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/kernel/stack_arena.hpp"
+
+#include <sys/mman.h>
+
+#include "core/error.hpp"
+
+namespace waitpoint::kernel {
+namespace {
+
+constexpr std::size_t page = 4096;
+constexpr int madv_guard_install = 102;
+// A process may have 65 530 mappings by default, and every mprotect-ed page splits one into three.
+constexpr std::uint32_t protected_pages_max = 25000;
+constexpr std::uint32_t slots_max[3] = {1u << 20, 1u << 17, 1u << 14};
+
+// The free list's link lies at the high end, in the page that is touched anyway.
+std::uint32_t& link(const Stack& stack) { return reinterpret_cast<std::uint32_t*>(stack.high)[-1]; }
+
+}  // namespace
+
+StackArena::StackArena() {
+  for (int i = 0; i < 3; ++i) {
+    Range& range = ranges_[i];
+    // A machine with little address space to give (limits, strict overcommit) gets fewer slots, not a failure.
+    for (range.slots = slots_max[i]; range.slots > 0; range.slots /= 2) {
+      void* base = mmap(nullptr, range.slots * bytes(static_cast<StackSize>(i)), PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+      if (base == MAP_FAILED) continue;
+      range.base = static_cast<char*>(base);
+      break;
+    }
+  }
+}
+
+StackArena::~StackArena() {
+  for (int i = 0; i < 3; ++i)
+    if (ranges_[i].base != nullptr) munmap(ranges_[i].base, ranges_[i].slots * bytes(static_cast<StackSize>(i)));
+}
+
+bool StackArena::install_guard(char* at) {
+  if (madvise(at, page, madv_guard_install) == 0) return true;
+  if (protected_pages_ >= protected_pages_max || mprotect(at, page, PROT_NONE) != 0) return false;
+  ++protected_pages_;
+  return true;
+}
+
+Stack StackArena::describe(const Range& range, StackSize size, std::uint32_t slot) const {
+  Stack stack;
+  char* base = range.base + slot * bytes(size);
+  stack.low = base + page;
+  stack.high = base + bytes(size) - (slot % 61) * 64;
+  stack.slot = slot;
+  stack.size = size;
+  stack.guard = slot < range.unguarded_from ? Guard::page : Guard::canary;
+  return stack;
+}
+
+bool StackArena::take(StackSize size, Stack& stack) {
+  Range& range = ranges_[static_cast<int>(size)];
+  if (range.free_first != none) {
+    stack = describe(range, size, range.free_first);
+    range.free_first = link(stack);
+  } else {
+    if (range.opened == range.slots) return false;
+    const std::uint32_t slot = range.opened++;
+    if (slot < range.unguarded_from && !install_guard(range.base + slot * bytes(size))) range.unguarded_from = slot;
+    stack = describe(range, size, slot);
+  }
+  if (stack.guard == Guard::canary) canary(stack) = canary_word;
+  return true;
+}
+
+void StackArena::give_back(const Stack& stack) {
+  WAITPOINT_CHECK(intact(stack), "a task ran over the end of its stack");
+  Range& range = ranges_[static_cast<int>(stack.size)];
+  link(stack) = range.free_first;
+  range.free_first = stack.slot;
+}
+
+}  // namespace waitpoint::kernel

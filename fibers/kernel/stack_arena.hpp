@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stacks of all fibers, in address ranges reserved once.
+//
+// One range a size class, cut into slots of equal size; a slot is reused last in, first out, so that its pages are
+// warm:
+//
+//   low                                                                  high
+//   | guard page |  ... grows down ...  stack | shift |   | guard page | ...
+//
+// Memory is committed by the first touch only. The top of a stack is shifted by a varying number of cache lines: tops
+// at the same offset of their pages would share a few cache sets, and cost more than the switch itself.
+//
+// The guard page is installed as lightly as the kernel allows: MADV_GUARD_INSTALL (Linux 6.13), which needs no mapping
+// of its own; else mprotect, up to the number of mappings a process may have; else none, and a canary word at the low
+// end is checked at every switch.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace waitpoint::kernel {
+
+enum class StackSize : std::uint8_t { small, medium, large };  ///< 16, 64, 256 KiB
+
+constexpr std::size_t bytes(StackSize size) { return std::size_t{16384} << (2 * static_cast<int>(size)); }
+
+enum class Guard : std::uint8_t { page, canary };
+
+struct Stack {
+  char* low = nullptr;   ///< lowest usable byte
+  char* high = nullptr;  ///< one past the highest, aligned to 64 bytes
+  std::uint32_t slot = 0;
+  StackSize size = StackSize::medium;
+  Guard guard = Guard::page;
+};
+
+class StackArena {
+ public:
+  StackArena();
+  ~StackArena();
+  StackArena(const StackArena&) = delete;
+  StackArena& operator=(const StackArena&) = delete;
+
+  /// A stack of at least bytes(size), less one guard page. False when all slots are taken.
+  bool take(StackSize size, Stack& stack);
+  void give_back(const Stack& stack);
+
+  /// True while nothing has run over the low end; only stacks under a canary can tell.
+  static bool intact(const Stack& stack) { return stack.guard == Guard::page || canary(stack) == canary_word; }
+
+ private:
+  static constexpr std::uint64_t canary_word = 0x57A1707E57ACC0DEu;
+  static std::uint64_t& canary(const Stack& stack) { return *reinterpret_cast<std::uint64_t*>(stack.low); }
+
+  struct Range {
+    char* base = nullptr;
+    std::uint32_t slots = 0;   // reserved
+    std::uint32_t opened = 0;  // used at least once: guarded
+    std::uint32_t unguarded_from = 0xFFFFFFFF;
+    std::uint32_t free_first = none;  // a list through the first word of each free slot's usable part
+  };
+  static constexpr std::uint32_t none = 0xFFFFFFFF;
+
+  Stack describe(const Range& range, StackSize size, std::uint32_t slot) const;
+  bool install_guard(char* page);
+
+  Range ranges_[3];
+  std::uint32_t protected_pages_ = 0;
+};
+
+}  // namespace waitpoint::kernel

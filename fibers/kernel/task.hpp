@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernel's records, as plain structs that a debugger can read: tasks, the robots they belong to, the objects they
+// meet at.
+//
+// A task is a fiber with a local virtual time. It is running, or has its event in the event list, or is blocked on an
+// object (with, for a finite timeout, its event at the timeout): there is no other place for it to be.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/digest.hpp"
+#include "core/time.hpp"
+#include "fibers/kernel/event_list.hpp"
+#include "fibers/kernel/fiber.hpp"
+#include "fibers/kernel/operation.hpp"
+
+namespace waitpoint::kernel {
+
+class Scheduler;
+struct Task;
+
+inline constexpr std::size_t name_size = 48;
+
+/// A robot as the kernel sees it: the unit of the digest. Tasks of no robot belong to one named "environment".
+struct Robot {
+  char name[name_size] = {};
+  Robot* next = nullptr;
+  Scheduler* scheduler = nullptr;
+  Digest digest;         ///< of its own events and outputs, until it ended
+  std::uint64_t id = 0;  ///< from its name
+  std::uint64_t events = 0;
+  std::uint32_t objects = 0;     ///< numbers given to objects
+  std::uint32_t children = 0;    ///< tasks spawned from outside any task
+  std::uint32_t live_tasks = 0;  ///< that are no services
+  bool ended = false;            ///< its last such task ended: the digest is frozen
+  Time end_time;
+};
+
+/// What tasks wait for and meet at: part of every primitive.
+struct Object {
+  explicit constexpr Object(const char* kind_of, const char* label_of = "") : kind(kind_of), label(label_of) {}
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+
+  const char* kind;
+  const char* label;
+  std::uint64_t epoch = 0;   ///< of the run that the rest belongs to
+  std::uint32_t number = 0;  ///< at first use in a run, counted per robot
+  Robot* robot = nullptr;    ///< whose count that is
+  Task* owner = nullptr;     ///< who holds it, where it can be held
+  Task* first_waiter = nullptr;
+  Task* last_waiter = nullptr;
+};
+
+enum class TaskState : std::uint8_t {
+  ready,  ///< its event is in the list, at its local virtual time
+  running,
+  blocked,  ///< on an object; with a finite timeout its event is in the list too
+  ended,
+};
+
+/// Why a blocked task goes on.
+enum class Wake : std::uint8_t {
+  woken,
+  timed_out,
+  unwinding,  ///< the run is over: leave all frames without blocking again
+};
+
+struct Task {
+  EventNode event;  // first: an event's node is its task
+  Fiber fiber;
+  Time local_time;
+  Scheduler* scheduler = nullptr;
+  Robot* robot = nullptr;
+  std::uint64_t id = 0;        ///< from robot and creation path
+  std::uint64_t sequence = 0;  ///< its events so far
+  const Object* at = nullptr;  ///< the object of its last waitpoint, if any
+  Object* blocked_on = nullptr;
+  Task* next_waiter = nullptr;
+  Task* previous_waiter = nullptr;
+  Task* next = nullptr;  // all tasks of the run, in an intrusive list
+  Task* previous = nullptr;
+  void (*entry)(void*) = nullptr;
+  void* argument = nullptr;
+  std::uint32_t children = 0;
+  std::uint32_t turns = 0;  ///< waitpoints passed at one instant
+  Time turns_at;
+  Phase phase = Phase::tasks;
+  TaskState state = TaskState::ready;
+  Operation operation = Operation::start;
+  Wake wake = Wake::woken;
+  bool service = false;      ///< does not keep the run alive
+  bool finite_wait = false;  ///< blocked with a finite timeout
+  bool describe = false;     ///< asked to write down its own call stack and to switch back
+  char name[name_size] = {};
+};
+
+/// The task whose code is executing, or null outside any: the only global.
+extern Task* running;
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Why nothing goes on, in words: who waits for what, who holds it, and where in the source each waits.
+#pragma once
+
+#include <string>
+
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::sync {
+
+/// After a run stopped for a deadlock, or went idle with tasks left: the cycle where there is one, else all that wait.
+std::string describe_deadlock(kernel::Scheduler& scheduler);
+
+/// After a run stopped for lack of progress: the tasks that spin at this instant.
+std::string describe_spinning(kernel::Scheduler& scheduler);
+
+}  // namespace waitpoint::sync

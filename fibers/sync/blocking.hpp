@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How primitives wait: the way from the standard library's vocabulary to the kernel's.
+//
+// When a run ends before its tasks do, their fibers are unwound: calls that can block then throw Unwind, which runs the
+// destructors of all frames, and return at once if a destructor makes them. Calls that release never throw it.
+#pragma once
+
+#include <chrono>
+#include <exception>
+
+#include "core/time.hpp"
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::sync {
+
+/// Thrown through a task whose run is over. Derives from nothing: code under test should not catch it; if it does, the
+/// next blocking call throws it again.
+struct Unwind {};
+
+inline kernel::Task& running_task() {
+  WAITPOINT_CHECK(kernel::running != nullptr, "a simulated primitive is used outside a simulated task");
+  return *kernel::running;
+}
+
+/// Called where the kernel said that the run is over.
+inline void unwind() {
+  if (std::uncaught_exceptions() == 0) throw Unwind();
+}
+
+/// A waitpoint before an operation that may block. When the run is over it throws Unwind, or in a destructor that runs
+/// then, returns false: nothing is to be done.
+inline bool before_blocking(kernel::Operation operation, kernel::Object& object) {
+  const bool goes_on = running_task().scheduler->waitpoint(operation, &object);
+  if (!goes_on) unwind();
+  return goes_on;
+}
+
+/// A waitpoint before an operation that does not block; false when the run is over, and then nothing is to be done.
+inline bool before_releasing(kernel::Operation operation, kernel::Object& object) {
+  return running_task().scheduler->waitpoint(operation, &object);
+}
+
+/// Blocks the running task on `object`; false if the deadline came first. Throws Unwind when the run is over.
+inline bool block(kernel::Object& object, Time deadline = Time::max()) {
+  const kernel::Wake wake = running_task().scheduler->block(object, deadline);
+  if (wake == kernel::Wake::unwinding) unwind();
+  return wake == kernel::Wake::woken;
+}
+
+/// The local virtual time `span` from now; for ever if that cannot be represented. Rounded up to nanoseconds.
+template <class Rep, class Ratio>
+Time after(const std::chrono::duration<Rep, Ratio>& span) {
+  const Time now = running_task().local_time;
+  if (span > std::chrono::duration<double>(9e9)) return Time::max();
+  const auto ns = std::chrono::ceil<std::chrono::nanoseconds>(span);
+  std::int64_t at = 0;
+  if (__builtin_add_overflow(now.ns(), ns.count(), &at)) return Time::max();
+  return at < now.ns() ? now : Time::from_ns(at);
+}
+
+}  // namespace waitpoint::sync

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Condition variable, in the names and semantics of std::condition_variable, over waitpoint::mutex.
+//
+// Releasing the mutex and starting to wait are one step. There are no spurious wake-ups in the default order.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+
+#include "fibers/sync/mutex.hpp"
+
+namespace waitpoint {
+
+using std::cv_status;
+
+class condition_variable {
+ public:
+  constexpr condition_variable() = default;
+  explicit constexpr condition_variable(const char* label) : object_("condition variable", label) {}
+  condition_variable(const condition_variable&) = delete;
+  condition_variable& operator=(const condition_variable&) = delete;
+
+  void notify_one();
+  void notify_all();
+
+  void wait(std::unique_lock<mutex>& lock) { wait_before(lock, Time::max()); }
+  template <class Predicate>
+  void wait(std::unique_lock<mutex>& lock, Predicate ready) {
+    while (!ready()) wait(lock);
+  }
+
+  cv_status wait_until(std::unique_lock<mutex>& lock, steady_clock::time_point deadline) {
+    return wait_before(lock, to_time(deadline)) ? cv_status::no_timeout : cv_status::timeout;
+  }
+  template <class Predicate>
+  bool wait_until(std::unique_lock<mutex>& lock, steady_clock::time_point deadline, Predicate ready) {
+    return wait_before(lock, to_time(deadline), ready);
+  }
+
+  template <class Rep, class Ratio>
+  cv_status wait_for(std::unique_lock<mutex>& lock, const std::chrono::duration<Rep, Ratio>& span) {
+    return wait_before(lock, sync::after(span)) ? cv_status::no_timeout : cv_status::timeout;
+  }
+  template <class Rep, class Ratio, class Predicate>
+  bool wait_for(std::unique_lock<mutex>& lock, const std::chrono::duration<Rep, Ratio>& span, Predicate ready) {
+    return wait_before(lock, sync::after(span), ready);
+  }
+
+ private:
+  // False if the deadline came first. The lock is held again in both cases.
+  bool wait_before(std::unique_lock<mutex>& lock, Time deadline);
+  template <class Predicate>
+  bool wait_before(std::unique_lock<mutex>& lock, Time deadline, Predicate ready) {
+    while (!ready())
+      if (!wait_before(lock, deadline)) return ready();
+    return true;
+  }
+
+  kernel::Object object_{"condition variable"};
+};
+
+}  // namespace waitpoint

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A periodic timer: a recurrent event that wakes who waits for it.
+//
+// Tick k comes at start + phase + the k-th multiple of the period, rounded once. Ticks that nobody waited for are not
+// lost silently and do not pile up: wait() returns how many have come since it last returned.
+#pragma once
+
+#include <cstdint>
+
+#include "fibers/sync/clock.hpp"
+
+namespace waitpoint {
+
+class periodic_timer {
+ public:
+  /// Starts when first waited for: its first tick is the first multiple after that, plus `phase`, counted from the
+  /// start of the run, so that timers of equal periods tick together however their tasks came to start.
+  explicit periodic_timer(Period period, Duration phase = Duration(), const char* label = "")
+      : object_("timer", label), period_(period), phase_(phase) {
+    event_.timer = this;
+    event_.fire = &periodic_timer::tick;
+  }
+  ~periodic_timer();
+  periodic_timer(const periodic_timer&) = delete;
+  periodic_timer& operator=(const periodic_timer&) = delete;
+
+  /// Waits for the next tick, or returns at once if there was one since the last return. The number of ticks since
+  /// then: more than one means missed periods.
+  std::int64_t wait();
+
+  /// When the last tick that wait() returned was due.
+  Time due() const { return due_; }
+
+ private:
+  struct Event : kernel::EventNode {
+    periodic_timer* timer = nullptr;
+  };
+  static void tick(kernel::EventNode& node);
+  Time time_of(std::int64_t k) const { return Time() + phase_ + period_.tick(k); }
+  void start();
+
+  kernel::Object object_;
+  Event event_;
+  kernel::Scheduler* scheduler_ = nullptr;
+  Period period_;
+  Duration phase_;
+  std::int64_t next_ = 0;     // tick in the event list
+  std::int64_t pending_ = 0;  // ticks not yet waited for
+  Time due_;
+};
+
+}  // namespace waitpoint

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The names of threads.hpp on the standard library's threads and the wall clock: for the robot itself.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <semaphore>
+#include <thread>
+
+#include "core/time.hpp"
+
+namespace waitpoint::threads {
+
+using std::chrono::steady_clock;
+
+/// Wall-clock time since the process first asked.
+inline Time now() {
+  static const steady_clock::time_point start = steady_clock::now();
+  return Time() + Duration(std::chrono::nanoseconds(steady_clock::now() - start));
+}
+inline void compute(Duration) {}
+template <class T>
+void record(std::uint64_t, const T&) {}
+
+struct mutex : std::mutex {
+  mutex() = default;
+  explicit mutex(const char*) {}
+};
+struct timed_mutex : std::timed_mutex {
+  timed_mutex() = default;
+  explicit timed_mutex(const char*) {}
+};
+struct condition_variable : std::condition_variable_any {
+  condition_variable() = default;
+  explicit condition_variable(const char*) {}
+};
+template <std::ptrdiff_t LeastMax = PTRDIFF_MAX>
+struct counting_semaphore : std::counting_semaphore<LeastMax> {
+  explicit counting_semaphore(std::ptrdiff_t initial, const char* = "") : std::counting_semaphore<LeastMax>(initial) {}
+};
+using binary_semaphore = counting_semaphore<1>;
+
+struct thread_attributes {
+  const char* name = "thread";
+  bool service = false;
+};
+
+class thread : public std::thread {
+ public:
+  thread() = default;
+  template <class Function, class... Arguments>
+  requires(!std::is_same_v<std::remove_cvref_t<Function>, thread> &&
+           !std::is_same_v<std::remove_cvref_t<Function>, thread_attributes>) explicit thread(Function&& function,
+                                                                                              Arguments&&... arguments)
+      : std::thread(std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
+  template <class Function, class... Arguments>
+  thread(const thread_attributes&, Function&& function, Arguments&&... arguments)
+      : std::thread(std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
+};
+
+namespace this_thread {
+using namespace std::this_thread;
+inline void sleep_for(Duration span) { std::this_thread::sleep_for(std::chrono::nanoseconds(span.ns())); }
+inline void sleep_until(Time time) { sleep_for(time - now()); }
+}  // namespace this_thread
+
+class periodic_timer {
+ public:
+  explicit periodic_timer(Period period, Duration phase = Duration(), const char* = "")
+      : period_(period), phase_(phase) {}
+
+  std::int64_t wait() {
+    const Duration since = now().since_start() - phase_;
+    const std::int64_t coming = since < Duration() ? 0 : period_.first_tick_at_or_after(since + Duration::from_ns(1));
+    if (next_ < 0) next_ = coming;
+    if (next_ >= coming) {
+      next_ = coming;
+      this_thread::sleep_until(Time() + phase_ + period_.tick(coming));
+    }
+    const std::int64_t last = next_ >= coming ? coming : coming - 1;
+    const std::int64_t ticks = last - next_ + 1;
+    due_ = Time() + phase_ + period_.tick(last);
+    next_ = last + 1;
+    return ticks;
+  }
+  Time due() const { return due_; }
+
+ private:
+  Period period_;
+  Duration phase_;
+  std::int64_t next_ = -1;
+  Time due_;
+};
+
+}  // namespace waitpoint::threads

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/sync/semaphore.hpp"
+
+namespace waitpoint::sync {
+
+void SemaphoreCore::refresh() {
+  if (running_task().scheduler->enter(object_)) count_ = initial_;
+}
+
+void SemaphoreCore::release(std::ptrdiff_t units) {
+  refresh();
+  if (!before_releasing(kernel::Operation::release, object_)) return;
+  WAITPOINT_CHECK(units >= 0 && units <= most_ - count_, "a semaphore is released beyond its greatest count");
+  for (; units > 0; --units)
+    if (kernel::running->scheduler->wake_one(object_) == nullptr) break;
+  count_ += units;
+}
+
+bool SemaphoreCore::take() {
+  if (count_ == 0) return false;
+  --count_;
+  return true;
+}
+
+bool SemaphoreCore::try_acquire() {
+  refresh();
+  before_blocking(kernel::Operation::try_acquire, object_);
+  return take();
+}
+
+bool SemaphoreCore::acquire_before(Time deadline) {
+  refresh();
+  before_blocking(kernel::Operation::acquire, object_);
+  if (take()) return true;
+  if (deadline <= running_task().local_time) return false;
+  return block(object_, deadline);
+}
+
+}  // namespace waitpoint::sync

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counting semaphore, in the names and semantics of std::counting_semaphore.
+//
+// A release with waiters hands a unit to one of them directly. A semaphore that a run leaves behind reads as fresh,
+// with its initial count, in the next run.
+#pragma once
+
+#include <cstddef>
+
+#include "fibers/sync/clock.hpp"
+
+namespace waitpoint {
+
+template <std::ptrdiff_t LeastMax = PTRDIFF_MAX>
+class counting_semaphore;
+
+namespace sync {
+
+/// The part that does not depend on the greatest count.
+class SemaphoreCore {
+ public:
+  constexpr SemaphoreCore(std::ptrdiff_t initial, std::ptrdiff_t most, const char* label)
+      : object_("semaphore", label), initial_(initial), most_(most) {}
+
+  void release(std::ptrdiff_t units);
+  bool acquire_before(Time deadline);
+  bool try_acquire();
+
+ private:
+  bool take();
+  void refresh();
+
+  kernel::Object object_;
+  std::ptrdiff_t initial_;
+  std::ptrdiff_t most_;
+  std::ptrdiff_t count_ = 0;
+};
+
+}  // namespace sync
+
+template <std::ptrdiff_t LeastMax>
+class counting_semaphore {
+ public:
+  constexpr explicit counting_semaphore(std::ptrdiff_t initial, const char* label = "")
+      : core_(initial, LeastMax, label) {}
+  counting_semaphore(const counting_semaphore&) = delete;
+  counting_semaphore& operator=(const counting_semaphore&) = delete;
+
+  static constexpr std::ptrdiff_t max() noexcept { return LeastMax; }
+
+  /// Adds units; more than max() in all is a bug.
+  void release(std::ptrdiff_t units = 1) { core_.release(units); }
+  void acquire() { core_.acquire_before(Time::max()); }
+  bool try_acquire() { return core_.try_acquire(); }
+  template <class Rep, class Ratio>
+  bool try_acquire_for(const std::chrono::duration<Rep, Ratio>& span) {
+    return core_.acquire_before(sync::after(span));
+  }
+  bool try_acquire_until(steady_clock::time_point deadline) { return core_.acquire_before(to_time(deadline)); }
+
+ private:
+  sync::SemaphoreCore core_;
+};
+
+using binary_semaphore = counting_semaphore<1>;
+
+}  // namespace waitpoint

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run: the tasks of some robots, from virtual time 0 until no task remains, or a time, or a failure.
+//
+//   waitpoint::Report report = waitpoint::simulate([] { /* threads, mutexes, sleeps, in virtual time */ });
+//   EXPECT_TRUE(report.passed) << report;
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+#include "core/digest.hpp"
+#include "core/time.hpp"
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint {
+
+struct SimulationOptions {
+  kernel::Order order = kernel::Order::fifo;
+  std::uint64_t seed = 0;
+  std::string replay;  ///< the line that repeats this run, for reports
+};
+
+/// How a run ended, or that it did not.
+enum class RunEnd : std::uint8_t {
+  time_reached,
+  ended,        ///< no task remains but services
+  deadlock,     ///< tasks wait for each other, or none can ever run
+  no_progress,  ///< tasks spin while virtual time stands still
+};
+
+class Simulation {
+ public:
+  explicit Simulation(SimulationOptions options = {});
+  /// Unwinds what is left.
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// The lane of tasks that belong to no robot.
+  kernel::Robot& environment() { return environment_; }
+  /// `name` must be new.
+  kernel::Robot& add_robot(const std::string& name);
+
+  /// A task that starts at virtual time 0, or now if the run has begun. To be called from outside tasks.
+  void spawn(kernel::Robot& robot, const kernel::SpawnOptions& options, std::function<void()> body);
+
+  /// Executes all events before `until`; may be called again with a later time. An exception that escaped from a task
+  /// is rethrown here.
+  RunEnd run_before(Time until = Time::max());
+
+  /// What run_before() found, in words; empty unless a deadlock or a lack of progress.
+  const std::string& trouble() const { return trouble_; }
+
+  /// Ends every task that is left. Nothing can be run afterwards.
+  void unwind() { scheduler_.unwind(); }
+
+  /// Of the robots in the order of their names, then of the environment.
+  Digest digest() const;
+  Time global_time() const { return scheduler_.global_time(); }
+  kernel::Scheduler& scheduler() { return scheduler_; }
+
+  static Simulation& of(kernel::Scheduler& scheduler) { return *static_cast<Simulation*>(scheduler.client()); }
+  /// Ends the run with an exception: for the tasks' own entry.
+  void fail(std::exception_ptr failure);
+
+ private:
+  SimulationOptions options_;
+  kernel::Scheduler scheduler_;
+  kernel::Robot environment_;
+  std::deque<kernel::Robot> robots_;
+  std::exception_ptr failure_;
+  std::string trouble_;
+};
+
+/// What one simulated run of a test body came to.
+struct Report {
+  bool passed = false;
+  RunEnd end = RunEnd::ended;
+  std::string text;  ///< what happened and how to repeat it; empty if it passed
+  Digest digest;
+  Time end_time;
+  std::uint64_t events = 0;
+};
+
+std::ostream& operator<<(std::ostream& out, const Report& report);
+
+/// Runs `body` as the first task of a run of its own, until no task remains but services. An exception that escapes
+/// from a task is a failure of the report. WAITPOINT_SEED in the environment asks for that seed's order in place of
+/// `options`.
+Report simulate(std::function<void()> body, SimulationOptions options = {});
+
+}  // namespace waitpoint

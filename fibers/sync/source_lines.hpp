@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Return addresses as places in the user's source.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace waitpoint::sync {
+
+/// "function at file:line" for the innermost frames outside this library and the standard one, at most `most`. Where
+/// there is no debugging information, the function's name or the address within its module stands alone. Uses the
+/// addr2line program where it is installed; for reports only.
+std::vector<std::string> user_source_lines(std::span<void* const> return_addresses, std::size_t most);
+
+}  // namespace waitpoint::sync

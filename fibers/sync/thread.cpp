@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/sync/thread.hpp"
+
+#include "fibers/sync/simulation.hpp"
+
+namespace waitpoint {
+namespace sync {
+namespace {
+
+void run_thread(void* argument) {
+  // The task's own share of the state; the handle may be gone before.
+  const std::unique_ptr<std::shared_ptr<ThreadState>> share(static_cast<std::shared_ptr<ThreadState>*>(argument));
+  ThreadState& state = **share;
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  if (!scheduler.unwinding()) {
+    try {
+      state.body();
+    } catch (const Unwind&) {
+    } catch (...) {
+      Simulation::of(scheduler).fail(std::current_exception());
+    }
+  }
+  state.body = nullptr;
+  if (before_releasing(kernel::Operation::release, state.ended)) {
+    state.ended.owner = nullptr;
+    scheduler.wake_all(state.ended);
+  }
+  state.task = nullptr;
+}
+
+}  // namespace
+
+std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
+                                          const kernel::SpawnOptions& options, std::function<void()> body) {
+  auto state = std::make_shared<ThreadState>();
+  state->body = std::move(body);
+  auto share = std::make_unique<std::shared_ptr<ThreadState>>(state);
+  state->task = scheduler.spawn(robot, options, run_thread, share.get());
+  WAITPOINT_CHECK(state->task != nullptr || scheduler.unwinding(), "more threads than a simulation holds");
+  if (state->task == nullptr) return state;
+  (void)share.release();  // run_thread has it now
+  state->id = state->task->id;
+  return state;
+}
+
+}  // namespace sync
+
+std::shared_ptr<sync::ThreadState> thread::start(const thread_attributes& attributes, std::function<void()> body) {
+  kernel::Task& parent = sync::running_task();
+  const kernel::SpawnOptions options{attributes.name, attributes.stack, parent.phase, attributes.service};
+  return sync::start_thread(*parent.scheduler, *parent.robot, options, std::move(body));
+}
+
+thread& thread::operator=(thread&& other) noexcept {
+  if (joinable()) std::terminate();
+  state_ = std::move(other.state_);
+  return *this;
+}
+
+thread::~thread() {
+  if (!joinable()) return;
+  // Outside any task, what ended with its run was let go there.
+  const bool let_go = kernel::running != nullptr ? kernel::running->scheduler->unwinding() : state_->task == nullptr;
+  if (!let_go) std::terminate();
+}
+
+void thread::join() {
+  WAITPOINT_CHECK(joinable(), "a thread that is not joinable is joined");
+  if (sync::before_blocking(kernel::Operation::join, state_->ended) && state_->task != nullptr) {
+    state_->ended.owner = state_->task;
+    sync::block(state_->ended);
+  }
+  state_ = nullptr;
+}
+
+void thread::detach() {
+  WAITPOINT_CHECK(joinable(), "a thread that is not joinable is detached");
+  state_ = nullptr;
+}
+
+}  // namespace waitpoint

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Threads, in the names and semantics of std::thread, as fibers of the running simulation.
+//
+// A thread belongs to the robot of the task that makes it. An exception that escapes its function ends the run and is
+// rethrown by the call that runs it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include "fibers/sync/clock.hpp"
+
+namespace waitpoint {
+
+/// What std::thread cannot be told.
+struct thread_attributes {
+  const char* name = "thread";
+  kernel::StackSize stack = kernel::StackSize::medium;
+  bool service = false;  ///< does not keep the run alive
+};
+
+namespace sync {
+
+/// What a thread's handle and its task share; it lives until both are gone.
+struct ThreadState {
+  std::function<void()> body;
+  kernel::Object ended{"end of thread"};
+  kernel::Task* task = nullptr;  ///< null once it ended
+  std::uint64_t id = 0;
+};
+
+/// Makes a task of `robot` that runs `body`; more tasks than the simulation holds are a bug.
+std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
+                                          const kernel::SpawnOptions& options, std::function<void()> body);
+
+}  // namespace sync
+
+class thread {
+ public:
+  class id {
+   public:
+    constexpr id() = default;
+    explicit constexpr id(std::uint64_t value) : value_(value) {}
+    friend constexpr auto operator<=>(id, id) = default;
+
+   private:
+    std::uint64_t value_ = 0;
+  };
+
+  thread() = default;
+  template <class Function, class... Arguments>
+  requires(!std::is_same_v<std::remove_cvref_t<Function>, thread> &&
+           !std::is_same_v<std::remove_cvref_t<Function>, thread_attributes>) explicit thread(Function&& function,
+                                                                                              Arguments&&... arguments)
+      : thread(thread_attributes{}, std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
+  template <class Function, class... Arguments>
+  thread(const thread_attributes& attributes, Function&& function, Arguments&&... arguments)
+      : state_(
+            start(attributes, [call = std::make_shared<std::tuple<std::decay_t<Function>, std::decay_t<Arguments>...>>(
+                                   std::forward<Function>(function), std::forward<Arguments>(arguments)...)] {
+              std::apply([](auto&&... parts) { std::invoke(std::move(parts)...); }, std::move(*call));
+            })) {}
+  thread(thread&& other) noexcept = default;
+  /// As std::thread: the target must not be joinable.
+  thread& operator=(thread&& other) noexcept;
+  /// As std::thread: must not be joinable. While a run is unwound, the thread is let go.
+  ~thread();
+
+  bool joinable() const noexcept { return state_ != nullptr; }
+  void join();
+  void detach();
+  id get_id() const noexcept { return state_ ? id(state_->id) : id(); }
+  void swap(thread& other) noexcept { state_.swap(other.state_); }
+
+ private:
+  static std::shared_ptr<sync::ThreadState> start(const thread_attributes& attributes, std::function<void()> body);
+
+  std::shared_ptr<sync::ThreadState> state_;
+};
+
+namespace this_thread {
+
+inline thread::id get_id() { return thread::id(sync::running_task().id); }
+
+/// Goes behind all tasks of this instant.
+inline void yield() {
+  if (!sync::running_task().scheduler->yield()) sync::unwind();
+}
+
+inline void sleep_until(Time time) {
+  if (!sync::running_task().scheduler->sleep_until(time)) sync::unwind();
+}
+inline void sleep_until(steady_clock::time_point time) { sleep_until(to_time(time)); }
+template <class Rep, class Ratio>
+void sleep_for(const std::chrono::duration<Rep, Ratio>& span) {
+  sleep_until(sync::after(span));
+}
+inline void sleep_for(Duration span) { sleep_for(std::chrono::nanoseconds(span.ns())); }
+
+}  // namespace this_thread
+}  // namespace waitpoint

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one namespace by which module code names its threads: simulated by default, real ones where
+// WAITPOINT_REAL_THREADS is defined. The same source runs in simulation and on the robot.
+//
+//   waitpoint::threads::mutex m;                       // a fiber's mutex in virtual time, or std::mutex
+//   waitpoint::threads::periodic_timer tick(Period::hertz(50));
+//   waitpoint::threads::compute(300us);                // declares what the code before it costs; nothing in reality
+#pragma once
+
+#include "core/fields.hpp"
+#include "core/time.hpp"
+
+#ifdef WAITPOINT_REAL_THREADS
+#include "fibers/sync/real_threads.hpp"
+#else
+#include "fibers/sync/condition_variable.hpp"
+#include "fibers/sync/mutex.hpp"
+#include "fibers/sync/periodic_timer.hpp"
+#include "fibers/sync/semaphore.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint::threads {
+
+using waitpoint::binary_semaphore;
+using waitpoint::compute;
+using waitpoint::condition_variable;
+using waitpoint::counting_semaphore;
+using waitpoint::mutex;
+using waitpoint::now;
+using waitpoint::periodic_timer;
+using waitpoint::steady_clock;
+using waitpoint::thread;
+using waitpoint::thread_attributes;
+using waitpoint::timed_mutex;
+namespace this_thread = waitpoint::this_thread;
+
+/// Adds a value that the caller gives to others (a poster, a message) to its robot's digest, by the value's declared
+/// fields.
+template <class T>
+void record(std::uint64_t name, const T& value) {
+  Digest digest;
+  add_value(digest, value);
+  sync::running_task().scheduler->record_output(name, digest.value());
+}
+
+}  // namespace waitpoint::threads
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/genom/client.hpp"
+
+namespace waitpoint::genom {
+
+std::optional<std::uint32_t> Client::send(const std::string& module, const std::string& request, const Payload& input) {
+  Module* target = names_.find_module(module);
+  WAITPOINT_CHECK(target != nullptr, "a request is sent to a module that does not exist");
+  const RequestType* type = target->find_request(request);
+  WAITPOINT_CHECK(type != nullptr, "a request is sent that the module does not have");
+  Letter letter;
+  letter.request = type->number;
+  letter.send_id = ++sent_;
+  letter.reply_to = &mailbox_;
+  letter.payload = input;
+  if (!target->mailbox().post(letter)) return std::nullopt;
+  return letter.send_id;
+}
+
+std::optional<Reply> Client::receive(Duration timeout) {
+  if (timeout == Duration::max())
+    mailbox_.event().acquire();
+  else if (!mailbox_.event().try_acquire_for(std::chrono::nanoseconds(timeout.ns())))
+    return std::nullopt;
+  Letter letter;
+  const bool taken = mailbox_.take(letter);
+  WAITPOINT_CHECK(taken, "a mailbox was signalled without a letter");
+  return Reply{letter.send_id, letter.kind == LetterKind::final_reply, letter.activity, letter.report, letter.payload};
+}
+
+Reply Client::call(const std::string& module, const std::string& request, const Payload& input) {
+  std::optional<std::uint32_t> id;
+  while (!(id = send(module, request, input))) threads::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (;;) {
+    const std::optional<Reply> reply = receive();
+    if (reply->send_id == *id && reply->final) return *reply;
+  }
+}
+
+}  // namespace waitpoint::genom

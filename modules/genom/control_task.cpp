@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/genom/control_task.hpp"
+
+#include <algorithm>
+
+#include "modules/genom/module.hpp"
+
+namespace waitpoint::genom {
+namespace {
+
+bool names(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+}  // namespace
+
+void ControlTask::run() {
+  for (;;) {
+    module_.mailbox().event().acquire();
+    const Module::BothLocks locks(module_);
+    end_activities();
+    Letter letter;
+    if (module_.mailbox().take(letter)) {
+      handle(letter);
+      for (ExecutionTask& task : module_.tasks_) task.signal();
+    }
+    start_activities();
+    write_status();
+    if (!ending_) continue;
+    const bool all_ended = std::all_of(module_.tasks_.begin(), module_.tasks_.end(), [](auto& t) { return t.ended(); });
+    if (all_ended) return;
+  }
+}
+
+void ControlTask::end_activities() {
+  for (Activity& a : module_.activities()) {
+    if (!a.in_use || a.state != State::ether) continue;
+    if (a.interrupted) a.report = module_.report(StandardReport::activity_interrupted);
+    if (a.type->kind == RequestKind::init && a.report == ok) init_done_ = true;
+    reply(LetterKind::final_reply, a);
+    a = Activity();
+  }
+}
+
+void ControlTask::handle(const Letter& letter) {
+  Payload output;
+  if (letter.request >= module_.requests_.size() || !module_.requests_[letter.request].accepts(letter.payload))
+    return reply(LetterKind::final_reply, letter, module_.report(StandardReport::system_error), output);
+  const RequestType& type = module_.requests_[letter.request];
+  if (type.kind == RequestKind::control) {
+    const Report report = type.control(letter.payload, output);
+    threads::compute(type.cost);
+    if (report == ok) interrupt_incompatible(type);
+    return reply(LetterKind::final_reply, letter, report, output);
+  }
+  const Report report = execute(type, letter);
+  if (report != ok) reply(LetterKind::final_reply, letter, report, output);
+}
+
+// Allocates an activity; its START comes when those that it interrupts are gone.
+Report ControlTask::execute(const RequestType& type, const Letter& letter) {
+  if (ending_ || type.task->ended()) return module_.report(StandardReport::system_error);
+  if (type.task->suspended()) return module_.report(StandardReport::exec_task_suspended);
+  if (!init_done_ && type.kind != RequestKind::init) return module_.report(StandardReport::wait_init_request);
+  auto& table = module_.activities();
+  if (std::any_of(table.begin(), table.end(), [](const Activity& a) { return a.state == State::zombie; }))
+    return module_.report(StandardReport::wait_abort_zombie_activity);
+  std::int32_t slot = -1;
+  for (std::size_t i = 0; i < table.size() && slot < 0; ++i) {
+    const std::size_t at = (static_cast<std::size_t>(next_slot_) + i) % table.size();
+    if (!table[at].in_use) slot = static_cast<std::int32_t>(at);
+  }
+  if (slot < 0) return module_.report(StandardReport::too_many_activities);
+  Payload output;
+  if (const Report refused = type.control(letter.payload, output); refused != ok) return refused;
+  next_slot_ = (slot + 1) % static_cast<std::int32_t>(table.size());
+  interrupt_incompatible(type);
+  Activity& a = table[static_cast<std::size_t>(slot)];
+  a.state = State::init;
+  a.in_use = true;
+  a.type = &type;
+  a.number = slot;
+  a.send_id = letter.send_id;
+  a.client = letter.reply_to;
+  a.input = letter.payload;
+  return ok;
+}
+
+void ControlTask::interrupt_incompatible(const RequestType& type) {
+  for (Activity& a : module_.activities())
+    if (a.in_use && names(type.interrupts, a.type->name)) interrupt(a);
+}
+
+bool ControlTask::interruptible(State state) const {
+  return state == State::start || state == State::exec || state == State::sleep ||
+         (state == State::end && interrupt_end_);
+}
+
+void ControlTask::interrupt(Activity& a) {
+  if (a.state == State::init) {
+    a.report = module_.report(StandardReport::activity_interrupted);
+    reply(LetterKind::final_reply, a);
+    a = Activity();
+  } else if (a.state == State::zombie) {
+    a.interrupted = true;
+    a.state = State::ether;
+    module_.mailbox().event().release();
+  } else if (interruptible(a.state)) {
+    a.interrupt = true;
+    a.type->task->signal();
+  }
+}
+
+Report ControlTask::abort(std::int32_t activity) {
+  auto& table = module_.activities();
+  if (activity == AbortInput::end_module) {
+    const bool busy = std::any_of(table.begin(), table.end(), [](const Activity& a) { return a.in_use; });
+    if (busy) return module_.report(StandardReport::system_error);
+    ending_ = true;
+    module_.mailbox().event().release();
+    return ok;
+  }
+  if (activity == AbortInput::resume_tasks) {
+    for (ExecutionTask& task : module_.tasks_) task.resume();
+    return ok;
+  }
+  if (activity < 0 || activity >= static_cast<std::int32_t>(table.size()))
+    return module_.report(StandardReport::unknown_activity);
+  Activity& a = table[static_cast<std::size_t>(activity)];
+  if (!a.in_use) return module_.report(StandardReport::activity_already_ended);
+  interrupt(a);
+  return ok;
+}
+
+// Whether an activity that `candidate` has to wait for is still there.
+bool ControlTask::blocked(const Activity& candidate) const {
+  for (const Activity& a : module_.activities())
+    if (&a != &candidate && a.in_use && a.state != State::init && names(candidate.type->interrupts, a.type->name))
+      return true;
+  return false;
+}
+
+void ControlTask::start_activities() {
+  for (Activity& a : module_.activities()) {
+    if (!a.in_use || a.state != State::init || blocked(a)) continue;
+    a.state = State::start;
+    reply(LetterKind::intermediate_reply, a);
+    a.type->task->signal();
+  }
+}
+
+void ControlTask::write_status() {
+  ModuleStatus status;
+  for (const Activity& a : module_.activities())
+    if (a.in_use) status.activities.push_back({a.number, a.type->number, a.state});
+  for (const ExecutionTask& task : module_.tasks_) {
+    status.missed_periods += static_cast<std::uint64_t>(task.missed_periods());
+    status.suspended |= task.suspended();
+  }
+  poster_.write(status);
+}
+
+void ControlTask::reply(LetterKind kind, const Letter& request, Report report, const Payload& output) {
+  Letter letter;
+  letter.kind = kind;
+  letter.request = request.request;
+  letter.send_id = request.send_id;
+  letter.report = report;
+  letter.payload = output;
+  // A client whose mailbox is full loses the reply, as in GenoM: the module does not wait for it.
+  if (request.reply_to != nullptr) (void)request.reply_to->post(letter);
+}
+
+void ControlTask::reply(LetterKind kind, const Activity& activity) {
+  Letter letter;
+  letter.kind = kind;
+  letter.request = activity.type->number;
+  letter.send_id = activity.send_id;
+  letter.activity = activity.number;
+  letter.report = kind == LetterKind::final_reply ? activity.report : ok;
+  letter.payload = activity.output;
+  if (activity.client != nullptr) (void)activity.client->post(letter);
+}
+
+}  // namespace waitpoint::genom

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The control task of a module: takes requests, starts and ends activities, replies.
+//
+// At each event (a letter, or a change of an activity's state), in GenoM's order:
+//
+//   take both locks -> ended activities: final reply, slot free -> one letter, if there is any; then signal every
+//   aperiodic task -> activities whose incompatible ones are all gone: START, intermediate reply -> control poster ->
+//   give the locks
+//
+// The last request wins: a new activity interrupts those of the request types that its own type names, and waits for
+// them.
+#pragma once
+
+#include "modules/genom/activity.hpp"
+#include "modules/genom/poster.hpp"
+
+namespace waitpoint::genom {
+
+class Module;
+
+struct ActivityStatus {
+  std::int32_t number = -1;
+  std::uint32_t request = 0;
+  State state = State::ether;
+
+  static constexpr auto fields() {
+    return std::tuple(field("number", &ActivityStatus::number), field("request", &ActivityStatus::request),
+                      field("state", &ActivityStatus::state));
+  }
+};
+
+/// The control poster.
+struct ModuleStatus {
+  Bounded<ActivityStatus, activities_max> activities;
+  std::uint64_t missed_periods = 0;  ///< of all execution tasks
+  bool suspended = false;            ///< a task is, after a forbidden transition
+
+  static constexpr auto fields() {
+    return std::tuple(field("activities", &ModuleStatus::activities),
+                      field("missed_periods", &ModuleStatus::missed_periods),
+                      field("suspended", &ModuleStatus::suspended));
+  }
+};
+
+class ControlTask {
+ public:
+  ControlTask(Module& module, Poster<ModuleStatus>& poster) : module_(module), poster_(poster) {}
+
+  /// The task's own code; returns when the module is ended.
+  void run();
+
+  bool ending() const { return ending_; }
+  void expect_init() { init_done_ = false; }
+  void set_interrupt_end(bool value) { interrupt_end_ = value; }
+  /// The request "Abort".
+  Report abort(std::int32_t activity);
+
+ private:
+  void end_activities();
+  void start_activities();
+  void handle(const Letter& letter);
+  Report execute(const RequestType& type, const Letter& letter);
+  void interrupt_incompatible(const RequestType& type);
+  void interrupt(Activity& activity);
+  bool interruptible(State state) const;
+  bool blocked(const Activity& candidate) const;
+  void write_status();
+  void reply(LetterKind kind, const Letter& request, Report report, const Payload& output);
+  void reply(LetterKind kind, const Activity& activity);
+
+  Module& module_;
+  Poster<ModuleStatus>& poster_;
+  std::int32_t next_slot_ = 0;
+  bool init_done_ = true;
+  bool ending_ = false;
+  bool interrupt_end_ = true;
+};
+
+}  // namespace waitpoint::genom

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/genom/execution_task.hpp"
+
+#include "modules/genom/module.hpp"
+
+namespace waitpoint::genom {
+
+ExecutionTask::ExecutionTask(Module& module, std::string name, TaskOptions options)
+    : module_(module), name_(std::move(name)), options_(options) {}
+
+void ExecutionTask::signal() {
+  if (!periodic()) event_.release();
+}
+
+void ExecutionTask::run() {
+  if (periodic()) timer_.emplace(Period::every(options_.period_ms), options_.delay_ms, "task period");
+  {
+    const Module::BothLocks locks(module_);
+    call_permanent(start_);
+  }
+  while (wait()) {
+    wake_up();
+    threads::this_thread::yield();
+  }
+  {
+    const Module::BothLocks locks(module_);
+    call_permanent(end_);
+    ended_ = true;
+  }
+  timer_.reset();
+  module_.mailbox().event().release();
+}
+
+// False when the module is being ended.
+bool ExecutionTask::wait() {
+  if (periodic())
+    missed_periods_ += timer_->wait() - 1;
+  else
+    event_.acquire();
+  return !module_.ending();
+}
+
+void ExecutionTask::wake_up() {
+  const Module::BothLocks locks(module_);
+  if (suspended_) return;
+  call_permanent(permanent_);
+  bool state_changed = false;
+  for (Activity& activity : module_.activities())
+    if (activity.in_use && activity.type->task == this) state_changed |= step(activity);
+  call_permanent(second_permanent_);
+  for (OutputPosterBase* poster : posters_) {
+    poster->update();
+    poster->give();
+  }
+  if (state_changed) module_.mailbox().event().release();
+}
+
+void ExecutionTask::call_permanent(const std::function<void()>& codel) {
+  if (codel == nullptr) return;
+  codel();
+  after_codel(options_.cost_us);
+}
+
+void ExecutionTask::after_codel(Duration cost) {
+  threads::compute(cost);
+  for (OutputPosterBase* poster : posters_) poster->give();
+}
+
+// One wake-up's worth of an activity; true if its state changed.
+bool ExecutionTask::step(Activity& a) {
+  if (a.state == State::init || a.state == State::ether || a.state == State::zombie) return false;
+  const State before = a.state;
+  if (a.interrupt) {
+    a.interrupt = false;
+    a.interrupted = true;
+    a.state = State::inter;
+  } else if (a.state == State::sleep) {
+    a.state = State::exec;
+  }
+  std::optional<State> next;
+  // States without a codel pass at once.
+  while (!(next = a.type->codel(a.state, a))) {
+    a.state = default_after(a.state);
+    if (a.state == State::ether || a.state == State::zombie) return true;
+  }
+  const State called = a.state;
+  after_codel(a.type->cost);
+  if (!allowed(called, *next)) {
+    a.report = module_.report(StandardReport::forbidden_activity_transition);
+    a.state = State::ether;
+    suspended_ = true;
+    return true;
+  }
+  a.state = *next;
+  if (a.state == State::fail && a.report == ok) a.report = module_.report(StandardReport::activity_failed);
+  const bool goes_on = a.state != State::ether && a.state != State::zombie && a.state != State::sleep;
+  if (goes_on && !periodic()) event_.release();
+  return a.state != before;
+}
+
+}  // namespace waitpoint::genom

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An execution task of a module: runs the codels of its activities, and permanent ones of its own.
+//
+// One wake-up (a tick of its period, or an event), in GenoM's order:
+//
+//   take both locks -> permanent codel -> one codel of each own activity, in table order -> second permanent codel
+//   -> automatic posters -> signal the control task if an activity's state changed -> give the locks -> give way
+//
+// Both locks are held during all codels: codels of one module never overlap, and none can be interrupted. A codel's
+// cost is added to the local time at its end, before the posters that it wrote are given.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modules/genom/output_poster.hpp"
+#include "modules/genom/request.hpp"
+#include "modules/genom/settings.hpp"
+
+namespace waitpoint::genom {
+
+class Module;
+
+/// How a task is woken and what it costs; a scenario may overwrite these under `tasks.<task>`.
+struct TaskOptions {
+  Duration period_ms;  ///< 0: aperiodic, woken by events
+  Duration delay_ms;   ///< phase of a periodic task's ticks
+  Duration cost_us;    ///< of each permanent codel
+
+  static constexpr auto fields() {
+    return std::tuple(field("period_ms", &TaskOptions::period_ms), field("delay_ms", &TaskOptions::delay_ms),
+                      field("cost_us", &TaskOptions::cost_us));
+  }
+};
+
+class ExecutionTask {
+ public:
+  ExecutionTask(Module& module, std::string name, TaskOptions options);
+
+  const std::string& name() const { return name_; }
+  const TaskOptions& options() const { return options_; }
+
+  /// Called at every wake-up, before and after the activities' codels.
+  void set_permanent(std::function<void()> codel) { permanent_ = std::move(codel); }
+  void set_second_permanent(std::function<void()> codel) { second_permanent_ = std::move(codel); }
+  /// Called once when the task starts and when it ends.
+  void set_start(std::function<void()> codel) { start_ = std::move(codel); }
+  void set_end(std::function<void()> codel) { end_ = std::move(codel); }
+
+  /// Wakes the task at the next opportunity; a periodic task needs no waking.
+  void signal();
+  void add(OutputPosterBase& poster) { posters_.push_back(&poster); }
+
+  bool periodic() const { return options_.period_ms > Duration(); }
+  bool suspended() const { return suspended_; }
+  void resume() { suspended_ = false; }
+  /// Periods that passed while the task was still busy.
+  std::int64_t missed_periods() const { return missed_periods_; }
+  bool ended() const { return ended_; }
+
+  /// The task's own code; returns when the module is ended.
+  void run();
+
+ private:
+  bool wait();
+  void wake_up();
+  void call_permanent(const std::function<void()>& codel);
+  bool step(Activity& activity);
+  void after_codel(Duration cost);
+
+  Module& module_;
+  std::string name_;
+  TaskOptions options_;
+  std::function<void()> permanent_, second_permanent_, start_, end_;
+  std::vector<OutputPosterBase*> posters_;
+  std::optional<threads::periodic_timer> timer_;
+  threads::counting_semaphore<> event_{0, "task event"};
+  std::int64_t missed_periods_ = 0;
+  bool suspended_ = false;
+  bool ended_ = false;
+};
+
+}  // namespace waitpoint::genom

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mailbox: a bounded queue of letters to one task. A letter's arrival signals its owner's event.
+//
+//   client ---- request letter ---> control task of a module
+//   client <--- replies ----------- (intermediate: the activity started; final: it ended, with report and output)
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <string>
+
+#include "fibers/sync/threads.hpp"
+#include "modules/genom/payload.hpp"
+#include "modules/genom/report.hpp"
+
+namespace waitpoint::genom {
+
+class Mailbox;
+
+enum class LetterKind : std::uint8_t { request, intermediate_reply, final_reply };
+
+struct Letter {
+  LetterKind kind = LetterKind::request;
+  std::uint32_t request = 0;   ///< the number of the request type within its module
+  std::uint32_t send_id = 0;   ///< the sender's own number for this request; replies bear it
+  std::int32_t activity = -1;  ///< in replies: the activity's number, -1 if there is none
+  Report report = ok;
+  Mailbox* reply_to = nullptr;
+  Payload payload;
+};
+
+class Mailbox {
+ public:
+  static constexpr std::size_t letters_max = 64;
+
+  /// `owner` names the mailbox.
+  explicit Mailbox(std::string owner);
+
+  /// Puts a letter in and signals the owner; false if the mailbox is full.
+  bool post(const Letter& letter);
+  /// Takes the oldest letter; false if there is none. Does not wait.
+  bool take(Letter& letter);
+
+  /// The owner's event: released once a letter, and by whoever else has something for the owner.
+  threads::counting_semaphore<>& event() { return event_; }
+  const std::string& owner() const { return owner_; }
+
+ private:
+  std::string owner_;
+  std::uint64_t name_;
+  threads::mutex mutex_{"mailbox"};
+  threads::counting_semaphore<> event_{0, "mailbox event"};
+  std::deque<Letter> letters_;
+};
+
+}  // namespace waitpoint::genom

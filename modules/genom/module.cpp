@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/genom/module.hpp"
+
+namespace waitpoint::genom {
+
+Module::Module(ModuleSetup& setup, std::uint16_t number)
+    : names_(setup.names),
+      name_(setup.name),
+      number_(number),
+      settings_(setup.settings),
+      mailbox_(setup.name),
+      control_(*this, names_.create_poster<ModuleStatus>(setup.name + ".control", setup.name)) {
+  names_.add(*this);
+  add_control<AbortInput>("Abort",
+                          [this](const AbortInput& input, Nothing&) { return control_.abort(input.activity); });
+}
+
+Module::~Module() = default;
+
+ExecutionTask& Module::add_task(const std::string& name, TaskOptions options) {
+  settings_.read(options, "tasks." + name + ".");
+  return tasks_.emplace_back(*this, name, options);
+}
+
+RequestType& Module::add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts) {
+  WAITPOINT_CHECK(find_request(name) == nullptr, "a module declares two requests of one name");
+  RequestType& type = requests_.emplace_back();
+  type.name = name;
+  type.kind = kind;
+  type.number = static_cast<std::uint32_t>(requests_.size() - 1);
+  type.interrupts = std::move(interrupts);
+  return type;
+}
+
+const RequestType* Module::find_request(const std::string& name) const {
+  for (const RequestType& type : requests_)
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
+void Module::connect() {
+  for (Link& link : links_) {
+    PosterBase* poster = names_.find_poster(link.poster->name());
+    const std::string where = "module '" + name_ + "'";
+    if (poster == nullptr) {
+      if (link.required)
+        throw BadInput(where, "reads poster '" + link.poster->name() + "', which no module of this robot writes");
+    } else if (!link.poster->connect(*poster)) {
+      throw BadInput(where,
+                     "reads poster '" + poster->name() + "' as another type than '" + poster->writer() + "' writes");
+    }
+  }
+}
+
+void Module::start() {
+  const auto start_task = [this](const std::string& label, auto run) {
+    const threads::thread_attributes attributes{.name = label.c_str(), .service = true};
+    threads_.emplace_back(attributes, run);
+  };
+  start_task(name_ + ".control", [this] { control_.run(); });
+  for (ExecutionTask& task : tasks_) start_task(name_ + "." + task.name(), [&task] { task.run(); });
+}
+
+void Module::join() {
+  for (threads::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+}  // namespace waitpoint::genom

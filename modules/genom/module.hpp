@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A module: one control task, execution tasks, requests, activities and posters, to the semantics of GenoM.
+//
+// A module of one's own derives from Module, declares everything in its constructor and keeps its state in members:
+// they are the functional data, guarded by the frame's locks while any of its codels runs.
+//
+//   class Blinker : public waitpoint::genom::Module {
+//    public:
+//     explicit Blinker(ModuleSetup& setup) : Module(setup, 42), task_(add_task("main", {.period_ms = 100ms})) {
+//       setup.settings.read(parameters_);
+//       add_activity<BlinkInput>("Blink", task_, {.exec = [this](auto& a) { ... return State::exec; }}, {"Blink"});
+//     }
+//   };
+//
+// See control_task.hpp and execution_task.hpp for what the tasks do with it.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "modules/genom/control_task.hpp"
+#include "modules/genom/execution_task.hpp"
+#include "modules/genom/mailbox.hpp"
+#include "modules/genom/name_space.hpp"
+#include "modules/genom/request.hpp"
+#include "modules/genom/settings.hpp"
+
+namespace waitpoint::genom {
+
+/// What a module is made from.
+struct ModuleSetup {
+  NameSpace& names;   ///< of its robot
+  std::string name;   ///< of the module on this robot
+  Settings settings;  ///< what the scenario says of it
+};
+
+/// Input of the request "Abort", which every module has.
+struct AbortInput {
+  static constexpr std::int32_t end_module = -99;    ///< refused while activities run
+  static constexpr std::int32_t resume_tasks = -88;  ///< after a forbidden transition
+  std::int32_t activity = 0;                         ///< the activity to end, or one of the above
+
+  static constexpr auto fields() { return std::tuple(field("activity", &AbortInput::activity)); }
+};
+
+class Module {
+ public:
+  virtual ~Module();
+  Module(const Module&) = delete;
+  Module& operator=(const Module&) = delete;
+
+  const std::string& name() const { return name_; }
+  Mailbox& mailbox() { return mailbox_; }
+  /// Null if the module has no request of that name.
+  const RequestType* find_request(const std::string& name) const;
+  Report report(StandardReport code) const { return make_report(number_, code); }
+  const std::deque<ExecutionTask>& tasks() const { return tasks_; }
+
+  /// Finds the posters that the module reads. One that nobody writes, or of another type, is BadInput.
+  void connect();
+  /// Starts the tasks; from a task of the module's robot, once all its modules are connected.
+  void start();
+  /// Waits until the tasks have ended, after an Abort with end_module.
+  void join();
+
+ protected:
+  /// `number` distinguishes the module's reports from others'.
+  Module(ModuleSetup& setup, std::uint16_t number);
+
+  /// The scenario may overwrite `options` under `tasks.<name>`.
+  ExecutionTask& add_task(const std::string& name, TaskOptions options);
+
+  /// A control request: `codel` does it at once, from the control task.
+  template <HasFields In, HasFields Out = Nothing>
+  RequestType& add_control(const std::string& name,
+                           std::type_identity_t<std::function<Report(const In& input, Out& output)>> codel,
+                           std::vector<std::string> interrupts = {});
+
+  /// An execution request of `task`.
+  template <HasFields In, HasFields Out = Nothing>
+  RequestType& add_activity(const std::string& name, ExecutionTask& task, std::type_identity_t<Codels<In, Out>> codels,
+                            std::vector<std::string> interrupts = {});
+
+  /// As add_activity, for a request that must have succeeded before execution requests are taken.
+  template <HasFields In, HasFields Out = Nothing>
+  RequestType& add_init(const std::string& name, ExecutionTask& task, std::type_identity_t<Codels<In, Out>> codels);
+
+  /// A poster named "<module>.<name>", given by the codels of `task`; `automatic` is copied to it at every wake-up.
+  template <HasFields T>
+  OutputPoster<T>& add_poster(const std::string& name, ExecutionTask& task, const T* automatic = nullptr);
+
+  /// The poster "<module>.<name>" or, with a dot in it, "<other module>.<name>". With `required` false it may be
+  /// absent.
+  template <HasFields T>
+  PosterLink<T>& read_poster(const std::string& name, bool required = true);
+
+  /// A report of the module's own, by its code from first_own_report on.
+  Report own_report(std::uint16_t code) const { return make_report(number_, code); }
+
+  /// Whether an activity whose END codel runs can be interrupted: GenoM's code says so, its guide says not. Default:
+  /// yes.
+  void set_interrupt_end(bool value) { control_.set_interrupt_end(value); }
+
+ private:
+  friend class ControlTask;
+  friend class ExecutionTask;
+
+  // Control data before functional data, in this order everywhere.
+  class BothLocks {
+   public:
+    explicit BothLocks(Module& module) : control_(module.control_data_), functional_(module.functional_data_) {}
+
+   private:
+    std::lock_guard<threads::mutex> control_;
+    std::lock_guard<threads::mutex> functional_;
+  };
+
+  RequestType& add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts);
+  std::array<Activity, activities_max>& activities() { return activities_; }
+  bool ending() const { return control_.ending(); }
+
+  struct Link {
+    std::unique_ptr<PosterLinkBase> poster;
+    bool required;
+  };
+
+  NameSpace& names_;
+  std::string name_;
+  std::uint16_t number_;
+  Settings& settings_;  // of the setup: only while the module is being made
+  Mailbox mailbox_;
+  threads::mutex control_data_{"control data"};
+  threads::mutex functional_data_{"functional data"};
+  std::deque<RequestType> requests_;
+  std::array<Activity, activities_max> activities_;
+  std::deque<ExecutionTask> tasks_;
+  std::vector<std::unique_ptr<OutputPosterBase>> outputs_;
+  std::vector<Link> links_;
+  ControlTask control_;
+  std::vector<threads::thread> threads_;
+};
+
+// --- templates ---
+
+template <HasFields In, HasFields Out>
+RequestType& Module::add_control(const std::string& name,
+                                 std::type_identity_t<std::function<Report(const In&, Out&)>> codel,
+                                 std::vector<std::string> interrupts) {
+  RequestType& type = add_request(name, RequestKind::control, std::move(interrupts));
+  type.accepts = [](const Payload& input) { return input.holds<In>(); };
+  type.control = [codel = std::move(codel)](const Payload& input, Payload& output) {
+    Out out{};
+    const Report report = codel(input.as<In>(), out);
+    output = Payload(out);
+    return report;
+  };
+  return type;
+}
+
+template <HasFields In, HasFields Out>
+RequestType& Module::add_activity(const std::string& name, ExecutionTask& task,
+                                  std::type_identity_t<Codels<In, Out>> codels, std::vector<std::string> interrupts) {
+  RequestType& type = add_request(name, RequestKind::execution, std::move(interrupts));
+  type.task = &task;
+  type.accepts = [](const Payload& input) { return input.holds<In>(); };
+  type.control = [control = codels.control](const Payload& input, Payload&) {
+    return control ? control(input.as<In>()) : ok;
+  };
+  type.codel = [codels = std::move(codels)](State state, Activity& activity) {
+    return internal::call_codel(codels, state, activity);
+  };
+  return type;
+}
+
+template <HasFields In, HasFields Out>
+RequestType& Module::add_init(const std::string& name, ExecutionTask& task,
+                              std::type_identity_t<Codels<In, Out>> codels) {
+  RequestType& type = add_activity<In, Out>(name, task, std::move(codels));
+  type.kind = RequestKind::init;
+  control_.expect_init();
+  return type;
+}
+
+template <HasFields T>
+OutputPoster<T>& Module::add_poster(const std::string& name, ExecutionTask& task, const T* automatic) {
+  auto output = std::make_unique<OutputPoster<T>>(names_.create_poster<T>(name_ + "." + name, name_), automatic);
+  OutputPoster<T>& reference = *output;
+  task.add(reference);
+  outputs_.push_back(std::move(output));
+  return reference;
+}
+
+template <HasFields T>
+PosterLink<T>& Module::read_poster(const std::string& name, bool required) {
+  const std::string full = name.find('.') == std::string::npos ? name_ + "." + name : name;
+  auto link = std::make_unique<PosterLink<T>>(full);
+  PosterLink<T>& reference = *link;
+  links_.push_back({std::move(link), required});
+  return reference;
+}
+
+}  // namespace waitpoint::genom

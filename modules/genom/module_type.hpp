@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which modules a program knows, by the type names that scenarios use.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "modules/genom/module.hpp"
+
+namespace waitpoint::genom {
+
+struct ModuleType {
+  std::string name;
+  std::unique_ptr<Module> (*make)(ModuleSetup& setup);
+};
+
+/// Registers a module class, whose constructor takes a ModuleSetup&, under a name.
+template <class M>
+ModuleType module_type(std::string name) {
+  return {std::move(name), [](ModuleSetup& setup) -> std::unique_ptr<Module> { return std::make_unique<M>(setup); }};
+}
+
+}  // namespace waitpoint::genom

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/genom/name_space.hpp"
+
+#include "modules/genom/module.hpp"
+
+namespace waitpoint::genom {
+namespace {
+
+std::uint64_t hash(const std::string& text) {
+  Digest digest;
+  digest.add(std::string_view(text));
+  return digest.value();
+}
+
+}  // namespace
+
+PosterBase::PosterBase(std::string name, std::string writer)
+    : name_(std::move(name)), writer_(std::move(writer)), name_hash_(hash(name_)) {}
+
+PosterBase* NameSpace::find_poster(const std::string& name) const {
+  const auto found = posters_.find(name);
+  return found != posters_.end() ? found->second.get() : nullptr;
+}
+
+Module* NameSpace::find_module(const std::string& name) const {
+  const auto found = modules_.find(name);
+  return found != modules_.end() ? found->second : nullptr;
+}
+
+void NameSpace::add(std::unique_ptr<PosterBase> poster) {
+  const std::string name = poster->name();
+  const auto [place, added] = posters_.emplace(name, std::move(poster));
+  if (!added) throw BadInput("poster '" + name + "'", "written by '" + place->second->writer() + "' and by another");
+}
+
+void NameSpace::add(Module& module) {
+  if (!modules_.emplace(module.name(), &module).second)
+    throw BadInput("module '" + module.name() + "'", "there is another of that name on this robot");
+}
+
+}  // namespace waitpoint::genom

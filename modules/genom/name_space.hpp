@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The names of one robot: its posters and modules. Nothing of another robot can be reached through it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "modules/genom/poster.hpp"
+
+namespace waitpoint::genom {
+
+class Module;
+
+class NameSpace {
+ public:
+  /// Creates a poster; a second one of the same name is BadInput.
+  template <HasFields T>
+  Poster<T>& create_poster(const std::string& name, const std::string& writer) {
+    auto poster = std::make_unique<Poster<T>>(name, writer);
+    Poster<T>& reference = *poster;
+    add(std::move(poster));
+    return reference;
+  }
+
+  /// Null if there is none.
+  PosterBase* find_poster(const std::string& name) const;
+  Module* find_module(const std::string& name) const;
+  /// A second module of the same name is BadInput.
+  void add(Module& module);
+
+  const std::map<std::string, std::unique_ptr<PosterBase>>& posters() const { return posters_; }
+
+ private:
+  void add(std::unique_ptr<PosterBase> poster);
+
+  std::map<std::string, std::unique_ptr<PosterBase>> posters_;
+  std::map<std::string, Module*> modules_;
+};
+
+}  // namespace waitpoint::genom

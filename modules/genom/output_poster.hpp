@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The writing side of a module's poster: a codel's write is held back until the codel's cost has been counted.
+#pragma once
+
+#include "modules/genom/poster.hpp"
+
+namespace waitpoint::genom {
+
+class OutputPosterBase {
+ public:
+  virtual ~OutputPosterBase() = default;
+  /// Takes over the automatic source, if there is one: at the end of every wake-up.
+  virtual void update() = 0;
+  /// Gives what was written since the last time.
+  virtual void give() = 0;
+};
+
+template <HasFields T>
+class OutputPoster : public OutputPosterBase {
+ public:
+  /// `automatic`, if given, is copied to the poster at the end of every wake-up of its task.
+  OutputPoster(Poster<T>& poster, const T* automatic) : poster_(poster), automatic_(automatic) {}
+
+  /// From codels of the poster's task.
+  void write(const T& value) {
+    staged_ = value;
+    written_ = true;
+  }
+  void update() override {
+    if (automatic_ != nullptr) write(*automatic_);
+  }
+  void give() override {
+    if (!written_) return;
+    written_ = false;
+    poster_.write(staged_);
+  }
+
+ private:
+  Poster<T>& poster_;
+  const T* automatic_;
+  T staged_{};
+  bool written_ = false;
+};
+
+}  // namespace waitpoint::genom

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/genom/settings.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "core/nearest_name.hpp"
+
+namespace waitpoint::genom {
+namespace {
+
+[[noreturn]] void reject(const Setting& setting, const std::string& expected) {
+  throw BadInput(setting.file, setting.line,
+                 "'" + setting.key + "' should be " + expected + ", but is '" + setting.text + "'");
+}
+
+double parse_double(const Setting& setting, const char* expected) {
+  double value = 0;
+  const char* end = setting.text.data() + setting.text.size();
+  const auto [at, error] = std::from_chars(setting.text.data(), end, value);
+  if (error != std::errc() || at != end || !std::isfinite(value)) reject(setting, expected);
+  return value;
+}
+
+}  // namespace
+
+const Setting* Settings::take(const std::string& key) {
+  known_.push_back(key);
+  for (std::size_t i = 0; i < settings_.size(); ++i) {
+    if (settings_[i].key != key) continue;
+    used_[i] = true;
+    return &settings_[i];
+  }
+  return nullptr;
+}
+
+void Settings::read_one(const std::string& key, double& value) {
+  if (const Setting* s = take(key)) value = parse_double(*s, "a number");
+}
+
+void Settings::read_one(const std::string& key, bool& value) {
+  const Setting* s = take(key);
+  if (s == nullptr) return;
+  if (s->text != "true" && s->text != "false") reject(*s, "true or false");
+  value = s->text == "true";
+}
+
+void Settings::read_one(const std::string& key, std::string& value) {
+  if (const Setting* s = take(key)) value = s->text;
+}
+
+void Settings::read_one(const std::string& key, Duration& value) {
+  const Setting* s = take(key);
+  if (s == nullptr) return;
+  const double unit_s = key.ends_with("_us") ? 1e-6 : key.ends_with("_ms") ? 1e-3 : 1.0;
+  const double seconds = parse_double(*s, "a duration as a number") * unit_s;
+  if (seconds < 0 || seconds > 1e9) reject(*s, "a duration that is not negative, at most 1e9 s");
+  value = Duration::from_seconds(seconds);
+}
+
+void Settings::read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most) {
+  const Setting* s = take(key);
+  if (s == nullptr) return;
+  const char* end = s->text.data() + s->text.size();
+  std::int64_t read = 0;
+  const auto [at, error] = std::from_chars(s->text.data(), end, read);
+  if (error != std::errc() || at != end || read < least || read > most)
+    reject(*s, "an integer between " + std::to_string(least) + " and " + std::to_string(most));
+  value = read;
+}
+
+void Settings::check_all_used() const {
+  std::vector<std::string_view> known(known_.begin(), known_.end());
+  for (std::size_t i = 0; i < settings_.size(); ++i)
+    if (!used_[i])
+      throw BadInput(settings_[i].file, settings_[i].line,
+                     "unknown key '" + settings_[i].key + "'" + did_you_mean(settings_[i].key, known));
+}
+
+}  // namespace waitpoint::genom

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The settings that a scenario gives to one module, read into structs with declared fields.
+//
+// A field's name is its key and bears its unit: "gain", "v_max_m_s"; a Duration's ends in _s, _ms or _us. Keys that
+// nobody asked for are bad input, with the nearest known one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "core/setting.hpp"
+
+namespace waitpoint::genom {
+
+class Settings {
+ public:
+  Settings() = default;
+  explicit Settings(std::vector<Setting> settings) : settings_(std::move(settings)), used_(settings_.size()) {}
+
+  /// Overwrites the declared fields of `values` that are set; a field's key is `prefix` + its name.
+  template <HasFields T>
+  void read(T& values, const std::string& prefix = "") {
+    for_each_field(values, [&](std::string_view name, auto& member) { read_one(prefix + std::string(name), member); });
+  }
+
+  /// Throws BadInput for the first setting that nothing has read.
+  void check_all_used() const;
+
+  void read_one(const std::string& key, double& value);
+  void read_one(const std::string& key, bool& value);
+  void read_one(const std::string& key, std::string& value);
+  void read_one(const std::string& key, Duration& value);
+  template <class Integer>
+  requires std::is_integral_v<Integer>
+  void read_one(const std::string& key, Integer& value) {
+    std::int64_t wide = static_cast<std::int64_t>(value);
+    read_integer(key, wide, static_cast<std::int64_t>(std::numeric_limits<Integer>::min()),
+                 sizeof(Integer) < 8 ? static_cast<std::int64_t>(std::numeric_limits<Integer>::max())
+                                     : std::numeric_limits<std::int64_t>::max());
+    value = static_cast<Integer>(wide);
+  }
+
+ private:
+  const Setting* take(const std::string& key);
+  void read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most);
+
+  std::vector<Setting> settings_;
+  std::vector<bool> used_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace waitpoint::genom
