@@ -7,7 +7,9 @@
 namespace waitpoint {
 
 BadInput::BadInput(const std::string& file, int line, const std::string& message)
-    : std::runtime_error(line > 0 ? file + ":" + std::to_string(line) + ": " + message : file + ": " + message) {}
+    : std::runtime_error(line > 0 ? file + ":" + std::to_string(line) + ": " + message : file + ": " + message),
+      file_(file),
+      line_(line) {}
 
 BadInput::BadInput(const std::string& where, const std::string& message) : BadInput(where, 0, message) {}
 

@@ -20,6 +20,13 @@ class BadInput : public std::runtime_error {
   BadInput(const std::string& file, int line, const std::string& message);
   /// For input that is no file: `where` is the option or key at fault.
   BadInput(const std::string& where, const std::string& message);
+
+  const std::string& file() const { return file_; }
+  int line() const { return line_; }
+
+ private:
+  std::string file_;
+  int line_;
 };
 
 /// Reports a broken invariant and aborts. Used by WAITPOINT_CHECK.

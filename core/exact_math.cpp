@@ -109,6 +109,7 @@ double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint6
 
 SinCos sincos(double x) {
   if (x != x) return {x, x};
+  if (x == 0.0) return {x, 1.0};  // the sign of a zero would be lost
   const Reduced r = reduce_to_quadrant(x);
   const SinCos k = kernel_sincos(r.value, r.tail);
   switch (r.quadrant) {
@@ -132,6 +133,11 @@ double atan2(double y, double x) {
     ax = ax == inf ? 1.0 : 0.0;
     ay = ay == inf ? 1.0 : 0.0;
   }
+  // The ratio's products must neither overflow nor fall among the subnormal numbers.
+  const double larger = ax > ay ? ax : ay;
+  const double scale = larger > 0x1p1000 ? 0x1p-100 : larger < 0x1p-900 ? 0x1p100 : 1.0;
+  ax *= scale;
+  ay *= scale;
   double angle;
   if (ay == 0.0) {
     angle = std::signbit(x) ? whole_pi.high : 0.0;

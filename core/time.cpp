@@ -39,7 +39,8 @@ Duration Period::tick(std::int64_t k) const {
   const Wide product = static_cast<Wide>(k) * span_.ns();
   const Wide half = ticks_ / 2;
   const Wide rounded = (product >= 0 ? product + half : product - half) / ticks_;
-  WAITPOINT_CHECK(rounded <= std::numeric_limits<std::int64_t>::max(), "virtual time overflows");
+  using Limits = std::numeric_limits<std::int64_t>;
+  WAITPOINT_CHECK(rounded >= Limits::min() && rounded <= Limits::max(), "virtual time overflows");
   return Duration::from_ns(static_cast<std::int64_t>(rounded));
 }
 

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -44,9 +45,9 @@ class Duration {
   friend constexpr Duration operator-(Duration a) { return from_ns(checked_sub(0, a.ns_)); }
   friend constexpr Duration operator*(Duration a, std::int64_t k) { return from_ns(checked_mul(a.ns_, k)); }
   friend constexpr Duration operator*(std::int64_t k, Duration a) { return a * k; }
-  friend constexpr Duration operator/(Duration a, std::int64_t k) { return from_ns(a.ns_ / k); }
+  friend constexpr Duration operator/(Duration a, std::int64_t k) { return from_ns(checked_div(a.ns_, k)); }
   /// How many whole `b` fit in `a`, towards zero.
-  friend constexpr std::int64_t operator/(Duration a, Duration b) { return a.ns_ / b.ns_; }
+  friend constexpr std::int64_t operator/(Duration a, Duration b) { return checked_div(a.ns_, b.ns_); }
   constexpr Duration& operator+=(Duration b) { return *this = *this + b; }
   constexpr Duration& operator-=(Duration b) { return *this = *this - b; }
 
@@ -65,6 +66,10 @@ class Duration {
     WAITPOINT_CHECK(!__builtin_mul_overflow(a, b, &r), "virtual time overflows");
     return r;
   }
+  static constexpr std::int64_t checked_div(std::int64_t a, std::int64_t b) {
+    WAITPOINT_CHECK(b != 0, "virtual time is divided by zero");
+    return b == -1 ? checked_sub(0, a) : a / b;
+  }
 
  private:
   struct Raw {};
@@ -76,7 +81,11 @@ class Duration {
     static_assert(InNs::den == 1, "a unit finer than the nanosecond");
     return InNs::num;
   }
-  static constexpr std::int64_t scaled(std::int64_t count, std::int64_t unit) { return checked_mul(count, unit); }
+  template <class Count>
+  static constexpr std::int64_t scaled(Count count, std::int64_t unit) {
+    WAITPOINT_CHECK(std::in_range<std::int64_t>(count), "virtual time overflows");
+    return checked_mul(static_cast<std::int64_t>(count), unit);
+  }
 
   std::int64_t ns_ = 0;
 };

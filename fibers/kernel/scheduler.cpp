@@ -432,6 +432,8 @@ void Scheduler::unwind() {
     switch_to(task);
     WAITPOINT_CHECK(first_task_ != &task, "a task went on although the run is over");
   }
+  // Timers may outlive the run: they must not find themselves in its list.
+  while (!events_.empty()) events_.pop();
 }
 
 }  // namespace waitpoint::kernel

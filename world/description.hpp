@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a world is made of, as values: read from a scenario or written by hand, immutable while it runs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "core/time.hpp"
+
+namespace waitpoint::world {
+
+/// An upright solid: a box turned about the vertical, or a cylinder, from z_low_m to z_high_m.
+struct Shape {
+  enum class Kind : std::uint8_t { box, cylinder };
+  Kind kind = Kind::box;
+  Pose pose;                         ///< of the centre; a cylinder's heading does not matter to its outline
+  double length_m = 0, width_m = 0;  ///< box: along its own x and y
+  double radius_m = 0;               ///< cylinder
+  double z_low_m = 0, z_high_m = 1;
+};
+
+/// Something that does not move.
+struct Obstacle {
+  std::string name;
+  Shape shape;
+  bool known = true;  ///< whether the map given to planners shows it
+};
+
+/// Errors of wheel odometry. Wheels are the two driven ones of a differential base; a synchro base has a travel and a
+/// turn axis.
+struct OdometryErrors {
+  double travel_scale = 1;               ///< measured / true distance (both kinds)
+  double turn_scale = 1;                 ///< measured / true turn: the wheel base factor E_b, or the turn gear
+  double drift_rad_per_m = 0;            ///< systematic turn per metre: unequal wheels E_d, or the heading gear
+  double travel_noise_m_per_sqrt_m = 0;  ///< standard deviation of the distance after one metre
+  double turn_noise_rad_per_sqrt_m = 0;  ///< standard deviation of the turn after one metre travelled
+  double turn_noise_rad_per_sqrt_rad = 0;
+  double units_per_m = 103000;  ///< quantisation (B21r)
+  double units_per_rad = 35000;
+};
+
+struct BaseDescription {
+  enum class Kind : std::uint8_t { differential, synchro };
+  Kind kind = Kind::synchro;
+  double v_max_m_s = 0.9, w_max_rad_s = 1.5;
+  double v_acceleration_m_s2 = 1.0, w_acceleration_rad_s2 = 3.0;
+  double axle_m = 0.4;  ///< differential: distance between the wheels
+  OdometryErrors odometry;
+  double battery_volts_full = 26.0, battery_volts_empty = 22.0;
+  double battery_capacity_s = 4 * 3600;  ///< until empty, standing still
+  double battery_capacity_m = 8000;      ///< until empty, if only driving drained it
+};
+
+/// A SICK LMS: a planar fan of beams about the device's x axis.
+struct LaserDescription {
+  Pose mount;  ///< in the body's frame
+  double height_m = 0.4;
+  std::uint32_t beams = 361;
+  double field_of_view_rad = exact::pi;
+  double range_max_m = 32;
+  double range_noise_m = 0.005;  ///< standard deviation, to 8 m; grows linearly to twice that at 20 m
+  double range_bias_m = 0;       ///< systematic, the same for every beam
+  double resolution_m = 0.01;    ///< quantisation
+  Duration period = std::chrono::milliseconds(100);
+};
+
+/// A ring of sonars on a cylinder about the body's centre, the first straight ahead, counter-clockwise.
+struct SonarRingDescription {
+  std::uint32_t count = 24;  ///< 0: none
+  double ring_radius_m = 0.25, height_m = 0.6;
+  double half_cone_rad = 0.218;  ///< a wall answers only if its normal lies inside
+  double range_min_m = 0.15, range_max_m = 3;
+  double range_noise_relative = 0.01;
+  Duration period = std::chrono::milliseconds(120);  ///< of a full ring
+};
+
+/// A robot's body with what is mounted on it.
+struct BodyDescription {
+  std::string name;
+  Shape shape;  ///< its pose is in the body's frame
+  Pose start;
+  BaseDescription base;
+  std::vector<LaserDescription> lasers;
+  std::vector<SonarRingDescription> sonars;
+};
+
+struct WorldDescription {
+  Duration step = std::chrono::milliseconds(10);
+  std::vector<Obstacle> obstacles;  ///< a map's occupied cells are here too, merged into boxes
+  std::vector<BodyDescription> bodies;
+};
+
+}  // namespace waitpoint::world

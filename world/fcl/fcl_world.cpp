@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/fcl/fcl_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/error.hpp"
+#include "world/fcl/scene.hpp"
+#include "world/motion/contact_loop.hpp"
+#include "world/sensors/laser.hpp"
+#include "world/sensors/sonar.hpp"
+#include "world/start_check.hpp"
+#include "world/vehicles/base.hpp"
+#include "world/vehicles/odometer.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+// Bodies' bounding boxes are this much wider than the bodies: at walking speed the tree changes twice a second.
+constexpr double roam_m = 0.4;
+
+std::vector<Shape> shapes_of(const std::vector<Obstacle>& obstacles) {
+  std::vector<Shape> shapes;
+  for (const Obstacle& obstacle : obstacles) shapes.push_back(obstacle.shape);
+  return shapes;
+}
+
+std::vector<Shape> shapes_of(const std::vector<BodyDescription>& bodies) {
+  std::vector<Shape> shapes;
+  for (const BodyDescription& body : bodies) {
+    shapes.push_back(body.shape);
+    shapes.back().pose = compose(body.start, body.shape.pose);
+  }
+  return shapes;
+}
+
+/// A concave corner of an obstacle with another one.
+struct Corner {
+  ConcaveCorner corner;
+  std::uint32_t other;
+};
+
+struct Body {
+  const BodyDescription* description;
+  BodyState state;
+  Velocity wanted;
+  Outline outline;  // at state.pose
+  Odometer odometer;
+  std::vector<Laser> lasers;
+  std::vector<RandomStream> sonar_noise;
+
+  Body(const BodyDescription& d, std::uint64_t seed) : description(&d), odometer(d.base.odometry, seed, d.name) {
+    state.pose = d.start;
+    state.arc.start = d.start;
+    outline = outline_of(d.shape, d.start);
+    for (std::size_t i = 0; i < d.lasers.size(); ++i) lasers.emplace_back(d.lasers[i], seed, d.name, i);
+    for (std::size_t i = 0; i < d.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, d.name, i));
+  }
+};
+
+class FclWorld final : public World {
+ public:
+  FclWorld(const WorldDescription& description, std::uint64_t seed);
+
+  const WorldDescription& description() const override { return description_; }
+  void command(BodyId id, Velocity velocity) override;
+  void step() override;
+  std::uint64_t steps() const override { return steps_; }
+  void reset(std::uint64_t seed) override;
+
+  const BodyState& body(BodyId id) const override { return bodies_.at(index(id)).state; }
+  const OdometerReading& odometer(BodyId id) const override { return bodies_.at(index(id)).odometer.reading(); }
+  double battery_volts(BodyId id) const override;
+
+  void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const override;
+  void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const override;
+  double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const override;
+
+ private:
+  void latch();
+  void move();
+  void find_meetings(std::uint32_t body, double path_max_m);
+  void publish();
+
+  void find_corners();
+  void collect_surroundings(const Body& body, std::uint32_t own, const SonarRingDescription& ring) const;
+  double nearest_echo(const SonarCone& cone, Point origin, double height_m, std::uint32_t own) const;
+
+  const WorldDescription description_;
+  const double step_s_;
+  std::uint64_t steps_ = 0;
+  std::vector<Body> bodies_;
+  Scene obstacle_scene_;
+  Scene body_scene_;  // bodies as published at the last step but one: where the last step began
+  std::vector<std::vector<Corner>> corners_;  // of each obstacle with later ones; only if there are sonars
+
+  // Buffers of one call, kept so that steps and scans allocate nothing.
+  ContactLoop contacts_;
+  std::vector<Arc> arcs_;
+  std::vector<Mover> movers_;
+  mutable std::vector<std::uint32_t> near_, near_bodies_;
+  mutable std::vector<Point> directions_;
+  mutable std::vector<Echo> echoes_;
+};
+
+FclWorld::FclWorld(const WorldDescription& description, std::uint64_t seed)
+    : description_(description),
+      step_s_(description.step.seconds()),
+      obstacle_scene_(shapes_of(description.obstacles)),
+      body_scene_(shapes_of(description.bodies), roam_m) {
+  WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
+  WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
+  const bool sonars = std::any_of(description_.bodies.begin(), description_.bodies.end(),
+                                  [](const BodyDescription& body) { return !body.sonars.empty(); });
+  if (sonars) find_corners();
+  reset(seed);
+}
+
+void FclWorld::reset(std::uint64_t seed) {
+  steps_ = 0;
+  bodies_.clear();
+  for (const BodyDescription& body : description_.bodies) bodies_.emplace_back(body, seed);
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) body_scene_.place(i, bodies_[i].outline);
+}
+
+void FclWorld::command(BodyId id, Velocity velocity) {
+  WAITPOINT_CHECK(velocity.v_m_s == velocity.v_m_s && velocity.w_rad_s == velocity.w_rad_s, "a velocity of NaN");
+  bodies_.at(index(id)).wanted = velocity;
+}
+
+void FclWorld::step() {
+  ++steps_;
+  latch();
+  move();
+  publish();
+}
+
+void FclWorld::latch() {
+  arcs_.clear();
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    body.state.velocity = next_velocity(body.description->base, body.state.velocity, body.wanted, step_s_);
+    arcs_.push_back({body.state.pose, body.state.velocity.v_m_s * step_s_, body.state.velocity.w_rad_s * step_s_});
+    if (body.state.arc.distance_m != 0 || body.state.arc.turn_rad != 0) body_scene_.place(i, body.outline);
+  }
+}
+
+void FclWorld::move() {
+  contacts_.clear();
+  movers_.clear();
+  double path_max_m = 0;
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    movers_.emplace_back(bodies_[i].description->shape, bodies_[i].outline, arcs_[i]);
+    contacts_.add_body(movers_[i]);
+    path_max_m = std::max(path_max_m, movers_[i].path_m());
+  }
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    if (movers_[i].moves()) find_meetings(i, path_max_m);
+  }
+  contacts_.run();
+}
+
+void FclWorld::find_meetings(std::uint32_t body, double path_max_m) {
+  const Shape& shape = bodies_[body].description->shape;
+  const Bounds swept = bounds_of(bodies_[body].outline).grown(movers_[body].path_m() + 2 * contact_gap_m);
+  obstacle_scene_.near(swept, shape.z_low_m, shape.z_high_m, near_);
+  for (const std::uint32_t obstacle : near_) contacts_.add_obstacle(body, obstacle_scene_.outline(obstacle));
+  if (bodies_.size() == 1) return;
+  body_scene_.near(swept.grown(path_max_m), shape.z_low_m, shape.z_high_m, near_);
+  for (const std::uint32_t other : near_) {
+    // Of two that both move, the first asks.
+    if (other > body || (other != body && !movers_[other].moves())) contacts_.add_pair(body, other);
+  }
+}
+
+void FclWorld::publish() {
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    BodyState& state = body.state;
+    const std::optional<double>& stop = contacts_.stop(i);
+    state.arc = stop ? arcs_[i].until(*stop) : arcs_[i];
+    if (stop) {
+      if (!state.stalled) ++state.collisions;
+      state.velocity = {};
+      state.stalled = true;
+    } else if (movers_[i].moves()) {
+      state.stalled = false;
+    }
+    if (movers_[i].moves()) {
+      state.pose = state.arc.end();
+      body.outline = outline_of(body.description->shape, state.pose);
+      state.travelled_m += std::fabs(state.arc.distance_m);
+    }
+    body.odometer.add(steps_, step_s_, state.arc.distance_m, state.arc.turn_rad);
+  }
+}
+
+double FclWorld::battery_volts(BodyId id) const {
+  const Body& body = bodies_.at(index(id));
+  return world::battery_volts(body.description->base, static_cast<double>(steps_) * step_s_, body.state.travelled_m);
+}
+
+void FclWorld::scan(BodyId id, std::size_t laser_number, std::uint64_t scan_number, LaserScan& out) const {
+  const Body& body = bodies_.at(index(id));
+  const Laser& laser = body.lasers.at(laser_number);
+  const LaserDescription& device = body.description->lasers[laser_number];
+  const Pose at = compose(body.state.pose, device.mount);
+  const auto [s, c] = exact::sincos(at.heading);
+  directions_.clear();
+  for (const Point& d : laser.directions()) directions_.push_back({c * d.x - s * d.y, s * d.x + c * d.y});
+  out.first_angle_rad = laser.first_angle_rad();
+  out.angle_step_rad = laser.angle_step_rad();
+  out.range_max_m = device.range_max_m;
+  out.range_m.assign(directions_.size(), device.range_max_m);
+  obstacle_scene_.cast(at.position(), directions_, device.height_m, Scene::none, out.range_m);
+  body_scene_.cast(at.position(), directions_, device.height_m, static_cast<std::uint32_t>(id), out.range_m);
+  laser.measure(scan_number, out.range_m);
+}
+
+double FclWorld::cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const {
+  const auto [s, c] = exact::sincos(beam.heading_rad);
+  const Point direction = {c, s};
+  double range = range_max_m;
+  obstacle_scene_.cast(beam.origin, {&direction, 1}, beam.height_m, Scene::none, {&range, 1});
+  body_scene_.cast(beam.origin, {&direction, 1}, beam.height_m, own ? static_cast<std::uint32_t>(*own) : Scene::none,
+                   {&range, 1});
+  return range;
+}
+
+void FclWorld::find_corners() {
+  corners_.resize(obstacle_scene_.size());
+  std::vector<ConcaveCorner> found;
+  for (std::uint32_t i = 0; i < obstacle_scene_.size(); ++i) {
+    const Shape& shape = description_.obstacles[i].shape;
+    const Outline& outline = obstacle_scene_.outline(i);
+    if (!outline.is_box) continue;
+    obstacle_scene_.near(bounds_of(outline), shape.z_low_m, shape.z_high_m, near_);
+    for (const std::uint32_t j : near_) {
+      const Outline& other = obstacle_scene_.outline(j);
+      if (j <= i || !other.is_box) continue;
+      found.clear();
+      find_concave_corners(outline, other, found);
+      for (const ConcaveCorner& corner : found) corners_[i].push_back({corner, j});
+    }
+  }
+}
+
+void FclWorld::collect_surroundings(const Body& body, std::uint32_t own, const SonarRingDescription& ring) const {
+  const Point at = body.state.pose.position();
+  const Bounds reach = Bounds{at, at}.grown(ring.range_max_m + ring.ring_radius_m);
+  obstacle_scene_.near(reach, ring.height_m, ring.height_m, near_);
+  body_scene_.near(reach, ring.height_m, ring.height_m, near_bodies_);
+  std::erase(near_bodies_, own);
+}
+
+void FclWorld::sonar(BodyId id, std::size_t ring_number, std::uint64_t firing_number,
+                     std::vector<double>& range_m) const {
+  const Body& body = bodies_.at(index(id));
+  const SonarRingDescription& ring = body.description->sonars.at(ring_number);
+  const std::uint32_t own = static_cast<std::uint32_t>(id);
+  collect_surroundings(body, own, ring);
+  range_m.resize(ring.count);
+  for (std::uint32_t i = 0; i < ring.count; ++i) {
+    const Pose transducer = compose(body.state.pose, transducer_mount(ring, i));
+    const double distance = nearest_echo(SonarCone(ring, transducer), transducer.position(), ring.height_m, own);
+    range_m[i] = sonar_range_m(ring, distance, body.sonar_noise[ring_number].normal(firing_number, i));
+  }
+}
+
+double FclWorld::nearest_echo(const SonarCone& cone, Point origin, double height_m, std::uint32_t own) const {
+  echoes_.clear();
+  for (const std::uint32_t obstacle : near_) {
+    cone.add(obstacle_scene_.outline(obstacle), echoes_);
+    for (const auto& [corner, other] : corners_[obstacle]) {
+      if (obstacle_scene_.reaches(other, height_m)) cone.add(corner, echoes_);
+    }
+  }
+  for (const std::uint32_t other : near_bodies_) cone.add(body_scene_.outline(other), echoes_);
+  std::sort(echoes_.begin(), echoes_.end(), [](const Echo& a, const Echo& b) {
+    return std::tie(a.distance_m, a.direction.x, a.direction.y) < std::tie(b.distance_m, b.direction.x, b.direction.y);
+  });
+  for (const Echo& echo : echoes_) {
+    double clear_m = echo.distance_m;
+    obstacle_scene_.cast(origin, {&echo.direction, 1}, height_m, Scene::none, {&clear_m, 1});
+    body_scene_.cast(origin, {&echo.direction, 1}, height_m, own, {&clear_m, 1});
+    // What answers is itself hit at its own distance, but for rounding.
+    if (clear_m >= echo.distance_m - 1e-9) return echo.distance_m;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::unique_ptr<World> make_fcl_world(const WorldDescription& description, std::uint64_t seed) {
+  return std::make_unique<FclWorld>(description, seed);
+}
+
+}  // namespace waitpoint::world

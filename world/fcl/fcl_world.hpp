@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The world on FCL: its trees of bounding boxes find what is near, the planar geometry of upright shapes decides.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "world/world.hpp"
+
+namespace waitpoint::world {
+
+/// A world at its start. A body that overlaps an obstacle or another body (see start_overlaps) is a bug here: whoever
+/// read the description reports it as bad input.
+std::unique_ptr<World> make_fcl_world(const WorldDescription& description, std::uint64_t seed);
+
+}  // namespace waitpoint::world

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/fcl/scene.hpp"
+
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/narrowphase/collision.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+// With another alignment of Eigen's types than Debian's libfcl was built with, calls into it corrupt memory.
+static_assert(sizeof(fcl::CollisionObjectd) == 224, "Eigen is aligned otherwise than in the FCL library");
+
+using Node = fcl::detail::NodeBase<fcl::AABBd>;
+
+// Far above the rounding of coordinates (1e-10 m even a thousand kilometres from the origin) and of a ray's entry into
+// a bounding box, far below anything that would cost time.
+constexpr double padding_m = 1e-7;
+
+// Neighbouring rays meet much the same boxes: this many walk the tree together.
+constexpr std::size_t rays_together = 16;
+
+std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Shape& shape) {
+  const double height = shape.z_high_m - shape.z_low_m;
+  if (shape.kind == Shape::Kind::cylinder) return std::make_shared<fcl::Cylinderd>(shape.radius_m, height);
+  return std::make_shared<fcl::Boxd>(shape.length_m, shape.width_m, height);
+}
+
+fcl::Transform3d transform_of(const Outline& outline, double z_low_m, double z_high_m) {
+  fcl::Transform3d transform = fcl::Transform3d::Identity();
+  const double c = outline.axis_cos, s = outline.axis_sin;
+  transform.linear() << c, -s, 0, s, c, 0, 0, 0, 1;
+  transform.translation() << outline.centre.x, outline.centre.y, 0.5 * (z_low_m + z_high_m);
+  return transform;
+}
+
+class Solid : public fcl::CollisionObjectd {
+ public:
+  Solid(const Shape& shape, std::uint32_t number)
+      : fcl::CollisionObjectd(geometry_of(shape)), z_low_m(shape.z_low_m), z_high_m(shape.z_high_m), number(number) {
+    place(outline_of(shape));
+  }
+
+  void place(const Outline& where) {
+    outline = where;
+    setTransform(transform_of(where, z_low_m, z_high_m));
+  }
+  bool reaches(double height_m) const { return z_low_m <= height_m && height_m <= z_high_m; }
+
+  // FCL's own bounds of a turned box are those of a sphere around it, which for walls are far too wide.
+  void set_bounds(const Bounds& b) {
+    aabb = fcl::AABBd(fcl::Vector3d(b.low.x, b.low.y, z_low_m - padding_m),
+                      fcl::Vector3d(b.high.x, b.high.y, z_high_m + padding_m));
+  }
+  Bounds bounds() const { return {{aabb.min_[0], aabb.min_[1]}, {aabb.max_[0], aabb.max_[1]}}; }
+
+  Outline outline;
+  double z_low_m, z_high_m;
+  std::uint32_t number;
+};
+
+const Solid& solid_in(const Node* leaf) {
+  return *static_cast<const Solid*>(static_cast<const fcl::CollisionObjectd*>(leaf->data));
+}
+
+// Nodes left to visit. FCL keeps its trees balanced to within ten levels; this many is a bug.
+template <class Item>
+class Stack {
+ public:
+  bool empty() const { return size_ == 0; }
+  void push(const Item& item) {
+    WAITPOINT_CHECK(size_ < items_.size(), "a tree of bounding boxes far out of balance");
+    items_[size_++] = item;
+  }
+  Item pop() { return items_[--size_]; }
+
+ private:
+  std::array<Item, 256> items_;
+  std::size_t size_ = 0;
+};
+
+// A few neighbouring rays of a fan, from one origin, at most a right angle wide.
+struct Wedge {
+  Point origin, first, last;
+
+  // A lower bound of the squared distance at which one of the rays could meet the box; `no_hit` if they all pass it.
+  double entry(const fcl::AABBd& box) const {
+    const Point half = {0.5 * (box.max_[0] - box.min_[0]), 0.5 * (box.max_[1] - box.min_[1])};
+    const Point centre = {0.5 * (box.max_[0] + box.min_[0]) - origin.x, 0.5 * (box.max_[1] + box.min_[1]) - origin.y};
+    const double leftmost = cross(first, centre) + (std::fabs(first.x) * half.y + std::fabs(first.y) * half.x);
+    const double rightmost = cross(last, centre) - (std::fabs(last.x) * half.y + std::fabs(last.y) * half.x);
+    if (leftmost < 0 || rightmost > 0) return no_hit;
+    const double x = std::max(std::fabs(centre.x) - half.x, 0.0), y = std::max(std::fabs(centre.y) - half.y, 0.0);
+    return x * x + y * y;
+  }
+};
+
+struct Pending {
+  const Node* node;
+  double entry_m2;
+};
+
+}  // namespace
+
+struct Scene::Trees {
+  double margin_m;
+  std::vector<std::unique_ptr<Solid>> solids;
+  fcl::DynamicAABBTreeCollisionManagerd manager;
+
+  const Node* root() const { return manager.getTree().getRoot(); }
+
+  void cast(Point origin, std::span<const Point> directions, double height_m, std::uint32_t except,
+            std::span<double> ranges_m) const {
+    const Wedge wedge = {origin, directions.front(), directions.back()};
+    double farthest_m2 = farthest(ranges_m);
+    Stack<Pending> pending;
+    pending.push({root(), 0});
+    while (!pending.empty()) {
+      auto [node, entry_m2] = pending.pop();
+      if (entry_m2 > farthest_m2) continue;
+      while (node != nullptr && !node->isLeaf()) {
+        const Node *near = node->children[0], *far = node->children[1];
+        double near_m2 = wedge.entry(near->bv), far_m2 = wedge.entry(far->bv);
+        if (far_m2 < near_m2) {
+          std::swap(near, far);
+          std::swap(near_m2, far_m2);
+        }
+        if (far_m2 <= farthest_m2) pending.push({far, far_m2});
+        node = near_m2 <= farthest_m2 ? near : nullptr;
+      }
+      if (node == nullptr) continue;
+      const Solid& solid = solid_in(node);
+      if (solid.number == except || !solid.reaches(height_m)) continue;
+      for (std::size_t i = 0; i < directions.size(); ++i) {
+        ranges_m[i] = std::min(ranges_m[i], hit_distance(solid.outline, {origin, directions[i]}));
+      }
+      farthest_m2 = farthest(ranges_m);
+    }
+  }
+
+  static double farthest(std::span<const double> ranges_m) {
+    const double range = *std::max_element(ranges_m.begin(), ranges_m.end());
+    return range * range;
+  }
+};
+
+Scene::Scene(std::span<const Shape> shapes, double roam_m) : trees_(std::make_unique<Trees>()) {
+  trees_->margin_m = roam_m + padding_m;
+  std::vector<fcl::CollisionObjectd*> objects;
+  for (const Shape& shape : shapes) {
+    auto solid = std::make_unique<Solid>(shape, static_cast<std::uint32_t>(trees_->solids.size()));
+    solid->set_bounds(bounds_of(solid->outline).grown(trees_->margin_m));
+    objects.push_back(solid.get());
+    trees_->solids.push_back(std::move(solid));
+  }
+  trees_->manager.registerObjects(objects);
+}
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+std::uint32_t Scene::size() const { return static_cast<std::uint32_t>(trees_->solids.size()); }
+const Outline& Scene::outline(std::uint32_t solid) const { return trees_->solids[solid]->outline; }
+bool Scene::reaches(std::uint32_t solid, double height_m) const { return trees_->solids[solid]->reaches(height_m); }
+
+void Scene::place(std::uint32_t solid, const Outline& outline) {
+  Solid& s = *trees_->solids[solid];
+  s.place(outline);
+  const Bounds bounds = bounds_of(outline);
+  if (s.bounds().contains(bounds.grown(padding_m))) return;
+  s.set_bounds(bounds.grown(trees_->margin_m));
+  trees_->manager.update(&s);
+}
+
+void Scene::near(const Bounds& bounds, double z_low_m, double z_high_m, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  if (trees_->solids.empty()) return;
+  Stack<const Node*> pending;
+  pending.push(trees_->root());
+  while (!pending.empty()) {
+    const Node* node = pending.pop();
+    const fcl::AABBd& box = node->bv;
+    if (!bounds.overlaps({{box.min_[0], box.min_[1]}, {box.max_[0], box.max_[1]}})) continue;
+    if (!node->isLeaf()) {
+      pending.push(node->children[0]);
+      pending.push(node->children[1]);
+    } else if (const Solid& s = solid_in(node); s.z_low_m < z_high_m && z_low_m < s.z_high_m) {
+      found.push_back(s.number);
+    }
+  }
+  std::sort(found.begin(), found.end());
+}
+
+void Scene::cast(Point origin, std::span<const Point> directions, double height_m, std::uint32_t except,
+                 std::span<double> ranges_m) const {
+  WAITPOINT_CHECK(directions.size() == ranges_m.size(), "as many directions as ranges");
+  if (trees_->solids.empty()) return;
+  for (std::size_t first = 0; first < directions.size();) {
+    std::size_t count = 1;
+    while (count < rays_together && first + count < directions.size() &&
+           dot(directions[first], directions[first + count]) > 0) {
+      ++count;
+    }
+    trees_->cast(origin, directions.subspan(first, count), height_m, except, ranges_m.subspan(first, count));
+    first += count;
+  }
+}
+
+bool Scene::collides(const Shape& shape) const {
+  Solid probe(shape, none);
+  probe.set_bounds(bounds_of(probe.outline).grown(padding_m));
+  bool found = false;
+  trees_->manager.collide(&probe, &found, [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
+    fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    bool& hit = *static_cast<bool*>(data);
+    hit = hit || fcl::collide(a, b, request, result) > 0;
+    return hit;
+  });
+  return found;
+}
+
+}  // namespace waitpoint::world

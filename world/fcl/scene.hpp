@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Solids in FCL's dynamic tree of bounding boxes.
+//
+// FCL knows each solid twice: as its own geometry (box, cylinder), which its narrow phase can be asked about, and by a
+// bounding box, which its tree sorts. Rays and candidates come from an own walk of that tree (FCL 0.7 has no rays):
+// near child first, shrinking the ray to the nearest hit so far. The boxes are wider than the solids by more than any
+// rounding, so that culling never loses a hit that hit_distance() reports: results are those of asking every solid, to
+// the last bit, whatever the shape of the tree. Solids have own numbers, and results are in their order.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "world/planar/ray.hpp"
+
+namespace waitpoint::world {
+
+class Scene {
+ public:
+  static constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+  /// Solids numbered from 0. `roam_m` widens the bounding boxes of a scene whose solids move, so that most moves leave
+  /// the tree as it is.
+  explicit Scene(std::span<const Shape> shapes, double roam_m = 0);
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  std::uint32_t size() const;
+  const Outline& outline(std::uint32_t solid) const;
+  /// Whether the height is within the solid, its lower and upper face included.
+  bool reaches(std::uint32_t solid, double height_m) const;
+
+  /// Moves a solid; its heights stay.
+  void place(std::uint32_t solid, const Outline& outline);
+
+  /// The solids whose bounding boxes overlap the bounds and whose open height intervals overlap (z_low_m, z_high_m), in
+  /// ascending order; `found` is overwritten.
+  void near(const Bounds& bounds, double z_low_m, double z_high_m, std::vector<std::uint32_t>& found) const;
+
+  /// Casts a fan of rays at one height: each of `ranges_m` is the limit of its ray, and is lowered to the distance of
+  /// the nearest solid (other than `except`) if that is less. As many directions (of length 1) as ranges.
+  void cast(Point origin, std::span<const Point> directions, double height_m, std::uint32_t except,
+            std::span<double> ranges_m) const;
+
+  /// Whether a solid standing there would collide with any of the scene, by FCL's narrow phase.
+  bool collides(const Shape& shape) const;
+
+ private:
+  struct Trees;
+  std::unique_ptr<Trees> trees_;
+};
+
+}  // namespace waitpoint::world

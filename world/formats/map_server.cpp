@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/formats/map_server.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/nearest_name.hpp"
+#include "world/formats/grey_image.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+enum class Mode { trinary, scale, raw };
+
+struct MapFile {
+  std::string image;
+  double resolution_m = 0;
+  Pose origin;
+  bool negate = false;
+  double occupied_threshold = 0.65, free_threshold = 0.196;
+  Mode mode = Mode::trinary;
+};
+
+constexpr std::array<std::string_view, 7> known_keys = {"image",           "resolution",  "origin", "negate",
+                                                        "occupied_thresh", "free_thresh", "mode"};
+
+class MapFileReader {
+ public:
+  explicit MapFileReader(const std::string& file) : file_(file) {}
+
+  MapFile read() {
+    const YAML::Node root = load();
+    if (!root.IsMap()) fail(root, "expected a map's keys: image, resolution, origin, ...");
+    check_keys(root);
+    MapFile map;
+    map.image = text(required(root, "image"), "image");
+    map.resolution_m = number(required(root, "resolution"), "resolution");
+    if (!(map.resolution_m > 0)) fail(root["resolution"], "resolution: expected metres a pixel above 0");
+    map.origin = pose(required(root, "origin"));
+    if (root["negate"]) map.negate = flag(root["negate"]);
+    if (root["occupied_thresh"]) map.occupied_threshold = threshold(root, "occupied_thresh");
+    if (root["free_thresh"]) map.free_threshold = threshold(root, "free_thresh");
+    if (map.free_threshold > map.occupied_threshold) {
+      fail(root[root["free_thresh"] ? "free_thresh" : "occupied_thresh"], "expected free_thresh <= occupied_thresh");
+    }
+    if (root["mode"]) map.mode = mode(root["mode"]);
+    return map;
+  }
+
+ private:
+  [[noreturn]] void fail(const YAML::Node& at, const std::string& message) const {
+    throw BadInput(file_, std::max(at.Mark().line + 1, 1), message);
+  }
+
+  YAML::Node load() const {
+    std::ifstream in(file_, std::ios::binary);
+    if (!in || in.peek() == std::ifstream::traits_type::eof()) {
+      throw BadInput(file_, "expected a map_server YAML file, found no file or an empty one");
+    }
+    const std::string contents{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    try {
+      return YAML::Load(contents);
+    } catch (const YAML::Exception& e) {
+      throw BadInput(file_, std::max(e.mark.line + 1, 1), "expected YAML: " + e.msg);
+    }
+  }
+
+  void check_keys(const YAML::Node& root) const {
+    std::vector<std::string> seen;
+    for (const auto& entry : root) {
+      const std::string key = text(entry.first, "a key");
+      if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end()) {
+        fail(entry.first, "unknown key '" + key + "'" + did_you_mean(key, known_keys));
+      }
+      if (std::find(seen.begin(), seen.end(), key) != seen.end())
+        fail(entry.first, "the key '" + key + "' comes twice");
+      seen.push_back(key);
+    }
+  }
+
+  YAML::Node required(const YAML::Node& root, const char* key) const {
+    if (!root[key]) fail(root, std::string("expected the key '") + key + "'");
+    return root[key];
+  }
+
+  std::string text(const YAML::Node& node, const std::string& what) const {
+    if (!node.IsScalar() || node.Scalar().empty()) fail(node, what + ": expected a text");
+    return node.Scalar();
+  }
+
+  double number(const YAML::Node& node, const std::string& what) const {
+    double value = 0;
+    if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value)) {
+      fail(node, what + ": expected a number");
+    }
+    return value;
+  }
+
+  double threshold(const YAML::Node& root, const char* key) const {
+    const double value = number(root[key], key);
+    if (value < 0 || value > 1) fail(root[key], std::string(key) + ": expected a probability from 0 to 1");
+    return value;
+  }
+
+  Pose pose(const YAML::Node& node) const {
+    if (!node.IsSequence() || node.size() != 3) fail(node, "origin: expected [x, y, yaw] in metres and radians");
+    const Pose pose = {number(node[0], "origin"), number(node[1], "origin"), number(node[2], "origin")};
+    if (std::fabs(pose.heading) > 1e6) fail(node, "origin: expected a yaw in radians");
+    return pose;
+  }
+
+  bool flag(const YAML::Node& node) const {
+    const std::string value = text(node, "negate");
+    if (value == "0" || value == "false") return false;
+    if (value == "1" || value == "true") return true;
+    fail(node, "negate: expected 0 or 1");
+  }
+
+  Mode mode(const YAML::Node& node) const {
+    const std::string value = text(node, "mode");
+    if (value == "trinary") return Mode::trinary;
+    if (value == "scale") return Mode::scale;
+    if (value == "raw") return Mode::raw;
+    fail(node, "mode: expected trinary, scale or raw");
+  }
+
+  const std::string& file_;
+};
+
+Cell cell_of(const MapFile& map, int grey) {
+  const int darkness = map.negate ? grey : 255 - grey;
+  if (map.mode == Mode::raw && grey > 100) return Cell::unknown;
+  const double probability = map.mode == Mode::raw ? grey / 100.0 : darkness / 255.0;
+  if (probability > map.occupied_threshold) return Cell::occupied;
+  return probability < map.free_threshold ? Cell::free : Cell::unknown;
+}
+
+}  // namespace
+
+OccupancyGrid read_map_server_map(const std::string& yaml_file) {
+  const MapFile map = MapFileReader(yaml_file).read();
+  const GreyImage image =
+      read_grey_image((std::filesystem::path(yaml_file).parent_path() / map.image).lexically_normal().string());
+  std::array<Cell, 256> cells;
+  for (int grey = 0; grey < 256; ++grey) cells[static_cast<std::size_t>(grey)] = cell_of(map, grey);
+  OccupancyGrid grid(image.width, image.height, map.resolution_m, map.origin);
+  std::size_t pixel = 0;
+  for (int y = image.height - 1; y >= 0; --y) {
+    for (int x = 0; x < image.width; ++x, ++pixel) {
+      const bool hidden = map.mode == Mode::scale && !image.transparency.empty() && image.transparency[pixel] != 0;
+      grid[{x, y}] = hidden ? Cell::unknown : cells[image.grey[pixel]];
+    }
+  }
+  return grid;
+}
+
+}  // namespace waitpoint::world

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Netpbm grey maps: "P5" or "P2", width, height, greatest value (255), then the pixels; '#' starts a comment in the
+// head of either and anywhere in P2.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "world/formats/grey_image.hpp"
+
+namespace waitpoint::world {
+
+/// Reads the contents of a PGM file; `file` is its name, for messages. BadInput as read_grey_image().
+GreyImage parse_pgm(std::string_view contents, const std::string& file);
+
+}  // namespace waitpoint::world

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When two outlines that move along arcs first touch, so that nothing passes through anything at any speed.
+//
+// Conservative advancement on the exact planar distance, with a bound of second order: at a fraction t of the step, let
+// n be the direction from one to the other, and let every pair of core points k be g_k apart along n and approach at
+// the rate r_k. A point on an arc of length d and turn a, at most R from the centre of rotation, bends by at most
+// |d a| + a^2 R, so with M the sum of both, g_k - r_k x - M x^2 / 2 is a lower bound of the pair's gap a fraction x
+// later. The least root over k is safe to advance to; where both move straight it is the answer at once.
+//
+//   gap          what is there                              what a motion may do
+//   > 1 um       free                                       all, up to the gap of 1 um
+//   1/2 .. 1 um  contact: a body stops here                 open the gap or slide along; what closes it is a contact
+//   < 1/2 um     never reached by motion                    open the gap
+//
+// Times are fractions of the step. Touching is told by the gap, so that a stopped body is never found inside another.
+#pragma once
+
+#include <optional>
+
+#include "world/arc.hpp"
+#include "world/planar/separation.hpp"
+
+namespace waitpoint::world {
+
+/// A body stops this much before it would touch.
+inline constexpr double contact_gap_m = 1e-6;
+/// How exactly it stops there. Far above the rounding of coordinates, far below the gap.
+inline constexpr double contact_tolerance_m = 1e-9;
+
+/// An outline on its arc, over one step.
+class Mover {
+ public:
+  /// Something that stands still during the step.
+  explicit Mover(const Outline& still) : start_(still) {}
+  /// A body's shape (given in the body's frame) on the body's arc; `start` is its outline at the arc's start.
+  Mover(const Shape& shape, const Outline& start, const Arc& arc);
+
+  const Outline& start() const { return start_; }
+  Outline at(double fraction) const;
+  bool moves() const { return arc_.distance_m != 0 || arc_.turn_rad != 0; }
+  /// No point moves further than this in a whole step.
+  double path_m() const { return path_m_; }
+  /// No point's path, as a function of the fraction, has a second derivative above this, in m.
+  double bend_m() const { return bend_m_; }
+  /// Where the body's origin and heading are at that fraction.
+  Pose body_at(double fraction) const { return arc_.at(fraction); }
+  /// Velocity, in m per step, of the point `p` of the body when the body is at `body`.
+  Point velocity_of(Point p, const Pose& body) const;
+
+ private:
+  const Shape* shape_ = nullptr;
+  Outline start_;
+  Arc arc_;
+  double path_m_ = 0, bend_m_ = 0;
+};
+
+struct Contact {
+  double fraction = 0;
+  bool first_closes = false, second_closes = false;  ///< whose own motion closes the gap; one of them does
+};
+
+/// The first contact at or after the fraction `from`; none if there is none before the end of the step.
+/// For the same bits whatever the bodies are called, ask for (a, b) in an order that does not depend on names.
+std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from);
+
+}  // namespace waitpoint::world

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The horizontal section of an upright shape: an oriented box or a disc, ready for geometry.
+//
+// Both are one thing, a core with a radius around it: a box's core is the box itself with radius 0, a disc's core is
+// its centre. So distances are distances of cores less the radii, and a motion is followed by the core's points.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/pose.hpp"
+#include "world/description.hpp"
+
+namespace waitpoint::world {
+
+struct Outline {
+  Point centre;
+  double axis_cos = 1, axis_sin = 0;           ///< direction of the box's own x axis
+  double half_length_m = 0, half_width_m = 0;  ///< of the core; both 0 for a disc
+  double radius_m = 0;                         ///< around the core; 0 for a box
+  bool is_box = false;
+
+  /// The point `p` of the plane in the outline's own frame.
+  Point local(Point p) const {
+    const Point d = p - centre;
+    return {axis_cos * d.x + axis_sin * d.y, axis_cos * d.y - axis_sin * d.x};
+  }
+  /// A vector of the outline's own frame, in the plane.
+  Point outward(Point v) const { return {axis_cos * v.x - axis_sin * v.y, axis_sin * v.x + axis_cos * v.y}; }
+};
+
+/// The section of a shape that stands in the world frame.
+Outline outline_of(const Shape& shape);
+/// The section of a shape that is fixed to a body, with the body at `body`.
+Outline outline_of(const Shape& shape, const Pose& body);
+
+/// The points whose convex hull is the core: four corners counter-clockwise, or the centre.
+struct CorePoints {
+  std::array<Point, 4> points;
+  std::size_t count = 0;
+  const Point* begin() const { return points.data(); }
+  const Point* end() const { return points.data() + count; }
+};
+CorePoints core_points(const Outline& outline);
+
+/// An axis-parallel rectangle, closed.
+struct Bounds {
+  Point low, high;
+
+  Bounds grown(double margin_m) const {
+    return {{low.x - margin_m, low.y - margin_m}, {high.x + margin_m, high.y + margin_m}};
+  }
+  bool contains(const Bounds& b) const {
+    return low.x <= b.low.x && low.y <= b.low.y && b.high.x <= high.x && b.high.y <= high.y;
+  }
+  bool overlaps(const Bounds& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
+  }
+};
+/// The least bounds around the outline, but for rounding (below 1e-12 m within a kilometre of the origin).
+Bounds bounds_of(const Outline& outline);
+
+/// Whether two shapes share more than a height: shapes that stand on each other do not meet.
+inline bool heights_overlap(const Shape& a, const Shape& b) { return a.z_low_m < b.z_high_m && b.z_low_m < a.z_high_m; }
+
+}  // namespace waitpoint::world

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Two disjoint convex polygons are nearest at a corner of one of them, so eight distances from a point to a box are
+// enough; whether they are disjoint is decided by their four face directions (separating axis theorem), which also give
+// the least way apart where they are not.
+#include "world/planar/separation.hpp"
+
+#include <cmath>
+
+namespace waitpoint::world {
+namespace {
+
+Point reversed(Point v) { return {-v.x, -v.y}; }
+
+// From the point to the box's core; the normal points from the box to the point.
+Separation box_to_point(const Outline& box, Point point) {
+  const Point p = box.local(point);
+  const double beyond_x = std::fabs(p.x) - box.half_length_m, beyond_y = std::fabs(p.y) - box.half_width_m;
+  const Point side = {std::copysign(1.0, p.x), std::copysign(1.0, p.y)};
+  if (beyond_x > 0 && beyond_y > 0) {
+    const double distance = exact::hypot(beyond_x, beyond_y);
+    return {distance, box.outward({side.x * (beyond_x / distance), side.y * (beyond_y / distance)})};
+  }
+  if (beyond_x > beyond_y) return {beyond_x, box.outward({side.x, 0})};
+  return {beyond_y, box.outward({0, side.y})};
+}
+
+// The greatest separation of the boxes along a face direction of `a`: positive if one of these separates them.
+Separation face_separation(const Outline& a, const Outline& b) {
+  const Point d = a.local(b.centre);
+  const double c = std::fabs(a.axis_cos * b.axis_cos + a.axis_sin * b.axis_sin);
+  const double s = std::fabs(a.axis_cos * b.axis_sin - a.axis_sin * b.axis_cos);
+  const double gap_x = std::fabs(d.x) - a.half_length_m - (c * b.half_length_m + s * b.half_width_m);
+  const double gap_y = std::fabs(d.y) - a.half_width_m - (s * b.half_length_m + c * b.half_width_m);
+  if (gap_x > gap_y) return {gap_x, a.outward({std::copysign(1.0, d.x), 0})};
+  return {gap_y, a.outward({0, std::copysign(1.0, d.y)})};
+}
+
+Separation box_to_box(const Outline& a, const Outline& b) {
+  const Separation by_a = face_separation(a, b), by_b = face_separation(b, a);
+  const Separation widest =
+      by_a.distance_m >= by_b.distance_m ? by_a : Separation{by_b.distance_m, reversed(by_b.normal)};
+  if (widest.distance_m <= 0) return widest;
+  Separation nearest = {HUGE_VAL, {}};
+  for (const Point& corner : core_points(b)) {
+    const Separation s = box_to_point(a, corner);
+    if (s.distance_m < nearest.distance_m) nearest = s;
+  }
+  for (const Point& corner : core_points(a)) {
+    const Separation s = box_to_point(b, corner);
+    if (s.distance_m < nearest.distance_m) nearest = {s.distance_m, reversed(s.normal)};
+  }
+  return nearest;
+}
+
+Separation point_to_point(Point a, Point b) {
+  const Point d = b - a;
+  const double distance = length(d);
+  if (distance == 0) return {0, {1, 0}};
+  return {distance, {d.x / distance, d.y / distance}};
+}
+
+Separation of_cores(const Outline& a, const Outline& b) {
+  if (a.is_box) return b.is_box ? box_to_box(a, b) : box_to_point(a, b.centre);
+  if (!b.is_box) return point_to_point(a.centre, b.centre);
+  const Separation s = box_to_point(b, a.centre);
+  return {s.distance_m, reversed(s.normal)};
+}
+
+}  // namespace
+
+Separation separation(const Outline& a, const Outline& b) {
+  const Separation cores = of_cores(a, b);
+  return {cores.distance_m - a.radius_m - b.radius_m, cores.normal};
+}
+
+}  // namespace waitpoint::world

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/sensors/sonar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace waitpoint::world {
+namespace {
+
+struct Face {
+  Point start, end, normal;  // the normal points out of the box
+};
+
+std::array<Face, 4> faces(const Outline& box) {
+  const CorePoints p = core_points(box);
+  const Point along = box.outward({1, 0}), across = box.outward({0, 1});
+  const Point back = {-along.x, -along.y}, right = {-across.x, -across.y};
+  return {{{p.points[0], p.points[1], across},
+           {p.points[1], p.points[2], back},
+           {p.points[2], p.points[3], right},
+           {p.points[3], p.points[0], along}}};
+}
+
+// How near to each other two walls must come to make a corner, and how far each must go on beyond it.
+constexpr double meeting_m = 1e-6, beyond_m = 5e-3;
+
+bool on_face(const Face& face, Point p) {
+  const Point edge = face.end - face.start;
+  const double along = dot(p - face.start, edge), across = dot(p - face.start, face.normal);
+  const double span = dot(edge, edge), margin = meeting_m * std::sqrt(span);
+  return std::fabs(across) <= meeting_m && along >= -margin && along <= span + margin;
+}
+
+}  // namespace
+
+SonarCone::SonarCone(const SonarRingDescription& ring, const Pose& transducer)
+    : origin_(transducer.position()),
+      cosine_whole_(exact::cos(ring.half_cone_rad)),
+      cosine_half_(exact::cos(0.5 * ring.half_cone_rad)),
+      range_max_m_(ring.range_max_m) {
+  const auto [s, c] = exact::sincos(transducer.heading);
+  axis_ = {c, s};
+}
+
+void SonarCone::add_point(Point p, double cosine_min, double range_max_m, std::vector<Echo>& echoes) const {
+  const Point d = p - origin_;
+  const double distance = length(d);
+  if (distance == 0 || distance > range_max_m || dot(d, axis_) < cosine_min * distance) return;
+  echoes.push_back({distance, {d.x / distance, d.y / distance}});
+}
+
+void SonarCone::add_box(const Outline& box, std::vector<Echo>& echoes) const {
+  for (const Face& face : faces(box)) {
+    const double height = dot(origin_ - face.start, face.normal);
+    if (height > 0 && height <= range_max_m_ && -dot(face.normal, axis_) >= cosine_whole_) {
+      const Point edge = face.end - face.start;
+      const double along = dot(origin_ - face.start, edge);
+      if (along >= 0 && along <= dot(edge, edge)) echoes.push_back({height, {-face.normal.x, -face.normal.y}});
+    }
+    add_point(face.start, cosine_half_, 0.5 * range_max_m_, echoes);
+  }
+}
+
+void SonarCone::add(const Outline& outline, std::vector<Echo>& echoes) const {
+  // What lies wholly behind or too far needs no closer look.
+  const double extent = outline.half_length_m + outline.half_width_m + outline.radius_m;
+  const Point d = outline.centre - origin_;
+  if (dot(d, axis_) < -extent || dot(d, d) > (range_max_m_ + extent) * (range_max_m_ + extent)) return;
+  if (outline.is_box) return add_box(outline, echoes);
+  const std::size_t before = echoes.size();
+  add_point(outline.centre, cosine_whole_, range_max_m_ + outline.radius_m, echoes);
+  if (echoes.size() > before) echoes.back().distance_m = std::max(echoes.back().distance_m - outline.radius_m, 0.0);
+}
+
+void SonarCone::add(const ConcaveCorner& corner, std::vector<Echo>& echoes) const {
+  const Point d = origin_ - corner.at;
+  if (dot(d, corner.normal_1) <= 0 || dot(d, corner.normal_2) <= 0) return;
+  add_point(corner.at, cosine_whole_, range_max_m_, echoes);
+}
+
+void find_concave_corners(const Outline& a, const Outline& b, std::vector<ConcaveCorner>& corners) {
+  for (const Face& f : faces(a)) {
+    for (const Face& g : faces(b)) {
+      if (std::fabs(dot(f.normal, g.normal)) > 0.1) continue;
+      // The lines of the two faces meet at f.start + t (f.end - f.start).
+      const Point edge = f.end - f.start;
+      const double slope = dot(edge, g.normal);
+      if (slope == 0) continue;
+      const Point p = f.start + (dot(g.start - f.start, g.normal) / slope) * edge;
+      // Each wall goes on before the other, or the corner is none.
+      if (on_face(f, p) && on_face(g, p) && on_face(f, p + beyond_m * g.normal) &&
+          on_face(g, p + beyond_m * f.normal)) {
+        corners.push_back({p, f.normal, g.normal});
+      }
+    }
+  }
+}
+
+Pose transducer_mount(const SonarRingDescription& ring, std::uint32_t transducer) {
+  const double heading = exact::wrap_angle(2 * exact::pi * transducer / ring.count);
+  const auto [s, c] = exact::sincos(heading);
+  return {ring.ring_radius_m * c, ring.ring_radius_m * s, heading};
+}
+
+double sonar_range_m(const SonarRingDescription& ring, double distance_m, double normal) {
+  if (distance_m > ring.range_max_m) return ring.range_max_m;
+  const double range = distance_m * (1 + ring.range_noise_relative * normal);
+  return std::clamp(range, ring.range_min_m, ring.range_max_m);
+}
+
+RandomStream sonar_noise(std::uint64_t seed, std::string_view robot, std::size_t number) {
+  return RandomStream(seed, robot, "sonar " + std::to_string(number) + ".range");
+}
+
+}  // namespace waitpoint::world

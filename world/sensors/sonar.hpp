@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sonars with specular reflection: a smooth wall is a mirror to sound, so what answers is not what a ray hits.
+//
+//   wall            answers if the perpendicular on it from the transducer lies in the cone and on the wall; the range
+//   is
+//                   the perpendicular distance, not that along the axis
+//   cylinder        always has a surface facing the transducer: answers if the direction to its axis lies in the cone
+//   concave corner  sends sound back where it came from: answers over the whole cone
+//   convex edge     diffracts weakly: answers in the inner half of the cone, up to half of the greatest range
+//
+// After Kuc and Siegel (1987), simplified: each is either heard or not, the nearest visible one counts, echoes of more
+// than one reflection and cross-talk between transducers are left out, and only walls that meet at nearly a right angle
+// make a concave corner.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/random.hpp"
+#include "world/planar/outline.hpp"
+
+namespace waitpoint::world {
+
+/// Something that would answer a transducer if nothing stood before it.
+struct Echo {
+  double distance_m = 0;
+  Point direction;  ///< from the transducer, of length 1
+};
+
+/// Where two walls meet so that sound is thrown back; the normals point into the free space before it.
+struct ConcaveCorner {
+  Point at, normal_1, normal_2;
+};
+
+/// One transducer's field: what of the things it is shown answers.
+class SonarCone {
+ public:
+  SonarCone(const SonarRingDescription& ring, const Pose& transducer);
+
+  /// Shows an outline; appends its possible echoes.
+  void add(const Outline& outline, std::vector<Echo>& echoes) const;
+  void add(const ConcaveCorner& corner, std::vector<Echo>& echoes) const;
+
+ private:
+  void add_box(const Outline& box, std::vector<Echo>& echoes) const;
+  void add_point(Point p, double cosine_min, double range_max_m, std::vector<Echo>& echoes) const;
+
+  Point origin_, axis_;
+  double cosine_whole_, cosine_half_;  // of the cone's half angle, and of half of that
+  double range_max_m_;
+};
+
+/// The concave corners between two boxes that touch or overlap; appends to `corners`.
+void find_concave_corners(const Outline& a, const Outline& b, std::vector<ConcaveCorner>& corners);
+
+/// The transducer's pose in the body's frame.
+Pose transducer_mount(const SonarRingDescription& ring, std::uint32_t transducer);
+
+/// The measured range of an echo at `distance_m` (infinite: none), given a standard normal draw.
+double sonar_range_m(const SonarRingDescription& ring, double distance_m, double normal);
+
+/// The stream (seed, robot, "sonar <number>.range") of a ring's noise: tick = number of the firing, index = transducer.
+RandomStream sonar_noise(std::uint64_t seed, std::string_view robot, std::size_t number);
+
+}  // namespace waitpoint::world

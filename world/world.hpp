@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The world server: what the bridge sees of a world, so that another engine can take its place.
+//
+// The world advances in steps of one period. Within step k, in this order:
+//
+//   latch    the commands given since step k - 1; each velocity changes by at most acceleration times the period
+//   move     every body along its arc, to its first contact, found with the arcs of both bodies
+//   publish  {pose, arc}
+//   sense    odometers and batteries; and, whenever asked before step k + 1, scans
+//
+// Sensors see their own body as it is now and the other bodies as published at step k - 1, so that the order in which
+// bodies are asked (or where they are simulated) cannot matter. Before the first step, everything is where it starts.
+//
+// The order and the names of the bodies do not change what happens; the name only chooses a body's random streams.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "core/time.hpp"
+#include "world/arc.hpp"
+#include "world/description.hpp"
+
+namespace waitpoint::world {
+
+/// A body, by its position in WorldDescription::bodies.
+enum class BodyId : std::uint32_t {};
+constexpr std::size_t index(BodyId id) { return static_cast<std::size_t>(id); }
+
+/// The truth about a body, as published by the last step.
+struct BodyState {
+  Pose pose;
+  Arc arc;  ///< of the last step: from the pose of the step before to this one, shorter than commanded after a contact
+  Velocity velocity;             ///< now; zero after a contact
+  bool stalled = false;          ///< the last motion tried was stopped or refused by a contact
+  std::uint64_t collisions = 0;  ///< transitions from free to stalled
+  double travelled_m = 0;        ///< sum of the lengths of the arcs
+
+  static constexpr auto fields() {
+    return std::tuple(field("pose", &BodyState::pose), field("arc", &BodyState::arc),
+                      field("velocity", &BodyState::velocity), field("stalled", &BodyState::stalled),
+                      field("collisions", &BodyState::collisions), field("travelled_m", &BodyState::travelled_m));
+  }
+};
+
+/// What a base's controller measures. Travel and turn are accumulated since the start in the controller's own units
+/// (OdometryErrors::units_per_m, units_per_rad).
+struct OdometerReading {
+  std::int64_t travel_units = 0, turn_units = 0;
+  Velocity velocity;  ///< measured over the last step
+
+  static constexpr auto fields() {
+    return std::tuple(field("travel_units", &OdometerReading::travel_units),
+                      field("turn_units", &OdometerReading::turn_units), field("velocity", &OdometerReading::velocity));
+  }
+};
+
+/// One scan of a laser, counter-clockwise, in the device's frame. Reused between scans, it allocates only once.
+struct LaserScan {
+  double first_angle_rad = 0, angle_step_rad = 0;
+  double range_max_m = 0;       ///< a beam without echo reads this
+  std::vector<double> range_m;  ///< as measured: with noise, quantised
+};
+
+/// A half line in the horizontal plane at `height_m`, in the world frame.
+struct Beam {
+  Point origin;
+  double heading_rad = 0;
+  double height_m = 0;
+};
+
+class World {
+ public:
+  virtual ~World() = default;
+
+  virtual const WorldDescription& description() const = 0;
+
+  /// Sets the velocity that the body tries to reach and hold, from the next step on. Velocities beyond the base's
+  /// limits are clamped to them; NaN is a bug.
+  virtual void command(BodyId id, Velocity velocity) = 0;
+  /// Advances by one period.
+  virtual void step() = 0;
+  /// Steps done since the start: the world is at steps() times description().step.
+  virtual std::uint64_t steps() const = 0;
+  /// Back to the start, with the random streams of another seed (or the same).
+  virtual void reset(std::uint64_t seed) = 0;
+
+  virtual const BodyState& body(BodyId id) const = 0;
+  virtual const OdometerReading& odometer(BodyId id) const = 0;
+  virtual double battery_volts(BodyId id) const = 0;
+
+  /// Scans with the body's laser number `laser`. The noise of beam i is drawn at (scan_number, i): the same scan asked
+  /// twice is the same.
+  virtual void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const = 0;
+  /// Fires every sonar of the body's ring number `ring`, the first straight ahead, counter-clockwise; no echo reads the
+  /// ring's greatest range. `range_m` is resized to the ring. Noise as for scan().
+  virtual void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const = 0;
+  /// The distance along the beam to the first obstacle or body as a sensor of the body `own` sees them (all bodies as
+  /// published at the last step but one, without `own`), without noise; range_max_m if there is none nearer.
+  virtual double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own = std::nullopt) const = 0;
+};
+
+}  // namespace waitpoint::world
