@@ -11,7 +11,7 @@
 
 namespace waitpoint::genom {
 
-inline constexpr std::size_t payload_bytes_max = 256;
+inline constexpr std::size_t payload_bytes_max = 1024;
 
 /// For requests without input or output.
 struct Nothing {

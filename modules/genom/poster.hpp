@@ -62,6 +62,10 @@ class Poster : public PosterBase {
     return PosterStatus::ok;
   }
 
+  /// The value for an observer outside the run, null if there is none yet: no event, no lock. Only while no task runs,
+  /// or from one that is no part of the robot's software.
+  const T* look() const { return writes_ > 0 ? &value_ : nullptr; }
+
  private:
   T value_{};
 };

@@ -46,8 +46,8 @@ struct Running {
 template <HasFields In, HasFields Out = Nothing>
 struct Codels {
   using Codel = std::function<State(Running<In, Out>& activity)>;
-  std::function<Report(const In& input)> control;  ///< may refuse the request before anything happens
-  Codel start, exec, end, fail, inter;
+  std::function<Report(const In& input)> control = nullptr;  ///< may refuse the request before anything happens
+  Codel start = nullptr, exec = nullptr, end = nullptr, fail = nullptr, inter = nullptr;
 };
 
 namespace internal {

@@ -27,6 +27,10 @@ class Settings {
   /// Throws BadInput for the first setting that nothing has read.
   void check_all_used() const;
 
+  template <HasFields T>
+  void read_one(const std::string& key, T& values) {
+    read(values, key + ".");
+  }
   void read_one(const std::string& key, double& value);
   void read_one(const std::string& key, bool& value);
   void read_one(const std::string& key, std::string& value);

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/bridge/body_reader.hpp"
+
+#include <algorithm>
+
+#include "modules/bridge/shape_reader.hpp"
+#include "modules/posters/base.hpp"
+#include "modules/posters/laser.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+using namespace std::chrono_literals;
+
+world::OdometryErrors read_odometry(const YamlNode& node) {
+  const YamlMap map(node, "the odometry",
+                    {"travel_scale", "turn_scale", "drift_rad_per_m", "travel_noise_m_per_sqrt_m",
+                     "turn_noise_rad_per_sqrt_m", "turn_noise_rad_per_sqrt_rad", "units_per_m", "units_per_rad"});
+  world::OdometryErrors errors;
+  errors.travel_scale = map.number("travel_scale", positive_number, errors.travel_scale);
+  errors.turn_scale = map.number("turn_scale", positive_number, errors.turn_scale);
+  errors.drift_rad_per_m = map.number("drift_rad_per_m", any_number, errors.drift_rad_per_m);
+  errors.travel_noise_m_per_sqrt_m =
+      map.number("travel_noise_m_per_sqrt_m", number_from_zero, errors.travel_noise_m_per_sqrt_m);
+  errors.turn_noise_rad_per_sqrt_m =
+      map.number("turn_noise_rad_per_sqrt_m", number_from_zero, errors.turn_noise_rad_per_sqrt_m);
+  errors.turn_noise_rad_per_sqrt_rad =
+      map.number("turn_noise_rad_per_sqrt_rad", number_from_zero, errors.turn_noise_rad_per_sqrt_rad);
+  errors.units_per_m = map.number("units_per_m", positive_number, errors.units_per_m);
+  errors.units_per_rad = map.number("units_per_rad", positive_number, errors.units_per_rad);
+  return errors;
+}
+
+world::BaseDescription read_base(const YamlNode& node) {
+  using Kind = world::BaseDescription::Kind;
+  const YamlMap map(
+      node, "the base",
+      {"kind", "v_max_m_s", "w_max_rad_s", "v_acceleration_m_s2", "w_acceleration_rad_s2", "axle_m", "odometry",
+       "battery_volts_full", "battery_volts_empty", "battery_capacity_s", "battery_capacity_m"});
+  world::BaseDescription base;
+  base.kind = map.one_of("kind", {"differential", "synchro"}, 1) == 0 ? Kind::differential : Kind::synchro;
+  base.v_max_m_s = map.number("v_max_m_s", positive_number, base.v_max_m_s);
+  base.w_max_rad_s = map.number("w_max_rad_s", positive_number, base.w_max_rad_s);
+  base.v_acceleration_m_s2 = map.number("v_acceleration_m_s2", positive_number, base.v_acceleration_m_s2);
+  base.w_acceleration_rad_s2 = map.number("w_acceleration_rad_s2", positive_number, base.w_acceleration_rad_s2);
+  base.axle_m = map.number("axle_m", positive_number, base.axle_m);
+  if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry);
+  base.battery_volts_full = map.number("battery_volts_full", positive_number, base.battery_volts_full);
+  base.battery_volts_empty = map.number("battery_volts_empty", positive_number, base.battery_volts_empty);
+  base.battery_capacity_s = map.number("battery_capacity_s", positive_number, base.battery_capacity_s);
+  base.battery_capacity_m = map.number("battery_capacity_m", positive_number, base.battery_capacity_m);
+  return base;
+}
+
+world::LaserDescription read_laser(const YamlMap& map) {
+  world::LaserDescription laser;
+  if (const YamlNode* mount = map.find("mount")) laser.mount = read_pose(*mount, "mount");
+  laser.height_m = map.number("height_m", number_from_zero, laser.height_m);
+  laser.beams = static_cast<std::uint32_t>(map.count("beams", 2, posters::beam_count_max, laser.beams));
+  constexpr NumberRange fan{least_positive, 360, "degrees above 0, at most 360"};
+  laser.field_of_view_rad = map.degrees("field_of_view_deg", fan, laser.field_of_view_rad);
+  laser.range_max_m = map.number("range_max_m", positive_number, laser.range_max_m);
+  laser.range_noise_m = map.number("range_noise_m", number_from_zero, laser.range_noise_m);
+  laser.range_bias_m = map.number("range_bias_m", any_number, laser.range_bias_m);
+  laser.resolution_m = map.number("resolution_m", positive_number, laser.resolution_m);
+  laser.period = map.duration("period_ms", 1ms, laser.period);
+  return laser;
+}
+
+world::SonarRingDescription read_sonar_ring(const YamlNode& node) {
+  const YamlMap map(node, "a ring of sonars",
+                    {"count", "ring_radius_m", "height_m", "half_cone_deg", "range_min_m", "range_max_m",
+                     "range_noise_relative", "period_ms"});
+  world::SonarRingDescription ring;
+  ring.count = static_cast<std::uint32_t>(map.count("count", 1, posters::sonar_count_max, ring.count));
+  ring.ring_radius_m = map.number("ring_radius_m", number_from_zero, ring.ring_radius_m);
+  ring.height_m = map.number("height_m", number_from_zero, ring.height_m);
+  constexpr NumberRange cone{least_positive, 90, "degrees above 0, at most 90"};
+  ring.half_cone_rad = map.degrees("half_cone_deg", cone, ring.half_cone_rad);
+  ring.range_min_m = map.number("range_min_m", number_from_zero, ring.range_min_m);
+  ring.range_max_m = map.number("range_max_m", positive_number, ring.range_max_m);
+  if (ring.range_max_m <= ring.range_min_m) throw node.written.bad("expected range_max_m to be above range_min_m");
+  ring.range_noise_relative = map.number("range_noise_relative", number_from_zero, ring.range_noise_relative);
+  ring.period = map.duration("period_ms", 1ms, ring.period);
+  return ring;
+}
+
+}  // namespace
+
+BodyReading read_body(const YamlMap& robot) {
+  BodyReading reading;
+  reading.body.shape = read_body_shape(robot.require("shape"));
+  if (const YamlNode* base = robot.find("base")) reading.body.base = read_base(*base);
+  if (const YamlNode* lasers = robot.find("lasers")) {
+    for (const YamlNode& item : read_list(*lasers, "lasers")) {
+      const YamlMap map(item, "a laser",
+                        {"name", "mount", "height_m", "beams", "field_of_view_deg", "range_max_m", "range_noise_m",
+                         "range_bias_m", "resolution_m", "period_ms"});
+      const std::string name = map.text("name", "laser");
+      if (std::count(reading.laser_names.begin(), reading.laser_names.end(), name) > 0) {
+        throw item.written.bad("expected lasers of different names, '" + name + "' is there already");
+      }
+      reading.laser_names.push_back(name);
+      reading.body.lasers.push_back(read_laser(map));
+    }
+  }
+  if (const YamlNode* sonars = robot.find("sonars")) {
+    for (const YamlNode& item : read_list(*sonars, "sonars")) reading.body.sonars.push_back(read_sonar_ring(item));
+  }
+  return reading;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A robot's body as a scenario writes it: `shape`, `base` with its odometry's errors and its battery, `lasers`,
+// `sonars`. The keys are the names of the fields in world/description.hpp, angles in degrees where the key says so;
+// what is left out has the value given there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "modules/bridge/yaml_reader.hpp"
+#include "world/description.hpp"
+
+namespace waitpoint::bridge {
+
+struct BodyReading {
+  world::BodyDescription body;           ///< without name and start
+  std::vector<std::string> laser_names;  ///< in the order of body.lasers; "laser" where the scenario gives none
+};
+
+/// Reads the four keys from a map that knows them.
+BodyReading read_body(const YamlMap& robot);
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/bridge/evaluation.hpp"
+
+#include <algorithm>
+
+namespace waitpoint::bridge {
+namespace {
+
+constexpr Duration sampling = std::chrono::milliseconds(100);
+
+}  // namespace
+
+void Evaluation::connect(const genom::NameSpace& names) {
+  fused_ = dynamic_cast<const genom::Poster<posters::FusedPosition>*>(names.find_poster("pom.position"));
+  odometry_ = dynamic_cast<const genom::Poster<posters::Odometry>*>(names.find_poster("rflex.odometry"));
+}
+
+void Evaluation::sample(std::vector<DatedPose>& path, Time date, const Pose& pose) {
+  if (path.empty() || date - path.back().date >= sampling) path.push_back({date, pose});
+}
+
+void Evaluation::observe(Time now, const world::BodyState& truth) {
+  truth_.add(now, truth.pose);
+  sample(true_path_, now, truth.pose);
+  const auto error_m = [this](const posters::PositionEstimate& estimate) {
+    return length(estimate.pose.position() - truth_.at(estimate.date).position());
+  };
+  if (const posters::FusedPosition* fused = fused_ != nullptr ? fused_->look() : nullptr;
+      fused != nullptr && fused->position.date != fused_date_ && fused->position.date <= now) {
+    fused_date_ = fused->position.date;
+    const double error = error_m(fused->position);
+    ++fused_count_;
+    fused_error_sum_m_ += error;
+    fused_error_max_m_ = std::max(fused_error_max_m_, error);
+    sample(fused_path_, fused_date_, fused->position.pose);
+  }
+  // Until the robot knows where it is, its odometry is in no frame.
+  if (const posters::Odometry* odometry = odometry_ != nullptr ? odometry_->look() : nullptr;
+      odometry != nullptr && fused_count_ > 0 && odometry->position.date != odometry_date_) {
+    odometry_date_ = odometry->position.date;
+    odometry_error_m_ = error_m(odometry->position);
+    odometry_error_max_m_ = std::max(odometry_error_max_m_, odometry_error_m_);
+    sample(odometry_path_, odometry_date_, odometry->position.pose);
+  }
+}
+
+void Evaluation::write(RobotResult& result) const {
+  result.position_error_mean_m = fused_count_ > 0 ? fused_error_sum_m_ / static_cast<double>(fused_count_) : 0;
+  result.position_error_max_m = fused_error_max_m_;
+  result.odometry_error_max_m = odometry_error_max_m_;
+  result.odometry_error_end_m = odometry_error_m_;
+  result.true_path = true_path_;
+  result.estimated_path = fused_path_;
+  result.odometry_path = odometry_path_;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/bridge/robot.hpp"
+
+#include <algorithm>
+
+#include "core/nearest_name.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+// Runs what may find bad input, and adds where the scenario asked for it.
+template <class Function>
+void at(const Location& written, Function&& function) {
+  try {
+    function();
+  } catch (const BadInput& error) {
+    throw written.bad(error.what());
+  }
+}
+
+double radius_m(const world::Shape& shape) {
+  const Point centre = shape.pose.position();
+  if (shape.kind == world::Shape::Kind::cylinder) return length(centre) + shape.radius_m;
+  return length(centre) + 0.5 * exact::hypot(shape.length_m, shape.width_m);
+}
+
+executive::OccupancyGrid planner_grid(const OccupancyGrid& map) {
+  executive::OccupancyGrid grid;
+  grid.width = map.width();
+  grid.height = map.height();
+  grid.resolution_m = map.resolution_m();
+  grid.origin = map.origin();
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x) grid.cells.push_back(static_cast<executive::CellState>(map[{x, y}]));
+  return grid;
+}
+
+}  // namespace
+
+Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
+             world::World& world, world::BodyId body)
+    : scenario_(scenario), world_(world), body_(body), bridge_(scenario, world, body, names_) {
+  make_modules(types);
+  if (!scenario.goals.empty()) make_executive(map);
+  connect();
+}
+
+void Robot::make_modules(std::span<const genom::ModuleType> types) {
+  for (const ModuleScenario& module : scenario_.modules) {
+    if (!module.enabled) continue;
+    const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == module.type; });
+    if (type == types.end()) {
+      std::vector<std::string_view> known;
+      for (const genom::ModuleType& t : types) known.push_back(t.name);
+      throw module.written.bad("unknown module type '" + module.type + "'" + did_you_mean(module.type, known));
+    }
+    genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings)};
+    std::unique_ptr<genom::Module> made;
+    // Errors of settings know their own line; others are about the module as a whole.
+    try {
+      made = type->make(setup);
+      setup.settings.check_all_used();
+    } catch (const BadInput& error) {
+      if (error.line() > 0 || error.file().starts_with("--set")) throw;
+      throw module.written.bad(error.what());
+    }
+    modules_.push_back(std::move(made));
+    module_scenarios_.push_back(&module);
+  }
+}
+
+void Robot::make_executive(const OccupancyGrid& map) {
+  executive::Parameters parameters;
+  parameters.planning.robot_radius_m = radius_m(scenario_.body.shape);
+  genom::Settings settings(scenario_.executive);
+  settings.read(parameters);
+  settings.check_all_used();
+  std::vector<Point> goals;
+  for (const Goal& goal : scenario_.goals) goals.push_back(goal.position);
+  posters::KnownPose start;
+  start.pose = scenario_.body.start;
+  executive_.emplace(names_, parameters, planner_grid(map), start, std::move(goals));
+}
+
+void Robot::connect() {
+  bridge_.connect();
+  for (std::size_t i = 0; i < modules_.size(); ++i) at(module_scenarios_[i]->written, [&] { modules_[i]->connect(); });
+  if (executive_) at(scenario_.written, [&] { executive_->connect(); });
+  evaluation_.connect(names_);
+}
+
+void Robot::spawn(Simulation& simulation) {
+  kernel::Robot& lane = simulation.add_robot(scenario_.name);
+  lane_ = &lane;
+  simulation.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true}, [this] { bridge_.run(); });
+  const bool has_goals = executive_.has_value();
+  simulation.spawn(lane, {.name = "executive", .stack = kernel::StackSize::large, .service = !has_goals},
+                   [this, has_goals] {
+                     for (const auto& module : modules_) module->start();
+                     if (has_goals) executive_->run();
+                   });
+}
+
+void Robot::stepped(Time now) {
+  if (!lane_->ended) evaluation_.observe(now, world_.body(body_));
+  bridge_.stepped();
+}
+
+std::size_t Robot::goals_ended() const {
+  if (!executive_) return 0;
+  const auto& reports = executive_->reports();
+  return static_cast<std::size_t>(std::count_if(reports.begin(), reports.end(), [](auto& r) { return r.ended; }));
+}
+
+std::optional<Duration> Robot::least_period() const {
+  std::optional<Duration> least;
+  for (const auto& module : modules_)
+    for (const genom::ExecutionTask& task : module->tasks())
+      if (task.periodic() && (!least || task.options().period_ms < *least)) least = task.options().period_ms;
+  return least;
+}
+
+RobotResult Robot::result() const {
+  RobotResult result;
+  result.name = scenario_.name;
+  result.digest = lane_->digest;
+  result.shape = scenario_.body.shape;
+  for (std::size_t i = 0; i < scenario_.goals.size(); ++i) {
+    const executive::GoalReport& report = executive_->reports()[i];
+    result.goals.push_back(
+        {scenario_.goals[i].position, scenario_.goals[i].name, report.reached, report.date, report.text});
+  }
+  const world::BodyState& body = world_.body(body_);
+  result.collisions = body.collisions;
+  result.distance_m = body.travelled_m;
+  evaluation_.write(result);
+  const auto* map = dynamic_cast<const genom::Poster<posters::SegmentMap>*>(names_.find_poster("segloc.map"));
+  if (const posters::SegmentMap* segments = map != nullptr ? map->look() : nullptr; segments != nullptr)
+    for (const posters::MapSegment& segment : segments->items) result.segments.push_back({segment.start, segment.end});
+  return result;
+}
+
+}  // namespace waitpoint::bridge

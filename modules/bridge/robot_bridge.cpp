@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/bridge/robot_bridge.hpp"
+
+#include <algorithm>
+
+#include "core/nearest_name.hpp"
+
+namespace waitpoint::bridge {
+
+RobotBridge::RobotBridge(const RobotScenario& robot, world::World& world, world::BodyId body, genom::NameSpace& names)
+    : robot_(robot), world_(world), body_(body), names_(names), lasers_(robot.body.lasers.size()) {
+  for (std::size_t i = 0; i < lasers_.size(); ++i) {
+    lasers_[i].number = i;
+    lasers_[i].description = robot.body.lasers[i];
+  }
+  rows_.reserve(robot.bridge.size());
+  for (const BridgeRow& row : robot.bridge) add_row(row);
+}
+
+void RobotBridge::add_row(const BridgeRow& scenario) {
+  for (const Row& other : rows_)
+    if (other.scenario.device == scenario.device)
+      throw scenario.written.bad("device '" + scenario.device + "' is in the table already, at " +
+                                 other.scenario.written.text());
+  rows_.push_back({scenario, nullptr, nullptr});
+  Row& row = rows_.back();
+  const std::size_t dot = scenario.device.rfind('.');
+  const std::string device = scenario.device.substr(0, dot);
+  const std::string value = dot == std::string::npos ? "" : scenario.device.substr(dot + 1);
+  const auto laser = std::find(robot_.laser_names.begin(), robot_.laser_names.end(), device);
+  if (value == "command" || value == "reading") {
+    if (device == "base") return add_base_row(row, value);
+    if (laser != robot_.laser_names.end())
+      return add_laser_row(row, lasers_[static_cast<std::size_t>(laser - robot_.laser_names.begin())], value);
+  }
+  std::vector<std::string> known = {"base.command", "base.reading"};
+  for (const std::string& name : robot_.laser_names) {
+    known.push_back(name + ".command");
+    known.push_back(name + ".reading");
+  }
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  throw scenario.written.bad("this robot has no device value '" + scenario.device + "'" +
+                             did_you_mean(scenario.device, views));
+}
+
+template <class T>
+void RobotBridge::read_command(Row& row, std::function<void(const T&)> take) {
+  row.connect = [&row, take = std::move(take)](genom::PosterBase& base) {
+    auto* poster = dynamic_cast<genom::Poster<T>*>(&base);
+    if (poster == nullptr)
+      throw row.scenario.written.bad("poster '" + base.name() + "' is not what device '" + row.scenario.device +
+                                     "' takes");
+    row.exchange = [poster, take] {
+      T command;
+      if (poster->read(command) == genom::PosterStatus::ok) take(command);
+    };
+  };
+}
+
+void RobotBridge::add_base_row(Row& row, const std::string& value) {
+  if (value == "command") {
+    return read_command<posters::BaseCommand>(row, [this](const posters::BaseCommand& command) {
+      world_.command(body_, {command.v_m_s, command.w_rad_s});
+      sonars_on_ = command.sonars_on;
+    });
+  }
+  auto& poster = names_.create_poster<posters::BaseReading>(row.scenario.poster, "the bridge");
+  row.exchange = [this, &poster] {
+    if (!due(base_report_period)) return;
+    const world::OdometerReading& odometer = world_.odometer(body_);
+    posters::BaseReading reading;
+    reading.date = threads::now();
+    reading.travel_units = odometer.travel_units;
+    reading.turn_units = odometer.turn_units;
+    reading.v_m_s = odometer.velocity.v_m_s;
+    reading.w_rad_s = odometer.velocity.w_rad_s;
+    reading.battery_volts = world_.battery_volts(body_);
+    reading.stalled = world_.body(body_).stalled;
+    if (sonars_on_ && !robot_.body.sonars.empty()) {
+      world_.sonar(body_, 0, step_, sonar_m_);
+      for (const double range : sonar_m_) reading.sonar_m.push_back(range);
+    }
+    poster.write(reading);
+  };
+}
+
+void RobotBridge::add_laser_row(Row& row, Laser& laser, const std::string& value) {
+  if (value == "command") {
+    return read_command<posters::LaserCommand>(
+        row, [&laser](const posters::LaserCommand& command) { laser.on = command.on; });
+  }
+  auto& poster = names_.create_poster<posters::LaserReading>(row.scenario.poster, "the bridge");
+  row.exchange = [this, &laser, &poster] {
+    if (!laser.on || !due(laser.description.period)) return;
+    posters::LaserReading& reading = laser.reading;
+    ++reading.number;
+    world_.scan(body_, laser.number, reading.number, laser.scan);
+    reading.date = threads::now();
+    reading.first_angle_rad = laser.scan.first_angle_rad;
+    reading.angle_step_rad = laser.scan.angle_step_rad;
+    reading.range_max_m = laser.scan.range_max_m;
+    reading.range_m.clear();
+    for (const double range : laser.scan.range_m) reading.range_m.push_back(static_cast<float>(range));
+    poster.write(reading);
+  };
+}
+
+void RobotBridge::connect() {
+  for (Row& row : rows_) {
+    if (row.connect == nullptr) continue;
+    genom::PosterBase* poster = names_.find_poster(row.scenario.poster);
+    if (poster == nullptr) {
+      std::vector<std::string_view> known;
+      for (const auto& [name, entry] : names_.posters()) known.push_back(name);
+      throw row.scenario.written.bad("poster '" + row.scenario.poster + "', which no module writes" +
+                                     did_you_mean(row.scenario.poster, known));
+    }
+    row.connect(*poster);
+  }
+}
+
+// Whether a multiple of `period` lies in the step just made.
+bool RobotBridge::due(Duration period) const {
+  const Duration step = world_.description().step;
+  const Duration now = step * static_cast<std::int64_t>(step_);
+  return step_ == 0 || now / period > (now - step) / period;
+}
+
+void RobotBridge::run() {
+  static constexpr std::uint64_t body_state = 0x626F6479;  // "body"
+  for (;; ++step_) {
+    threads::record(body_state, world_.body(body_));
+    for (const Row& row : rows_)
+      if (row.exchange != nullptr) row.exchange();
+    stepped_.acquire();
+  }
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bridge of one robot: maps its hardware posters to values of the world, by the scenario's table.
+//
+//   device value            poster type       direction
+//   base.command            BaseCommand       poster -> world
+//   base.reading            BaseReading       world -> poster
+//   <laser's name>.command  LaserCommand      poster -> world
+//   <laser's name>.reading  LaserReading      world -> poster
+//
+// Another world, or another device, is another row here: no module knows. The bridge is a task of its robot in the
+// world's phase: after each step it records the body's state, gives the readings that are due, and takes the commands
+// for the next step.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fibers/sync/threads.hpp"
+#include "modules/bridge/scenario.hpp"
+#include "modules/genom/name_space.hpp"
+#include "modules/posters/base.hpp"
+#include "modules/posters/laser.hpp"
+#include "world/world.hpp"
+
+namespace waitpoint::bridge {
+
+/// How often a base's controller reports (RFLEX: the period asked for with its system report).
+inline constexpr Duration base_report_period = std::chrono::milliseconds(20);
+
+class RobotBridge {
+ public:
+  /// Creates the posters of the readings. A row of an unknown device or a device given twice is BadInput.
+  RobotBridge(const RobotScenario& robot, world::World& world, world::BodyId body, genom::NameSpace& names);
+
+  /// Finds the posters of the commands, once the modules are made. One that no module writes is BadInput.
+  void connect();
+
+  /// The bridge's task; never returns.
+  void run();
+
+  /// Tells the bridge that the world has made a step.
+  void stepped() { stepped_.release(); }
+
+ private:
+  struct Laser {
+    std::size_t number = 0;
+    world::LaserDescription description;
+    bool on = false;
+    world::LaserScan scan;
+    posters::LaserReading reading;
+  };
+  using Exchange = std::function<void()>;
+  struct Row {
+    BridgeRow scenario;
+    std::function<void(genom::PosterBase&)> connect;  // of commands
+    Exchange exchange;
+  };
+
+  void add_row(const BridgeRow& row);
+  void add_base_row(Row& row, const std::string& value);
+  void add_laser_row(Row& row, Laser& laser, const std::string& value);
+  template <class T>
+  void read_command(Row& row, std::function<void(const T&)> take);
+  bool due(Duration period) const;
+
+  const RobotScenario& robot_;
+  world::World& world_;
+  world::BodyId body_;
+  genom::NameSpace& names_;
+  std::vector<Laser> lasers_;
+  std::vector<Row> rows_;
+  bool sonars_on_ = false;
+  std::vector<double> sonar_m_;
+  std::uint64_t step_ = 0;
+  threads::counting_semaphore<> stepped_{0, "world step"};
+};
+
+}  // namespace waitpoint::bridge

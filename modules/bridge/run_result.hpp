@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What came out of a run, as values: what the summary, the picture and the trajectory files are written from.
+//
+// Poses, goals and segments are in the world's frame. Errors compare a robot's opinion with the truth at the same
+// instant, position only. Wall-clock figures are in here for display; nothing that is hashed depends on them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/digest.hpp"
+#include "core/pose.hpp"
+#include "core/time.hpp"
+#include "world/description.hpp"
+
+namespace waitpoint::bridge {
+
+/// How a run ended.
+enum class Outcome : std::uint8_t {
+  finished,     ///< every executive ended its round
+  time_limit,   ///< the virtual time given to the run was used up
+  deadlock,     ///< tasks wait for each other, or nothing can ever run again
+  interrupted,  ///< a signal, after the step that it came in
+};
+
+constexpr std::string_view to_string(Outcome outcome) {
+  constexpr std::string_view names[] = {"finished", "time limit", "deadlock", "interrupted"};
+  return names[static_cast<std::size_t>(outcome)];
+}
+
+struct DatedPose {
+  Time date;
+  Pose pose;
+};
+
+/// What became of one goal.
+struct GoalResult {
+  Point position;
+  std::string name;  ///< may be empty
+  bool reached = false;
+  Time date;           ///< of the report
+  std::string report;  ///< "reached", "no way", ...; empty while there is none
+};
+
+struct Line {
+  Point start, end;
+};
+
+struct RobotResult {
+  std::string name;
+  Digest digest;
+  world::Shape shape;  ///< of the body, in its own frame
+
+  std::vector<GoalResult> goals;  ///< all of them, in the order of the round
+  std::uint64_t collisions = 0;
+  double distance_m = 0;             ///< truly driven
+  double position_error_mean_m = 0;  ///< of the fused position
+  double position_error_max_m = 0;   ///< of the fused position
+  double odometry_error_max_m = 0;   ///< of the odometry alone
+  double odometry_error_end_m = 0;   ///< of the odometry alone, at the end
+  std::vector<DatedPose> true_path, estimated_path, odometry_path;
+  std::vector<Line> segments;  ///< that localisation built
+
+  std::size_t goals_reached() const {
+    std::size_t count = 0;
+    for (const GoalResult& goal : goals) count += goal.reached ? 1 : 0;
+    return count;
+  }
+};
+
+struct RunResult {
+  std::string scenario;  ///< its name
+  std::uint64_t seed = 0;
+  Digest digest, environment_digest;
+  std::vector<RobotResult> robots;  ///< in the order of the scenario
+  Outcome outcome = Outcome::finished;
+  std::string deadlock;               ///< the report, some lines; empty without
+  std::vector<std::string> warnings;  ///< one line each
+  std::uint64_t events = 0;
+  Duration simulated;
+  double wall_s = 0, real_time_factor = 0;
+};
+
+/// The figures of all robots together: sums, the greatest of the greatest, the mean of the means.
+struct RunTotals {
+  std::size_t goals = 0, goals_reached = 0;
+  std::uint64_t collisions = 0;
+  double distance_m = 0;
+  double position_error_mean_m = 0, position_error_max_m = 0;
+  double odometry_error_max_m = 0, odometry_error_end_m = 0;
+};
+RunTotals totals(const RunResult& result);
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scenario as values: what is to be run, what is expected of it, and where each part was written.
+//
+// What the files say is all here, except what a map file holds: the world's loader adds its obstacles. Module
+// parameters stay text (core/setting.hpp): only the module knows their types.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "core/setting.hpp"
+#include "core/time.hpp"
+#include "modules/bridge/location.hpp"
+#include "world/description.hpp"
+
+namespace waitpoint::bridge {
+
+/// What the author says a run comes to; what is left out is not expected.
+struct Expectation {
+  bool all_goals_reached = false;
+  std::optional<std::uint64_t> goals_reached;  ///< exactly so many, over all robots
+  std::optional<std::uint64_t> collisions;     ///< exactly so many, over all robots
+};
+
+/// A ROS map_server map, its occupied cells standing from the floor to a height.
+struct MapFile {
+  std::filesystem::path file;  ///< the YAML file, resolved
+  double height_m = 2;
+  Location written;
+};
+
+struct Goal {
+  Point position;
+  std::string name;  ///< may be empty
+  Location written;
+};
+
+struct ModuleScenario {
+  std::string name;
+  std::string type;  ///< by which the module was registered
+  bool enabled = true;
+  std::vector<Setting> settings;
+  Location written;
+};
+
+/// One row of the bridge's table: the poster and the world's value that are one.
+struct BridgeRow {
+  std::string poster;  ///< "rflex.command": module.poster
+  std::string device;  ///< "base.command": device.value; a laser is named by its name
+  Location written;
+};
+
+struct RobotScenario {
+  std::string name;
+  world::BodyDescription body;           ///< with the robot's name
+  std::vector<std::string> laser_names;  ///< in the order of body.lasers
+  std::vector<Goal> goals;               ///< in the order of the round
+  std::vector<ModuleScenario> modules;   ///< in the order in which they start, those switched off included
+  std::vector<BridgeRow> bridge;
+  std::vector<Setting> executive;
+  Location written, start_written;
+};
+
+struct Scenario {
+  std::string file, name, description;
+  Expectation expect;
+  Duration until = std::chrono::hours(1);
+  Duration step = std::chrono::milliseconds(10);
+  std::optional<MapFile> map;
+  std::vector<world::Obstacle> shapes;   ///< without the map's
+  std::vector<Location> shapes_written;  ///< of each shape
+  std::vector<RobotScenario> robots;     ///< in the order of the file; their names differ
+
+  /// The world without the map's obstacles; bodies in the order of the robots.
+  world::WorldDescription world_without_map() const;
+};
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/bridge/scenario_reader.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "modules/bridge/robot_reader.hpp"
+#include "modules/bridge/scenario_document.hpp"
+#include "modules/bridge/shape_reader.hpp"
+#include "modules/bridge/yaml_reader.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t count_max = 1'000'000'000;
+constexpr double height_default_m = 2;
+
+Expectation read_expectation(const YamlNode& node) {
+  const YamlMap map(node, "expect", {"goals_reached", "collisions"});
+  Expectation expect;
+  if (const YamlNode* goals = map.find("goals_reached")) {
+    expect.all_goals_reached = goals->kind == YamlNode::Kind::scalar && goals->text == "all";
+    const bool number_like =
+        expect.all_goals_reached || (goals->text.find_first_not_of("0123456789") == std::string::npos);
+    if (!number_like || goals->kind != YamlNode::Kind::scalar) {
+      throw goals->written.bad("expected goals_reached to be 'all' or a number, found " + described(*goals));
+    }
+    if (!expect.all_goals_reached) expect.goals_reached = read_count(*goals, "goals_reached", 0, count_max);
+  }
+  if (map.has("collisions")) expect.collisions = map.count("collisions", 0, count_max, 0);
+  return expect;
+}
+
+MapFile read_map(const YamlNode& node) {
+  const YamlMap map(node, "the map", {"file", "height_m"});
+  const YamlNode& file = map.require("file");
+  return {file.written.resolve(read_text(file, "file")), map.number("height_m", positive_number, height_default_m),
+          file.written};
+}
+
+void read_shapes(const YamlNode& list, double height_m, Scenario& scenario) {
+  for (const YamlNode& item : read_list(list, "shapes")) {
+    world::Obstacle obstacle = read_obstacle(item, height_m, scenario.shapes.size() + 1);
+    for (std::size_t i = 0; i < scenario.shapes.size(); ++i) {
+      if (scenario.shapes[i].name != obstacle.name) continue;
+      throw item.written.bad("there are two shapes called '" + obstacle.name + "', the first at " +
+                             scenario.shapes_written[i].text());
+    }
+    scenario.shapes.push_back(std::move(obstacle));
+    scenario.shapes_written.push_back(item.written);
+  }
+}
+
+void read_world(const YamlNode& node, Scenario& scenario) {
+  const YamlMap map(node, "the world", {"step_ms", "include", "map", "shape_height_m", "shapes"});
+  if (const YamlNode* step = map.find("step_ms")) {
+    scenario.step = map.duration("step_ms", 1ms, scenario.step);
+    if (scenario.step > Duration(1s))
+      throw step->written.bad("expected step_ms to be at most 1000, found " + described(*step));
+  }
+  if (const YamlNode* map_file = map.find("map")) scenario.map = read_map(*map_file);
+  const double height_m = map.number("shape_height_m", positive_number, height_default_m);
+  if (const YamlNode* shapes = map.find("shapes")) read_shapes(*shapes, height_m, scenario);
+}
+
+void read_robots(const YamlNode& list, const YamlNode* types, Scenario& scenario) {
+  if (read_list(list, "robots").empty()) throw list.written.bad("expected at least one robot");
+  for (const YamlNode& item : list.items) {
+    RobotScenario robot = read_robot(item, types);
+    for (const RobotScenario& other : scenario.robots) {
+      if (other.name != robot.name) continue;
+      throw item.written.bad("there are two robots called '" + robot.name + "', the first at " + other.written.text());
+    }
+    scenario.robots.push_back(std::move(robot));
+  }
+}
+
+}  // namespace
+
+world::WorldDescription Scenario::world_without_map() const {
+  world::WorldDescription world;
+  world.step = step;
+  world.obstacles = shapes;
+  for (const RobotScenario& robot : robots) world.bodies.push_back(robot.body);
+  return world;
+}
+
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments) {
+  const YamlNode document = scenario_document(file, assignments);
+  const YamlMap map(document, "the scenario",
+                    {"format", "name", "description", "expect", "until_s", "world", "robot_types", "robots"});
+  Scenario scenario;
+  scenario.file = file.string();
+  scenario.name = map.text("name", file.stem().string());
+  scenario.description = map.text("description", "");
+  if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);
+  scenario.until = map.duration("until_s", 1s, scenario.until);
+  if (const YamlNode* world = map.find("world")) read_world(*world, scenario);
+  const YamlNode* types = map.find("robot_types");
+  if (types != nullptr) {
+    if (types->kind != YamlNode::Kind::map) {
+      throw types->written.bad("expected robot_types to be a map of keys, found " + described(*types));
+    }
+    for (const YamlEntry& type : types->entries) check_robot_type(type);
+  }
+  read_robots(map.require("robots"), types, scenario);
+  return scenario;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/executive/mission.hpp"
+
+#include <algorithm>
+
+namespace waitpoint::executive {
+
+Mission::Mission(RoutePlanner& planner, const MissionParameters& parameters, const std::vector<Point>& goals,
+                 const RandomStream& random)
+    : planner_(planner), parameters_(parameters), random_(random) {
+  for (const Point goal : goals) {
+    goals_.emplace_back();
+    goals_.back().goal = goal;
+  }
+}
+
+const Order& Mission::start(Time now, Point robot) { return make_for_goal(now, robot); }
+
+const Order& Mission::arrived(Time now, Point robot) {
+  WAITPOINT_CHECK(current_ < goals_.size(), "arrived without a goal");
+  leave_goal(now, GoalState::reached);
+  return make_for_goal(now, robot);
+}
+
+const Order& Mission::waited(Time now, Point robot) {
+  WAITPOINT_CHECK(current_ < goals_.size(), "waited without a goal");
+  return make_for_goal(now, robot);
+}
+
+const Order& Mission::blocked(Time now, Point robot, std::span<const Point> echoes) {
+  WAITPOINT_CHECK(current_ < goals_.size(), "blocked without a goal");
+  if (goals_[current_].tries >= parameters_.tries_max) {
+    leave_goal(now, GoalState::given_up);
+    return make_for_goal(now, robot);
+  }
+  // Only what is seen now: what was seen before may have been a robot that has long gone.
+  planner_.space().forget();
+  planner_.plan(robot, goals_[current_].goal, plan_);
+  const double direct_m = plan_.outcome == PlanOutcome::found ? plan_.length_m : 0;
+  planner_.space().mark(echoes);
+  planner_.plan(robot, goals_[current_].goal, plan_);
+  const double worth_m = std::max(parameters_.detour_m_min, parameters_.detour_max * direct_m);
+  if (plan_.outcome == PlanOutcome::found && plan_.length_m <= worth_m) return drive();
+  planner_.space().forget();
+  return wait(now);
+}
+
+const Order& Mission::make_for_goal(Time now, Point robot) {
+  for (; current_ < goals_.size(); leave_goal(now, GoalState::no_route)) {
+    planner_.plan(robot, goals_[current_].goal, plan_);
+    goals_[current_].outcome = plan_.outcome;
+    if (plan_.outcome == PlanOutcome::found) return drive();
+  }
+  order_.kind = Order::Kind::finished;
+  order_.via_points.clear();
+  return order_;
+}
+
+const Order& Mission::drive() {
+  ++goals_[current_].tries;
+  order_.kind = Order::Kind::drive;
+  order_.via_points = plan_.via_points;
+  return order_;
+}
+
+const Order& Mission::wait(Time now) {
+  ++goals_[current_].tries;
+  const double span = parameters_.wait_s_max - parameters_.wait_s_min;
+  order_.kind = Order::Kind::wait;
+  order_.via_points.clear();
+  order_.until = now + Duration::from_seconds(parameters_.wait_s_min + span * random_.uniform(draws_++));
+  return order_;
+}
+
+void Mission::leave_goal(Time now, GoalState state) {
+  goals_[current_].state = state;
+  goals_[current_].date = now;
+  ++current_;
+  planner_.space().forget();
+}
+
+}  // namespace waitpoint::executive

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/executive/shortest_path.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace waitpoint::executive {
+namespace {
+
+struct Step {
+  std::int32_t column, row;
+  std::uint32_t length;
+};
+
+constexpr std::array<Step, 8> steps = {{{1, 0, ShortestPath::straight_step},
+                                        {0, 1, ShortestPath::straight_step},
+                                        {-1, 0, ShortestPath::straight_step},
+                                        {0, -1, ShortestPath::straight_step},
+                                        {1, 1, ShortestPath::diagonal_step},
+                                        {-1, 1, ShortestPath::diagonal_step},
+                                        {-1, -1, ShortestPath::diagonal_step},
+                                        {1, -1, ShortestPath::diagonal_step}}};
+
+// A lower bound of the cost between two cells that a step cannot lower by more than it costs.
+std::uint32_t least_cost(Cell a, Cell b) {
+  const auto dx = static_cast<std::uint32_t>(std::abs(a.column - b.column));
+  const auto dy = static_cast<std::uint32_t>(std::abs(a.row - b.row));
+  const std::uint32_t diagonal = std::min(dx, dy), straight = std::max(dx, dy) - diagonal;
+  return FreeSpace::least_cell_cost *
+         (ShortestPath::straight_step * straight + ShortestPath::diagonal_step * diagonal);
+}
+
+}  // namespace
+
+std::uint32_t ShortestPath::find(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path) {
+  // A step raises the priority by its cost plus what the lower bound loses by stepping away.
+  static_assert(diagonal_step * (FreeSpace::greatest_cell_cost + FreeSpace::least_cell_cost) < bucket_count);
+  WAITPOINT_CHECK(space.passable(start) && space.passable(goal), "a way from or to a cell that is not passable");
+  path.clear();
+  const auto width = static_cast<std::uint32_t>(space.map().width);
+  nodes_.assign(space.map().cells.size(), {unreachable, none, false});
+  for (auto& bucket : buckets_) bucket.clear();
+  opened_ = 0;
+  const auto index = [&](Cell c) { return static_cast<std::uint32_t>(c.row) * width + static_cast<std::uint32_t>(c.column); };
+  nodes_[index(start)].cost = 0;
+  std::uint32_t priority = least_cost(start, goal);
+  open(priority, index(start));
+  while (opened_ > 0) {
+    auto& bucket = buckets_[priority % bucket_count];
+    if (bucket.empty()) {
+      ++priority;
+      continue;
+    }
+    const std::uint32_t i = bucket.back();
+    bucket.pop_back();
+    --opened_;
+    if (nodes_[i].closed) continue;
+    nodes_[i].closed = true;
+    const Cell cell = {static_cast<std::int32_t>(i % width), static_cast<std::int32_t>(i / width)};
+    if (cell == goal) {
+      walk_back(space, start, goal, path);
+      return nodes_[i].cost;
+    }
+    expand(space, cell, goal);
+  }
+  return unreachable;
+}
+
+void ShortestPath::expand(const FreeSpace& space, Cell cell, Cell goal) {
+  const auto width = static_cast<std::uint32_t>(space.map().width);
+  const std::uint32_t cost =
+      nodes_[static_cast<std::uint32_t>(cell.row) * width + static_cast<std::uint32_t>(cell.column)].cost;
+  for (std::uint8_t k = 0; k < steps.size(); ++k) {
+    const Cell next = {cell.column + steps[k].column, cell.row + steps[k].row};
+    if (!space.passable(next)) continue;
+    const std::uint32_t i = static_cast<std::uint32_t>(next.row) * width + static_cast<std::uint32_t>(next.column);
+    Node& node = nodes_[i];
+    if (node.closed) continue;
+    const std::uint32_t next_cost = cost + steps[k].length * space.cell_cost(next);
+    if (next_cost >= node.cost) continue;
+    node.cost = next_cost;
+    node.came_by = k;
+    open(next_cost + least_cost(next, goal), i);
+  }
+}
+
+void ShortestPath::walk_back(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path) const {
+  const auto width = static_cast<std::uint32_t>(space.map().width);
+  Cell cell = goal;
+  path.push_back(cell);
+  while (cell != start) {
+    const Node& node = nodes_[static_cast<std::uint32_t>(cell.row) * width + static_cast<std::uint32_t>(cell.column)];
+    const Step& step = steps[node.came_by];
+    cell = {cell.column - step.column, cell.row - step.row};
+    path.push_back(cell);
+  }
+  std::reverse(path.begin(), path.end());
+}
+
+}  // namespace waitpoint::executive

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cheapest way over passable cells: A* on the 8-connected grid, in integers.
+//
+// A straight step costs 5, a diagonal one 7 times the cost of the cell entered. Events of equal priority are taken in a
+// fixed order, so the way is a function of the map alone. The open list is a ring of buckets (Dial 1969): the priority
+// never falls, and rises by less than the ring's size at a step. Its memory is kept for the next search.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "modules/executive/free_space.hpp"
+
+namespace waitpoint::executive {
+
+class ShortestPath {
+ public:
+  static constexpr std::uint32_t straight_step = 5, diagonal_step = 7;
+  static constexpr std::uint32_t unreachable = 0xFFFFFFFF;
+
+  /// Searches from one passable cell to another; the cells of the way, both included, replace `path`. Returns the cost;
+  /// `unreachable` (and an empty path) if there is no way.
+  std::uint32_t find(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path);
+
+ private:
+  struct Node {
+    std::uint32_t cost;
+    std::uint8_t came_by;  // the direction of the last step, or `none`
+    bool closed;
+  };
+  static constexpr std::size_t bucket_count = 1024;
+  static constexpr std::uint8_t none = 255;
+
+  void open(std::uint32_t priority, std::uint32_t node) { buckets_[priority % bucket_count].push_back(node), ++opened_; }
+  void expand(const FreeSpace& space, Cell cell, Cell goal);
+  void walk_back(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path) const;
+
+  std::vector<Node> nodes_;
+  std::array<std::vector<std::uint32_t>, bucket_count> buckets_;
+  std::size_t opened_ = 0;
+};
+
+}  // namespace waitpoint::executive

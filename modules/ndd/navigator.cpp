@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/ndd/navigator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace waitpoint::ndd {
+namespace {
+
+constexpr double standing_m_s = 0.05;
+constexpr double about_turn_rad = 150 * exact::pi / 180;
+constexpr double security_m_min = 0.04;
+constexpr double security_per_m = 0.5;  // how fast the full security distance is regained away from the target
+
+// Where speeds held for `seconds` take the robot, in its frame.
+Pose displacement(const Speeds& speeds, double seconds) {
+  const double turn = speeds.w_rad_s * seconds, way = speeds.v_m_s * seconds;
+  const auto [s, c] = exact::sincos(0.5 * turn);
+  return {way * c, way * s, turn};
+}
+
+}  // namespace
+
+Navigator::Navigator(const Parameters& parameters)
+    : parameters_(parameters),
+      memory_(parameters),
+      watch_(parameters.progress_m, Duration::from_seconds(parameters.patience_s)),
+      bypass_(parameters),
+      limiter_(parameters) {}
+
+void Navigator::add_odometry(const posters::Odometry& odometry) {
+  trail_.add(odometry.position.date, odometry.position.pose);
+  measured_ = {odometry.v_m_s, odometry.w_rad_s};
+}
+
+void Navigator::add_echoes(const posters::Echoes& echoes) {
+  if (trail_.empty() || echoes.scan.date <= scan_date_) return;
+  scan_date_ = echoes.scan.date;
+  memory_.see(trail_.at(scan_date_), echoes);
+}
+
+Pose Navigator::in_map(const posters::PositionEstimate& position) const {
+  return compose(position.pose, between(trail_.at(position.date), trail_.newest()));
+}
+
+void Navigator::go(Time now, const posters::PositionEstimate& position, std::span<const Point> via_points) {
+  route_.start(position.pose.position(), via_points);
+  watch_.start(now);
+  last_target_.reset();
+}
+
+Decision Navigator::decide(Time now, const posters::PositionEstimate& position) {
+  if (route_.empty() || trail_.empty() || scan_date_ < Time()) return {};
+  const Pose robot = in_map(position);
+  route_.advance(robot.position(), parameters_.via_tolerance_m);
+  Decision decision;
+  decision.remaining_m = route_.remaining_m(robot.position());
+  if (route_.target_is_last() && decision.remaining_m <= parameters_.goal_tolerance_m) {
+    const bool stands = std::fabs(measured_.v_m_s) <= standing_m_s;
+    decision.outcome = stands ? Outcome::arrived : Outcome::driving;
+    if (stands) route_.clear();
+    return decision;
+  }
+  if (!watch_.progressing(now, decision.remaining_m)) {
+    decision.outcome = Outcome::blocked;
+    route_.clear();
+    return decision;
+  }
+  decision.outcome = Outcome::driving;
+  const Pose ahead = displacement(measured_, parameters_.prediction_s);
+  decided_for_ = compose(trail_.newest(), ahead);
+  const Point target = between(compose(robot, ahead), {route_.target().x, route_.target().y, 0}).position();
+  const double target_distance = length(target);
+  memory_.points_from(decided_for_, obstacles_);
+  const Assessment assessment = assess(target, target_distance);
+  decision.situation = assessment.situation;
+  decision.direction_rad = assessment.direction_rad;
+  if (assessment.situation == Situation::no_region) return decision;
+  double v_max = parameters_.v_m_s_max;
+  if (route_.target_is_last()) {
+    v_max = std::min(v_max, std::sqrt(2 * parameters_.goal_braking_m_s2 * target_distance));
+  }
+  const Speeds wanted = motion_law(parameters_, assessment.direction_rad, assessment.safety, v_max);
+  decision.speeds = limiter_.limit(wanted, obstacles_);
+  return decision;
+}
+
+Assessment Navigator::assess(Point target, double target_distance_m) {
+  diagram_.build(obstacles_, parameters_.diagram_range_m);
+  const double width = 2 * parameters_.robot_radius_m;
+  find_regions(diagram_, width, regions_);
+  std::optional<Point> previous;
+  if (last_target_) previous = between(decided_for_, {last_target_->x, last_target_->y, 0}).position();
+  const Choice choice = choose_region(diagram_, regions_, target, previous, width);
+  if (choice.found) last_target_ = transform(decided_for_, choice.target);
+  const double security = security_distance_m(target, target_distance_m);
+  Assessment free_way = high_safety(diagram_, choice, parameters_.robot_radius_m, security);
+  if (free_way.situation == Situation::no_region) return free_way;
+  const double regarded = std::min(parameters_.bypass_distance_m, length(choice.target));
+  free_way.direction_rad = keep_turning(bypass_.clear(diagram_, free_way.direction_rad, regarded));
+  return with_obstacles(diagram_, free_way, parameters_.robot_radius_m, security);
+}
+
+// A target close to a wall could not be reached if the wall deflected the motion with its full security distance.
+double Navigator::security_distance_m(Point target, double target_distance_m) const {
+  double nearest = parameters_.robot_radius_m + parameters_.security_distance_m;
+  for (const Point p : obstacles_) {
+    const Point d = p - target;
+    if (dot(d, d) < nearest * nearest) nearest = std::sqrt(dot(d, d));
+  }
+  const double at_target = std::max(security_m_min, nearest - parameters_.robot_radius_m);
+  return std::min(parameters_.security_distance_m, at_target + security_per_m * target_distance_m);
+}
+
+// Straight behind, noise would change the side to turn to with every scan.
+double Navigator::keep_turning(double direction_rad) {
+  if (std::fabs(direction_rad) > about_turn_rad && direction_rad * last_turn_ < 0) {
+    direction_rad += direction_rad > 0 ? -2 * exact::pi : 2 * exact::pi;
+  }
+  last_turn_ = direction_rad;
+  return direction_rad;
+}
+
+void Navigator::echoes_in_map(const posters::PositionEstimate& position, std::vector<Point>& points) const {
+  points.clear();
+  if (trail_.empty()) return;
+  const Pose odometry_in_map = compose(in_map(position), between(trail_.newest(), Pose{}));
+  for (const Point p : memory_.newest()) points.push_back(transform(odometry_in_map, p));
+}
+
+}  // namespace waitpoint::ndd

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reactive navigation along via points: from odometry, scans and the fused position to a speed command.
+//
+//   scan, odometry -> ObstacleMemory -> Diagram -> Regions -> Choice -> Situation -> motion law -> SpeedLimiter
+//   via points, position -> Route ---------------------------^
+//
+// Obstacles live in the odometry frame, via points in the map's. A decision is made for where the robot will be when the
+// command takes effect. The robot never drives backwards; towards a goal behind it turns in place.
+#pragma once
+
+#include "modules/ndd/bypass.hpp"
+#include "modules/ndd/motion_law.hpp"
+#include "modules/ndd/obstacle_memory.hpp"
+#include "modules/ndd/progress_watch.hpp"
+#include "modules/ndd/route.hpp"
+#include "modules/ndd/situation.hpp"
+#include "modules/posters/odometry_trail.hpp"
+#include "modules/posters/position.hpp"
+
+namespace waitpoint::ndd {
+
+enum class Outcome : std::uint8_t {
+  idle,     ///< no route
+  driving,  ///< on the way
+  arrived,  ///< within the tolerance of the last via point, and standing
+  blocked,  ///< no progress for too long: the robot stands, the route is given up
+};
+
+struct Decision {
+  Outcome outcome = Outcome::idle;
+  Situation situation = Situation::no_region;
+  Speeds speeds;             ///< to command until the next decision
+  double direction_rad = 0;  ///< wanted, in the robot's frame
+  double remaining_m = 0;    ///< of the way
+};
+
+class Navigator {
+ public:
+  explicit Navigator(const Parameters& parameters);
+
+  void add_odometry(const posters::Odometry& odometry);
+  /// Takes in a scan; one with a date already seen, or before any odometry, is ignored.
+  void add_echoes(const posters::Echoes& echoes);
+
+  /// Starts on a route of via points in the map frame.
+  void go(Time now, const posters::PositionEstimate& position, std::span<const Point> via_points);
+  void stop() { route_.clear(); }
+
+  /// The command for the next control period. `position` is in the map frame, of any date that the odometry still knows.
+  /// After `arrived` or `blocked` the route is over and the next decision is `idle`.
+  Decision decide(Time now, const posters::PositionEstimate& position);
+
+  /// The newest scan's obstacle points in the map frame, for whoever plans anew.
+  void echoes_in_map(const posters::PositionEstimate& position, std::vector<Point>& points) const;
+  const Parameters& parameters() const { return parameters_; }
+
+ private:
+  Pose in_map(const posters::PositionEstimate& position) const;
+  Assessment assess(Point target, double target_distance_m);
+  double security_distance_m(Point target, double target_distance_m) const;
+  double keep_turning(double direction_rad);
+
+  Parameters parameters_;
+  posters::OdometryTrail trail_;
+  Speeds measured_;
+  ObstacleMemory memory_;
+  Time scan_date_ = Time::from_ns(-1);
+  Route route_;
+  ProgressWatch watch_;
+  Bypass bypass_;
+  SpeedLimiter limiter_;
+  std::optional<Point> last_target_;  // of the region choice, in the odometry frame
+  double last_turn_ = 0;              // direction of the last decision
+
+  // Working memory of a decision.
+  std::vector<Point> obstacles_;
+  Diagram diagram_;
+  Regions regions_;
+  Pose decided_for_;  // in the odometry frame
+};
+
+}  // namespace waitpoint::ndd

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/ndd/obstacle_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace waitpoint::ndd {
+namespace {
+
+constexpr std::size_t remembered_max = 1024;
+constexpr double spacing_m = 0.03;         // of remembered points along a surface
+constexpr double occlusion_m = 0.15;       // a beam that ends this much before a point says nothing about it
+
+}  // namespace
+
+ObstacleMemory::ObstacleMemory(const Parameters& parameters) : parameters_(parameters) {
+  scan_.reserve(posters::beam_count_max);
+  past_.reserve(remembered_max + posters::beam_count_max);
+}
+
+void ObstacleMemory::see(const Pose& robot, const posters::Echoes& echoes) {
+  const posters::LaserReading& scan = echoes.scan;
+  const Pose device = compose(robot, echoes.mount);
+  keep_newest(robot);
+  seen_ = scan.date;
+  drop_contradicted(device, scan);
+  scan_.clear();
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    const double range = scan.range_m[i];
+    if (range >= scan.range_max_m || range >= parameters_.diagram_range_m) continue;
+    const auto [s, c] =
+        exact::sincos(device.heading + scan.first_angle_rad + static_cast<double>(i) * scan.angle_step_rad);
+    scan_.push_back({device.x + range * c, device.y + range * s});
+  }
+}
+
+void ObstacleMemory::keep_newest(const Pose& robot) {
+  const double reach = parameters_.memory_range_m;
+  bool any = false;
+  Point last;
+  for (const Point p : scan_) {
+    const Point from_robot = p - robot.position(), from_last = p - last;
+    if (dot(from_robot, from_robot) > reach * reach) continue;
+    if (any && dot(from_last, from_last) < spacing_m * spacing_m) continue;
+    past_.push_back({p, seen_});
+    last = p;
+    any = true;
+  }
+}
+
+void ObstacleMemory::drop_contradicted(const Pose& device, const posters::LaserReading& scan) {
+  const double reach = parameters_.memory_range_m, beams = static_cast<double>(scan.range_m.size());
+  const auto [s, c] = exact::sincos(device.heading);
+  const Duration age_max = Duration::from_seconds(parameters_.memory_age_s);
+  const auto gone = [&](const Remembered& r) {
+    const Point d = r.point - device.position();
+    const double square = dot(d, d);
+    if (square > reach * reach || seen_ - r.seen > age_max) return true;
+    const double angle = exact::atan2(c * d.y - s * d.x, c * d.x + s * d.y);
+    const double beam = (exact::wrap_angle(angle - scan.first_angle_rad - 0.5 * beams * scan.angle_step_rad)) /
+                            scan.angle_step_rad + 0.5 * beams;
+    if (beam < 0 || beam > beams - 1) return false;  // out of view
+    const double range = std::min(scan.range_m[static_cast<std::size_t>(std::floor(beam))],
+                                  scan.range_m[static_cast<std::size_t>(std::ceil(beam))]);
+    return range + occlusion_m >= std::sqrt(square);
+  };
+  std::erase_if(past_, gone);
+  if (past_.size() > remembered_max) {
+    past_.erase(past_.begin(), past_.begin() + static_cast<std::ptrdiff_t>(past_.size() - remembered_max));
+  }
+}
+
+void ObstacleMemory::points_from(const Pose& robot, std::vector<Point>& points) const {
+  points.clear();
+  const auto [s, c] = exact::sincos(robot.heading);
+  const auto add = [&](Point p) {
+    const double dx = p.x - robot.x, dy = p.y - robot.y;
+    points.push_back({c * dx + s * dy, c * dy - s * dx});
+  };
+  for (const Point p : scan_) add(p);
+  for (const Remembered& r : past_) add(r.point);
+}
+
+}  // namespace waitpoint::ndd

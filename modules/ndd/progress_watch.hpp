@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the robot gets anywhere: the remaining way must shrink by a step within a span of time.
+#pragma once
+
+#include <limits>
+
+#include "core/time.hpp"
+
+namespace waitpoint::ndd {
+
+class ProgressWatch {
+ public:
+  /// `step_m` of progress are expected every `patience`.
+  ProgressWatch(double step_m, Duration patience) : step_m_(step_m), patience_(patience) {}
+
+  void start(Time now) {
+    best_m_ = std::numeric_limits<double>::infinity();
+    since_ = now;
+  }
+  /// Tells the remaining way; false once there has been no progress for too long.
+  bool progressing(Time now, double remaining_m) {
+    if (remaining_m <= best_m_ - step_m_ || best_m_ == std::numeric_limits<double>::infinity()) {
+      best_m_ = remaining_m;
+      since_ = now;
+    }
+    return now - since_ <= patience_;
+  }
+
+ private:
+  double step_m_;
+  Duration patience_;
+  double best_m_ = std::numeric_limits<double>::infinity();
+  Time since_;
+};
+
+}  // namespace waitpoint::ndd

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/pom/pom.hpp"
+
+namespace waitpoint::pom {
+
+using genom::Nothing;
+using genom::PosterStatus;
+using genom::Report;
+using namespace std::chrono_literals;
+
+FusionParameters Pom::read(genom::Settings& settings) {
+  FusionParameters parameters;
+  settings.read(parameters);
+  return parameters;
+}
+
+Pom::Pom(genom::ModuleSetup& setup)
+    : Module(setup, 24),
+      parameters_(read(setup.settings)),
+      fusing_(add_task("fusing", {.period_ms = 40ms, .delay_ms = 10ms, .cost_us = 200us})),
+      odometry_(read_poster<posters::Odometry>("rflex.odometry")),
+      localisation_(read_poster<posters::Localisation>("segloc.localisation", false)),
+      position_(add_poster<posters::FusedPosition>("position", fusing_)) {
+  fusing_.set_permanent([this] { fuse(); });
+  add_control<posters::KnownPose>("SetPos",
+                                  [this](const posters::KnownPose& known, Nothing&) { return set_position(known); });
+  const auto switch_source = [this](bool on) {
+    return [this, on](const SourceInput& input, Nothing&) -> Report {
+      if (!fusion_ || input.source >= PositionFusion::source_count_max)
+        return report(genom::StandardReport::control_codel_error);
+      fusion_->set_source(input.source, on);
+      return genom::ok;
+    };
+  };
+  add_control<SourceInput>("SourceOn", switch_source(true));
+  add_control<SourceInput>("SourceOff", switch_source(false));
+}
+
+Report Pom::set_position(const posters::KnownPose& known) {
+  UncertainPose pose;
+  pose.pose = known.pose;
+  pose.covariance[0] = pose.covariance[4] = known.position_deviation_m * known.position_deviation_m;
+  pose.covariance[8] = known.heading_deviation_rad * known.heading_deviation_rad;
+  if (fusion_)
+    fusion_->reset(threads::now(), pose);
+  else
+    fusion_.emplace(parameters_, pose);
+  return genom::ok;
+}
+
+void Pom::fuse() {
+  if (!fusion_) return;
+  posters::Odometry odometry;
+  if (odometry_.read(odometry) == PosterStatus::empty) return;
+  fusion_->add_odometry(odometry.position);
+  posters::Localisation localisation;
+  if (localisation_.read(localisation) == PosterStatus::ok && localisation.position.date != localised_) {
+    localised_ = localisation.position.date;
+    fusion_->add_absolute(segloc, localisation.position);
+  }
+  position_.write(fusion_->at(threads::now()));
+}
+
+}  // namespace waitpoint::pom

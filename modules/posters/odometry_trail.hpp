@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where odometry had the robot lately: a ring of dated poses, to place a scan that is dated in the past.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/pose.hpp"
+#include "core/time.hpp"
+
+namespace waitpoint::posters {
+
+class OdometryTrail {
+ public:
+  /// Appends a pose; one that is not newer than the newest is ignored.
+  void add(Time date, const Pose& pose);
+
+  bool empty() const { return count_ == 0; }
+  /// The newest pose; an empty trail is a bug.
+  const Pose& newest() const;
+  /// The pose at a date, interpolated; the oldest or the newest one beyond the ends. An empty trail is a bug.
+  Pose at(Time date) const;
+
+ private:
+  struct Dated {
+    Time date;
+    Pose pose;
+  };
+  static constexpr std::size_t capacity = 64;  // more than a second at 50 Hz
+
+  /// The i-th newest.
+  const Dated& back(std::size_t i) const { return ring_[(next_ + capacity - 1 - i) % capacity]; }
+
+  std::array<Dated, capacity> ring_{};
+  std::size_t next_ = 0, count_ = 0;
+};
+
+}  // namespace waitpoint::posters

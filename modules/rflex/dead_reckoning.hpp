@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dead reckoning from the controller's accumulated travel and turn, with its covariance.
+//
+// Each report moves the pose along an arc: travel d and turn a since the last one, heading halfway during the chord.
+// The covariance of (x, y, heading) grows by P <- F P F' + G Q G', F and G the Jacobians of that motion by pose and by
+// (d, a), Q = diag(k_d |d|, k_a |a| + k_da |d|). (Thrun, Burgard, Fox, "Probabilistic Robotics", ch. 5; Borenstein and
+// Feng 1996.)
+#pragma once
+
+#include <cstdint>
+
+#include "modules/posters/position.hpp"
+
+namespace waitpoint::rflex {
+
+/// How the uncertainty grows: variances per metre travelled and per radian turned.
+struct OdometryNoise {
+  double travel_variance_m2_per_m = 1e-4;
+  double turn_variance_rad2_per_rad = 4e-4;
+  double turn_variance_rad2_per_m = 1e-4;
+
+  static constexpr auto fields() {
+    return std::tuple(field("travel_variance_m2_per_m", &OdometryNoise::travel_variance_m2_per_m),
+                      field("turn_variance_rad2_per_rad", &OdometryNoise::turn_variance_rad2_per_rad),
+                      field("turn_variance_rad2_per_m", &OdometryNoise::turn_variance_rad2_per_m));
+  }
+};
+
+class DeadReckoning {
+ public:
+  /// `units_per_m` and `units_per_rad` are the controller's.
+  DeadReckoning(const OdometryNoise& noise, double units_per_m, double units_per_rad);
+
+  /// Takes in a report; the first only sets where the counters stand.
+  void advance(Time date, std::int64_t travel_units, std::int64_t turn_units);
+  /// Sets the pose, and the uncertainty to zero.
+  void set(const Pose& pose);
+
+  const posters::PositionEstimate& position() const { return position_; }
+
+ private:
+  OdometryNoise noise_;
+  double metres_per_unit_, radians_per_unit_;
+  bool started_ = false;
+  std::int64_t travel_units_ = 0, turn_units_ = 0;
+  posters::PositionEstimate position_;
+};
+
+}  // namespace waitpoint::rflex

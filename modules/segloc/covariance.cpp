@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/segloc/covariance.hpp"
+
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace waitpoint::segloc {
+namespace {
+
+constexpr std::size_t block = 4;
+
+// Two doubles worked on at once. Every element is computed by the same operations in the same order as it would be
+// alone, so the bits do not depend on whether the processor does it in one instruction.
+using Pair = double __attribute__((vector_size(16)));
+
+inline Pair load(const double* from) {
+  Pair p;
+  std::memcpy(&p, from, sizeof p);
+  return p;
+}
+
+inline void subtract(double* from, Pair p) {
+  const Pair rest = load(from) - p;
+  std::memcpy(from, &rest, sizeof rest);
+}
+
+// One block of four by four: its sums stay in registers.
+void subtract_block(double* values, std::size_t stride, const double* left, const double* right, std::size_t count) {
+  Pair a0{}, a1{}, b0{}, b1{}, c0{}, c1{}, d0{}, d1{};
+  for (std::size_t r = 0; r < count; ++r, left += stride, right += stride) {
+    const Pair low = load(right), high = load(right + 2);
+    const Pair a{left[0], left[0]}, b{left[1], left[1]}, c{left[2], left[2]}, d{left[3], left[3]};
+    a0 += a * low;
+    a1 += a * high;
+    b0 += b * low;
+    b1 += b * high;
+    c0 += c * low;
+    c1 += c * high;
+    d0 += d * low;
+    d1 += d * high;
+  }
+  subtract(values, a0);
+  subtract(values + 2, a1);
+  subtract(values + stride, b0);
+  subtract(values + stride + 2, b1);
+  subtract(values + 2 * stride, c0);
+  subtract(values + 2 * stride + 2, c1);
+  subtract(values + 3 * stride, d0);
+  subtract(values + 3 * stride + 2, d1);
+}
+
+}  // namespace
+
+Covariance::Covariance(std::size_t capacity)
+    : capacity_(capacity), stride_((capacity + block - 1) / block * block), values_(stride_ * stride_, 0.0) {}
+
+void Covariance::append(std::size_t count) {
+  WAITPOINT_CHECK(size_ + count <= capacity_, "more variables than the covariance has room for");
+  for (std::size_t i = size_; i < size_ + count; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) at(i, j) = 0;
+  }
+  size_ += count;
+}
+
+void Covariance::remove(std::size_t first, std::size_t count) {
+  WAITPOINT_CHECK(first + count <= size_, "removing variables that are not there");
+  const std::size_t rest = size_ - count;
+  WAITPOINT_CHECK(first + count <= rest || first == rest, "the variables that move overlap those removed");
+  if (first < rest) {
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t j = 0; j < rest; ++j) {
+        if (j < first || j >= first + count) (*this)(first + k, j) = (*this)(rest + k, j);
+      }
+      for (std::size_t j = 0; j <= k; ++j) (*this)(first + k, first + j) = (*this)(rest + k, rest + j);
+    }
+  }
+  size_ = rest;
+}
+
+void Covariance::column(std::size_t j, double* out) const {
+  for (std::size_t i = 0; i < j; ++i) out[i] = at(j, i);
+  for (std::size_t i = j; i < size_; ++i) out[i] = at(i, j);
+}
+
+void Covariance::subtract_products(const double* rows, std::size_t count) {
+  for (std::size_t i = 0; i < size_; i += block) {
+    for (std::size_t j = 0; j <= i; j += block) {
+      subtract_block(&at(i, j), stride_, rows + i, rows + j, count);
+    }
+  }
+}
+
+}  // namespace waitpoint::segloc

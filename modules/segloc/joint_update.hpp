@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One Kalman update from many observations, built up one pair of rows at a time.
+//
+// With H the rows accepted so far, R their noise, L L' = H P H' + R and W = P H' L'^-1, the update is
+//
+//   x += W y,  L y = innovation        P -= W W'
+//
+// A further pair of rows h needs of L only h W, and its innovation given all those accepted is
+//
+//   v - (h W) y       with covariance       h P h' + r - (h W)(h W)'
+//
+// So each candidate match can be tested jointly with those accepted (the test of joint compatibility of Neira and
+// Tardos, 2001, taken greedily), and P, the costly part, is touched once, when all is decided. h has at most five
+// columns: the pose and one line, or two lines.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "modules/segloc/covariance.hpp"
+
+namespace waitpoint::segloc {
+
+/// Two rows of a measurement: observed minus predicted, the derivatives of the prediction, the noise.
+struct RowPair {
+  std::size_t columns = 0;
+  std::array<std::size_t, 5> column{};
+  std::array<std::array<double, 5>, 2> derivative{};
+  std::array<double, 2> innovation{};
+  std::array<double, 3> noise{};  ///< (0, 0), (0, 1), (1, 1)
+
+  void add_column(std::size_t index, double first, double second) {
+    column[columns] = index;
+    derivative[0][columns] = first;
+    derivative[1][columns] = second;
+    ++columns;
+  }
+};
+
+class JointUpdate {
+ public:
+  /// Takes up to `pairs` row pairs on a covariance with rows of `stride` elements.
+  JointUpdate(std::size_t pairs, std::size_t stride);
+
+  void clear() { rows_ = 0; }
+  bool full() const { return rows_ == rows_max_; }
+  bool empty() const { return rows_ == 0; }
+
+  /// How a pair of rows compares with what the pairs accepted so far predict.
+  struct Trial {
+    double squared_distance = 0;  ///< chi2 with two degrees of freedom if the match is right
+    double information = 0;       ///< trace of noise^-1 times the prediction's covariance: what there is to learn
+  };
+  /// Evaluates a pair; `accept` may follow, for this pair only.
+  Trial test(const Covariance& covariance, const RowPair& pair);
+  /// Adds the pair tested last. A full update is a bug.
+  void accept(const Covariance& covariance, const RowPair& pair);
+
+  /// What the accepted pairs add to variable i of the state.
+  double correction(std::size_t i) const;
+  /// Takes the accepted pairs' information into the covariance.
+  void apply(Covariance& covariance) const { covariance.subtract_products(weights_.data(), rows_); }
+
+ private:
+  double* weights(std::size_t row) { return weights_.data() + row * stride_; }
+  const double* weights(std::size_t row) const { return weights_.data() + row * stride_; }
+
+  std::size_t rows_ = 0, rows_max_, stride_;
+  std::vector<double> weights_;   // W', row by row
+  std::vector<double> whitened_;  // y
+  // Of the pair tested last: h W, and the innovation and its covariance given the pairs accepted.
+  std::array<std::vector<double>, 2> mixed_;
+  std::array<double, 2> innovation_{};
+  std::array<double, 3> spread_{};
+  std::vector<double> scratch_;
+};
+
+}  // namespace waitpoint::segloc

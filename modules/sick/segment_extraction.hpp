@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Straight segments of aligned echoes, found in a laser scan by split and merge.
+//
+//   echoes ──break──> regions ──split──> runs ──merge──> runs ──fit──> segments
+//
+//   break   where beams are missing or the range jumps further than a wall seen at a grazing angle explains
+//   split   a run at the echo farthest (Mahalanobis) from its chord, recursively, until none is beyond the chi2 bound
+//   merge   neighbouring runs that one line explains
+//   fit     total least squares; the covariance follows from each echo's range and bearing noise, scaled up where the
+//           echoes scatter more than that, plus what one range bias common to all echoes would do to the line
+//
+// Sources: Nguyen, Martinelli, Tomatis, Siegwart, "A comparison of line extraction algorithms using 2D laser
+// rangefinder for indoor mobile robotics", IROS 2005; Borges, Aldon, "Line extraction in 2D range images", 2004 (break).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "modules/posters/laser.hpp"
+
+namespace waitpoint::sick {
+
+/// Defaults for a SICK LMS indoors.
+struct SegmentExtractionParameters {
+  double range_noise_m = 0.005;              ///< standard deviation up to range_noise_near_m, then growing linearly
+  double range_noise_near_m = 8;             ///< up to where the noise is constant
+  double range_noise_growth_m_per_m = 0.0004;  ///< beyond
+  double range_resolution_m = 0.01;          ///< quantisation, a uniform error
+  double range_bias_m = 0.004;               ///< standard deviation of the error that all echoes of a scan share
+  double bearing_noise_rad = 0.001;
+  double roughness_m = 0.013;        ///< standard deviation of a wall about its line: plaster, cells of a raster map
+  double range_min_m = 0.05;         ///< nearer echoes are the robot itself
+  double beam_gap_rad_max = 0.035;   ///< between the beams of neighbouring echoes
+  double grazing_angle_rad = 0.12;   ///< flattest angle between beam and wall that is followed
+  double jump_m_min = 0.1;           ///< a smaller range jump never breaks
+  double chi2_split = 9.0;           ///< squared Mahalanobis distance of the farthest echo of a straight run
+  double merge_gap_m_max = 0.4;      ///< between runs that are merged
+  double bow_m_max = 0.012;          ///< height of the arc through the echoes: more is a round thing, no wall
+  std::uint32_t points_min = 7;
+  double length_m_min = 0.4;
+
+  static constexpr auto fields() {
+    using P = SegmentExtractionParameters;
+    return std::tuple(field("range_noise_m", &P::range_noise_m), field("range_noise_near_m", &P::range_noise_near_m),
+                      field("range_noise_growth_m_per_m", &P::range_noise_growth_m_per_m),
+                      field("range_resolution_m", &P::range_resolution_m), field("range_bias_m", &P::range_bias_m),
+                      field("bearing_noise_rad", &P::bearing_noise_rad), field("roughness_m", &P::roughness_m),
+                      field("range_min_m", &P::range_min_m), field("beam_gap_rad_max", &P::beam_gap_rad_max),
+                      field("grazing_angle_rad", &P::grazing_angle_rad), field("jump_m_min", &P::jump_m_min),
+                      field("chi2_split", &P::chi2_split), field("merge_gap_m_max", &P::merge_gap_m_max),
+                      field("bow_m_max", &P::bow_m_max), field("points_min", &P::points_min),
+                      field("length_m_min", &P::length_m_min));
+  }
+};
+
+class SegmentExtraction {
+ public:
+  explicit SegmentExtraction(const SegmentExtractionParameters& parameters) : parameters_(parameters) {}
+
+  /// Finds the segments of a scan, in the robot's frame, counter-clockwise, or longest first where there are more than
+  /// the poster holds. Allocates nothing; a scan without echoes gives none.
+  void extract(const posters::Echoes& echoes, posters::Segments& segments);
+
+ private:
+  /// Echoes first..last, both included, that may lie on one line.
+  struct Run {
+    std::uint32_t first = 0, last = 0;
+    std::uint32_t points() const { return last - first + 1; }
+  };
+  /// The line normal . p = distance through `centre`, in the device's frame.
+  struct Line {
+    Point centre, normal;
+    double distance_m;
+  };
+
+  void prepare_beams(const posters::LaserReading& scan);
+  void take_echoes(const posters::LaserReading& scan);
+  bool breaks_after(std::uint32_t i) const;
+  void split(Run region);
+  void merge();
+  bool straight(Run run) const;
+  Line fit(Run run) const;
+  double variance_across(std::uint32_t i, double projection_m) const;
+  bool finish(Run run, posters::Segment& segment) const;
+
+  SegmentExtractionParameters parameters_;
+
+  // Directions of the beams, kept while the device's settings stay.
+  std::uint32_t beams_ = 0;
+  double first_angle_rad_ = 0, angle_step_rad_ = 0;
+  std::array<Point, posters::beam_count_max> direction_{};
+
+  // The echoes of the scan at hand, in the device's frame.
+  std::uint32_t echoes_ = 0;
+  std::array<Point, posters::beam_count_max> point_{};
+  std::array<double, posters::beam_count_max> range_m_{}, range_variance_{}, per_square_range_{};
+  std::array<std::uint32_t, posters::beam_count_max> beam_{};
+  /// Sums over the first i echoes, so that the line through any run costs the same.
+  struct Moments {
+    double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  };
+  std::array<Moments, posters::beam_count_max + 1> sum_{};
+
+  std::uint32_t runs_ = 0;
+  std::array<Run, posters::beam_count_max> run_{}, stack_{};
+};
+
+}  // namespace waitpoint::sick
