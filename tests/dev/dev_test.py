@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The machinery sees what it must see: each check on a small tree that breaks its rule, the counting on programs that
+pass, fail, crash and hang."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools/dev"))
+import run_tests  # noqa: E402
+
+LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n"
+
+
+class InATemporaryFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def check(self, part, *arguments):
+        """Runs one checker on the folder; returns (status, output)."""
+        command = [sys.executable, str(ROOT / f"tools/dev/check/{part}.py"), *(arguments or [str(self.folder)])]
+        done = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(done.stderr, "")
+        return done.returncode, done.stdout
+
+
+class Dependencies(InATemporaryFolder):
+    def includes(self, source, *headers):
+        self.write(source, LICENCE + "".join(f"#include {header}\n" for header in headers))
+
+    def test_what_the_table_allows_passes(self):
+        self.includes("core/time.hpp", "<cstdint>")
+        self.includes("fibers/kernel/fiber.cpp", '"core/time.hpp"', "<boost/context/detail/fcontext.hpp>")
+        self.includes("world/fcl/engine.cpp", '"core/time.hpp"', "<fcl/narrowphase/collision.h>")
+        self.includes("tests/core/time_test.cpp", '"core/time.hpp"', "<gtest/gtest.h>")
+        status, output = self.check("dependencies")
+        self.assertEqual(status, 0, output)
+        self.assertIn("4 files in 4 folders, 0 violations", output)
+
+    def test_each_forbidden_include_is_told_with_its_line(self):
+        self.includes("core/time.hpp")
+        self.includes("world/arc.hpp")
+        self.includes("modules/genom/module.hpp")
+        self.includes("modules/sick/sick.hpp")
+        for source, header, allowed in [
+            ("core/a.cpp", '"world/arc.hpp"', False),
+            ("core/b.cpp", "<Eigen/Dense>", False),
+            ("fibers/sync/a.cpp", "<boost/context/detail/fcontext.hpp>", False),
+            ("world/b.cpp", "<fcl/fcl.h>", False),
+            ("world/c.cpp", '"modules/genom/module.hpp"', False),
+            ("modules/ndd/a.cpp", '"modules/sick/sick.hpp"', False),
+            ("modules/ndd/b.cpp", '"world/arc.hpp"', False),
+            ("modules/ndd/c.cpp", '"modules/genom/module.hpp"', True),
+            ("modules/bridge/a.cpp", '"world/arc.hpp"', True),
+            ("tests/modules/ndd/a.cpp", '"world/arc.hpp"', False),
+            ("world/d.cpp", '"arc.hpp"', False),
+            ("world/e.cpp", "<core/time.hpp>", False),
+            ("widgets/a.cpp", '"core/time.hpp"', False),
+        ]:
+            with self.subTest(source=source, header=header):
+                self.includes(source, "<cstdint>", header)
+                status, output = self.check("dependencies")
+                (self.folder / source).unlink()
+                self.assertEqual(status, 0 if allowed else 1, output)
+                self.assertEqual(f"\n{source}:" in output, not allowed, output)
+
+
+class Files(InATemporaryFolder):
+    def test_a_clean_tree_passes(self):
+        self.write("core/time.hpp", LICENCE)
+        self.write("build/junk.cpp", "")
+        self.assertEqual(self.check("files")[0], 0)
+
+    def test_each_broken_rule_is_told(self):
+        for text in ["int a;\n", LICENCE + "// TO" "DO more\n", LICENCE + '"/ho' 'me/someone/x"\n']:
+            with self.subTest(text=text):
+                self.write("core/time.hpp", text)
+                status, output = self.check("files")
+                self.assertEqual(status, 1, output)
+                self.assertIn("core/time.hpp:", output)
+
+    def test_a_long_file_is_a_warning(self):
+        self.write("core/time.hpp", LICENCE + "\n" * 400)
+        status, output = self.check("files")
+        self.assertEqual(status, 0)
+        self.assertIn("warning: core/time.hpp: 401 lines", output)
+
+
+class Symbols(InATemporaryFolder):
+    def symbols_of(self, code):
+        source = self.write("kernel.cpp", code)
+        built = self.folder / "kernel.o"
+        subprocess.run(["g++", "-std=c++20", "-O1", "-fPIC", "-c", source, "-o", built], check=True)
+        return self.check("symbols", str(built))
+
+    def test_plain_code_passes(self):
+        status, output = self.symbols_of("extern int other(); int twice() { return 2 * other(); }")
+        self.assertEqual(status, 0, output)
+
+    def test_each_forbidden_thing_is_told(self):
+        for code, what in [
+            ("void f() { throw 1; }", "throws"),
+            ("int* f() { return new int[3]; }", "allocates"),
+            ("#include <cstdlib>\nvoid* f() { return std::malloc(3); }", "allocates"),
+            ("#include <string>\nvoid f(std::string& s) { s += s; }", "uses a standard container"),
+            ("thread_local int x; int f() { return ++x; }", "uses thread-local storage"),
+            ("int g(); int f() { static int x = g(); return x; }", "guards a local static"),
+        ]:
+            with self.subTest(what=what):
+                status, output = self.symbols_of(code)
+                self.assertEqual(status, 1, output)
+                self.assertIn(f": {what}: ", output)
+
+
+class Counting(InATemporaryFolder):
+    def run_program(self, script, timeout_s=20):
+        program = self.write("program.sh", f"#!/bin/bash\nreport=${{1#--gtest_output=xml:}}\n{script}\n")
+        program.chmod(0o755)
+        return run_tests.run_googletest([str(program)], self.folder / "report.xml", timeout_s)
+
+    def xml(self, cases):
+        return f"echo '<testsuites><testsuite>{cases}</testsuite></testsuites>' > $report"
+
+    PASSED = '<testcase name="A" classname="S" status="run" result="completed"/>'
+    FAILED = '<testcase name="B" classname="S" status="run"><failure message="x"/></testcase>'
+    SKIPPED = '<testcase name="C" classname="S" status="run" result="skipped"><skipped message="x"/></testcase>'
+    DISABLED = '<testcase name="D" classname="S" status="notrun" result="suppressed"/>'
+
+    def test_cases_are_counted_singly(self):
+        result = self.run_program(self.xml(self.PASSED * 3 + self.FAILED + self.SKIPPED + self.DISABLED) + "; exit 1")
+        self.assertEqual((result.passed, result.failed, result.skipped), (3, ["S.B"], ["S.C", "S.D"]))
+
+    def test_a_crash_fails_the_case_that_ran(self):
+        result = self.run_program("echo '[ RUN      ] S.A'; echo '[       OK ] S.A (0 ms)'; echo '[ RUN      ] S.B'; kill -SEGV $$")
+        self.assertEqual((result.passed, result.failed), (1, ["S.B: was ended by SIGSEGV"]))
+
+    def test_a_crash_after_the_last_case_fails(self):
+        result = self.run_program(self.xml(self.PASSED) + "; kill -ABRT $$")
+        self.assertEqual((result.passed, result.failed), (1, ["the program: was ended by SIGABRT after its cases"]))
+
+    def test_the_report_of_an_earlier_run_does_not_count(self):
+        self.run_program(self.xml(self.PASSED))
+        self.assertEqual(self.run_program("exit 0").passed, 0)
+
+    def test_a_program_that_hangs_is_ended_with_its_children(self):
+        result = self.run_program("sleep 100 & sleep 100", timeout_s=0.3)
+        self.assertEqual(result.failed, ["the program: still ran after 0.3 s"])
+
+    def test_a_program_without_cases_fails(self):
+        self.assertEqual(self.run_program(self.xml("")).failed, ["the program: holds no case"])
+
+
+if __name__ == "__main__":
+    unittest.main()

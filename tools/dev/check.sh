@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# What the repository demands of its sources: check.sh [PART...]. All parts are run, whichever fails.
+# Exit status: 0 all kept, 1 something violated, 77 (of a single part) its tool is not installed.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+build=$root/build
+source "$root/tools/dev/packages.sh"
+source "$root/tools/dev/build.sh"
+cd "$root"
+
+formatting() {
+  command -v clang-format >/dev/null || { say 'clang-format is not installed' && return 77; }
+  # One line a file is enough to find it; `./dev format` repairs them all.
+  local unformatted
+  unformatted=$(list_sources | xargs -0 clang-format --dry-run 2>&1 | awk -F: '/warning:/ && !seen[$1]++ {print $1 ":" $2}')
+  if [[ $unformatted ]]; then
+    sed 's/$/: not formatted (dev format repairs it)/' <<<"$unformatted"
+    return 1
+  fi
+  echo "$(list_sources | tr -cd '\0' | wc -c) files are formatted as .clang-format says"
+}
+
+# clang-tidy reads each file as the build compiles it, two files at a time; .clang-tidy says why each group is there.
+analysis() {
+  command -v clang-tidy >/dev/null || { say 'clang-tidy is not installed' && return 77; }
+  local sources
+  mapfile -t sources < <(python3 tools/dev/check/compiled.py sources "$build")
+  printf '%s\0' "${sources[@]}" |
+    xargs -0 -n 1 -P 2 clang-tidy --quiet -p "$build" --warnings-as-errors='*' \
+      2> >(grep -v 'warnings generated\.$\|^Suppressed\|^Use -header-filter' >&2)
+  echo "${#sources[@]} files analysed"
+}
+
+dependencies() { python3 tools/dev/check/dependencies.py "$root"; }
+
+symbols() {
+  local objects
+  mapfile -t objects < <(python3 tools/dev/check/compiled.py objects "$build" fibers/kernel)
+  compile "${objects[@]}"
+  (cd "$build" && python3 "$root/tools/dev/check/symbols.py" "${objects[@]}")
+}
+
+files() { python3 tools/dev/check/files.py "$root"; }
+
+parts=(formatting dependencies files symbols analysis)
+(($#)) || set -- "${parts[@]}"
+failed=()
+status=1
+for part; do
+  if [[ " ${parts[*]} " != *" $part "* ]]; then
+    say "check has no part '$part'; its parts: ${parts[*]}"
+    exit 2
+  fi
+  echo "== $part"
+  # A subshell under `set -e` of its own: `if` and `||` would switch that off within it.
+  set +e
+  (set -e; "$part")
+  part_status=$?
+  set -e
+  ((part_status == 0)) || failed+=("$part")
+  ((part_status != 77)) || status=77
+done
+if ((${#failed[@]})); then
+  echo "violated: ${failed[*]}"
+  (($# == 1)) || status=1
+  exit "$status"
+fi

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# What each command needs, and how it gets there. Sourced by `dev`.
+
+# Debian's names, and beside them what the same things are called upstream.
+declare -A debian=(
+  [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
+         nlohmann-json3-dev libpng-dev'
+  [test]='libgtest-dev clang gdb'
+  [bench]='libbenchmark-dev'
+  [check]='clang-format clang-tidy'
+  [format]='clang-format'
+)
+declare -A upstream=(
+  [run]='Meson 1.0, Ninja, a C++20 compiler, pkg-config, Python 3; Boost.Context 1.74, FCL 0.7 with libccd and Eigen 3.4,
+         yaml-cpp, CLI11, fmt, nlohmann_json, libpng'
+  [test]='GoogleTest, g++ and clang++, gdb'
+  [bench]='Google Benchmark'
+  [check]='clang-format and clang-tidy 14'
+  [format]='clang-format 14'
+)
+# Without these nothing can be built; all libraries but Google Benchmark come from subprojects/ when they are missing.
+declare -A tools=(
+  [run]='meson ninja c++ pkg-config python3' [test]='' [bench]='' [check]='' [format]='clang-format'
+)
+
+say() { echo "dev: $*" >&2; }
+
+# Makes sure that what the given commands need is installed: require COMMAND...
+require() {
+  local missing=()
+  if command -v apt-get >/dev/null; then
+    mapfile -t missing < <(missing_packages $(needed debian "$@"))
+    ((${#missing[@]})) || return 0
+    say "needed from Debian: ${missing[*]}"
+    if may_become_root; then
+      say 'installing them'
+      install_packages "${missing[@]}"
+      return
+    fi
+    say "not root, and sudo does not work here. As root: apt-get install --no-install-recommends ${missing[*]}"
+  fi
+  require_tools "$@"
+}
+
+# The words of table TABLE for the given commands: needed TABLE COMMAND...
+needed() {
+  local -n table=$1
+  shift
+  local name
+  for name; do echo ${table[$name]}; done
+}
+
+# Those of the given packages that are not installed; dpkg-query fails where it does not know one.
+missing_packages() {
+  local installed
+  installed=$( (dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true) | sed -n 's/^installed //p')
+  printf '%s\n' "$@" | sort -u | grep -vxF -f <(echo "$installed") || true
+}
+
+may_become_root() { ((EUID == 0)) || { command -v sudo >/dev/null && as_root true; }; }
+
+as_root() {
+  if ((EUID == 0)); then
+    "$@"
+  elif [[ -t 0 ]]; then
+    sudo "$@"
+  else
+    sudo -n "$@"
+  fi
+}
+
+install_packages() {
+  local install=(env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3
+    -o Dpkg::Use-Pty=0 -y -q)
+  # A fresh machine has no package lists, an old one has lists that name files which are gone.
+  if ! apt-cache show "$@" >/dev/null 2>&1 || ! as_root "${install[@]}" install --no-install-recommends "$@" >&2; then
+    as_root "${install[@]}" update >&2
+    as_root "${install[@]}" install --no-install-recommends "$@" >&2
+  fi
+}
+
+require_tools() {
+  local absent=() tool
+  for tool in $(needed tools "$@"); do
+    command -v "$tool" >/dev/null || absent+=("$tool")
+  done
+  if ((${#absent[@]})) || [[ ! -e $build/build.ninja ]]; then
+    say 'no packages can be installed here. Needed are:'
+    needed upstream "$@" | sed 's/^/       /' >&2
+  fi
+  if ((${#absent[@]})); then
+    say "cannot go on without: ${absent[*]}"
+    exit 1
+  fi
+  say 'Meson builds the libraries that it does not find from subprojects/'
+}

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs every test that Meson knows in a build folder, and counts the single GoogleTest cases.
+
+A program that crashes, hangs past its timeout, or holds no case at all counts as a failed case. The last line is
+`N passed, M failed`, with `, K skipped` where some were; the exit status is 1 if any failed or nothing was run.
+"""
+
+import argparse
+import concurrent.futures
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# What the repository says about itself. Each is one case; a part whose tool is not installed is left out.
+OWN_CASES = {
+    "check dependencies": [str(ROOT / "tools/dev/check.sh"), "dependencies"],
+    "check files": [str(ROOT / "tools/dev/check.sh"), "files"],
+    "check formatting": [str(ROOT / "tools/dev/check.sh"), "formatting"],
+    "dev": [sys.executable, str(ROOT / "tests/dev/dev_test.py")],
+}
+
+
+@dataclasses.dataclass
+class Result:
+    """What one program's run came to: case names, and its output where it is worth reading."""
+
+    passed: int = 0
+    failed: list = dataclasses.field(default_factory=list)
+    skipped: list = dataclasses.field(default_factory=list)
+    output: str = ""
+
+
+# Process groups that an interrupt must end: they do not hear it from the terminal.
+running_groups = set()
+
+
+def end_group(group):
+    try:
+        os.killpg(group, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
+def run(command, timeout_s, environment=None, folder=None):
+    """Runs a command in a process group of its own; returns (exit status, None past the timeout; output)."""
+    process = subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        env=environment,
+        cwd=folder,
+        start_new_session=True,
+    )
+    running_groups.add(process.pid)
+    try:
+        output, _ = process.communicate(timeout=timeout_s)
+        status = process.returncode
+    except subprocess.TimeoutExpired:
+        end_group(process.pid)
+        output, _ = process.communicate()
+        status = None
+    running_groups.discard(process.pid)
+    return status, output.decode(errors="replace")
+
+
+def explain(status, timeout_s):
+    if status is None:
+        return f"still ran after {timeout_s} s"
+    if status < 0:
+        return f"was ended by {signal.Signals(-status).name}"
+    return f"ended with status {status}"
+
+
+def read_cases(report, result):
+    """Adds the cases of GoogleTest's XML report to the result."""
+    for case in xml.etree.ElementTree.parse(report).iter("testcase"):
+        name = f"{case.get('classname')}.{case.get('name')}"
+        if case.find("failure") is not None:
+            result.failed.append(name)
+        elif case.get("status") == "notrun" or case.find("skipped") is not None:
+            result.skipped.append(name)
+        else:
+            result.passed += 1
+
+
+def run_googletest(command, report, timeout_s, environment=None, folder=None, filtered=False):
+    """Runs a GoogleTest program; the report is written only by one that came to its end."""
+    report.unlink(missing_ok=True)
+    status, output = run(command + [f"--gtest_output=xml:{report}"], timeout_s, environment, folder)
+    result = Result(output=output)
+    if report.exists():
+        read_cases(report, result)
+        if status != 0 and not result.failed:
+            result.failed.append(f"the program: {explain(status, timeout_s)} after its cases")
+    else:
+        started = re.findall(r"^\[ RUN      \] (.*)$", output, re.MULTILINE)
+        result.passed = len(re.findall(r"^\[       OK \] ", output, re.MULTILINE))
+        result.failed = re.findall(r"^\[  FAILED  \] (\S+) \(\d+ ms\)$", output, re.MULTILINE)
+        result.failed.append(f"{started[-1] if started else 'the program'}: {explain(status, timeout_s)}")
+    if not filtered and not (result.passed or result.failed or result.skipped):
+        result.failed.append("the program: holds no case")
+    return result
+
+
+def run_one_case(command, timeout_s, environment=None, folder=None):
+    """Runs a program that is one case: 0 passed, 77 skipped, anything else failed."""
+    status, output = run(command, timeout_s, environment, folder)
+    if status == 0:
+        return Result(passed=1, output=output)
+    if status == 77:
+        return Result(skipped=["not possible here"], output=output)
+    return Result(failed=[explain(status, timeout_s)], output=output)
+
+
+def report_end(name, result, wall_s, total):
+    """Prints a program's line as it ends, and its output if something failed; adds it to the total."""
+    verdict = "FAILED" if result.failed else "ok"
+    skipped = f", {len(result.skipped)} skipped" if result.skipped else ""
+    print(f"{verdict:6}  {name}: {result.passed} passed, {len(result.failed)} failed{skipped}  ({wall_s:.1f} s)")
+    if result.failed:
+        print("".join(f"    | {line}\n" for line in result.output.splitlines()), end="")
+        for case in result.failed:
+            print(f"    failed: {case}")
+    sys.stdout.flush()
+    total.passed += result.passed
+    total.failed += [f"{name}: {case}" for case in result.failed]
+    total.skipped += [f"{name}: {case}" for case in result.skipped]
+
+
+def jobs_of(build, arguments):
+    """The tests as (name, runs alone, function), what Meson gives a higher priority first."""
+    description = subprocess.run(["meson", "introspect", "--tests", str(build)], check=True, capture_output=True).stdout
+    reports = build / "test-reports"
+    reports.mkdir(exist_ok=True)
+    options = list(arguments.options)
+    if arguments.filter:
+        plain = not re.search(r"[*?:-]", arguments.filter)
+        options.append(f"--gtest_filter={'*' + arguments.filter + '*' if plain else arguments.filter}")
+    for test in sorted(json.loads(description), key=lambda test: -test["priority"]):
+        environment = {**os.environ, **test["env"]}
+        timeout_s = test["timeout"] or None
+        common = (timeout_s, environment, test["workdir"])
+        if test["protocol"] == "gtest":
+            report = reports / (re.sub(r"\W+", "-", test["name"]) + ".xml")
+            job = lambda c=test["cmd"] + options, r=report, a=common: run_googletest(c, r, *a, bool(arguments.filter))
+        elif arguments.filter:
+            continue
+        else:
+            job = lambda c=test["cmd"], a=common: run_one_case(c, *a)
+        yield test["name"], not test["is_parallel"], job
+    if not arguments.filter:
+        for name, command in OWN_CASES.items():
+            yield name, False, lambda c=command: run_one_case(c, 300)
+
+
+def timed(job):
+    start = time.monotonic()
+    return job(), time.monotonic() - start
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="dev test", description="Unknown options go to each GoogleTest program.")
+    parser.add_argument("build", type=pathlib.Path, help=argparse.SUPPRESS)
+    parser.add_argument("--filter", metavar="PATTERN", help="a word in the name of the cases, or GoogleTest's own pattern")
+    parser.add_argument("--jobs", type=int, default=2, help="programs at a time (default: 2)")
+    arguments, arguments.options = parser.parse_known_args()
+
+    total = Result()
+    jobs = list(jobs_of(arguments.build.resolve(), arguments))
+    with concurrent.futures.ThreadPoolExecutor(max(1, arguments.jobs)) as pool:
+        running = {pool.submit(timed, job): name for name, alone, job in jobs if not alone}
+        try:
+            for future in concurrent.futures.as_completed(running):
+                report_end(running[future], *future.result(), total)
+        except KeyboardInterrupt:
+            pool.shutdown(wait=False, cancel_futures=True)
+            for group in list(running_groups):
+                end_group(group)
+            raise
+    for name, alone, job in jobs:
+        if alone:
+            report_end(name, *timed(job), total)
+
+    for case in total.skipped:
+        print(f"skipped: {case}")
+    for case in total.failed:
+        print(f"failed: {case}")
+    if not total.passed and not total.failed:
+        total.failed.append("no case was run")
+        print("failed: no case was run")
+    skipped = f", {len(total.skipped)} skipped" if total.skipped else ""
+    print(f"{total.passed} passed, {len(total.failed)} failed{skipped}")
+    return 1 if total.failed else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)
