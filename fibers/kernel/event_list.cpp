@@ -35,6 +35,7 @@ void EventList::remove(EventNode& node) {
 }
 
 EventNode& EventList::pop() {
+  WAITPOINT_CHECK(size_ > 0, "the event list is empty");
   EventNode& node = *entries_[0].node;
   node.place = EventNode::absent;
   const Entry last = entries_[--size_];
@@ -43,6 +44,8 @@ EventNode& EventList::pop() {
 }
 
 EventNode& EventList::pop_and_insert(EventNode& node, EventKey key) {
+  WAITPOINT_CHECK(size_ > 0, "the event list is empty");
+  WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
   EventNode& least = *entries_[0].node;
   least.place = EventNode::absent;
   sift_down(0, Entry{key, &node});

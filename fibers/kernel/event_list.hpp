@@ -66,8 +66,9 @@ class EventList {
   void insert(EventNode& node, EventKey key);
   /// `node` must be in the list.
   void remove(EventNode& node);
+  /// The list must not be empty.
   EventNode& pop();
-  /// Takes the least event out and puts `node` in: one pass instead of two.
+  /// Takes the least event out and puts `node` in, which must not be there: one pass instead of two.
   EventNode& pop_and_insert(EventNode& node, EventKey key);
 
  private:

@@ -31,7 +31,7 @@ Scheduler::Scheduler(Order order, std::uint64_t seed) : events_(2 * tasks_max), 
 
 Scheduler::~Scheduler() {
   WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
-  if (first_task_ != nullptr) unwind();
+  unwind();
 }
 
 void Scheduler::add(Robot& robot, const char* name) {
@@ -79,6 +79,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
 
 RunState Scheduler::run_before(Time until) {
   WAITPOINT_CHECK(running == nullptr, "run_before() is called from within a task");
+  WAITPOINT_CHECK(!unwinding_, "a run that is over is run");
   until_ = until;
   if (cause_ != StopCause::none) return RunState::stopped;
   if (paused_ != nullptr) {
@@ -205,18 +206,20 @@ void Scheduler::arrive(Task& task) {
       run_next();
     }
     rest();
+    if (unwinding_) return;
     break;
   }
   now_ = task.local_time;
 }
 
 bool Scheduler::waitpoint(Operation operation, Object* object) {
-  if (unwinding_) return false;
+  if (unwinding_) return refuse();
   Task& task = *running;
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
   take_turn(task);
+  if (unwinding_) return false;
   arrive(task);
   if (unwinding_) return false;
   execute(task, operation, object);
@@ -224,7 +227,7 @@ bool Scheduler::waitpoint(Operation operation, Object* object) {
 }
 
 bool Scheduler::yield() {
-  if (unwinding_) return false;
+  if (unwinding_) return refuse();
   Task& task = *running;
   task.operation = Operation::yield;
   task.at = nullptr;
@@ -240,7 +243,7 @@ bool Scheduler::yield() {
 }
 
 bool Scheduler::sleep_until(Time time) {
-  if (unwinding_) return false;
+  if (unwinding_) return refuse();
   Task& task = *running;
   if (time > task.local_time) task.local_time = time;
   return waitpoint(Operation::sleep, nullptr);
@@ -268,10 +271,9 @@ void Scheduler::take_turn(Task& task) {
   if (task.turns_at != task.local_time) {
     task.turns_at = task.local_time;
     task.turns = 0;
-    return;
   }
-  if (++task.turns < turns_max) return;
-  task.turns = 0;
+  if (++task.turns <= turns_max) return;
+  task.turns = 1;
   const Operation operation = task.operation;
   const Object* at = task.at;
   yield();
@@ -310,7 +312,10 @@ bool Scheduler::enter(Object& object) {
 }
 
 Wake Scheduler::block(Object& object, Time deadline) {
-  if (unwinding_) return Wake::unwinding;
+  if (unwinding_) {
+    refuse();
+    return Wake::unwinding;
+  }
   Task& task = *running;
   append_waiter(object, task);
   task.state = TaskState::blocked;
@@ -369,13 +374,20 @@ void Scheduler::wake(Task& task) {
 Task* Scheduler::wake_one(Object& object) {
   if (unwinding_ || object.epoch != epoch_ || object.first_waiter == nullptr) return nullptr;
   Task* chosen = object.first_waiter;
-  if (running != nullptr && chooser_.order() != Order::fifo) {
+  if (chooser_.order() != Order::fifo) {
     std::uint32_t count = 0;
     for (Task* t = chosen; t != nullptr; t = t->next_waiter) ++count;
     for (std::uint32_t i = chooser_.waiter(*running, count); i > 0; --i) chosen = chosen->next_waiter;
   }
   wake(*chosen);
   return chosen;
+}
+
+Task* Scheduler::wake_first(Object& object) {
+  if (unwinding_ || object.epoch != epoch_ || object.first_waiter == nullptr) return nullptr;
+  Task* first = object.first_waiter;
+  wake(*first);
+  return first;
 }
 
 void Scheduler::wake_all(Object& object) {
@@ -399,11 +411,15 @@ void Scheduler::task_main(void* argument) {
   scheduler.end_task(task);
 }
 
-void Scheduler::end_task(Task& task) {
+void Scheduler::unlink(Task& task) {
   task.state = TaskState::ended;
   (task.previous == nullptr ? first_task_ : task.previous->next) = task.next;
   (task.next == nullptr ? last_task_ : task.next->previous) = task.previous;
   --tasks_;
+}
+
+void Scheduler::end_task(Task& task) {
+  unlink(task);
   ended_ = &task;
   if (!task.service && !unwinding_) {
     if (--task.robot->live_tasks == 0) {
@@ -424,16 +440,33 @@ void Scheduler::unwind() {
   WAITPOINT_CHECK(running == nullptr, "unwind() is called from within a task");
   unwinding_ = true;
   paused_ = nullptr;
-  // Each entry ends its task, which unlinks it.
-  while (first_task_ != nullptr) {
-    Task& task = *first_task_;
-    if (task.event.in_list()) events_.remove(task.event);
-    if (task.blocked_on != nullptr) remove_waiter(task);
-    switch_to(task);
-    WAITPOINT_CHECK(first_task_ != &task, "a task went on although the run is over");
-  }
+  // Before any frame is left, because frames own objects: no task may be found at one that is gone.
+  for (Task* task = first_task_; task != nullptr; task = task->next)
+    if (task->blocked_on != nullptr) remove_waiter(*task);
   // Timers may outlive the run: they must not find themselves in its list.
   while (!events_.empty()) events_.pop();
+  // Each entry ends its task, which unlinks it.
+  while (last_task_ != nullptr) {
+    Task& task = *last_task_;
+    switch_to(task);
+    WAITPOINT_CHECK(last_task_ != &task, "a task went on although the run is over");
+  }
+}
+
+// A task that goes on calling although every call is refused would never end.
+bool Scheduler::refuse() {
+  if (++running->refusals > refusals_max) abandon();
+  return false;
+}
+
+void Scheduler::abandon() {
+  WAITPOINT_CHECK(unwinding_ && running != nullptr, "a task is abandoned while the run goes on");
+  Task& task = *running;
+  unlink(task);
+  task.next = first_abandoned_;
+  first_abandoned_ = &task;
+  leave_to_main(RunState::stopped);
+  bug(__FILE__, __LINE__, "control came back", "an abandoned task was entered");
 }
 
 }  // namespace waitpoint::kernel

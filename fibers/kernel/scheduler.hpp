@@ -60,6 +60,8 @@ struct SpawnOptions {
 inline constexpr std::uint32_t tasks_max = 1u << 20;
 /// Waitpoints that a task may pass at one instant before its ties get a turn.
 inline constexpr std::uint32_t turns_max = 1000;
+/// Calls that a task may make while it is unwound: one that makes more does not leave, and is abandoned.
+inline constexpr std::uint32_t refusals_max = 10'000;
 
 class Scheduler {
  public:
@@ -81,14 +83,19 @@ class Scheduler {
   /// Stops the run from within a task; run_before() returns at once.
   void stop(StopCause cause);
 
-  /// Takes every task that is left off its stack: blocking calls report Wake::unwinding. The run is over then.
+  /// Takes every task that is left off its stack: blocking calls report Wake::unwinding. The run is over then. The
+  /// youngest task goes first: what a task borrows from its maker's frames is still there.
   void unwind();
+  /// Gives up the running task, which cannot or does not leave its frames while it is unwound: what they own leaks.
+  [[noreturn]] void abandon();
+  /// The tasks given up so, linked by `next`.
+  const Task* first_abandoned() const { return first_abandoned_; }
 
   // --- what primitives are made of; only within a task ---
 
   /// The task's event stands at its local time; returns when it is the least. False while unwinding.
   bool waitpoint(Operation operation, Object* object);
-  /// As waitpoint, but behind all tasks of this instant.
+  /// As waitpoint, but behind all tasks of this instant; in the seeded order anywhere among them.
   bool yield();
   /// Moves the task to `time` (not before its local time) and waits there.
   bool sleep_until(Time time);
@@ -98,6 +105,8 @@ class Scheduler {
   /// global.
   Task* wake_one(Object& object);
   void wake_all(Object& object);
+  /// As wake_one, but the first: for timers, which are no tasks and leave no choice.
+  Task* wake_first(Object& object);
   /// Makes `object` belong to this run; true if it was not yet, so that a primitive can take its initial state.
   bool enter(Object& object);
   /// Adds words to the digest of the running task's robot.
@@ -116,6 +125,8 @@ class Scheduler {
   /// Events executed so far, by tasks of all robots.
   std::uint64_t events() const { return executed_; }
   bool unwinding() const { return unwinding_; }
+  /// Tasks that are left and are no services.
+  std::uint32_t live_tasks() const { return live_tasks_; }
   /// The task that found the deadlock.
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch) { watch_ = watch; }
@@ -133,6 +144,8 @@ class Scheduler {
  private:
   static void task_main(void* task);
   [[noreturn]] void end_task(Task& task);
+  void unlink(Task& task);
+  bool refuse();
   void arrive(Task& task);
   void execute(Task& task, Operation operation, const Object* object);
   void take_turn(Task& task);
@@ -163,6 +176,7 @@ class Scheduler {
   Task* paused_ = nullptr;  // its event is the least, but not before `until_`
   Task* ended_ = nullptr;   // its stack is still underfoot until the next switch is done
   Task* culprit_ = nullptr;
+  Task* first_abandoned_ = nullptr;
   Watch* watch_ = nullptr;
   const char* replay_ = "";
   void* client_ = nullptr;

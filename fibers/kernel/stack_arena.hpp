@@ -41,7 +41,8 @@ class StackArena {
   StackArena(const StackArena&) = delete;
   StackArena& operator=(const StackArena&) = delete;
 
-  /// A stack of at least bytes(size), less one guard page. False when all slots are taken.
+  /// A stack of at least bytes(size), less the guard page and less than a page of shift. False when all slots are
+  /// taken.
   bool take(StackSize size, Stack& stack);
   void give_back(const Stack& stack);
 

@@ -79,13 +79,14 @@ struct Task {
   Object* blocked_on = nullptr;
   Task* next_waiter = nullptr;
   Task* previous_waiter = nullptr;
-  Task* next = nullptr;  // all tasks of the run, in an intrusive list
+  Task* next = nullptr;  // all tasks of the run in the order of their making, in an intrusive list
   Task* previous = nullptr;
   void (*entry)(void*) = nullptr;
   void* argument = nullptr;
   std::uint32_t children = 0;
   std::uint32_t turns = 0;  ///< waitpoints passed at one instant
   Time turns_at;
+  std::uint32_t refusals = 0;  ///< calls made since the run is over
   Phase phase = Phase::tasks;
   TaskState state = TaskState::ready;
   Operation operation = Operation::start;

@@ -11,6 +11,7 @@ namespace {
 using kernel::Task;
 
 constexpr std::size_t frames_shown = 4;
+constexpr std::size_t tasks_shown = 16;
 
 std::string full_name(const Task& task) { return std::string(task.name) + " of " + task.robot->name; }
 
@@ -20,6 +21,8 @@ std::string describe(const kernel::Object& object) {
   if (object.label[0] != '\0') text += std::string(" \"") + object.label + "\"";
   return text;
 }
+
+std::string more(std::size_t count) { return "\n  and " + std::to_string(count) + " more tasks"; }
 
 void add_place(std::string& text, kernel::Scheduler& scheduler, Task& task) {
   void* frames[24];
@@ -60,20 +63,24 @@ std::string describe_deadlock(kernel::Scheduler& scheduler) {
     text += "a task waits for itself";
   else
     text += std::to_string(waiting.size()) + " tasks wait for each other";
-  for (Task* task : waiting) text += describe_wait(scheduler, *task);
+  for (std::size_t i = 0; i < waiting.size() && i < tasks_shown; ++i) text += describe_wait(scheduler, *waiting[i]);
+  if (waiting.size() > tasks_shown) text += more(waiting.size() - tasks_shown);
   return text;
 }
 
 std::string describe_spinning(kernel::Scheduler& scheduler) {
   std::string text =
       "no progress: virtual time stands still at " + to_string(scheduler.global_time()) + " s while tasks spin";
+  std::size_t spinning = 0;
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
     if (task->state == kernel::TaskState::blocked || task->local_time != scheduler.global_time()) continue;
+    if (++spinning > tasks_shown) continue;
     text += "\n  task " + full_name(*task) + " (" + kernel::name(task->operation);
     if (task->at != nullptr) text += " " + describe(*task->at);
     text += ")";
     add_place(text, scheduler, *task);
   }
+  if (spinning > tasks_shown) text += more(spinning - tasks_shown);
   return text;
 }
 

@@ -47,15 +47,17 @@ inline bool block(kernel::Object& object, Time deadline = Time::max()) {
   return wake == kernel::Wake::woken;
 }
 
-/// The local virtual time `span` from now; for ever if that cannot be represented. Rounded up to nanoseconds.
+/// The local virtual time `span` from now; for ever if that cannot be represented, now if it is past. Rounded up to
+/// nanoseconds.
 template <class Rep, class Ratio>
 Time after(const std::chrono::duration<Rep, Ratio>& span) {
   const Time now = running_task().local_time;
   if (span > std::chrono::duration<double>(9e9)) return Time::max();
+  if (span <= span.zero()) return now;
   const auto ns = std::chrono::ceil<std::chrono::nanoseconds>(span);
   std::int64_t at = 0;
   if (__builtin_add_overflow(now.ns(), ns.count(), &at)) return Time::max();
-  return at < now.ns() ? now : Time::from_ns(at);
+  return Time::from_ns(at);
 }
 
 }  // namespace waitpoint::sync

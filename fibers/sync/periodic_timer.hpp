@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A periodic timer: a recurrent event that wakes who waits for it.
+// A periodic timer: a recurrent event that wakes who waits for it. While nobody does, it stands in no list: a timer
+// alone keeps no run alive.
 //
 // Tick k comes at start + phase + the k-th multiple of the period, rounded once. Ticks that nobody waited for are not
 // lost silently and do not pile up: wait() returns how many have come since it last returned.
@@ -38,13 +39,14 @@ class periodic_timer {
   static void tick(kernel::EventNode& node);
   Time time_of(std::int64_t k) const { return Time() + phase_ + period_.tick(k); }
   void start();
+  void catch_up();
 
   kernel::Object object_;
   Event event_;
   kernel::Scheduler* scheduler_ = nullptr;
   Period period_;
   Duration phase_;
-  std::int64_t next_ = 0;     // tick in the event list
+  std::int64_t next_ = 0;     // the first tick that has not come yet, or was not yet seen to
   std::int64_t pending_ = 0;  // ticks not yet waited for
   Time due_;
 };

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/time.hpp"
+#include "fibers/kernel/stack_arena.hpp"
 
 namespace waitpoint::threads {
 
@@ -43,6 +44,7 @@ using binary_semaphore = counting_semaphore<1>;
 
 struct thread_attributes {
   const char* name = "thread";
+  kernel::StackSize stack = kernel::StackSize::medium;
   bool service = false;
 };
 
@@ -60,7 +62,10 @@ class thread : public std::thread {
 };
 
 namespace this_thread {
-using namespace std::this_thread;
+using std::this_thread::get_id;
+using std::this_thread::sleep_for;
+using std::this_thread::sleep_until;
+using std::this_thread::yield;
 inline void sleep_for(Duration span) { std::this_thread::sleep_for(std::chrono::nanoseconds(span.ns())); }
 inline void sleep_until(Time time) { sleep_for(time - now()); }
 }  // namespace this_thread

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ostream>
-#include <vector>
 
 #include "fibers/sync/blocked_report.hpp"
+#include "fibers/sync/blocking.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint {
@@ -18,7 +18,7 @@ Simulation::Simulation(SimulationOptions options)
   scheduler_.add(environment_, "environment");
 }
 
-Simulation::~Simulation() { scheduler_.unwind(); }
+Simulation::~Simulation() { unwind(); }
 
 kernel::Robot& Simulation::add_robot(const std::string& name) {
   WAITPOINT_CHECK(name.size() < kernel::name_size, "a robot's name is too long");
@@ -34,15 +34,43 @@ void Simulation::spawn(kernel::Robot& robot, const kernel::SpawnOptions& options
 
 RunEnd Simulation::run_before(Time until) {
   const kernel::RunState state = scheduler_.run_before(until);
-  if (failure_ != nullptr) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (failure_ != nullptr) std::rethrow_exception(failure_);
   if (state == kernel::RunState::reached) return RunEnd::time_reached;
   if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::ended) return RunEnd::ended;
   if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::no_progress) {
     trouble_ = sync::describe_spinning(scheduler_);
     return RunEnd::no_progress;
   }
+  if (scheduler_.live_tasks() == 0) return RunEnd::ended;
   trouble_ = sync::describe_deadlock(scheduler_);
   return RunEnd::deadlock;
+}
+
+void Simulation::unwind() {
+  terminate_ = std::set_terminate(terminate_task);
+  scheduler_.unwind();
+  std::set_terminate(terminate_);
+}
+
+// Unwind came to a frame that lets nothing through: a destructor in which the task waited when the run ended.
+void Simulation::terminate_task() {
+  if (kernel::running != nullptr && std::current_exception() != nullptr) {
+    try {
+      throw;
+    } catch (const sync::Unwind&) {
+      kernel::running->scheduler->abandon();
+    } catch (...) {
+    }
+    of(*kernel::running->scheduler).terminate_();
+  }
+  std::abort();
+}
+
+std::vector<std::string> Simulation::abandoned() const {
+  std::vector<std::string> names;
+  for (const kernel::Task* task = scheduler_.first_abandoned(); task != nullptr; task = task->next)
+    names.push_back(std::string(task->name) + " of " + task->robot->name);
+  return names;
 }
 
 Digest Simulation::digest() const {
@@ -66,9 +94,12 @@ void Simulation::fail(std::exception_ptr failure) {
 
 std::ostream& operator<<(std::ostream& out, const Report& report) {
   if (report.passed)
-    return out << "passed at " << to_string(report.end_time) << " s, " << report.events << " events, "
-               << to_string(report.digest);
-  return out << report.text;
+    out << "passed at " << to_string(report.end_time) << " s, " << report.events << " events, "
+        << to_string(report.digest);
+  else
+    out << report.text;
+  for (const std::string& task : report.abandoned) out << "\nnot unwound, what it owns leaks: task " << task;
+  return out;
 }
 
 Report simulate(std::function<void()> body, SimulationOptions options) {
@@ -84,7 +115,7 @@ Report simulate(std::function<void()> body, SimulationOptions options) {
   simulation.spawn(simulation.environment(), {.name = "main"}, std::move(body));
   try {
     report.end = simulation.run_before();
-    report.text = simulation.trouble();
+    report.text = report.end == RunEnd::time_reached ? "virtual time ran out" : simulation.trouble();
   } catch (const std::exception& failure) {
     report.text = std::string("an exception escaped from a task: ") + failure.what();
   } catch (...) {
@@ -93,7 +124,7 @@ Report simulate(std::function<void()> body, SimulationOptions options) {
   report.digest = simulation.digest();
   report.end_time = simulation.global_time();
   report.events = simulation.scheduler().events();
-  report.passed = report.text.empty() && report.end == RunEnd::ended;
+  report.passed = report.text.empty();
   if (!report.passed && !replay.empty()) report.text += "\nreplay: " + replay;
   return report;
 }

@@ -11,6 +11,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "core/digest.hpp"
 #include "core/time.hpp"
@@ -42,6 +43,7 @@ class Simulation {
 
   /// The lane of tasks that belong to no robot.
   kernel::Robot& environment() { return environment_; }
+  const kernel::Robot& environment() const { return environment_; }
   /// `name` must be new.
   kernel::Robot& add_robot(const std::string& name);
 
@@ -49,19 +51,23 @@ class Simulation {
   void spawn(kernel::Robot& robot, const kernel::SpawnOptions& options, std::function<void()> body);
 
   /// Executes all events before `until`; may be called again with a later time. An exception that escaped from a task
-  /// is rethrown here.
+  /// is rethrown here, and at every later call.
   RunEnd run_before(Time until = Time::max());
 
   /// What run_before() found, in words; empty unless a deadlock or a lack of progress.
   const std::string& trouble() const { return trouble_; }
 
   /// Ends every task that is left. Nothing can be run afterwards.
-  void unwind() { scheduler_.unwind(); }
+  void unwind();
+  /// After unwind(): the tasks that did not leave, "name of robot" each, and leak what their frames own: they waited
+  /// in a destructor, or go on and on although every call throws.
+  std::vector<std::string> abandoned() const;
 
   /// Of the robots in the order of their names, then of the environment.
   Digest digest() const;
   Time global_time() const { return scheduler_.global_time(); }
   kernel::Scheduler& scheduler() { return scheduler_; }
+  const kernel::Scheduler& scheduler() const { return scheduler_; }
 
   static Simulation& of(kernel::Scheduler& scheduler) { return *static_cast<Simulation*>(scheduler.client()); }
   /// Ends the run with an exception: for the tasks' own entry.
@@ -72,8 +78,11 @@ class Simulation {
   kernel::Scheduler scheduler_;
   kernel::Robot environment_;
   std::deque<kernel::Robot> robots_;
+  static void terminate_task();
+
   std::exception_ptr failure_;
   std::string trouble_;
+  std::terminate_handler terminate_ = nullptr;  // what std::terminate called before unwind() did
 };
 
 /// What one simulated run of a test body came to.
@@ -84,6 +93,7 @@ struct Report {
   Digest digest;
   Time end_time;
   std::uint64_t events = 0;
+  std::vector<std::string> abandoned;  ///< see Simulation::abandoned
 };
 
 std::ostream& operator<<(std::ostream& out, const Report& report);

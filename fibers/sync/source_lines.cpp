@@ -16,13 +16,17 @@ bool contains(const std::string& text, const char* part) { return text.find(part
 
 // Frames that implement the primitives say nothing about the user's program.
 bool is_ours(const std::string& line) {
+  if (contains(line, "tests/fibers/")) return false;
   for (const char* part :
        {"fibers/kernel/", "fibers/sync/", "waitpoint::kernel::", "waitpoint::sync::", "/include/c++/"})
     if (contains(line, part)) return true;
   return false;
 }
 
-bool is_entry(const std::string& line) { return contains(line, "run_thread") || contains(line, "task_main"); }
+bool is_entry(const std::string& line) {
+  return contains(line, "waitpoint::sync::(anonymous namespace)::run_thread") ||
+         contains(line, "waitpoint::kernel::Scheduler::task_main");
+}
 
 std::string name_from_symbols(const Dl_info& info, std::uintptr_t offset) {
   if (info.dli_sname != nullptr) {

@@ -12,15 +12,16 @@ void run_thread(void* argument) {
   const std::unique_ptr<std::shared_ptr<ThreadState>> share(static_cast<std::shared_ptr<ThreadState>*>(argument));
   ThreadState& state = **share;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
-  if (!scheduler.unwinding()) {
-    try {
-      state.body();
-    } catch (const Unwind&) {
-    } catch (...) {
-      Simulation::of(scheduler).fail(std::current_exception());
-    }
+  try {
+    const std::function<void()> body = std::move(state.body);
+    // What the function owns is let go while an exception is under way, so that its destructors need not wait.
+    if (scheduler.unwinding()) throw Unwind();
+    body();
+  } catch (const Unwind&) {
+  } catch (...) {
+    // While unwinding, this is what a task made of Unwind.
+    if (!scheduler.unwinding()) Simulation::of(scheduler).fail(std::current_exception());
   }
-  state.body = nullptr;
   if (before_releasing(kernel::Operation::release, state.ended)) {
     state.ended.owner = nullptr;
     scheduler.wake_all(state.ended);

@@ -85,8 +85,10 @@ RunResult Experiment::result() const {
   result.scenario = scenario_.name;
   result.seed = options_.seed;
   result.digest = simulation_.digest();
+  result.environment_digest = simulation_.environment().digest;
   for (const auto& robot : robots_) result.robots.push_back(robot->result());
   result.warnings = warnings_;
+  result.events = simulation_.scheduler().events();
   result.deadlock = simulation_.trouble();
   result.outcome = end_ == RunEnd::ended          ? Outcome::finished
                    : end_ == RunEnd::time_reached ? Outcome::time_limit

@@ -35,7 +35,7 @@ class Experiment {
   RunEnd run_before(Time until);
 
   Simulation& simulation() { return simulation_; }
-  world::World& world() { return *world_; }
+  const world::World& world() const { return *world_; }
   const std::vector<std::unique_ptr<Robot>>& robots() const { return robots_; }
   /// Goals that have been reported on, reached or not, and all there are.
   std::size_t goals_ended() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a scenario file. The format is described in full by the README and by example in scenarios/.
+// Reads a scenario file. docs/scenario.md describes the format, scenarios/ has examples.
 //
 //   format: 1
 //   name: office

@@ -10,6 +10,8 @@ namespace {
 constexpr double least_slowing = 0.3;  // by closeness alone; what must be slower the limiter slows
 constexpr int speed_steps = 12;
 constexpr int path_samples = 3;
+constexpr int turn_steps = 4;
+constexpr double decision_s = 0.1;  // what speed can be lost until the next decision
 
 double stopping_distance_m(const Parameters& p, double v_m_s) {
   return v_m_s * p.reaction_s + v_m_s * v_m_s / (2 * p.braking_m_s2);
@@ -32,26 +34,32 @@ Speeds motion_law(const Parameters& p, double direction_rad, double safety, doub
   return {v, w};
 }
 
-Speeds SpeedLimiter::limit(const Speeds& wanted, std::span<const Point> obstacles) {
+Speeds SpeedLimiter::limit(const Speeds& wanted, const Speeds& measured, std::span<const Point> obstacles) {
   near_.clear();
   distance_m_.clear();
+  const double fastest = std::max({wanted.v_m_s, measured.v_m_s, parameters_.creep_m_s});
   const double reach = parameters_.robot_radius_m + parameters_.emergency_distance_m +
-                       2 * stopping_distance_m(parameters_, std::max(wanted.v_m_s, parameters_.creep_m_s));
+                       2 * stopping_distance_m(parameters_, fastest);
   for (const Point p : obstacles) {
     const double square = dot(p, p);
     if (square >= reach * reach) continue;
     near_.push_back(p);
     distance_m_.push_back(std::sqrt(square));
   }
+  const double slowest = measured.v_m_s - parameters_.braking_m_s2 * decision_s;
+  double w = wanted.w_rad_s;
+  for (int step = turn_steps; step > 0 && !can_stop(slowest, w); --step) {
+    w = wanted.w_rad_s * (step - 1) / turn_steps;
+  }
   for (int step = speed_steps; step > 0; --step) {
     const double v = wanted.v_m_s * step / speed_steps;
-    if (admissible(v, wanted.w_rad_s)) return {v, wanted.w_rad_s};
+    if (can_stop(v, w) && can_stop(v, measured.w_rad_s) && can_stop(v, 0)) return {v, w};
   }
   const double creep = std::min(parameters_.creep_m_s, wanted.v_m_s);
-  return {can_creep(creep, wanted.w_rad_s) ? creep : 0, wanted.w_rad_s};
+  return {can_creep(creep, w) ? creep : 0, w};
 }
 
-bool SpeedLimiter::admissible(double v_m_s, double w_rad_s) const {
+bool SpeedLimiter::can_stop(double v_m_s, double w_rad_s) const {
   if (v_m_s <= 0) return true;
   const double hull = parameters_.robot_radius_m + parameters_.emergency_distance_m;
   const double stop = stopping_distance_m(parameters_, v_m_s);
@@ -67,7 +75,8 @@ bool SpeedLimiter::admissible(double v_m_s, double w_rad_s) const {
 bool SpeedLimiter::can_creep(double v_m_s, double w_rad_s) const {
   if (v_m_s <= 0) return true;
   const double hull = parameters_.robot_radius_m + 0.5 * parameters_.emergency_distance_m;
-  const Point q = along_arc(stopping_distance_m(parameters_, v_m_s), w_rad_s / v_m_s);
+  // Twice the stopping path: the other half is for an obstacle that creeps too.
+  const Point q = along_arc(2 * stopping_distance_m(parameters_, v_m_s), w_rad_s / v_m_s);
   for (const Point p : near_) {
     const Point rest = p - q;
     if (dot(q, p) > 0 && dot(rest, rest) < hull * hull) return false;

@@ -7,7 +7,8 @@
 //   every point q of the stopping path, and every obstacle point p, seen from the robot's centre:
 //       q . p / |p|  <=  (|p| - radius - emergency distance) / 2
 //
-// that is, it stays on its own side of the middle between its hull and p. So two robots that keep the rule never meet,
+// It must be so on the path of the commanded turn, on that of the measured one and straight on: the next decision may turn
+// otherwise, and a base takes its time to do so. That is, the robot stays on its own side of the middle between its hull and p. So two robots that keep the rule never meet,
 // however they move, and neither need know that the other one is a robot (the idea of buffered Voronoi cells: Zhou,
 // Wang, Bandyopadhyay, Schwager, RA-L 2017). At a creep, staying half the emergency distance off p is enough.
 #pragma once
@@ -31,11 +32,12 @@ class SpeedLimiter {
  public:
   explicit SpeedLimiter(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// The speeds with the greatest admissible v <= wanted.v_m_s, the turning speed as wanted.
-  Speeds limit(const Speeds& wanted, std::span<const Point> obstacles);
+  /// Speeds with the greatest admissible v <= wanted.v_m_s. The turning speed is as wanted, unless the robot at its
+  /// `measured` speeds could not stop on the turn: then it turns less.
+  Speeds limit(const Speeds& wanted, const Speeds& measured, std::span<const Point> obstacles);
 
  private:
-  bool admissible(double v_m_s, double w_rad_s) const;
+  bool can_stop(double v_m_s, double w_rad_s) const;
   bool can_creep(double v_m_s, double w_rad_s) const;
 
   Parameters parameters_;

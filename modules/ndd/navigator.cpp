@@ -9,6 +9,7 @@ namespace {
 
 constexpr double standing_m_s = 0.05;
 constexpr double about_turn_rad = 150 * exact::pi / 180;
+constexpr double give_way_rad = 0.3, give_way_share = 0.4;
 constexpr double security_m_min = 0.04;
 constexpr double security_per_m = 0.5;  // how fast the full security distance is regained away from the target
 
@@ -17,6 +18,13 @@ Pose displacement(const Speeds& speeds, double seconds) {
   const double turn = speeds.w_rad_s * seconds, way = speeds.v_m_s * seconds;
   const auto [s, c] = exact::sincos(0.5 * turn);
   return {way * c, way * s, turn};
+}
+
+// Two robots that cross would push each other along side by side. The one that has the other between itself and its
+// target, on its right, falls back.
+bool gives_way(const Assessment& assessment, Point target) {
+  return assessment.safety < 1 && assessment.nearest_rad < 0 && target.y < 0 &&
+         exact::atan2(target.y, target.x) < -give_way_rad;
 }
 
 }  // namespace
@@ -77,11 +85,12 @@ Decision Navigator::decide(Time now, const posters::PositionEstimate& position) 
   decision.direction_rad = assessment.direction_rad;
   if (assessment.situation == Situation::no_region) return decision;
   double v_max = parameters_.v_m_s_max;
+  if (gives_way(assessment, target)) v_max *= give_way_share;
   if (route_.target_is_last()) {
     v_max = std::min(v_max, std::sqrt(2 * parameters_.goal_braking_m_s2 * target_distance));
   }
   const Speeds wanted = motion_law(parameters_, assessment.direction_rad, assessment.safety, v_max);
-  decision.speeds = limiter_.limit(wanted, obstacles_);
+  decision.speeds = limiter_.limit(wanted, measured_, obstacles_);
   return decision;
 }
 

@@ -20,6 +20,20 @@ struct Opening {
   int detour_sectors;  // from the goal's direction, with handicap and bonus
 };
 
+using Openings = Bounded<Opening, 2 * sector_count>;
+
+void favour_nearest(Openings& openings, Point previous) {
+  Opening* nearest = nullptr;
+  double least = kept_distance_m;
+  for (Opening& opening : openings) {
+    const double distance = length(opening.sub_goal - previous);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = &opening;
+  }
+  if (nearest != nullptr) nearest->detour_sectors -= kept_bonus_sectors;
+}
+
 // The midpoint of the gap, on the ray beside the edge.
 Point sub_goal_of(const Diagram& diagram, const Region& region, bool at_right_edge, double robot_width_m) {
   const int inner = at_right_edge ? region.first : region.last();
@@ -80,17 +94,16 @@ Choice choose_region(const Diagram& diagram, const Regions& regions, Point goal,
   if (diagram[goal_sector].distance_m > goal_distance && reachable(diagram, goal, robot_width_m)) {
     return {true, true, region_with(regions, goal_sector), false, goal};
   }
-  Bounded<Opening, 2 * sector_count> openings;
+  Openings openings;
   const auto add = [&](const Region& region, bool at_right_edge) {
-    const Point sub_goal = sub_goal_of(diagram, region, at_right_edge, robot_width_m);
-    int detour = detour_of(goal_sector, at_right_edge ? region.first : region.last());
-    if (previous && length(sub_goal - *previous) < kept_distance_m) detour -= kept_bonus_sectors;
-    openings.push_back({region, at_right_edge, sub_goal, detour});
+    openings.push_back({region, at_right_edge, sub_goal_of(diagram, region, at_right_edge, robot_width_m),
+                        detour_of(goal_sector, at_right_edge ? region.first : region.last())});
   };
   for (const Region& region : regions) {
     if (region.opens_at_right) add(region, true);
     if (region.opens_at_left) add(region, false);
   }
+  if (previous) favour_nearest(openings, *previous);
   std::sort(openings.begin(), openings.end(), [](const Opening& a, const Opening& b) {
     return std::tuple(a.detour_sectors, a.region.first, !a.at_right_edge) <
            std::tuple(b.detour_sectors, b.region.first, !b.at_right_edge);

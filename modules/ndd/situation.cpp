@@ -38,16 +38,16 @@ Assessment high_safety(const Diagram& diagram, const Choice& choice, double robo
                        double security_distance_m) {
   if (!choice.found) return {};
   if (choice.goal_reachable) {
-    return {Situation::high_safety_goal_region, exact::atan2(choice.target.y, choice.target.x), 1};
+    return {Situation::high_safety_goal_region, exact::atan2(choice.target.y, choice.target.x), 1, 0};
   }
   const Region& region = choice.region;
   const Sector& edge = diagram[choice.at_right_edge ? region.first - 1 : region.last() + 1];
   if (region.width_rad() <= wide_rad || !edge.occupied()) {
-    return {Situation::high_safety_narrow_region, region.middle_rad(), 1};
+    return {Situation::high_safety_narrow_region, region.middle_rad(), 1, 0};
   }
   const double aside = exact::atan2(robot_radius_m + security_distance_m, edge.distance_m);
   const double direction = choice.at_right_edge ? edge.angle_rad + aside : edge.angle_rad - aside;
-  return {Situation::high_safety_wide_region, exact::wrap_angle(direction), 1};
+  return {Situation::high_safety_wide_region, exact::wrap_angle(direction), 1, 0};
 }
 
 Assessment with_obstacles(const Diagram& diagram, const Assessment& free_way, double robot_radius_m,
@@ -62,7 +62,8 @@ Assessment with_obstacles(const Diagram& diagram, const Assessment& free_way, do
     if (closeness < side.closeness) side = {closeness, sector.angle_rad};
   }
   const double ahead = free_way.direction_rad;
-  Assessment result = {free_way.situation, ahead, std::min(left.closeness, right.closeness)};
+  Assessment result = {free_way.situation, ahead, std::min(left.closeness, right.closeness),
+                       left.closeness < right.closeness ? left.angle_rad : right.angle_rad};
   if (left.present() && right.present()) {
     // With equal closeness the way is kept; with an obstacle touching one side it is a right angle to the other.
     const double k = (left.closeness - right.closeness) / std::max(left.closeness + right.closeness, 1e-9);

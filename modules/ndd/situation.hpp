@@ -33,6 +33,7 @@ struct Assessment {
   Situation situation = Situation::no_region;
   double direction_rad = 0;  ///< within +-pi/2 of ahead
   double safety = 1;         ///< hull distance of the nearest obstacle in security distances, at most 1
+  double nearest_rad = 0;    ///< where that obstacle is; of no meaning where `safety` is 1
 };
 
 /// The direction that a choice calls for with no obstacle within the security distance, in (-pi, pi].

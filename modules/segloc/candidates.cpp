@@ -30,10 +30,10 @@ bool Candidates::sight(const Pose& robot, const LineObservation& observation, st
     now.sightings = before.sightings + 1;
     candidate.landmark = now;
     const Pose moved = between(candidate.first_seen_from, robot);
-    const bool from_elsewhere = length(moved.position()) >= parameters_.travel_m_min ||
-                                std::fabs(moved.heading) >= parameters_.turn_rad_min;
-    const bool trusted = (from_elsewhere && now.sightings >= parameters_.sightings_min) ||
-                         now.sightings >= parameters_.sightings_enough;
+    const bool from_elsewhere =
+        length(moved.position()) >= parameters_.travel_m_min || std::fabs(moved.heading) >= parameters_.turn_rad_min;
+    const bool trusted =
+        (from_elsewhere && now.sightings >= parameters_.sightings_min) || now.sightings >= parameters_.sightings_enough;
     if (!trusted) return false;
     confirmed = now;
     remove(i);

@@ -27,17 +27,17 @@ Segloc::Segloc(genom::ModuleSetup& setup)
       localisation_(add_poster<posters::Localisation>("localisation", slam_)),
       map_poster_(add_poster<posters::SegmentMap>("map", slam_)) {
   auto& localise = add_activity<posters::KnownPose>("Localise", slam_,
-                                               {.start =
-                                                    [this](auto& activity) {
-                                                      start(activity.input);
-                                                      return State::exec;
-                                                    },
-                                                .exec =
-                                                    [this](auto&) {
-                                                      this->localise();
-                                                      return State::exec;
-                                                    }},
-                                               {"Localise"});
+                                                    {.start =
+                                                         [this](auto& activity) {
+                                                           start(activity.input);
+                                                           return State::exec;
+                                                         },
+                                                     .exec =
+                                                         [this](auto&) {
+                                                           this->localise();
+                                                           return State::exec;
+                                                         }},
+                                                    {"Localise"});
   localise.cost = 1ms;
   setup.settings.read_one("localise_cost_us", localise.cost);
   add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"Localise"});

@@ -25,64 +25,9 @@
 #include "modules/segloc/covariance.hpp"
 #include "modules/segloc/joint_update.hpp"
 #include "modules/segloc/landmark.hpp"
+#include "modules/segloc/parameters.hpp"
 
 namespace waitpoint::segloc {
-
-struct Parameters {
-  std::uint32_t landmarks_max = 200;
-  std::uint32_t matches_max = 24;  ///< lines that one update takes in
-
-  // Added to the covariance of the odometry: its systematic errors, as the random walk that covers them over some
-  // metres (1 % of the way, 0.5 degrees a metre, 1.5 % of the turn).
-  double travel_noise_m_per_sqrt_m = 0.02;
-  double drift_noise_rad_per_sqrt_m = 0.015;
-  double turn_noise_rad_per_sqrt_rad = 0.02;
-
-  // Floor of an observation's standard deviation.
-  double angle_floor_rad = 0.005;
-  double offset_floor_m = 0.012;
-
-  // The map is corrected when the robot has moved so far, or turned, or stood still for so many scans.
-  double update_travel_m = 0.1;
-  double update_turn_rad = 0.06;
-  std::uint32_t update_scans = 10;
-
-  double chi2_match = 9.21;        ///< of a match; 99 % of the right ones at two degrees of freedom
-  double angle_rad_max = 0.15;     ///< matches and duplicates are looked for within
-  double offset_m_max = 0.5;
-  double gap_m_max = 1.5;          ///< between what is seen and what was seen of a landmark before
-  double information_min = 0.1;    ///< matches that teach less, relative to their noise, are left out of the update
-  double disputed_offset_m = 0.15; ///< a segment so near a landmark that it does not match is no new line
-  double length_m_min = 0.5;       ///< of a segment that is used
-  double length_at_once_m = 1.0;   ///< of a new line that becomes a landmark unconfirmed, see consider_new()
-  double join_m = 0.3;             ///< gap between two stretches of a wall that is closed
-  double chi2_merge = 5.99;        ///< between two landmarks that are one line
-
-  // The robot slipped, if so many updates in a row find fewer matches than segments near a landmark that do not match.
-  // The pose is then less sure than thought, and nothing new is learnt until the matches are back or it takes too long.
-  std::uint32_t lost_updates = 2, lost_updates_max = 20;
-  double lost_noise_m = 0.1, lost_noise_rad = 0.05;
-  CandidateParameters candidates;
-
-  static constexpr auto fields() {
-    using P = Parameters;
-    return std::tuple(
-        field("landmarks_max", &P::landmarks_max), field("matches_max", &P::matches_max),
-        field("travel_noise_m_per_sqrt_m", &P::travel_noise_m_per_sqrt_m),
-        field("drift_noise_rad_per_sqrt_m", &P::drift_noise_rad_per_sqrt_m),
-        field("turn_noise_rad_per_sqrt_rad", &P::turn_noise_rad_per_sqrt_rad),
-        field("angle_floor_rad", &P::angle_floor_rad), field("offset_floor_m", &P::offset_floor_m),
-        field("update_travel_m", &P::update_travel_m), field("update_turn_rad", &P::update_turn_rad),
-        field("update_scans", &P::update_scans), field("chi2_match", &P::chi2_match),
-        field("angle_rad_max", &P::angle_rad_max), field("offset_m_max", &P::offset_m_max),
-        field("gap_m_max", &P::gap_m_max), field("information_min", &P::information_min),
-        field("disputed_offset_m", &P::disputed_offset_m), field("length_m_min", &P::length_m_min),
-        field("length_at_once_m", &P::length_at_once_m), field("join_m", &P::join_m), field("chi2_merge", &P::chi2_merge), field("lost_updates", &P::lost_updates),
-        field("lost_updates_max", &P::lost_updates_max), field("lost_noise_m", &P::lost_noise_m),
-        field("lost_noise_rad", &P::lost_noise_rad),
-        field("candidates", &P::candidates));
-  }
-};
 
 /// A pose with its covariance of (x, y, heading) in row order; m^2, m rad, rad^2.
 struct PoseEstimate {

@@ -10,7 +10,8 @@
 //           echoes scatter more than that, plus what one range bias common to all echoes would do to the line
 //
 // Sources: Nguyen, Martinelli, Tomatis, Siegwart, "A comparison of line extraction algorithms using 2D laser
-// rangefinder for indoor mobile robotics", IROS 2005; Borges, Aldon, "Line extraction in 2D range images", 2004 (break).
+// rangefinder for indoor mobile robotics", IROS 2005; Borges, Aldon, "Line extraction in 2D range images", 2004
+// (break).
 #pragma once
 
 #include <array>
@@ -22,21 +23,21 @@ namespace waitpoint::sick {
 
 /// Defaults for a SICK LMS indoors.
 struct SegmentExtractionParameters {
-  double range_noise_m = 0.005;              ///< standard deviation up to range_noise_near_m, then growing linearly
-  double range_noise_near_m = 8;             ///< up to where the noise is constant
+  double range_noise_m = 0.005;                ///< standard deviation up to range_noise_near_m, then growing linearly
+  double range_noise_near_m = 8;               ///< up to where the noise is constant
   double range_noise_growth_m_per_m = 0.0004;  ///< beyond
-  double range_resolution_m = 0.01;          ///< quantisation, a uniform error
-  double range_bias_m = 0.004;               ///< standard deviation of the error that all echoes of a scan share
+  double range_resolution_m = 0.01;            ///< quantisation, a uniform error
+  double range_bias_m = 0.004;                 ///< standard deviation of the error that all echoes of a scan share
   double bearing_noise_rad = 0.001;
-  double roughness_m = 0.013;        ///< standard deviation of a wall about its line: plaster, cells of a raster map
-  double range_min_m = 0.05;         ///< nearer echoes are the robot itself
-  double beam_gap_rad_max = 0.035;   ///< between the beams of neighbouring echoes
-  double grazing_angle_rad = 0.12;   ///< flattest angle between beam and wall that is followed
-  double jump_m_min = 0.1;           ///< a smaller range jump never breaks
-  double chi2_split = 9.0;           ///< squared Mahalanobis distance of the farthest echo of a straight run
-  double merge_gap_m_max = 0.4;      ///< between runs that are merged
-  double bow_m_max = 0.012;          ///< height of the arc through the echoes: more is a round thing, no wall
-  std::uint32_t points_min = 7;
+  double roughness_m = 0.013;       ///< standard deviation of a wall about its line: plaster, cells of a raster map
+  double range_min_m = 0.05;        ///< nearer echoes are the robot itself
+  double beam_gap_rad_max = 0.035;  ///< between the beams of neighbouring echoes
+  double grazing_angle_rad = 0.12;  ///< flattest angle between beam and wall that is followed
+  double jump_m_min = 0.1;          ///< a smaller range jump never breaks
+  double chi2_split = 9.0;          ///< squared Mahalanobis distance of the farthest echo of a straight run
+  double merge_gap_m_max = 0.4;     ///< between runs that are merged
+  double bow_m_max = 0.012;         ///< height of the arc through the echoes: more is a round thing, no wall
+  std::uint32_t points_min = 6;
   double length_m_min = 0.4;
 
   static constexpr auto fields() {

@@ -93,7 +93,7 @@ class FclWorld final : public World {
   std::uint64_t steps_ = 0;
   std::vector<Body> bodies_;
   Scene obstacle_scene_;
-  Scene body_scene_;  // bodies as published at the last step but one: where the last step began
+  Scene body_scene_;                          // bodies as published at the last step but one: where the last step began
   std::vector<std::vector<Corner>> corners_;  // of each obstacle with later ones; only if there are sonars
 
   // Buffers of one call, kept so that steps and scans allocate nothing.

@@ -2,10 +2,13 @@
 // Solids in FCL's dynamic tree of bounding boxes.
 //
 // FCL knows each solid twice: as its own geometry (box, cylinder), which its narrow phase can be asked about, and by a
-// bounding box, which its tree sorts. Rays and candidates come from an own walk of that tree (FCL 0.7 has no rays):
-// near child first, shrinking the ray to the nearest hit so far. The boxes are wider than the solids by more than any
-// rounding, so that culling never loses a hit that hit_distance() reports: results are those of asking every solid, to
-// the last bit, whatever the shape of the tree. Solids have own numbers, and results are in their order.
+// bounding box, which its tree sorts. Rays and candidates come from an own walk of that tree (FCL 0.7 has no rays).
+// Neighbouring rays of a fan walk it together, as a wedge: near child first, dropping what lies beside the wedge or
+// beyond the farthest of the ranges found so far; every solid that is reached is then asked for each ray.
+//
+// The boxes are wider than the solids by more than any rounding, so that culling never loses a hit that hit_distance()
+// reports: results are those of asking every solid, to the last bit, whatever the shape of the tree. Solids have own
+// numbers, and results are in their order.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +43,9 @@ class Scene {
   /// ascending order; `found` is overwritten.
   void near(const Bounds& bounds, double z_low_m, double z_high_m, std::vector<std::uint32_t>& found) const;
 
-  /// Casts a fan of rays at one height: each of `ranges_m` is the limit of its ray, and is lowered to the distance of
-  /// the nearest solid (other than `except`) if that is less. As many directions (of length 1) as ranges.
+  /// Casts a fan of rays, counter-clockwise, at one height: each of `ranges_m` is the limit of its ray, and is lowered
+  /// to the distance of the nearest solid (other than `except`) if that is less. As many directions (of length 1) as
+  /// ranges.
   void cast(Point origin, std::span<const Point> directions, double height_m, std::uint32_t except,
             std::span<double> ranges_m) const;
 

@@ -88,7 +88,7 @@ GreyImage parse_pgm(std::string_view contents, const std::string& file) {
   const std::int64_t width = in.number("the width"), height = in.number("the height");
   const std::int64_t value_max = in.number("the greatest value");
   if (value_max < 0) in.fail("the image is cut short: expected width, height and greatest value");
-  if (width < 1 || height < 1 || width * height > OccupancyGrid::cells_max) {
+  if (width < 1 || height < 1 || width > OccupancyGrid::cells_max / height) {
     in.fail("expected 1 to " + std::to_string(OccupancyGrid::cells_max) + " pixels, found " + std::to_string(width) +
             " x " + std::to_string(height));
   }

@@ -38,12 +38,12 @@ Reach reach_along(const Mover& mover, const Outline& outline, double fraction, P
     reach.count = 1;
     return reach;
   }
-  const Pose body = mover.body_at(fraction);
+  const PointVelocities velocities = mover.velocities_at(fraction);
   double foremost = -HUGE_VAL;
   for (const Point& p : core_points(outline)) {
     const double along = dot(normal, p);
     foremost = std::max(foremost, along);
-    reach.items[reach.count++] = {along, dot(normal, mover.velocity_of(p, body))};
+    reach.items[reach.count++] = {along, dot(normal, velocities.of(p))};
   }
   for (std::size_t i = 0; i < reach.count; ++i) reach.items[i].behind_m = foremost - reach.items[i].behind_m;
   return reach;
@@ -81,9 +81,10 @@ Outline Mover::at(double fraction) const {
   return fraction == 0 || !moves() ? start_ : outline_of(*shape_, arc_.at(fraction));
 }
 
-Point Mover::velocity_of(Point p, const Pose& body) const {
+PointVelocities Mover::velocities_at(double fraction) const {
+  const Pose body = arc_.at(fraction);
   const auto [s, c] = exact::sincos(body.heading);
-  return {arc_.distance_m * c - arc_.turn_rad * (p.y - body.y), arc_.distance_m * s + arc_.turn_rad * (p.x - body.x)};
+  return {body.position(), {arc_.distance_m * c, arc_.distance_m * s}, arc_.turn_rad};
 }
 
 std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from) {

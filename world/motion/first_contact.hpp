@@ -27,6 +27,16 @@ inline constexpr double contact_gap_m = 1e-6;
 /// How exactly it stops there. Far above the rounding of coordinates, far below the gap.
 inline constexpr double contact_tolerance_m = 1e-9;
 
+/// The velocities, in m per step, of all points of a body at one moment.
+struct PointVelocities {
+  Point origin, of_origin;
+  double turn_rad = 0;
+
+  Point of(Point p) const {
+    return {of_origin.x - turn_rad * (p.y - origin.y), of_origin.y + turn_rad * (p.x - origin.x)};
+  }
+};
+
 /// An outline on its arc, over one step.
 class Mover {
  public:
@@ -42,10 +52,8 @@ class Mover {
   double path_m() const { return path_m_; }
   /// No point's path, as a function of the fraction, has a second derivative above this, in m.
   double bend_m() const { return bend_m_; }
-  /// Where the body's origin and heading are at that fraction.
-  Pose body_at(double fraction) const { return arc_.at(fraction); }
-  /// Velocity, in m per step, of the point `p` of the body when the body is at `body`.
-  Point velocity_of(Point p, const Pose& body) const;
+  /// How its points move at that fraction.
+  PointVelocities velocities_at(double fraction) const;
 
  private:
   const Shape* shape_ = nullptr;

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/nearest_name.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+template <class Number>
+bool parse(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& found) {
+  throw BadInput(where, "expected " + expected + ", found '" + found + "'");
+}
+
+std::uint64_t seed_of(const std::string& where, const std::string& text) {
+  std::uint64_t seed = 0;
+  if (!parse(text, seed)) refuse(where, "a whole number from 0 to 2^64 - 1", text);
+  return seed;
+}
+
+SeedRange range_of(const std::string& text) {
+  SeedRange range;
+  const std::size_t dots = text.find("..");
+  const bool good = dots != std::string::npos && parse(std::string_view(text).substr(0, dots), range.first) &&
+                    parse(std::string_view(text).substr(dots + 2), range.last) && range.first <= range.last;
+  if (!good) refuse("--seeds", "FIRST..LAST", text);
+  return range;
+}
+
+/// As the arguments are written, before their values are understood.
+struct Arguments {
+  std::string scenario, seed, seeds, order, until, speed, summary, picture, trajectory, digests, events;
+  std::vector<std::string> assignments;
+};
+
+void add_scenario(CLI::App& command, Arguments& arguments) {
+  command.add_option("SCENARIO", arguments.scenario, "the scenario file")->required()->type_name(" ");
+}
+
+void add_set(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("--set", arguments.assignments,
+                  "set a value of the scenario, as often as needed. KEY is keys joined by dots,\n"
+                  "elements of lists by their number from 0 or their name; VALUE is YAML. A file\n"
+                  "named here is relative to the current directory. For example:\n"
+                  "  robots.0.goals=[[1,2],[3,4]]\n"
+                  "  robot_types.rackham.modules.segloc.enabled=false")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+CLI::App* add_run(CLI::App& app, Arguments& arguments) {
+  CLI::App* run = app.add_subcommand("run", "Simulates a scenario; a summary and the digest at the end.");
+  const auto add = [run](const char* name, std::string& value, const char* type, const char* description) {
+    run->add_option(name, value, description)->type_name(type);
+  };
+  add_scenario(*run, arguments);
+  add("--seed", arguments.seed, "N", "seed of every random stream (default: $WAITPOINT_SEED, or 1)");
+  add("--seeds", arguments.seeds, "A..B",
+      "run each seed from A to B and print a row for each; without files of\nsingle runs");
+  add("--order", arguments.order, "ORDER",
+      "order of events of one instant: fifo, the default, or seeded, by hashes\nof the seed");
+  add("--until", arguments.until, "S", "end at this virtual time, in seconds (default: the scenario's until_s)");
+  add("--speed", arguments.speed, "X", "pace to X simulated seconds a second; 0, the default, is as fast as it goes");
+  add("--summary", arguments.summary, "FILE.json", "write the summary as JSON");
+  add("--picture", arguments.picture, "FILE.svg", "draw the floor and the paths");
+  add("--trajectory", arguments.trajectory, "FILE.tum",
+      "write the paths in TUM format: the true one to FILE.tum, beside it\n"
+      "FILE.estimated.tum and FILE.odometry.tum; with the robots' names if several");
+  add("--digests", arguments.digests, "FILE", "write a digest per robot and simulated second");
+  add("--events", arguments.events, "FILE", "write every event as a line of text");
+  add_set(*run, arguments);
+  return run;
+}
+
+/// A range of seeds is many runs: what is written of a single one has no place there.
+void check_alone(const Arguments& arguments) {
+  const std::pair<const char*, const std::string&> others[] = {{"--seed", arguments.seed},
+                                                               {"--picture", arguments.picture},
+                                                               {"--trajectory", arguments.trajectory},
+                                                               {"--digests", arguments.digests},
+                                                               {"--events", arguments.events}};
+  for (const auto& [name, value] : others) {
+    if (!value.empty()) throw BadInput("--seeds", std::string("cannot be used together with ") + name);
+  }
+}
+
+RunOptions run_options(const Arguments& arguments) {
+  RunOptions options;
+  options.scenario = arguments.scenario;
+  options.assignments = arguments.assignments;
+  const char* const environment = std::getenv("WAITPOINT_SEED");
+  if (!arguments.seed.empty()) {
+    options.seed = seed_of("--seed", arguments.seed);
+  } else if (environment != nullptr && *environment != '\0') {
+    options.seed = seed_of("WAITPOINT_SEED", environment);
+  }
+  if (!arguments.seeds.empty()) {
+    check_alone(arguments);
+    options.seeds = range_of(arguments.seeds);
+  }
+  if (arguments.order == "seeded") {
+    options.order = kernel::Order::seeded;
+  } else if (!arguments.order.empty() && arguments.order != "fifo") {
+    refuse("--order", "fifo or seeded", arguments.order);
+  }
+  if (!arguments.until.empty()) {
+    double until_s = 0;
+    if (!parse(arguments.until, until_s) || !(until_s >= 1e-9 && until_s <= 1e9)) {
+      refuse("--until", "a positive number of seconds", arguments.until);
+    }
+    options.until = Duration::from_seconds(until_s);
+  }
+  if (!arguments.speed.empty() &&
+      (!parse(arguments.speed, options.speed) || !(options.speed >= 0 && options.speed <= 1e9))) {
+    refuse("--speed", "a number that is not negative", arguments.speed);
+  }
+  const auto file = [](const std::string& name) {
+    return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
+  };
+  options.summary = file(arguments.summary);
+  options.picture = file(arguments.picture);
+  options.trajectory = file(arguments.trajectory);
+  options.digests = file(arguments.digests);
+  options.events = file(arguments.events);
+  return options;
+}
+
+/// What CLI11 did not understand, in one line that says what was probably meant.
+BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
+  const std::string where = "command line";
+  const std::vector<std::string> extra = app.remaining(true);
+  if (extra.empty()) return BadInput(where, error.what());
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options()) names.push_back(option->get_name());
+  if (command == &app) {
+    for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(sub->get_name());
+  }
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const std::string word = extra.front().substr(0, extra.front().find('='));
+  const std::string hint = did_you_mean(word, known);
+  const std::string kind = word.starts_with('-') ? "option" : command == &app ? "command" : "argument";
+  return BadInput(where,
+                  "unknown " + kind + " '" + word + "'" + (hint.empty() ? "; --help lists what there is" : hint));
+}
+
+}  // namespace
+
+Options read_options(int argc, const char* const* argv, const std::string& version) {
+  CLI::App app("Simulates robots whose software runs as simulated threads: one seed, one run, bit for bit.",
+               "waitpoint");
+  app.set_version_flag("--version", version, "print version, compiler, flags and the fingerprint of the math");
+  Arguments arguments;
+  CLI::App* run = add_run(app, arguments);
+  CLI::App* check =
+      app.add_subcommand("check", "Reads a scenario and tells what is wrong with it, without running it.");
+  add_scenario(*check, arguments);
+  add_set(*check, arguments);
+  // After the commands are added, which would inherit it.
+  app.footer(
+      "waitpoint COMMAND --help tells more. Exit status: 0 as the scenario expects, 1 an expectation failed or a\n"
+      "deadlock was found, 2 bad input, 130 stopped by a signal.");
+  app.require_subcommand(0, 1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return ShownText{app.help()};
+  } catch (const CLI::CallForVersion&) {
+    return ShownText{version + "\n"};
+  } catch (const CLI::ParseError& error) {
+    throw bad_argument(app, error);
+  }
+  if (run->parsed()) return run_options(arguments);
+  if (check->parsed()) return CheckOptions{arguments.scenario, arguments.assignments};
+  throw BadInput("command line", "expected a command, run or check; waitpoint --help tells more");
+}
+
+}  // namespace waitpoint::tools

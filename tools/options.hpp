@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the command line of `waitpoint` asks for, as values. Nothing is opened or run here.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/time.hpp"
+#include "fibers/kernel/chooser.hpp"
+
+namespace waitpoint::tools {
+
+struct SeedRange {
+  std::uint64_t first = 1, last = 1;  ///< both run
+};
+
+/// `waitpoint run SCENARIO ...`
+struct RunOptions {
+  std::filesystem::path scenario;
+  std::vector<std::string> assignments;  ///< of --set, in their order: "world.step_ms=5"
+  std::uint64_t seed = 1;
+  std::optional<SeedRange> seeds;  ///< instead of `seed`
+  std::optional<Duration> until;   ///< instead of the scenario's
+  kernel::Order order = kernel::Order::fifo;
+  double speed = 0;  ///< simulated seconds a second; 0: as fast as it goes
+  std::optional<std::filesystem::path> summary, picture, trajectory, digests, events;
+};
+
+/// `waitpoint check SCENARIO ...`
+struct CheckOptions {
+  std::filesystem::path scenario;
+  std::vector<std::string> assignments;
+};
+
+/// `--help`, `--version`: to be printed, and that is all.
+struct ShownText {
+  std::string text;
+};
+
+using Options = std::variant<RunOptions, CheckOptions, ShownText>;
+
+/// Reads the arguments, and WAITPOINT_SEED where --seed is not given. Throws BadInput, one clear line, for what it does
+/// not understand. `version` is the text of --version.
+Options read_options(int argc, const char* const* argv, const std::string& version);
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `waitpoint run`: carries out a scenario, shows how far it has come, writes what was asked for.
+//
+// The run is carried out in short windows of virtual time; between two of them progress is shown, signals are heeded
+// and the wall clock is waited for. The windows change nothing in the run.
+#pragma once
+
+#include <span>
+
+#include "modules/genom/module_type.hpp"
+#include "tools/options.hpp"
+
+namespace waitpoint::tools {
+
+/// Returns the exit status: 0 if the run came to what the scenario expects, 1 if not, 130 if a signal ended it. Throws
+/// BadInput before anything is run or written.
+int run(const RunOptions& options, std::span<const genom::ModuleType> types);
+
+}  // namespace waitpoint::tools
