@@ -5,27 +5,13 @@
 
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/scenario_reader.hpp"
-#include "modules/ndd/ndd.hpp"
-#include "modules/pom/pom.hpp"
-#include "modules/rflex/rflex.hpp"
-#include "modules/segloc/segloc.hpp"
-#include "modules/sick/sick.hpp"
 #include "tools/options.hpp"
+#include "tools/papers_modules.hpp"
 #include "tools/run.hpp"
 #include "tools/version.hpp"
 
 namespace waitpoint {
 namespace {
-
-std::vector<genom::ModuleType> with_papers_modules(std::vector<genom::ModuleType> types) {
-  // The first of a name counts.
-  types.push_back(genom::module_type<ndd::Ndd>("ndd"));
-  types.push_back(genom::module_type<pom::Pom>("pom"));
-  types.push_back(genom::module_type<rflex::Rflex>("rflex"));
-  types.push_back(genom::module_type<segloc::Segloc>("segloc"));
-  types.push_back(genom::module_type<sick::Sick>("sick"));
-  return types;
-}
 
 int check(const tools::CheckOptions& options, std::span<const genom::ModuleType> types) {
   const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
@@ -41,7 +27,9 @@ int check(const tools::CheckOptions& options, std::span<const genom::ModuleType>
 }  // namespace
 
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
-  const std::vector<genom::ModuleType> types = with_papers_modules(std::move(own));
+  // The first of a name counts.
+  std::vector<genom::ModuleType> types = std::move(own);
+  for (genom::ModuleType& type : tools::papers_modules()) types.push_back(std::move(type));
   try {
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
     if (const auto* run = std::get_if<tools::RunOptions>(&options)) return tools::run(*run, types);

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/formats/map_server.hpp"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cstring>
+#include <vector>
+
+#include "tests/world/formats/files.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+const std::string head = "image: map.pgm\nresolution: 0.5\norigin: [1, 2, 0]\n";
+
+std::string pgm(const std::string& pixels, const std::string& size = "3 2") {
+  return "P5\n" + size + "\n255\n" + pixels;
+}
+
+// The cells row by row from the top, as the image shows them: '.' free, '#' occupied, '?' unknown.
+std::string drawn(const OccupancyGrid& grid) {
+  std::string text;
+  for (int y = grid.height() - 1; y >= 0; --y) {
+    for (int x = 0; x < grid.width(); ++x) text += ".#?"[static_cast<int>(grid[{x, y}])];
+    if (y > 0) text += '/';
+  }
+  return text;
+}
+
+void write_png(const std::string& file, std::uint32_t format, std::uint32_t width, std::uint32_t height,
+               const std::vector<std::uint8_t>& pixels) {
+  png_image image;
+  std::memset(&image, 0, sizeof image);
+  image.version = PNG_IMAGE_VERSION;
+  image.width = width;
+  image.height = height;
+  image.format = format;
+  ASSERT_NE(png_image_write_to_file(&image, file.c_str(), 0, pixels.data(), 0, nullptr), 0);
+}
+
+testing::AssertionResult refuses(const std::string& yaml, const std::string& where, const std::string& what) {
+  return complains([&] { read_map_server_map(yaml); }, where, what);
+}
+
+TEST(MapServer, ReadsRawPgmFromTheTop) {
+  const Folder folder;
+  const std::string yaml = folder.write("map.yaml", head);
+  folder.write("map.pgm", pgm(std::string("\xFE\x00\xCD\x00\xFE\xFE", 6)));
+  const OccupancyGrid grid = read_map_server_map(yaml);
+  EXPECT_EQ(drawn(grid), ".#?/#..");
+  EXPECT_EQ(grid.resolution_m(), 0.5);
+  EXPECT_EQ(grid.origin(), (Pose{1, 2, 0}));
+  EXPECT_EQ(grid.cell_at({1.2, 2.2}), (CellIndex{0, 0})) << "the origin is the lower left corner";
+}
+
+TEST(MapServer, ReadsPlainPgmWithCommentsAnywhere) {
+  const Folder folder;
+  const std::string yaml = folder.write("map.yaml", head);
+  folder.write("map.pgm", "P2 # made by hand\n# GIMP\n3 # wide\n2\n255\n254 0 205 # first row\n0 254\t254\n");
+  EXPECT_EQ(drawn(read_map_server_map(yaml)), ".#?/#..");
+}
+
+TEST(MapServer, APixelThatLooksLikeACommentIsAPixel) {
+  const Folder folder;
+  const std::string yaml = folder.write("map.yaml", head);
+  folder.write("map.pgm", "P5\n# comment\n3 2\n255\n##\n\n##");
+  EXPECT_EQ(drawn(read_map_server_map(yaml)), "###/###");
+}
+
+TEST(MapServer, ReadsPngGreyAndColourAndTransparency) {
+  const Folder folder;
+  const std::string yaml =
+      folder.write("map.yaml", "image: map.png\nresolution: 0.5\norigin: [1, 2, 0]\nmode: scale\n");
+  write_png(folder.path("map.png"), PNG_FORMAT_GRAY, 3, 2, {254, 0, 205, 0, 254, 254});
+  EXPECT_EQ(drawn(read_map_server_map(yaml)), ".#?/#..");
+  write_png(folder.path("map.png"), PNG_FORMAT_RGB, 3, 1, {254, 254, 254, 0, 0, 0, 255, 180, 180});
+  EXPECT_EQ(drawn(read_map_server_map(yaml)), ".#?");
+  write_png(folder.path("map.png"), PNG_FORMAT_RGBA, 3, 1, {254, 254, 254, 255, 0, 0, 0, 255, 0, 0, 0, 0});
+  EXPECT_EQ(drawn(read_map_server_map(yaml)), ".#?");
+}
+
+TEST(MapServer, ThresholdsNegateAndModes) {
+  const Folder folder;
+  folder.write("map.pgm", pgm(std::string("\x00\x1E\x50\x64\x80\xFF", 6), "6 1"));  // 0 30 80 100 128 255
+  const auto read = [&](const std::string& more) {
+    return drawn(read_map_server_map(folder.write("m.yaml", head + more)));
+  };
+  EXPECT_EQ(read(""), "###??.");
+  EXPECT_EQ(read("negate: 1"), "..???#");
+  EXPECT_EQ(read("occupied_thresh: 0.45\nfree_thresh: 0.3"), "#####.");
+  EXPECT_EQ(read("mode: scale"), read("mode: trinary"));
+  EXPECT_EQ(read("mode: raw"), ".?##??");
+}
+
+TEST(MapServer, ATurnedOriginTurnsTheMap) {
+  const Folder folder;
+  folder.write("map.pgm", pgm(std::string("\xFE\x00\xCD\x00\xFE\xFE", 6)));
+  const OccupancyGrid grid = read_map_server_map(
+      folder.write("map.yaml", "image: map.pgm\nresolution: 0.5\norigin: [1, 2, 1.5707963267948966]\n"));
+  EXPECT_NEAR(grid.centre({2, 0}).x, 1 - 0.25, 1e-12);
+  EXPECT_NEAR(grid.centre({2, 0}).y, 2 + 1.25, 1e-12);
+}
+
+struct BadYaml {
+  const char* contents;
+  int line;
+  const char* says;
+};
+
+TEST(MapServer, EveryBadYamlIsNamedByFileAndLine) {
+  const Folder folder;
+  folder.write("map.pgm", pgm(std::string(6, '\0')));
+  const std::vector<BadYaml> cases = {
+      {"image: map.pgm\nresolution: 0.05\n", 1, "expected the key 'origin'"},
+      {"resolution: 0.05\norigin: [0, 0, 0]\n", 1, "expected the key 'image'"},
+      {"image: map.pgm\norigin: [0, 0, 0]\n", 1, "expected the key 'resolution'"},
+      {"image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nocupied_thresh: 0.6\n", 4, "'occupied_thresh'"},
+      {"image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nflavour: 3\n", 4, "unknown key 'flavour'"},
+      {"image: map.pgm\nresolution: 0.05\nresolution: 0.06\norigin: [0, 0, 0]\n", 3, "twice"},
+      {"image: map.pgm\nresolution: -0.05\norigin: [0, 0, 0]\n", 2, "above 0"},
+      {"image: map.pgm\nresolution: five\norigin: [0, 0, 0]\n", 2, "expected a number"},
+      {"image: map.pgm\nresolution: .nan\norigin: [0, 0, 0]\n", 2, "expected a number"},
+      {"image: map.pgm\nresolution: 0.05\norigin: [0, 0]\n", 3, "[x, y, yaw]"},
+      {"image: map.pgm\nresolution: 0.05\norigin: [0, zero, 0]\n", 3, "expected a number"},
+      {"image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: maybe\n", 4, "0 or 1"},
+      {"image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nfree_thresh: 1.2\n", 4, "from 0 to 1"},
+      {"image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nfree_thresh: 0.9\n", 4, "free_thresh <= occupied_thresh"},
+      {"image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: binary\n", 4, "trinary, scale or raw"},
+      {"image: [a, b]\nresolution: 0.05\norigin: [0, 0, 0]\n", 1, "expected a text"},
+      {"- image\n- resolution\n", 1, "expected a map's keys"},
+      {"image: map.pgm\nresolution: [0.05\norigin: 3\n", 3, "expected YAML"},
+      {"image: map.pgm\n  resolution: 0.05\n", 2, "expected YAML"},
+  };
+  for (const BadYaml& bad : cases) {
+    const std::string yaml = folder.write("map.yaml", bad.contents);
+    EXPECT_TRUE(refuses(yaml, yaml + ":" + std::to_string(bad.line) + ": ", bad.says)) << bad.contents;
+  }
+  const std::string none = folder.path("none.yaml");
+  EXPECT_TRUE(refuses(none, none + ": ", "no file"));
+  const std::string empty = folder.write("empty.yaml", "");
+  EXPECT_TRUE(refuses(empty, empty + ": ", "an empty one"));
+}
+
+struct BadImage {
+  std::string contents;
+  const char* says;
+};
+
+TEST(MapServer, EveryBadImageIsNamed) {
+  const Folder folder;
+  const std::string yaml = folder.write("map.yaml", head), image = folder.path("map.pgm");
+  EXPECT_TRUE(refuses(yaml, image + ": ", "no file"));
+  const std::vector<BadImage> cases = {
+      {"", "no file or an empty one"},
+      {"GIF89a", "expected a PGM image (P5 or P2) or a PNG image"},
+      {"P6\n3 2\n255\nxxxxxx", "P5 or P2"},
+      {"P", "P5 or P2"},
+      {"P5", "cut short"},
+      {"P5\n3 2\n", "cut short"},
+      {"P5\nthree 2\n255\n", "expected the width"},
+      {"P5\n-3 2\n255\n", "expected the width"},
+      {"P5\n0 2\n255\n", "pixels, found 0 x 2"},
+      {"P5\n3 2\n65535\n" + std::string(12, 'x'), "greatest value of 255 (8 bits), found 65535"},
+      {"P5\n3 2\n255\nxxxxx", "expected 6 bytes of pixels, found 5"},
+      {"P5\n100000 100000\n255\nxxxxx", "pixels, found 100000 x 100000"},
+      {"P5\n99999999999999999999 1\n255\nxxxxx", "expected"},
+      {"P5\n16384 16384\n255\nxxxxx", "cut short"},
+      {"P2\n3 2\n255\n1 2 3 4 5", "expected 6 pixels, found 5"},
+      {"P2\n3 2\n255\n1 2 3 4 5 256", "from 0 to 255, found 256"},
+      {"P2\n3 2\n255\n1 2 3 4 5 x", "expected a pixel"},
+      {std::string("\x89PNG\r\n\x1a\n") + "nothing", "PNG"},
+  };
+  for (const BadImage& bad : cases) {
+    folder.write("map.pgm", bad.contents);
+    EXPECT_TRUE(refuses(yaml, image + ": ", bad.says)) << bad.contents;
+  }
+}
+
+TEST(MapServer, ATruncatedPngIsNamed) {
+  const Folder folder;
+  const std::string yaml = folder.write("map.yaml", "image: map.png\nresolution: 0.5\norigin: [1, 2, 0]\n");
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < 100 * 100; ++i) pixels.push_back(static_cast<std::uint8_t>(i * i * 7 >> 3));
+  write_png(folder.path("map.png"), PNG_FORMAT_GRAY, 100, 100, pixels);
+  const auto size = std::filesystem::file_size(folder.path("map.png"));
+  for (const auto left : {size / 2, size / 10, std::uintmax_t{20}}) {
+    std::filesystem::resize_file(folder.path("map.png"), left);
+    EXPECT_TRUE(refuses(yaml, folder.path("map.png") + ": ", "PNG"));
+  }
+}
+
+TEST(MapServer, AFolderIsNoMap) {
+  const Folder folder;
+  EXPECT_TRUE(refuses(folder.path(""), folder.path(""), "expected a map_server YAML file"));
+}
+
+}  // namespace
+}  // namespace waitpoint::world

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Worlds for tests, in few words.
+#pragma once
+
+#include <string>
+
+#include "core/random.hpp"
+#include "world/fcl/fcl_world.hpp"
+
+namespace waitpoint::world {
+
+inline Shape box(const Pose& pose, double length_m, double width_m) {
+  Shape shape;
+  shape.pose = pose;
+  shape.length_m = length_m;
+  shape.width_m = width_m;
+  return shape;
+}
+
+inline Shape cylinder(Point centre, double radius_m) {
+  Shape shape;
+  shape.kind = Shape::Kind::cylinder;
+  shape.pose = {centre.x, centre.y, 0};
+  shape.radius_m = radius_m;
+  return shape;
+}
+
+/// "r3", say.
+inline std::string numbered(const char* word, std::size_t number) {
+  std::string name = word;
+  name += std::to_string(number);
+  return name;
+}
+
+/// A body that reaches any commanded velocity in one step, with a perfect odometer.
+inline BodyDescription nimble_body(const std::string& name, const Shape& shape, const Pose& start) {
+  BodyDescription body;
+  body.name = name;
+  body.shape = shape;
+  body.start = start;
+  body.base.v_max_m_s = body.base.w_max_rad_s = 1e5;
+  body.base.v_acceleration_m_s2 = body.base.w_acceleration_rad_s2 = 1e9;
+  return body;
+}
+
+/// Beams that read the truth.
+inline LaserDescription perfect_laser(double height_m) {
+  LaserDescription laser;
+  laser.height_m = height_m;
+  laser.range_noise_m = laser.resolution_m = 0;
+  return laser;
+}
+
+/// Uniform draws in the order they are asked for.
+class Draws {
+ public:
+  explicit Draws(std::uint64_t seed) : stream_(seed, "test", "draws") {}
+  double operator()(double low, double high) { return low + (high - low) * stream_.uniform(tick_++); }
+  std::uint64_t below(std::uint64_t bound) { return stream_.below(bound, tick_++); }
+
+ private:
+  RandomStream stream_;
+  std::uint64_t tick_ = 0;
+};
+
+/// A box or a cylinder somewhere in a square about the origin.
+inline Shape random_shape(Draws& draw, double half_square_m, double size_max_m) {
+  const double x = draw(-half_square_m, half_square_m), y = draw(-half_square_m, half_square_m);
+  if (draw(0, 1) < 0.4) return cylinder({x, y}, draw(0.05, 0.5 * size_max_m));
+  const double heading = draw(0, 1) < 0.4 ? 0 : draw(-3, 3);
+  const double length = draw(0.05, size_max_m), width = draw(0.05, size_max_m);
+  return box({x, y, heading}, length, width);
+}
+
+}  // namespace waitpoint::world
