@@ -35,7 +35,7 @@ Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleTy
   check_starts(scenario, world::start_overlaps(description));
   world_ = world::make_fcl_world(description, options.seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
-    robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, map, *world_, world::BodyId(i)));
+    robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, map, *world_, world::BodyId(i), options.seed));
   check_step();
 
   simulation_.spawn(

@@ -24,6 +24,15 @@ double radius_m(const world::Shape& shape) {
   return length(centre) + 0.5 * exact::hypot(shape.length_m, shape.width_m);
 }
 
+std::string report_text(const executive::GoalRecord& record) {
+  switch (record.state) {
+    case executive::GoalState::ahead: return "";
+    case executive::GoalState::reached: return "reached";
+    case executive::GoalState::no_route: return executive::to_string(record.outcome);
+    default: return "the way stays blocked";
+  }
+}
+
 executive::OccupancyGrid planner_grid(const OccupancyGrid& map) {
   executive::OccupancyGrid grid;
   grid.width = map.width();
@@ -38,10 +47,10 @@ executive::OccupancyGrid planner_grid(const OccupancyGrid& map) {
 }  // namespace
 
 Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
-             world::World& world, world::BodyId body)
+             world::World& world, world::BodyId body, std::uint64_t seed)
     : scenario_(scenario), world_(world), body_(body), bridge_(scenario, world, body, names_) {
   make_modules(types);
-  if (!scenario.goals.empty()) make_executive(map);
+  if (!scenario.goals.empty()) make_executive(map, seed);
   connect();
 }
 
@@ -69,7 +78,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types) {
   }
 }
 
-void Robot::make_executive(const OccupancyGrid& map) {
+void Robot::make_executive(const OccupancyGrid& map, std::uint64_t seed) {
   executive::Parameters parameters;
   parameters.planning.robot_radius_m = radius_m(scenario_.body.shape);
   genom::Settings settings(scenario_.executive);
@@ -79,7 +88,8 @@ void Robot::make_executive(const OccupancyGrid& map) {
   for (const Goal& goal : scenario_.goals) goals.push_back(goal.position);
   posters::KnownPose start;
   start.pose = scenario_.body.start;
-  executive_.emplace(names_, parameters, planner_grid(map), start, std::move(goals));
+  executive_.emplace(names_, parameters, planner_grid(map), start, goals,
+                     RandomStream(seed, scenario_.name, "executive"));
 }
 
 void Robot::connect() {
@@ -108,8 +118,9 @@ void Robot::stepped(Time now) {
 
 std::size_t Robot::goals_ended() const {
   if (!executive_) return 0;
-  const auto& reports = executive_->reports();
-  return static_cast<std::size_t>(std::count_if(reports.begin(), reports.end(), [](auto& r) { return r.ended; }));
+  const auto& goals = executive_->goals();
+  return static_cast<std::size_t>(
+      std::count_if(goals.begin(), goals.end(), [](auto& g) { return g.state != executive::GoalState::ahead; }));
 }
 
 std::optional<Duration> Robot::least_period() const {
@@ -126,9 +137,9 @@ RobotResult Robot::result() const {
   result.digest = lane_->digest;
   result.shape = scenario_.body.shape;
   for (std::size_t i = 0; i < scenario_.goals.size(); ++i) {
-    const executive::GoalReport& report = executive_->reports()[i];
-    result.goals.push_back(
-        {scenario_.goals[i].position, scenario_.goals[i].name, report.reached, report.date, report.text});
+    const executive::GoalRecord& record = executive_->goals()[i];
+    result.goals.push_back({scenario_.goals[i].position, scenario_.goals[i].name,
+                            record.state == executive::GoalState::reached, record.date, report_text(record)});
   }
   const world::BodyState& body = world_.body(body_);
   result.collisions = body.collisions;

@@ -24,7 +24,7 @@ class Robot {
   /// Makes and connects everything. What does not fit together is BadInput, naming the scenario's line. The scenario
   /// and the world must outlive the robot.
   Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
-        world::World& world, world::BodyId body);
+        world::World& world, world::BodyId body, std::uint64_t seed);
 
   /// Adds the robot's tasks to a run that has not begun. A robot with goals is alive until its executive ends; one
   /// without does not keep the run alive.
@@ -43,7 +43,7 @@ class Robot {
 
  private:
   void make_modules(std::span<const genom::ModuleType> types);
-  void make_executive(const OccupancyGrid& map);
+  void make_executive(const OccupancyGrid& map, std::uint64_t seed);
   void connect();
 
   const RobotScenario& scenario_;

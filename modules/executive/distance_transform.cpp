@@ -41,8 +41,7 @@ void DistanceTransform::run(std::span<const std::uint8_t> occupied, std::int32_t
   }
 }
 
-void DistanceTransform::along_columns(std::span<const std::uint8_t> occupied, std::int32_t width,
-                                      std::int32_t height) {
+void DistanceTransform::along_columns(std::span<const std::uint8_t> occupied, std::int32_t width, std::int32_t height) {
   const std::size_t columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
   steps_.resize(columns * rows);
   for (std::size_t y = 0; y < rows; ++y) {

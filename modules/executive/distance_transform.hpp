@@ -4,8 +4,8 @@
 // In integers: squared distances in half cells. A centre dx, dy cells from an occupied cell's centre is
 // (2|dx| - 1)^2 + (2|dy| - 1)^2 away from its square, a term being 0 where dx or dy is 0. The two passes are those of
 // Felzenszwalb and Huttenlocher, "Distance transforms of sampled functions", 2012: along the columns, then the lower
-// envelope of parabolas along each row. On the lattice of half cells a square offers three sites to a row: its left edge,
-// its centre line and its right edge, so that plain parabolas give the distance to the square.
+// envelope of parabolas along each row. On the lattice of half cells a square offers three sites to a row: its left
+// edge, its centre line and its right edge, so that plain parabolas give the distance to the square.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@ class DistanceTransform {
   void along_columns(std::span<const std::uint8_t> occupied, std::int32_t width, std::int32_t height);
   void along_row(std::int32_t width, std::span<const std::int64_t> column_squares, std::span<std::uint16_t> squares);
 
-  std::vector<std::int32_t> steps_;      // to the nearest occupied cell of the same column
-  std::vector<std::int64_t> row_;        // squared half-cell distances along the columns, for one row
-  std::vector<std::int32_t> sites_;      // of the envelope, in half cells
+  std::vector<std::int32_t> steps_;  // to the nearest occupied cell of the same column
+  std::vector<std::int64_t> row_;    // squared half-cell distances along the columns, for one row
+  std::vector<std::int32_t> sites_;  // of the envelope, in half cells
   std::vector<std::int64_t> heights_, starts_;
 };
 

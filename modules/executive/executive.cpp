@@ -6,20 +6,17 @@
 namespace waitpoint::executive {
 
 using genom::PosterStatus;
-using genom::Reply;
 using posters::GoToInput;
-using posters::NavigationReport;
 using namespace std::chrono_literals;
 
 Executive::Executive(genom::NameSpace& names, const Parameters& parameters, OccupancyGrid map,
-                     const posters::KnownPose& start, std::vector<Point> goals)
+                     const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random)
     : names_(names),
       parameters_(parameters),
       client_(names, "executive"),
       planner_(std::move(map), parameters.planning),
-      start_(start),
-      goals_(std::move(goals)),
-      reports_(goals_.size()) {}
+      mission_(planner_, parameters.mission, goals, random),
+      start_(start) {}
 
 void Executive::connect() {
   for (const char* module : {"rflex", "sick", "pom", "ndd"})
@@ -36,7 +33,17 @@ void Executive::connect() {
 void Executive::run() {
   start_modules();
   wait_for_position();
-  for (std::size_t i = 0; i < goals_.size(); ++i) reports_[i] = visit(goals_[i]);
+  const Order* order = &mission_.start(threads::now(), position());
+  while (order->kind != Order::Kind::finished) {
+    if (order->kind == Order::Kind::wait) {
+      threads::this_thread::sleep_until(order->until);
+      order = &mission_.waited(threads::now(), position());
+    } else if (drive(order->via_points) == genom::ok) {
+      order = &mission_.arrived(threads::now(), position());
+    } else {
+      order = &mission_.blocked(threads::now(), position(), echoes_in_map());
+    }
+  }
   stop_modules();
 }
 
@@ -68,45 +75,25 @@ Point Executive::position() const {
   return position.position.pose.position();
 }
 
-GoalReport Executive::visit(Point goal) {
-  const auto report = [](bool reached, const std::string& text) {
-    return GoalReport{true, reached, threads::now(), text};
-  };
-  std::uint32_t tries = 0;
-  for (;;) {
-    planner_.plan(position(), goal, plan_);
-    if (plan_.outcome != PlanOutcome::found) {
-      if (!planner_.space().marked() || ++tries >= parameters_.tries_max)
-        return report(false, to_string(plan_.outcome));
-      planner_.space().forget();
-      threads::this_thread::sleep_for(parameters_.pause_ms);
-      continue;
-    }
-    const std::size_t points = std::min(plan_.via_points.size(), posters::via_point_count_max);
-    const genom::Report ended = drive(points);
-    if (ended == genom::ok) {
-      if (points == plan_.via_points.size()) return report(true, "reached");
-      continue;
-    }
-    if (++tries >= parameters_.tries_max) return report(false, "the way stays blocked");
-    mark_obstacles();
+// Sends the via points and waits for the final report. What one request cannot hold follows in the next.
+genom::Report Executive::drive(std::span<const Point> via_points) {
+  while (!via_points.empty()) {
+    GoToInput input;
+    const std::size_t count = std::min(via_points.size(), posters::via_point_count_max);
+    for (const Point point : via_points.first(count)) input.via.push_back(point);
+    if (const genom::Report report = client_.call("ndd", "GoTo", input).report; report != genom::ok) return report;
+    via_points = via_points.subspan(count);
   }
+  return genom::ok;
 }
 
-// Sends the first `points` via points of the plan and waits for the final report.
-genom::Report Executive::drive(std::size_t points) {
-  GoToInput input;
-  for (std::size_t i = 0; i < points; ++i) input.via.push_back(plan_.via_points[i]);
-  return client_.call("ndd", "GoTo", input).report;
-}
-
-// What the laser sees from where the robot stands, as obstacles on the map.
-void Executive::mark_obstacles() {
+// What the laser sees from where the robot stands.
+std::vector<Point> Executive::echoes_in_map() const {
+  std::vector<Point> points;
   posters::FusedPosition position;
   posters::Echoes echoes;
-  if (position_.read(position) == PosterStatus::empty || echoes_.read(echoes) == PosterStatus::empty) return;
+  if (position_.read(position) == PosterStatus::empty || echoes_.read(echoes) == PosterStatus::empty) return points;
   const Pose device = compose(position.position.pose, echoes.mount);
-  std::vector<Point> points;
   for (std::size_t i = 0; i < echoes.scan.range_m.size(); ++i) {
     const double range = static_cast<double>(echoes.scan.range_m[i]);
     if (range >= parameters_.mark_range_m || range >= echoes.scan.range_max_m) continue;
@@ -114,7 +101,7 @@ void Executive::mark_obstacles() {
         exact::sincos(echoes.scan.first_angle_rad + echoes.scan.angle_step_rad * static_cast<double>(i));
     points.push_back(transform(device, {range * c, range * s}));
   }
-  planner_.space().mark(points);
+  return points;
 }
 
 }  // namespace waitpoint::executive

@@ -20,9 +20,10 @@ FreeSpace::FreeSpace(OccupancyGrid map, const PlanningParameters& parameters)
   cost_.resize(preferred_square_ + std::size_t{1});
   for (std::size_t square = 0; square < cost_.size(); ++square) {
     const double distance = 0.5 * map_.resolution_m * std::sqrt(static_cast<double>(square));
-    const double lack = preferred_m > hard_m ? std::clamp((preferred_m - distance) / (preferred_m - hard_m), 0.0, 1.0) : 0;
-    cost_[square] = static_cast<std::uint8_t>(std::nearbyint(
-        least_cell_cost + static_cast<double>(greatest_cell_cost - least_cell_cost) * lack * lack));
+    const double lack =
+        preferred_m > hard_m ? std::clamp((preferred_m - distance) / (preferred_m - hard_m), 0.0, 1.0) : 0;
+    cost_[square] = static_cast<std::uint8_t>(
+        std::nearbyint(least_cell_cost + static_cast<double>(greatest_cell_cost - least_cell_cost) * lack * lack));
   }
   std::vector<std::uint8_t> occupied(cells);
   for (std::size_t i = 0; i < cells; ++i) occupied[i] = map_.cells[i] == CellState::occupied;
@@ -45,9 +46,7 @@ double FreeSpace::clearance_m(Cell c) const {
   return 0.5 * map_.resolution_m * std::sqrt(static_cast<double>(clearance_square(c)));
 }
 
-std::uint32_t FreeSpace::cell_cost(Cell c) const {
-  return cost_[std::min(clearance_square(c), preferred_square_)];
-}
+std::uint32_t FreeSpace::cell_cost(Cell c) const { return cost_[std::min(clearance_square(c), preferred_square_)]; }
 
 // The walk is exact: in units of half cells the boundaries between cells are at odd numbers of steps, and the side of
 // the segment that a boundary crossing lies on is decided in integers.
@@ -80,7 +79,8 @@ void FreeSpace::push_away(Cell obstacle) {
   std::int32_t reach = 0;  // beyond the preferred clearance an obstacle changes nothing
   while (edge(reach) * edge(reach) < preferred_square_) ++reach;
   const Cell low = {std::max(0, obstacle.column - reach), std::max(0, obstacle.row - reach)};
-  const Cell high = {std::min(map_.width - 1, obstacle.column + reach), std::min(map_.height - 1, obstacle.row + reach)};
+  const Cell high = {std::min(map_.width - 1, obstacle.column + reach),
+                     std::min(map_.height - 1, obstacle.row + reach)};
   for (std::int32_t row = low.row; row <= high.row; ++row) {
     for (std::int32_t column = low.column; column <= high.column; ++column) {
       const std::int32_t dx = edge(column - obstacle.column), dy = edge(row - obstacle.row);

@@ -6,9 +6,9 @@
 //   hard = radius + clearance - resolution / sqrt(2)      (never less than the radius)
 //
 // from the nearest occupied square: then every point with the full radius + clearance lies in a passable cell, and
-// whatever is connected with that clearance is connected here, cell to neighbouring cell, diagonals included. A straight
-// step between two neighbouring cells comes nearer by at most 3 mm at 5 cm cells. Unknown cells are closed to the centre
-// but push nobody away. Beyond `hard` the cost of a cell falls until the preferred clearance is reached.
+// whatever is connected with that clearance is connected here, cell to neighbouring cell, diagonals included. A
+// straight step between two neighbouring cells comes nearer by at most 3 mm at 5 cm cells. Unknown cells are closed to
+// the centre but push nobody away. Beyond `hard` the cost of a cell falls until the preferred clearance is reached.
 #pragma once
 
 #include <span>
@@ -30,14 +30,13 @@ struct PlanningParameters {
   double escape_m_max = 1.0;            ///< from a start that is not passable to the nearest cell that is
 
   static constexpr auto fields() {
-    return std::tuple(field("robot_radius_m", &PlanningParameters::robot_radius_m),
-                      field("clearance_m", &PlanningParameters::clearance_m),
-                      field("preferred_clearance_m", &PlanningParameters::preferred_clearance_m),
-                      field("explained_m", &PlanningParameters::explained_m),
-                      field("narrow_m", &PlanningParameters::narrow_m),
-                      field("approach_m", &PlanningParameters::approach_m),
-                      field("leg_m_max", &PlanningParameters::leg_m_max),
-                      field("escape_m_max", &PlanningParameters::escape_m_max));
+    return std::tuple(
+        field("robot_radius_m", &PlanningParameters::robot_radius_m),
+        field("clearance_m", &PlanningParameters::clearance_m),
+        field("preferred_clearance_m", &PlanningParameters::preferred_clearance_m),
+        field("explained_m", &PlanningParameters::explained_m), field("narrow_m", &PlanningParameters::narrow_m),
+        field("approach_m", &PlanningParameters::approach_m), field("leg_m_max", &PlanningParameters::leg_m_max),
+        field("escape_m_max", &PlanningParameters::escape_m_max));
   }
 };
 

@@ -2,6 +2,7 @@
 #include "modules/executive/mission.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace waitpoint::executive {
 
@@ -33,14 +34,13 @@ const Order& Mission::blocked(Time now, Point robot, std::span<const Point> echo
     leave_goal(now, GoalState::given_up);
     return make_for_goal(now, robot);
   }
-  // Only what is seen now: what was seen before may have been a robot that has long gone.
-  planner_.space().forget();
-  planner_.plan(robot, goals_[current_].goal, plan_);
-  const double direct_m = plan_.outcome == PlanOutcome::found ? plan_.length_m : 0;
+  const double worth_m = goals_[current_].tries < 2
+                             ? std::max(parameters_.detour_m_min, parameters_.detour_max * plan_.length_m)
+                             : std::numeric_limits<double>::infinity();
   planner_.space().mark(echoes);
   planner_.plan(robot, goals_[current_].goal, plan_);
-  const double worth_m = std::max(parameters_.detour_m_min, parameters_.detour_max * direct_m);
   if (plan_.outcome == PlanOutcome::found && plan_.length_m <= worth_m) return drive();
+  // What was marked may have been a robot that goes its way.
   planner_.space().forget();
   return wait(now);
 }
@@ -48,6 +48,10 @@ const Order& Mission::blocked(Time now, Point robot, std::span<const Point> echo
 const Order& Mission::make_for_goal(Time now, Point robot) {
   for (; current_ < goals_.size(); leave_goal(now, GoalState::no_route)) {
     planner_.plan(robot, goals_[current_].goal, plan_);
+    if (plan_.outcome != PlanOutcome::found && planner_.space().marked()) {
+      planner_.space().forget();
+      planner_.plan(robot, goals_[current_].goal, plan_);
+    }
     goals_[current_].outcome = plan_.outcome;
     if (plan_.outcome == PlanOutcome::found) return drive();
   }
@@ -76,7 +80,6 @@ void Mission::leave_goal(Time now, GoalState state) {
   goals_[current_].state = state;
   goals_[current_].date = now;
   ++current_;
-  planner_.space().forget();
 }
 
 }  // namespace waitpoint::executive

@@ -19,15 +19,14 @@ namespace waitpoint::executive {
 struct MissionParameters {
   std::uint32_t tries_max = 8;  ///< per goal, after which it is given up
   double wait_s_min = 2, wait_s_max = 8;
-  double detour_max = 3;        ///< a way round that is this many times longer is not worth it: wait instead
-  double detour_m_min = 15;     ///< but one that is no longer than this is
+  double detour_max = 3;     ///< a way round that is this many times longer is not worth it at first: wait instead
+  double detour_m_min = 15;  ///< but one that is no longer than this is
 
   static constexpr auto fields() {
-    return std::tuple(field("tries_max", &MissionParameters::tries_max),
-                      field("wait_s_min", &MissionParameters::wait_s_min),
-                      field("wait_s_max", &MissionParameters::wait_s_max),
-                      field("detour_max", &MissionParameters::detour_max),
-                      field("detour_m_min", &MissionParameters::detour_m_min));
+    return std::tuple(
+        field("tries_max", &MissionParameters::tries_max), field("wait_s_min", &MissionParameters::wait_s_min),
+        field("wait_s_max", &MissionParameters::wait_s_max), field("detour_max", &MissionParameters::detour_max),
+        field("detour_m_min", &MissionParameters::detour_m_min));
   }
 };
 

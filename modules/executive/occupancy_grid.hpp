@@ -36,7 +36,8 @@ struct OccupancyGrid {
   /// A cell outside the grid is a bug.
   CellState at(Cell c) const {
     WAITPOINT_CHECK(holds(c), "a cell outside the map");
-    return cells[static_cast<std::size_t>(c.row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c.column)];
+    return cells[static_cast<std::size_t>(c.row) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(c.column)];
   }
   /// The cell that a point of the map frame lies in; it may be outside.
   Cell cell_at(Point p) const {

@@ -26,8 +26,7 @@ std::uint32_t least_cost(Cell a, Cell b) {
   const auto dx = static_cast<std::uint32_t>(std::abs(a.column - b.column));
   const auto dy = static_cast<std::uint32_t>(std::abs(a.row - b.row));
   const std::uint32_t diagonal = std::min(dx, dy), straight = std::max(dx, dy) - diagonal;
-  return FreeSpace::least_cell_cost *
-         (ShortestPath::straight_step * straight + ShortestPath::diagonal_step * diagonal);
+  return FreeSpace::least_cell_cost * (ShortestPath::straight_step * straight + ShortestPath::diagonal_step * diagonal);
 }
 
 }  // namespace
@@ -41,7 +40,9 @@ std::uint32_t ShortestPath::find(const FreeSpace& space, Cell start, Cell goal, 
   nodes_.assign(space.map().cells.size(), {unreachable, none, false});
   for (auto& bucket : buckets_) bucket.clear();
   opened_ = 0;
-  const auto index = [&](Cell c) { return static_cast<std::uint32_t>(c.row) * width + static_cast<std::uint32_t>(c.column); };
+  const auto index = [&](Cell c) {
+    return static_cast<std::uint32_t>(c.row) * width + static_cast<std::uint32_t>(c.column);
+  };
   nodes_[index(start)].cost = 0;
   std::uint32_t priority = least_cost(start, goal);
   open(priority, index(start));

@@ -31,7 +31,9 @@ class ShortestPath {
   static constexpr std::size_t bucket_count = 1024;
   static constexpr std::uint8_t none = 255;
 
-  void open(std::uint32_t priority, std::uint32_t node) { buckets_[priority % bucket_count].push_back(node), ++opened_; }
+  void open(std::uint32_t priority, std::uint32_t node) {
+    buckets_[priority % bucket_count].push_back(node), ++opened_;
+  }
   void expand(const FreeSpace& space, Cell cell, Cell goal);
   void walk_back(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path) const;
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Passing obstacles by from afar: the nearest direction to the wanted one in which a disc clears them all.
 //
-// The nearness diagram reacts within its security distance; at 0.9 m/s against a robot that comes at the same speed that
-// is late. So the direction is first cleared of the obstacles ahead: point p at distance d forbids the directions within
-// asin((radius + clearance) / d) of its own. Where that leaves none, or only a long way round, the clearance is halved, at
-// most twice.
+// The nearness diagram reacts within its security distance; at 0.9 m/s against a robot that comes at the same speed
+// that is late. So the direction is first cleared of the obstacles ahead: point p at distance d forbids the directions
+// within asin((radius + clearance) / d) of its own. Where that leaves none, or only a long way round, the clearance is
+// halved, at most twice.
 #pragma once
 
 #include "modules/ndd/diagram.hpp"

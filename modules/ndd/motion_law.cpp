@@ -38,8 +38,8 @@ Speeds SpeedLimiter::limit(const Speeds& wanted, const Speeds& measured, std::sp
   near_.clear();
   distance_m_.clear();
   const double fastest = std::max({wanted.v_m_s, measured.v_m_s, parameters_.creep_m_s});
-  const double reach = parameters_.robot_radius_m + parameters_.emergency_distance_m +
-                       2 * stopping_distance_m(parameters_, fastest);
+  const double reach =
+      parameters_.robot_radius_m + parameters_.emergency_distance_m + 2 * stopping_distance_m(parameters_, fastest);
   for (const Point p : obstacles) {
     const double square = dot(p, p);
     if (square >= reach * reach) continue;

@@ -7,10 +7,11 @@
 //   every point q of the stopping path, and every obstacle point p, seen from the robot's centre:
 //       q . p / |p|  <=  (|p| - radius - emergency distance) / 2
 //
-// It must be so on the path of the commanded turn, on that of the measured one and straight on: the next decision may turn
-// otherwise, and a base takes its time to do so. That is, the robot stays on its own side of the middle between its hull and p. So two robots that keep the rule never meet,
-// however they move, and neither need know that the other one is a robot (the idea of buffered Voronoi cells: Zhou,
-// Wang, Bandyopadhyay, Schwager, RA-L 2017). At a creep, staying half the emergency distance off p is enough.
+// It must be so on the path of the commanded turn, on that of the measured one and straight on: the next decision may
+// turn otherwise, and a base takes its time to do so. That is, the robot stays on its own side of the middle between
+// its hull and p. So two robots that keep the rule never meet, however they move, and neither need know that the other
+// one is a robot (the idea of buffered Voronoi cells: Zhou, Wang, Bandyopadhyay, Schwager, RA-L 2017). At a creep,
+// staying half the emergency distance off p is enough.
 #pragma once
 
 #include <span>
@@ -41,8 +42,8 @@ class SpeedLimiter {
   bool can_creep(double v_m_s, double w_rad_s) const;
 
   Parameters parameters_;
-  std::vector<Point> near_;        // obstacles that any stopping path could concern
-  std::vector<double> distance_m_; // of each from the robot's centre
+  std::vector<Point> near_;         // obstacles that any stopping path could concern
+  std::vector<double> distance_m_;  // of each from the robot's centre
 };
 
 }  // namespace waitpoint::ndd

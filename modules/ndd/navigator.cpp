@@ -11,6 +11,8 @@ constexpr double standing_m_s = 0.05;
 constexpr double about_turn_rad = 150 * exact::pi / 180;
 constexpr double give_way_rad = 0.3, give_way_share = 0.4;
 constexpr double security_m_min = 0.04;
+constexpr int pushes_max = 4;
+constexpr double push_m_max = 0.15;
 constexpr double security_per_m = 0.5;  // how fast the full security distance is regained away from the target
 
 // Where speeds held for `seconds` take the robot, in its frame.
@@ -61,37 +63,65 @@ Decision Navigator::decide(Time now, const posters::PositionEstimate& position) 
   if (route_.empty() || trail_.empty() || scan_date_ < Time()) return {};
   const Pose robot = in_map(position);
   route_.advance(robot.position(), parameters_.via_tolerance_m);
-  Decision decision;
-  decision.remaining_m = route_.remaining_m(robot.position());
-  if (route_.target_is_last() && decision.remaining_m <= parameters_.goal_tolerance_m) {
-    const bool stands = std::fabs(measured_.v_m_s) <= standing_m_s;
-    decision.outcome = stands ? Outcome::arrived : Outcome::driving;
-    if (stands) route_.clear();
-    return decision;
-  }
-  if (!watch_.progressing(now, decision.remaining_m)) {
-    decision.outcome = Outcome::blocked;
-    route_.clear();
-    return decision;
-  }
-  decision.outcome = Outcome::driving;
   const Pose ahead = displacement(measured_, parameters_.prediction_s);
   decided_for_ = compose(trail_.newest(), ahead);
-  const Point target = between(compose(robot, ahead), {route_.target().x, route_.target().y, 0}).position();
-  const double target_distance = length(target);
   memory_.points_from(decided_for_, obstacles_);
-  const Assessment assessment = assess(target, target_distance);
+  const Point via = between(compose(robot, ahead), {route_.target().x, route_.target().y, 0}).position();
+  const Point target = clear_of_obstacles(via);
+  Decision decision;
+  decision.remaining_m = route_.remaining_m(robot.position());
+  decision.outcome = outcome(now, decision.remaining_m, length(target));
+  if (decision.outcome != Outcome::driving) route_.clear();
+  if (decision.outcome == Outcome::driving && !at_goal(decision.remaining_m, length(target))) steer(target, decision);
+  return decision;
+}
+
+bool Navigator::at_goal(double remaining_m, double target_distance_m) const {
+  if (!route_.target_is_last()) return false;
+  return remaining_m <= parameters_.goal_tolerance_m ||
+         (remaining_m <= parameters_.goal_near_m && target_distance_m <= parameters_.goal_tolerance_m);
+}
+
+Outcome Navigator::outcome(Time now, double remaining_m, double target_distance_m) {
+  if (at_goal(remaining_m, target_distance_m)) {
+    return std::fabs(measured_.v_m_s) <= standing_m_s ? Outcome::arrived : Outcome::driving;
+  }
+  if (watch_.progressing(now, remaining_m)) return Outcome::driving;
+  const bool near_enough = route_.target_is_last() && remaining_m <= parameters_.goal_near_m;
+  return near_enough ? Outcome::arrived : Outcome::blocked;
+}
+
+void Navigator::steer(Point target, Decision& decision) {
+  const double distance = length(target);
+  const Assessment assessment = assess(target, distance);
   decision.situation = assessment.situation;
   decision.direction_rad = assessment.direction_rad;
-  if (assessment.situation == Situation::no_region) return decision;
+  if (assessment.situation == Situation::no_region) return;
   double v_max = parameters_.v_m_s_max;
   if (gives_way(assessment, target)) v_max *= give_way_share;
-  if (route_.target_is_last()) {
-    v_max = std::min(v_max, std::sqrt(2 * parameters_.goal_braking_m_s2 * target_distance));
-  }
+  if (route_.target_is_last()) v_max = std::min(v_max, std::sqrt(2 * parameters_.goal_braking_m_s2 * distance));
   const Speeds wanted = motion_law(parameters_, assessment.direction_rad, assessment.safety, v_max);
   decision.speeds = limiter_.limit(wanted, measured_, obstacles_);
-  return decision;
+}
+
+// A small error of the position can put a via point into a door's jamb, or the goal into a wall: the robot makes for
+// the nearest place where it fits. If that is far, the point itself stands.
+Point Navigator::clear_of_obstacles(Point via) const {
+  const double least = parameters_.robot_radius_m + parameters_.emergency_distance_m;
+  Point target = via;
+  for (int push = 0; push < pushes_max; ++push) {
+    double nearest = least;
+    Point away;
+    for (const Point p : obstacles_) {
+      const Point d = target - p;
+      if (dot(d, d) >= nearest * nearest) continue;
+      nearest = length(d);
+      away = d;
+    }
+    if (nearest >= least || nearest == 0) break;
+    target = target + ((least - nearest) / nearest) * away;
+  }
+  return length(target - via) <= push_m_max ? target : via;
 }
 
 Assessment Navigator::assess(Point target, double target_distance_m) {

@@ -4,8 +4,8 @@
 //   scan, odometry -> ObstacleMemory -> Diagram -> Regions -> Choice -> Situation -> motion law -> SpeedLimiter
 //   via points, position -> Route ---------------------------^
 //
-// Obstacles live in the odometry frame, via points in the map's. A decision is made for where the robot will be when the
-// command takes effect. The robot never drives backwards; towards a goal behind it turns in place.
+// Obstacles live in the odometry frame, via points in the map's. A decision is made for where the robot will be when
+// the command takes effect. The robot never drives backwards; towards a goal behind it turns in place.
 #pragma once
 
 #include "modules/ndd/bypass.hpp"
@@ -22,7 +22,7 @@ namespace waitpoint::ndd {
 enum class Outcome : std::uint8_t {
   idle,     ///< no route
   driving,  ///< on the way
-  arrived,  ///< within the tolerance of the last via point, and standing
+  arrived,  ///< standing within the tolerance of the last via point, or as near as it can be got
   blocked,  ///< no progress for too long: the robot stands, the route is given up
 };
 
@@ -46,8 +46,8 @@ class Navigator {
   void go(Time now, const posters::PositionEstimate& position, std::span<const Point> via_points);
   void stop() { route_.clear(); }
 
-  /// The command for the next control period. `position` is in the map frame, of any date that the odometry still knows.
-  /// After `arrived` or `blocked` the route is over and the next decision is `idle`.
+  /// The command for the next control period. `position` is in the map frame, of any date that the odometry still
+  /// knows. After `arrived` or `blocked` the route is over and the next decision is `idle`.
   Decision decide(Time now, const posters::PositionEstimate& position);
 
   /// The newest scan's obstacle points in the map frame, for whoever plans anew.
@@ -56,6 +56,10 @@ class Navigator {
 
  private:
   Pose in_map(const posters::PositionEstimate& position) const;
+  bool at_goal(double remaining_m, double target_distance_m) const;
+  Outcome outcome(Time now, double remaining_m, double target_distance_m);
+  void steer(Point target, Decision& decision);
+  Point clear_of_obstacles(Point via) const;
   Assessment assess(Point target, double target_distance_m);
   double security_distance_m(Point target, double target_distance_m) const;
   double keep_turning(double direction_rad);

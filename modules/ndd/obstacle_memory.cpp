@@ -8,8 +8,8 @@ namespace waitpoint::ndd {
 namespace {
 
 constexpr std::size_t remembered_max = 1024;
-constexpr double spacing_m = 0.03;         // of remembered points along a surface
-constexpr double occlusion_m = 0.15;       // a beam that ends this much before a point says nothing about it
+constexpr double spacing_m = 0.03;    // of remembered points along a surface
+constexpr double occlusion_m = 0.15;  // a beam that ends this much before a point says nothing about it
 
 }  // namespace
 
@@ -50,15 +50,16 @@ void ObstacleMemory::keep_newest(const Pose& robot) {
 
 void ObstacleMemory::drop_contradicted(const Pose& device, const posters::LaserReading& scan) {
   const double reach = parameters_.memory_range_m, beams = static_cast<double>(scan.range_m.size());
-  const auto [s, c] = exact::sincos(device.heading);
+  const exact::SinCos facing = exact::sincos(device.heading);
   const Duration age_max = Duration::from_seconds(parameters_.memory_age_s);
-  const auto gone = [&](const Remembered& r) {
+  const auto gone = [&, s = s, c = c](const Remembered& r) {
     const Point d = r.point - device.position();
     const double square = dot(d, d);
     if (square > reach * reach || seen_ - r.seen > age_max) return true;
-    const double angle = exact::atan2(c * d.y - s * d.x, c * d.x + s * d.y);
-    const double beam = (exact::wrap_angle(angle - scan.first_angle_rad - 0.5 * beams * scan.angle_step_rad)) /
-                            scan.angle_step_rad + 0.5 * beams;
+    const double angle = exact::atan2(facing.cos * d.y - facing.sin * d.x, facing.cos * d.x + facing.sin * d.y);
+    const double beam =
+        (exact::wrap_angle(angle - scan.first_angle_rad - 0.5 * beams * scan.angle_step_rad)) / scan.angle_step_rad +
+        0.5 * beams;
     if (beam < 0 || beam > beams - 1) return false;  // out of view
     const double range = std::min(scan.range_m[static_cast<std::size_t>(std::floor(beam))],
                                   scan.range_m[static_cast<std::size_t>(std::ceil(beam))]);
@@ -72,10 +73,10 @@ void ObstacleMemory::drop_contradicted(const Pose& device, const posters::LaserR
 
 void ObstacleMemory::points_from(const Pose& robot, std::vector<Point>& points) const {
   points.clear();
-  const auto [s, c] = exact::sincos(robot.heading);
-  const auto add = [&](Point p) {
+  const exact::SinCos facing = exact::sincos(robot.heading);
+  const auto add = [&, s = s, c = c](Point p) {
     const double dx = p.x - robot.x, dy = p.y - robot.y;
-    points.push_back({c * dx + s * dy, c * dy - s * dx});
+    points.push_back({facing.cos * dx + facing.sin * dy, facing.cos * dy - facing.sin * dx});
   };
   for (const Point p : scan_) add(p);
   for (const Remembered& r : past_) add(r.point);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which way to go: to the goal if it can be reached, else through the opening nearest to it that can be.
 //
-// An opening is an edge of a region whose gap ascends into it; its sub-goal lies behind the obstacle point at that edge.
-// Openings are tried outwards from the goal's direction, to the left and to the right. Of two that are about as good,
-// the one chosen before is kept, else the right-hand one is taken: robots that meet head-on then pass each other.
+// An opening is an edge of a region whose gap ascends into it; its sub-goal lies behind the obstacle point at that
+// edge. Openings are tried outwards from the goal's direction, to the left and to the right. Of two that are about as
+// good, the one chosen before is kept, else the right-hand one is taken: robots that meet head-on then pass each other.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@
 namespace waitpoint::ndd {
 
 struct Choice {
-  bool found = false;          ///< false: no opening can be reached
-  bool goal_reachable = false; ///< the goal itself is the target, and lies in `region`
+  bool found = false;           ///< false: no opening can be reached
+  bool goal_reachable = false;  ///< the goal itself is the target, and lies in `region`
   Region region;
   bool at_right_edge = false;  ///< the opening is the region's right edge
   Point target;                ///< the goal or the sub-goal, in the robot's frame

@@ -13,9 +13,9 @@
 namespace waitpoint::ndd {
 
 struct Region {
-  int first = 0;                     ///< its rightmost sector
-  int sectors = 0;                   ///< how many, counter-clockwise from the first
-  bool opens_at_right = false;       ///< the gap at its right edge ascends into it
+  int first = 0;                ///< its rightmost sector
+  int sectors = 0;              ///< how many, counter-clockwise from the first
+  bool opens_at_right = false;  ///< the gap at its right edge ascends into it
   bool opens_at_left = false;
 
   int last() const { return first + sectors - 1; }

@@ -51,7 +51,8 @@ void PositionFusion::apply_from(std::size_t first) {
     UncertainPose result = predicted;
     if (c.accepted && parameters_.kalman) {
       result = fuse(predicted, c.measured);
-    } else if (c.accepted && greatest_deviation_m(c.measured.covariance) <= greatest_deviation_m(predicted.covariance)) {
+    } else if (c.accepted &&
+               greatest_deviation_m(c.measured.covariance) <= greatest_deviation_m(predicted.covariance)) {
       result = c.measured;
     }
     c.after = {c.date, result};
@@ -99,8 +100,7 @@ void PositionFusion::reset(Time date, const UncertainPose& position) {
 }
 
 posters::FusedPosition PositionFusion::at(Time now) const {
-  const UncertainPose estimate =
-      carry(newest_state(), now, Duration::from_seconds(parameters_.extrapolation_s_max));
+  const UncertainPose estimate = carry(newest_state(), now, Duration::from_seconds(parameters_.extrapolation_s_max));
   posters::FusedPosition fused;
   fused.position = {now, estimate.pose, estimate.covariance};
   std::optional<Time> corrected = base_correction_;

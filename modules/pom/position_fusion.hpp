@@ -26,12 +26,12 @@
 namespace waitpoint::pom {
 
 struct FusionParameters {
-  bool kalman = true;                      ///< fuse; false: the more certain of state and correction stands alone
-  double gate = 16.27;                     ///< chi square of 3 degrees of freedom at 99.9 %
-  double uncertain_m = 0.3;                ///< the state is `uncertain` above this standard deviation
-  double uncertain_rad = 0.2;              ///< or above this one
-  double motion_covariance_scale = 1;      ///< how much less odometry is trusted than it says
-  double extrapolation_s_max = 0.1;        ///< beyond the newest odometry the last motion is assumed to go on
+  bool kalman = true;                  ///< fuse; false: the more certain of state and correction stands alone
+  double gate = 16.27;                 ///< chi square of 3 degrees of freedom at 99.9 %
+  double uncertain_m = 0.3;            ///< the state is `uncertain` above this standard deviation
+  double uncertain_rad = 0.2;          ///< or above this one
+  double motion_covariance_scale = 1;  ///< how much less odometry is trusted than it says
+  double extrapolation_s_max = 0.1;    ///< beyond the newest odometry the last motion is assumed to go on
 
   static constexpr auto fields() {
     return std::tuple(field("kalman", &FusionParameters::kalman), field("gate", &FusionParameters::gate),

@@ -76,8 +76,7 @@ bool invert(const Matrix3& a, Matrix3& inverse) {
 
 UncertainPose compose(const UncertainPose& a, const UncertainPose& b) {
   const Pose c = waitpoint::compose(a.pose, b.pose);
-  return {c, congruent(moved_frame(a.pose, c), a.covariance) +
-                 congruent(turned_frame(a.pose.heading), b.covariance)};
+  return {c, congruent(moved_frame(a.pose, c), a.covariance) + congruent(turned_frame(a.pose.heading), b.covariance)};
 }
 
 UncertainPose increment(const UncertainPose& a, const UncertainPose& c) {

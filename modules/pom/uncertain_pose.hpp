@@ -44,8 +44,8 @@ UncertainPose increment(const UncertainPose& a, const UncertainPose& c);
 /// The part of an increment that a motion at constant speeds has done after `fraction` of its time.
 UncertainPose part_of(const UncertainPose& increment, double fraction);
 
-/// Squared Mahalanobis distance of two independent estimates of one pose (3 degrees of freedom). Infinite if neither has
-/// any uncertainty.
+/// Squared Mahalanobis distance of two independent estimates of one pose (3 degrees of freedom). Infinite if neither
+/// has any uncertainty.
 double disagreement(const UncertainPose& a, const UncertainPose& b);
 
 /// The Kalman fusion of two independent estimates of one pose. `prior` if neither has any uncertainty.

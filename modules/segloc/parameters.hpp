@@ -13,11 +13,15 @@ struct Parameters {
   std::uint32_t landmarks_max = 200;
   std::uint32_t matches_max = 24;  ///< lines that one update takes in
 
-  // Added to the covariance of the odometry: its systematic errors, as the random walk that covers them over some
-  // metres (1 % of the way, 0.5 degrees a metre, 1.5 % of the turn).
-  double travel_noise_m_per_sqrt_m = 0.02;
-  double drift_noise_rad_per_sqrt_m = 0.015;
-  double turn_noise_rad_per_sqrt_rad = 0.02;
+  // Added to the covariance of the odometry, whatever that says.
+  double travel_noise_m_per_sqrt_m = 0.015;
+  double drift_noise_rad_per_sqrt_m = 0.01;
+  double turn_noise_rad_per_sqrt_rad = 0.015;
+
+  // How far its systematic errors may be off at first (standard deviations); 0: taken to have none.
+  double travel_scale_deviation = 0.02;
+  double turn_scale_deviation = 0.03;
+  double drift_deviation_rad_per_m = 0.012;
 
   // Floor of an observation's standard deviation.
   double angle_floor_rad = 0.005;
@@ -51,6 +55,9 @@ struct Parameters {
                       field("travel_noise_m_per_sqrt_m", &P::travel_noise_m_per_sqrt_m),
                       field("drift_noise_rad_per_sqrt_m", &P::drift_noise_rad_per_sqrt_m),
                       field("turn_noise_rad_per_sqrt_rad", &P::turn_noise_rad_per_sqrt_rad),
+                      field("travel_scale_deviation", &P::travel_scale_deviation),
+                      field("turn_scale_deviation", &P::turn_scale_deviation),
+                      field("drift_deviation_rad_per_m", &P::drift_deviation_rad_per_m),
                       field("angle_floor_rad", &P::angle_floor_rad), field("offset_floor_m", &P::offset_floor_m),
                       field("update_travel_m", &P::update_travel_m), field("update_turn_rad", &P::update_turn_rad),
                       field("update_scans", &P::update_scans), field("chi2_match", &P::chi2_match),

@@ -17,7 +17,7 @@ double square(double x) { return x * x; }
 SegmentMapFilter::SegmentMapFilter(const Parameters& parameters, const PoseEstimate& start)
     : parameters_(parameters),
       pose_(start.pose),
-      covariance_(3 + 2 * parameters.landmarks_max),
+      covariance_(column_of(parameters.landmarks_max)),
       joint_(parameters.matches_max, covariance_.stride()),
       candidates_(parameters.candidates) {
   WAITPOINT_CHECK(parameters.matches_max > 0 && parameters.landmarks_max > 0, "a filter without room for lines");
@@ -25,10 +25,13 @@ SegmentMapFilter::SegmentMapFilter(const Parameters& parameters, const PoseEstim
   observations_.reserve(posters::segment_count_max);
   matched_.reserve(posters::segment_count_max);
   unexplained_.reserve(posters::segment_count_max);
-  covariance_.append(3);
+  covariance_.append(own_columns);
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j <= i; ++j) covariance_(i, j) = start.covariance[3 * i + j];
   }
+  covariance_(3, 3) = square(parameters.travel_scale_deviation);
+  covariance_(4, 4) = square(parameters.turn_scale_deviation);
+  covariance_(5, 5) = square(parameters.drift_deviation_rad_per_m);
   scans_ = parameters.update_scans;  // the first scan is taken in
 }
 
@@ -40,35 +43,51 @@ PoseEstimate SegmentMapFilter::position() const {
   return estimate;
 }
 
-// pose' = pose (+) motion: with R the turn by the heading, d pose' = F d pose + diag(R, 1) d motion.
+// pose' = pose (+) corrected motion. With R the turn by the heading, d pose' = F (d pose, d calibration) + diag(R, 1)
+// d motion; F takes in at most the heading and one or two of the calibration's variables a row.
 void SegmentMapFilter::predict(const PoseEstimate& motion) {
   const auto [sine, cosine] = exact::sincos(pose_.heading);
-  const double dx = cosine * motion.pose.x - sine * motion.pose.y, dy = sine * motion.pose.x + cosine * motion.pose.y;
-  const double way = length(motion.pose.position()), turn = std::fabs(motion.pose.heading);
+  const Pose& measured = motion.pose;
+  const Point stretched{cosine * measured.x - sine * measured.y, sine * measured.x + cosine * measured.y};
+  const Point moved = (1.0 + calibration_.travel) * stretched;
+  const double way = length(measured.position()), turn = std::fabs(measured.heading);
   travel_m_ += way;
   turn_rad_ += turn;
 
-  // The systematic errors of the odometry, as noise along the way and in the heading.
-  auto q = motion.covariance;
-  const double travel = square(parameters_.travel_noise_m_per_sqrt_m) * way;
-  q[0] += travel;
-  q[4] += travel;
-  q[8] += square(parameters_.drift_noise_rad_per_sqrt_m) * way + square(parameters_.turn_noise_rad_per_sqrt_rad) * turn;
-
   Covariance& p = covariance_;
-  for (std::size_t i = 3; i < p.size(); ++i) {
-    p(i, 0) -= dy * p(i, 2);
-    p(i, 1) += dx * p(i, 2);
+  const auto carry = [&](const std::array<double, own_columns>& c) {
+    return std::array<double, 3>{c[0] - moved.y * c[2] + stretched.x * c[3], c[1] + moved.x * c[2] + stretched.y * c[3],
+                                 c[2] + measured.heading * c[4] + measured.x * c[5]};
+  };
+  for (std::size_t j = own_columns; j < p.size(); ++j) {
+    const auto c = carry({p(j, 0), p(j, 1), p(j, 2), p(j, 3), p(j, 4), p(j, 5)});
+    for (std::size_t i = 0; i < 3; ++i) p(j, i) = c[i];
   }
-  const double p00 = p(0, 0), p10 = p(1, 0), p11 = p(1, 1), p20 = p(2, 0), p21 = p(2, 1), p22 = p(2, 2);
+  // F P F' of the first six: the rows, then the columns of what that gives.
+  std::array<std::array<double, own_columns>, 3> rows;
+  for (std::size_t j = 0; j < own_columns; ++j) {
+    const auto c = carry({p(0, j), p(1, j), p(2, j), p(3, j), p(4, j), p(5, j)});
+    for (std::size_t i = 0; i < 3; ++i) rows[i][j] = c[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto c = carry(rows[i]);
+    for (std::size_t j = 0; j <= i; ++j) p(i, j) = c[j];
+    for (std::size_t j = 3; j < own_columns; ++j) p(j, i) = rows[i][j];
+  }
+
+  const auto& q = motion.covariance;
+  const double along = q[0] + square(parameters_.travel_noise_m_per_sqrt_m) * way;
+  const double across = q[4] + square(parameters_.travel_noise_m_per_sqrt_m) * way;
   const double c2 = cosine * cosine, s2 = sine * sine, cs = cosine * sine;
-  p(0, 0) = p00 - 2.0 * dy * p20 + dy * dy * p22 + (c2 * q[0] - 2.0 * cs * q[1] + s2 * q[4]);
-  p(1, 0) = p10 + dx * p20 - dy * p21 - dx * dy * p22 + (cs * (q[0] - q[4]) + (c2 - s2) * q[1]);
-  p(1, 1) = p11 + 2.0 * dx * p21 + dx * dx * p22 + (s2 * q[0] + 2.0 * cs * q[1] + c2 * q[4]);
-  p(2, 0) = p20 - dy * p22 + (cosine * q[2] - sine * q[5]);
-  p(2, 1) = p21 + dx * p22 + (sine * q[2] + cosine * q[5]);
-  p(2, 2) = p22 + q[8];
-  pose_ = compose(pose_, motion.pose);
+  p(0, 0) += c2 * along - 2.0 * cs * q[1] + s2 * across;
+  p(1, 0) += cs * (along - across) + (c2 - s2) * q[1];
+  p(1, 1) += s2 * along + 2.0 * cs * q[1] + c2 * across;
+  p(2, 0) += cosine * q[2] - sine * q[5];
+  p(2, 1) += sine * q[2] + cosine * q[5];
+  p(2, 2) += q[8] + square(parameters_.drift_noise_rad_per_sqrt_m) * way +
+             square(parameters_.turn_noise_rad_per_sqrt_rad) * turn;
+  const double turned = (1.0 + calibration_.turn) * measured.heading + calibration_.drift_rad_per_m * measured.x;
+  pose_ = {pose_.x + moved.x, pose_.y + moved.y, exact::wrap_angle(pose_.heading + turned)};
 }
 
 bool SegmentMapFilter::update_due() {
@@ -187,6 +206,9 @@ void SegmentMapFilter::correct() {
   pose_.x += joint_.correction(0);
   pose_.y += joint_.correction(1);
   pose_.heading = exact::wrap_angle(pose_.heading + joint_.correction(2));
+  calibration_.travel += joint_.correction(3);
+  calibration_.turn += joint_.correction(4);
+  calibration_.drift_rad_per_m += joint_.correction(5);
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     Line& line = landmarks_[i].line;
     line.turn_to(line.angle_rad + joint_.correction(column_of(i)));

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Simultaneous localisation and mapping on line segments by an extended Kalman filter.
 //
-//   state       x  y  heading | angle offset | angle offset | ...       the pose, then two variables a landmark
+//   state       x  y  heading | travel turn drift | angle offset | angle offset | ...
+//               the pose        the odometry's      two variables a landmark
+//                               systematic errors
 //   covariance  one matrix over all of it (covariance.hpp)
+//
+// The odometry's systematic errors are learnt where there are lines, so that less of them is left where there are none.
 //
 // The map starts empty and comes from the segments of the scans alone; its frame is that of the first pose. A scan's
 // segments are matched, longest first, each tested jointly with the matches before it; what no landmark explains and
@@ -35,6 +39,12 @@ struct PoseEstimate {
   std::array<double, 9> covariance{};
 };
 
+/// How the odometry errs: what it measures is to be stretched by 1 + travel, its turns by 1 + turn, and turned by drift
+/// for every metre ahead.
+struct OdometryCalibration {
+  double travel = 0, turn = 0, drift_rad_per_m = 0;
+};
+
 /// What became of one scan.
 struct Observed {
   std::uint32_t segments = 0;  ///< long enough to be used
@@ -46,9 +56,11 @@ struct Observed {
 
 class SegmentMapFilter {
  public:
+  /// Starts with an empty map and a known pose.
   SegmentMapFilter(const Parameters& parameters, const PoseEstimate& start);
 
-  /// Moves the robot by what the odometry measured: the new pose in the frame of the old one, with its covariance.
+  /// Moves the robot by what the odometry measured: the new pose in the frame of the old one, with the covariance of
+  /// its random errors; the filter adds its own, see the parameters.
   void predict(const PoseEstimate& motion);
 
   /// Takes in the segments of a scan made at the present pose. Where the robot has hardly moved since the last scan
@@ -56,6 +68,7 @@ class SegmentMapFilter {
   Observed observe(const posters::Segments& segments);
 
   PoseEstimate position() const;
+  const OdometryCalibration& calibration() const { return calibration_; }
 
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   const Covariance& covariance() const { return covariance_; }
@@ -72,7 +85,8 @@ class SegmentMapFilter {
     bool strayed = false;   ///< a landmark is near that does not fit
     bool disputed = false;  ///< so near that the segment is no new line
   };
-  static std::size_t column_of(std::size_t landmark) { return 3 + 2 * landmark; }
+  static constexpr std::size_t own_columns = 6;  ///< pose and calibration
+  static std::size_t column_of(std::size_t landmark) { return own_columns + 2 * landmark; }
 
   bool update_due();
   void sort_observations(const posters::Segments& segments);
@@ -92,6 +106,7 @@ class SegmentMapFilter {
 
   Parameters parameters_;
   Pose pose_;
+  OdometryCalibration calibration_;
   std::vector<Landmark> landmarks_;
   Covariance covariance_;
   JointUpdate joint_;

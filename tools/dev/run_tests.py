@@ -20,12 +20,15 @@ import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# What the repository says about itself. Each is one case; a part whose tool is not installed is left out.
+# What the repository says about itself. Each is one case; a part whose tool is not installed is left out. The word BUILD
+# stands for the build folder.
+BUILD = "BUILD"
 OWN_CASES = {
     "check dependencies": [str(ROOT / "tools/dev/check.sh"), "dependencies"],
     "check files": [str(ROOT / "tools/dev/check.sh"), "files"],
     "check formatting": [str(ROOT / "tools/dev/check.sh"), "formatting"],
     "dev": [sys.executable, str(ROOT / "tests/dev/dev_test.py")],
+    "programs": [sys.executable, str(ROOT / "tests/programs/programs_test.py"), BUILD],
 }
 
 
@@ -160,7 +163,8 @@ def jobs_of(build, arguments):
         yield test["name"], not test["is_parallel"], job
     if not arguments.filter:
         for name, command in OWN_CASES.items():
-            yield name, False, lambda c=command: run_one_case(c, 300)
+            words = [str(build) if word == BUILD else word for word in command]
+            yield name, False, lambda c=words: run_one_case(c, 300)
 
 
 def timed(job):
