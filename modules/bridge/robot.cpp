@@ -33,17 +33,6 @@ std::string report_text(const executive::GoalRecord& record) {
   }
 }
 
-executive::OccupancyGrid planner_grid(const OccupancyGrid& map) {
-  executive::OccupancyGrid grid;
-  grid.width = map.width();
-  grid.height = map.height();
-  grid.resolution_m = map.resolution_m();
-  grid.origin = map.origin();
-  for (int y = 0; y < map.height(); ++y)
-    for (int x = 0; x < map.width(); ++x) grid.cells.push_back(static_cast<executive::CellState>(map[{x, y}]));
-  return grid;
-}
-
 }  // namespace
 
 Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
@@ -88,8 +77,7 @@ void Robot::make_executive(const OccupancyGrid& map, std::uint64_t seed) {
   for (const Goal& goal : scenario_.goals) goals.push_back(goal.position);
   posters::KnownPose start;
   start.pose = scenario_.body.start;
-  executive_.emplace(names_, parameters, planner_grid(map), start, goals,
-                     RandomStream(seed, scenario_.name, "executive"));
+  executive_.emplace(names_, parameters, map, start, goals, RandomStream(seed, scenario_.name, "executive"));
 }
 
 void Robot::connect() {

@@ -9,9 +9,8 @@ namespace waitpoint::executive {
 
 FreeSpace::FreeSpace(OccupancyGrid map, const PlanningParameters& parameters)
     : map_(std::move(map)), parameters_(parameters) {
-  const std::size_t cells = static_cast<std::size_t>(map_.width) * static_cast<std::size_t>(map_.height);
-  WAITPOINT_CHECK(map_.width > 0 && map_.height > 0 && map_.cells.size() == cells, "a map of the wrong size");
-  const double radius = parameters_.robot_radius_m, half_diagonal = map_.resolution_m / std::sqrt(2.0);
+  const std::size_t cells = static_cast<std::size_t>(map_.width()) * static_cast<std::size_t>(map_.height());
+  const double radius = parameters_.robot_radius_m, half_diagonal = map_.resolution_m() / std::sqrt(2.0);
   const double hard_m = std::max(radius, radius + parameters_.clearance_m - half_diagonal);
   const double preferred_m = std::max(hard_m, radius + parameters_.preferred_clearance_m);
   hard_square_ = square_of(hard_m);
@@ -19,71 +18,77 @@ FreeSpace::FreeSpace(OccupancyGrid map, const PlanningParameters& parameters)
   explained_square_ = square_of(parameters_.explained_m);
   cost_.resize(preferred_square_ + std::size_t{1});
   for (std::size_t square = 0; square < cost_.size(); ++square) {
-    const double distance = 0.5 * map_.resolution_m * std::sqrt(static_cast<double>(square));
+    const double distance = 0.5 * map_.resolution_m() * std::sqrt(static_cast<double>(square));
     const double lack =
         preferred_m > hard_m ? std::clamp((preferred_m - distance) / (preferred_m - hard_m), 0.0, 1.0) : 0;
     cost_[square] = static_cast<std::uint8_t>(
         std::nearbyint(least_cell_cost + static_cast<double>(greatest_cell_cost - least_cell_cost) * lack * lack));
   }
   std::vector<std::uint8_t> occupied(cells);
-  for (std::size_t i = 0; i < cells; ++i) occupied[i] = map_.cells[i] == CellState::occupied;
-  mapped_.resize(cells);
-  DistanceTransform().run(occupied, map_.width, map_.height, mapped_);
-  for (std::size_t i = 0; i < cells; ++i) {
-    if (map_.cells[i] == CellState::unknown) mapped_[i] = 0;
+  std::vector<CellIndex> unknown;
+  for (CellIndex c; c.y < map_.height(); ++c.y) {
+    for (c.x = 0; c.x < map_.width(); ++c.x) {
+      occupied[index(c)] = map_[c] == Cell::occupied;
+      if (map_[c] == Cell::unknown) unknown.push_back(c);
+    }
   }
+  mapped_.resize(cells);
+  DistanceTransform().run(occupied, map_.width(), map_.height(), mapped_);
+  for (const CellIndex c : unknown) mapped_[index(c)] = 0;
   clearance_ = mapped_;
 }
 
 std::uint16_t FreeSpace::square_of(double distance_m) const {
-  const double half_cells = 2 * distance_m / map_.resolution_m;
+  const double half_cells = 2 * distance_m / map_.resolution_m();
   // A distance that is a whole number of half cells must not be lost to rounding.
   const double square = std::ceil(half_cells * half_cells * (1 - 1e-12));
   return static_cast<std::uint16_t>(std::clamp(square, 1.0, static_cast<double>(square_half_cells_max)));
 }
 
-double FreeSpace::clearance_m(Cell c) const {
-  return 0.5 * map_.resolution_m * std::sqrt(static_cast<double>(clearance_square(c)));
+double FreeSpace::clearance_m(CellIndex c) const {
+  return 0.5 * map_.resolution_m() * std::sqrt(static_cast<double>(clearance_square(c)));
 }
 
-std::uint32_t FreeSpace::cell_cost(Cell c) const { return cost_[std::min(clearance_square(c), preferred_square_)]; }
+std::uint32_t FreeSpace::cell_cost(CellIndex c) const {
+  return cost_[std::min(clearance_square(c), preferred_square_)];
+}
 
 // The walk is exact: in units of half cells the boundaries between cells are at odd numbers of steps, and the side of
 // the segment that a boundary crossing lies on is decided in integers.
-bool FreeSpace::clear_line(Cell a, Cell b, std::uint16_t least_square) const {
-  const std::int64_t dx = std::abs(b.column - a.column), dy = std::abs(b.row - a.row);
-  const std::int32_t step_x = b.column > a.column ? 1 : -1, step_y = b.row > a.row ? 1 : -1;
-  Cell c = a;
+bool FreeSpace::clear_line(CellIndex a, CellIndex b, std::uint16_t least_square) const {
+  const std::int64_t dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y);
+  const std::int32_t step_x = b.x > a.x ? 1 : -1, step_y = b.y > a.y ? 1 : -1;
+  CellIndex c = a;
   std::int64_t crossed_x = 0, crossed_y = 0;
   while (true) {
     if (clearance_square(c) < least_square) return false;
     if (c == b) return true;
     // The next vertical boundary is at (2 crossed_x + 1) / (2 dx) of the way, the next horizontal one alike.
     const std::int64_t vertical = (2 * crossed_x + 1) * dy, horizontal = (2 * crossed_y + 1) * dx;
-    if (vertical <= horizontal && crossed_x < dx) c.column += step_x, ++crossed_x;
-    if (horizontal <= vertical && crossed_y < dy) c.row += step_y, ++crossed_y;
+    if (vertical <= horizontal && crossed_x < dx) c.x += step_x, ++crossed_x;
+    if (horizontal <= vertical && crossed_y < dy) c.y += step_y, ++crossed_y;
   }
 }
 
 void FreeSpace::mark(std::span<const Point> echoes) {
   for (const Point echo : echoes) {
-    const Cell c = map_.cell_at(echo);
-    if (!map_.holds(c) || mapped_[index(c)] < explained_square_ || clearance_[index(c)] == 0) continue;
-    push_away(c);
+    const std::optional<CellIndex> c = map_.cell_at(echo);
+    if (!c || mapped_[index(*c)] < explained_square_ || clearance_[index(*c)] == 0) continue;
+    push_away(*c);
     any_marked_ = true;
   }
 }
 
-void FreeSpace::push_away(Cell obstacle) {
+void FreeSpace::push_away(CellIndex obstacle) {
   const auto edge = [](std::int32_t cells) { return std::max(0, 2 * std::abs(cells) - 1); };
   std::int32_t reach = 0;  // beyond the preferred clearance an obstacle changes nothing
   while (edge(reach) * edge(reach) < preferred_square_) ++reach;
-  const Cell low = {std::max(0, obstacle.column - reach), std::max(0, obstacle.row - reach)};
-  const Cell high = {std::min(map_.width - 1, obstacle.column + reach),
-                     std::min(map_.height - 1, obstacle.row + reach)};
-  for (std::int32_t row = low.row; row <= high.row; ++row) {
-    for (std::int32_t column = low.column; column <= high.column; ++column) {
-      const std::int32_t dx = edge(column - obstacle.column), dy = edge(row - obstacle.row);
+  const CellIndex low = {std::max(0, obstacle.x - reach), std::max(0, obstacle.y - reach)};
+  const CellIndex high = {std::min(map_.width() - 1, obstacle.x + reach),
+                          std::min(map_.height() - 1, obstacle.y + reach)};
+  for (std::int32_t row = low.y; row <= high.y; ++row) {
+    for (std::int32_t column = low.x; column <= high.x; ++column) {
+      const std::int32_t dx = edge(column - obstacle.x), dy = edge(row - obstacle.y);
       std::uint16_t& square = clearance_[index({column, row})];
       square = static_cast<std::uint16_t>(std::min<std::int32_t>(square, dx * dx + dy * dy));
     }

@@ -11,11 +11,12 @@
 // the centre but push nobody away. Beyond `hard` the cost of a cell falls until the preferred clearance is reached.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/fields.hpp"
+#include "core/occupancy_grid.hpp"
 #include "modules/executive/distance_transform.hpp"
-#include "modules/executive/occupancy_grid.hpp"
 
 namespace waitpoint::executive {
 
@@ -50,19 +51,19 @@ class FreeSpace {
 
   /// Squared distance from a cell's centre to the nearest obstacle, in half cells; 0 for cells that are occupied,
   /// unknown or outside.
-  std::uint16_t clearance_square(Cell c) const { return map_.holds(c) ? clearance_[index(c)] : 0; }
+  std::uint16_t clearance_square(CellIndex c) const { return map_.contains(c) ? clearance_[index(c)] : 0; }
   /// The distance from a cell's centre to the nearest obstacle, told up to 127 cells.
-  double clearance_m(Cell c) const;
+  double clearance_m(CellIndex c) const;
   /// The least squared clearance, in half cells, that a distance in metres needs.
   std::uint16_t square_of(double distance_m) const;
 
-  bool passable(Cell c) const { return clearance_square(c) >= hard_square_; }
+  bool passable(CellIndex c) const { return clearance_square(c) >= hard_square_; }
   /// What entering a passable cell costs per fifth of a cell's length: `least_cell_cost` where there is room.
-  std::uint32_t cell_cost(Cell c) const;
+  std::uint32_t cell_cost(CellIndex c) const;
   static constexpr std::uint32_t least_cell_cost = 16, greatest_cell_cost = 80;
 
   /// Whether all cells that the segment between two cells' centres touches have at least this clearance.
-  bool clear_line(Cell a, Cell b, std::uint16_t least_square) const;
+  bool clear_line(CellIndex a, CellIndex b, std::uint16_t least_square) const;
 
   /// Adds obstacles at points of the map frame, except where the map has one near enough to explain the echo.
   void mark(std::span<const Point> echoes);
@@ -71,10 +72,10 @@ class FreeSpace {
   bool marked() const { return any_marked_; }
 
  private:
-  std::size_t index(Cell c) const {
-    return static_cast<std::size_t>(c.row) * static_cast<std::size_t>(map_.width) + static_cast<std::size_t>(c.column);
+  std::size_t index(CellIndex c) const {
+    return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(map_.width()) + static_cast<std::size_t>(c.x);
   }
-  void push_away(Cell obstacle);
+  void push_away(CellIndex obstacle);
 
   OccupancyGrid map_;
   PlanningParameters parameters_;

@@ -21,14 +21,14 @@ const char* to_string(PlanOutcome outcome) {
 }
 
 PlanOutcome RoutePlanner::check_goal(Point goal) const {
-  const Cell cell = space_.map().cell_at(goal);
-  if (!space_.map().holds(cell)) return PlanOutcome::goal_outside;
-  switch (space_.map().at(cell)) {
-    case CellState::occupied: return PlanOutcome::goal_occupied;
-    case CellState::unknown: return PlanOutcome::goal_unknown;
-    case CellState::free: break;
+  const std::optional<CellIndex> cell = space_.map().cell_at(goal);
+  if (!cell) return PlanOutcome::goal_outside;
+  switch (space_.map()[*cell]) {
+    case Cell::occupied: return PlanOutcome::goal_occupied;
+    case Cell::unknown: return PlanOutcome::goal_unknown;
+    case Cell::free: break;
   }
-  return space_.passable(cell) ? PlanOutcome::found : PlanOutcome::goal_too_close;
+  return space_.passable(*cell) ? PlanOutcome::found : PlanOutcome::goal_too_close;
 }
 
 void RoutePlanner::plan(Point start, Point goal, Plan& plan) {
@@ -37,19 +37,19 @@ void RoutePlanner::plan(Point start, Point goal, Plan& plan) {
   plan.cost = 0;
   plan.outcome = check_goal(goal);
   if (plan.outcome != PlanOutcome::found) return;
-  const Cell start_cell = space_.map().cell_at(start), goal_cell = space_.map().cell_at(goal);
-  Cell from = start_cell;
-  if (!space_.map().holds(start_cell)) {
+  const std::optional<CellIndex> start_cell = space_.map().cell_at(start), goal_cell = space_.map().cell_at(goal);
+  CellIndex from = start_cell.value_or(CellIndex());
+  if (!start_cell) {
     plan.outcome = PlanOutcome::start_outside;
-  } else if (!space_.passable(start_cell) && !escape(start_cell, from)) {
+  } else if (!space_.passable(*start_cell) && !escape(*start_cell, from)) {
     plan.outcome = PlanOutcome::start_blocked;
   } else {
-    plan.cost = search_.find(space_, from, goal_cell, path_);
+    plan.cost = search_.find(space_, from, *goal_cell, path_);
     if (plan.cost == ShortestPath::unreachable) plan.outcome = PlanOutcome::unreachable;
   }
   if (plan.outcome != PlanOutcome::found) return;
   pull_via_cells(space_, path_, via_);
-  if (from != start_cell) plan.via_points.push_back(space_.map().centre(from));
+  if (from != *start_cell) plan.via_points.push_back(space_.map().centre(from));
   for (std::size_t i = 1; i + 1 < via_.size(); ++i) plan.via_points.push_back(space_.map().centre(via_[i]));
   plan.via_points.push_back(goal);
   Point last = start;
@@ -58,23 +58,23 @@ void RoutePlanner::plan(Point start, Point goal, Plan& plan) {
 
 // The nearest passable cell that no mapped obstacle hides. The start itself may lie in what was marked (an echo
 // misplaced by an error of the position), so only the map's own cells count as hiding.
-bool RoutePlanner::escape(Cell start, Cell& free) const {
-  const auto reach = static_cast<std::int32_t>(space_.parameters().escape_m_max / space_.map().resolution_m);
-  const auto in_sight = [&](Cell c) {
-    const std::int32_t steps = std::max(std::abs(c.column - start.column), std::abs(c.row - start.row));
+bool RoutePlanner::escape(CellIndex start, CellIndex& free) const {
+  const auto reach = static_cast<std::int32_t>(space_.parameters().escape_m_max / space_.map().resolution_m());
+  const auto in_sight = [&](CellIndex c) {
+    const std::int32_t steps = std::max(std::abs(c.x - start.x), std::abs(c.y - start.y));
     for (std::int32_t k = 0; k <= steps; ++k) {
       const auto part = [&](std::int32_t a, std::int32_t b) {
         return a + static_cast<std::int32_t>(std::nearbyint(static_cast<double>(b - a) * k / std::max(steps, 1)));
       };
-      const Cell between = {part(start.column, c.column), part(start.row, c.row)};
-      if (space_.map().at(between) == CellState::occupied) return false;
+      const CellIndex between = {part(start.x, c.x), part(start.y, c.y)};
+      if (space_.map()[between] == Cell::occupied) return false;
     }
     return true;
   };
   std::int32_t best = reach * reach + 1;
   for (std::int32_t row = -reach; row <= reach; ++row) {
     for (std::int32_t column = -reach; column <= reach; ++column) {
-      const Cell c = {start.column + column, start.row + row};
+      const CellIndex c = {start.x + column, start.y + row};
       const std::int32_t square = column * column + row * row;
       if (square >= best || !space_.passable(c) || !in_sight(c)) continue;
       best = square;

@@ -42,14 +42,14 @@ class RoutePlanner {
   FreeSpace& space() { return space_; }
   const FreeSpace& space() const { return space_; }
   /// The cells of the last plan's way.
-  const std::vector<Cell>& path() const { return path_; }
+  const std::vector<CellIndex>& path() const { return path_; }
 
  private:
-  bool escape(Cell start, Cell& free) const;
+  bool escape(CellIndex start, CellIndex& free) const;
 
   FreeSpace space_;
   ShortestPath search_;
-  std::vector<Cell> path_, via_;
+  std::vector<CellIndex> path_, via_;
 };
 
 }  // namespace waitpoint::executive

@@ -8,7 +8,7 @@ namespace waitpoint::executive {
 namespace {
 
 struct Step {
-  std::int32_t column, row;
+  std::int32_t x, y;
   std::uint32_t length;
 };
 
@@ -22,26 +22,27 @@ constexpr std::array<Step, 8> steps = {{{1, 0, ShortestPath::straight_step},
                                         {1, -1, ShortestPath::diagonal_step}}};
 
 // A lower bound of the cost between two cells that a step cannot lower by more than it costs.
-std::uint32_t least_cost(Cell a, Cell b) {
-  const auto dx = static_cast<std::uint32_t>(std::abs(a.column - b.column));
-  const auto dy = static_cast<std::uint32_t>(std::abs(a.row - b.row));
+std::uint32_t least_cost(CellIndex a, CellIndex b) {
+  const auto dx = static_cast<std::uint32_t>(std::abs(a.x - b.x));
+  const auto dy = static_cast<std::uint32_t>(std::abs(a.y - b.y));
   const std::uint32_t diagonal = std::min(dx, dy), straight = std::max(dx, dy) - diagonal;
   return FreeSpace::least_cell_cost * (ShortestPath::straight_step * straight + ShortestPath::diagonal_step * diagonal);
 }
 
 }  // namespace
 
-std::uint32_t ShortestPath::find(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path) {
+std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIndex goal,
+                                 std::vector<CellIndex>& path) {
   // A step raises the priority by its cost plus what the lower bound loses by stepping away.
   static_assert(diagonal_step * (FreeSpace::greatest_cell_cost + FreeSpace::least_cell_cost) < bucket_count);
   WAITPOINT_CHECK(space.passable(start) && space.passable(goal), "a way from or to a cell that is not passable");
   path.clear();
-  const auto width = static_cast<std::uint32_t>(space.map().width);
-  nodes_.assign(space.map().cells.size(), {unreachable, none, false});
+  const auto width = static_cast<std::uint32_t>(space.map().width());
+  nodes_.assign(std::size_t{width} * static_cast<std::uint32_t>(space.map().height()), {unreachable, none, false});
   for (auto& bucket : buckets_) bucket.clear();
   opened_ = 0;
-  const auto index = [&](Cell c) {
-    return static_cast<std::uint32_t>(c.row) * width + static_cast<std::uint32_t>(c.column);
+  const auto index = [&](CellIndex c) {
+    return static_cast<std::uint32_t>(c.y) * width + static_cast<std::uint32_t>(c.x);
   };
   nodes_[index(start)].cost = 0;
   std::uint32_t priority = least_cost(start, goal);
@@ -57,7 +58,7 @@ std::uint32_t ShortestPath::find(const FreeSpace& space, Cell start, Cell goal, 
     --opened_;
     if (nodes_[i].closed) continue;
     nodes_[i].closed = true;
-    const Cell cell = {static_cast<std::int32_t>(i % width), static_cast<std::int32_t>(i / width)};
+    const CellIndex cell = {static_cast<std::int32_t>(i % width), static_cast<std::int32_t>(i / width)};
     if (cell == goal) {
       walk_back(space, start, goal, path);
       return nodes_[i].cost;
@@ -67,14 +68,14 @@ std::uint32_t ShortestPath::find(const FreeSpace& space, Cell start, Cell goal, 
   return unreachable;
 }
 
-void ShortestPath::expand(const FreeSpace& space, Cell cell, Cell goal) {
-  const auto width = static_cast<std::uint32_t>(space.map().width);
+void ShortestPath::expand(const FreeSpace& space, CellIndex cell, CellIndex goal) {
+  const auto width = static_cast<std::uint32_t>(space.map().width());
   const std::uint32_t cost =
-      nodes_[static_cast<std::uint32_t>(cell.row) * width + static_cast<std::uint32_t>(cell.column)].cost;
+      nodes_[static_cast<std::uint32_t>(cell.y) * width + static_cast<std::uint32_t>(cell.x)].cost;
   for (std::uint8_t k = 0; k < steps.size(); ++k) {
-    const Cell next = {cell.column + steps[k].column, cell.row + steps[k].row};
+    const CellIndex next = {cell.x + steps[k].x, cell.y + steps[k].y};
     if (!space.passable(next)) continue;
-    const std::uint32_t i = static_cast<std::uint32_t>(next.row) * width + static_cast<std::uint32_t>(next.column);
+    const std::uint32_t i = static_cast<std::uint32_t>(next.y) * width + static_cast<std::uint32_t>(next.x);
     Node& node = nodes_[i];
     if (node.closed) continue;
     const std::uint32_t next_cost = cost + steps[k].length * space.cell_cost(next);
@@ -85,14 +86,15 @@ void ShortestPath::expand(const FreeSpace& space, Cell cell, Cell goal) {
   }
 }
 
-void ShortestPath::walk_back(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path) const {
-  const auto width = static_cast<std::uint32_t>(space.map().width);
-  Cell cell = goal;
+void ShortestPath::walk_back(const FreeSpace& space, CellIndex start, CellIndex goal,
+                             std::vector<CellIndex>& path) const {
+  const auto width = static_cast<std::uint32_t>(space.map().width());
+  CellIndex cell = goal;
   path.push_back(cell);
   while (cell != start) {
-    const Node& node = nodes_[static_cast<std::uint32_t>(cell.row) * width + static_cast<std::uint32_t>(cell.column)];
+    const Node& node = nodes_[static_cast<std::uint32_t>(cell.y) * width + static_cast<std::uint32_t>(cell.x)];
     const Step& step = steps[node.came_by];
-    cell = {cell.column - step.column, cell.row - step.row};
+    cell = {cell.x - step.x, cell.y - step.y};
     path.push_back(cell);
   }
   std::reverse(path.begin(), path.end());

@@ -20,7 +20,7 @@ class ShortestPath {
 
   /// Searches from one passable cell to another; the cells of the way, both included, replace `path`. Returns the cost;
   /// `unreachable` (and an empty path) if there is no way.
-  std::uint32_t find(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path);
+  std::uint32_t find(const FreeSpace& space, CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
 
  private:
   struct Node {
@@ -34,8 +34,8 @@ class ShortestPath {
   void open(std::uint32_t priority, std::uint32_t node) {
     buckets_[priority % bucket_count].push_back(node), ++opened_;
   }
-  void expand(const FreeSpace& space, Cell cell, Cell goal);
-  void walk_back(const FreeSpace& space, Cell start, Cell goal, std::vector<Cell>& path) const;
+  void expand(const FreeSpace& space, CellIndex cell, CellIndex goal);
+  void walk_back(const FreeSpace& space, CellIndex start, CellIndex goal, std::vector<CellIndex>& path) const;
 
   std::vector<Node> nodes_;
   std::array<std::vector<std::uint32_t>, bucket_count> buckets_;

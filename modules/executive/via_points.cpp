@@ -10,16 +10,16 @@ namespace {
 constexpr std::size_t no_cell = static_cast<std::size_t>(-1);
 constexpr std::size_t blind_cells_max = 20;  // a line may be hidden by a corner and clear again behind it
 
-double distance_cells(Cell a, Cell b) {
-  const double dx = a.column - b.column, dy = a.row - b.row;
+double distance_cells(CellIndex a, CellIndex b) {
+  const double dx = a.x - b.x, dy = a.y - b.y;
   return std::sqrt(dx * dx + dy * dy);
 }
 
 // Indices into the path, ascending: its ends, and the approaches to narrow passages.
-void find_anchors(const FreeSpace& space, const std::vector<Cell>& path, std::vector<std::size_t>& anchors) {
+void find_anchors(const FreeSpace& space, const std::vector<CellIndex>& path, std::vector<std::size_t>& anchors) {
   const PlanningParameters& p = space.parameters();
   const std::uint16_t narrow = space.square_of(p.robot_radius_m + p.narrow_m);
-  const auto approach = static_cast<std::size_t>(std::ceil(p.approach_m / space.map().resolution_m));
+  const auto approach = static_cast<std::size_t>(std::ceil(p.approach_m / space.map().resolution_m()));
   anchors = {0};
   std::size_t last_narrow = no_cell;
   const auto leave_passage = [&] {
@@ -39,7 +39,8 @@ void find_anchors(const FreeSpace& space, const std::vector<Cell>& path, std::ve
 }
 
 // The farthest index up to `end` that a straight leg from `begin` can take.
-std::size_t farthest_leg(const FreeSpace& space, const std::vector<Cell>& path, std::size_t begin, std::size_t end) {
+std::size_t farthest_leg(const FreeSpace& space, const std::vector<CellIndex>& path, std::size_t begin,
+                         std::size_t end) {
   const PlanningParameters& p = space.parameters();
   const std::uint16_t full = space.square_of(p.robot_radius_m + p.clearance_m);
   std::uint16_t least = space.square_of(p.robot_radius_m + p.preferred_clearance_m);
@@ -50,30 +51,28 @@ std::size_t farthest_leg(const FreeSpace& space, const std::vector<Cell>& path, 
   }
   // Cells in one line are a straight leg whatever their clearance.
   std::size_t run = begin + 1;
-  const auto step = [&](std::size_t i) {
-    return Cell{path[i + 1].column - path[i].column, path[i + 1].row - path[i].row};
-  };
+  const auto step = [&](std::size_t i) { return CellIndex{path[i + 1].x - path[i].x, path[i + 1].y - path[i].y}; };
   while (run < end && step(run) == step(begin)) ++run;
   return std::max(farthest, run);
 }
 
-void add_leg(Cell from, Cell to, double cells_max, std::vector<Cell>& via) {
+void add_leg(CellIndex from, CellIndex to, double cells_max, std::vector<CellIndex>& via) {
   const auto parts = static_cast<std::int32_t>(std::ceil(distance_cells(from, to) / cells_max));
   for (std::int32_t k = 1; k < parts; ++k) {
     const auto part = [&](std::int32_t a, std::int32_t b) {
       return a + static_cast<std::int32_t>(std::nearbyint(static_cast<double>(b - a) * k / parts));
     };
-    via.push_back({part(from.column, to.column), part(from.row, to.row)});
+    via.push_back({part(from.x, to.x), part(from.y, to.y)});
   }
   via.push_back(to);
 }
 
 }  // namespace
 
-void pull_via_cells(const FreeSpace& space, const std::vector<Cell>& path, std::vector<Cell>& via) {
+void pull_via_cells(const FreeSpace& space, const std::vector<CellIndex>& path, std::vector<CellIndex>& via) {
   WAITPOINT_CHECK(!path.empty(), "a way without cells");
   via = {path.front()};
-  const double cells_max = std::max(1.0, space.parameters().leg_m_max / space.map().resolution_m);
+  const double cells_max = std::max(1.0, space.parameters().leg_m_max / space.map().resolution_m());
   std::vector<std::size_t> anchors;
   find_anchors(space, path, anchors);
   for (std::size_t a = 0; a + 1 < anchors.size(); ++a) {

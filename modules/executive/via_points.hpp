@@ -17,6 +17,6 @@ namespace waitpoint::executive {
 
 /// Replaces `via` by cells of `path` (with points between them on long legs); the first is `path`'s first, the last its
 /// last.
-void pull_via_cells(const FreeSpace& space, const std::vector<Cell>& path, std::vector<Cell>& via);
+void pull_via_cells(const FreeSpace& space, const std::vector<CellIndex>& path, std::vector<CellIndex>& via);
 
 }  // namespace waitpoint::executive
