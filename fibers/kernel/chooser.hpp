@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one door for choices: everything about a schedule that is not fixed by virtual time is decided here.
 //
-//   fifo    events of one instant run in the order in which they were put into the list; the first waiter is served
-//   first; a
-//           task at its own waitpoint goes on although others tie with it, so a debugger stays where it is
-//   seeded  the order of ties and who is served are hashes of (seed, task, its sequence number): never drawn from a
-//   shared
-//           stream, so that what one robot does cannot shift another's choices
+//   fifo    Events of one instant run in the order in which they were put into the list; the first waiter is served
+//           first. A task that is running goes on at the present instant although others tie with it, so a debugger
+//           stays where it is.
+//   seeded  The order of ties and who is served are hashes of (seed, task, its sequence number), never drawn from a
+//           shared stream: what one robot does cannot shift another's choices.
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ struct condition_variable : std::condition_variable_any {
   condition_variable() = default;
   explicit condition_variable(const char*) {}
 };
-template <std::ptrdiff_t LeastMax = PTRDIFF_MAX>
+template <std::ptrdiff_t LeastMax = std::counting_semaphore<>::max()>
 struct counting_semaphore : std::counting_semaphore<LeastMax> {
   explicit counting_semaphore(std::ptrdiff_t initial, const char* = "") : std::counting_semaphore<LeastMax>(initial) {}
 };

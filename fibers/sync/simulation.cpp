@@ -124,6 +124,8 @@ Report simulate(std::function<void()> body, SimulationOptions options) {
   report.digest = simulation.digest();
   report.end_time = simulation.global_time();
   report.events = simulation.scheduler().events();
+  simulation.unwind();
+  report.abandoned = simulation.abandoned();
   report.passed = report.text.empty();
   if (!report.passed && !replay.empty()) report.text += "\nreplay: " + replay;
   return report;

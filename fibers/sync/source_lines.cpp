@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <set>
+#include <string_view>
 
 namespace waitpoint::sync {
 namespace {
@@ -28,54 +30,85 @@ bool is_entry(const std::string& line) {
          contains(line, "waitpoint::kernel::Scheduler::task_main");
 }
 
-std::string name_from_symbols(const Dl_info& info, std::uintptr_t offset) {
-  if (info.dli_sname != nullptr) {
-    int status = 0;
-    const std::unique_ptr<char, void (*)(void*)> demangled(
-        abi::__cxa_demangle(info.dli_sname, nullptr, nullptr, &status), std::free);
-    return status == 0 ? demangled.get() : info.dli_sname;
-  }
-  char text[64];
-  std::snprintf(text, sizeof text, "+0x%zx", static_cast<std::size_t>(offset));
-  return std::string(info.dli_fname != nullptr ? info.dli_fname : "?") + text;
-}
-
-// The inlined functions at one address, innermost first, as "function at file:line".
-std::vector<std::string> lines_of(void* return_address) {
+// A call as the module that it is in sees it; without one, where no module has it.
+struct Place {
   Dl_info info{};
+  std::uintptr_t offset = 0;
+  std::vector<std::string> lines;  // of the inlined functions there, innermost first: "function at file:line"
+};
+
+Place place_of(void* return_address) {
+  Place place;
   // The call is before the address it returns to.
   void* call = static_cast<char*>(return_address) - 1;
-  if (dladdr(call, &info) == 0) return {"?"};
-  const std::uintptr_t offset =
-      reinterpret_cast<std::uintptr_t>(call) - reinterpret_cast<std::uintptr_t>(info.dli_fbase);
-  const std::string module = info.dli_fname;
-  std::vector<std::string> lines;
-  if (!contains(module, "'")) {
-    char command[4200];
-    std::snprintf(command, sizeof command, "addr2line -Cfip -e '%s' 0x%zx 2>/dev/null", module.c_str(),
-                  static_cast<std::size_t>(offset));
-    if (FILE* pipe = popen(command, "r")) {
-      char text[2048];
-      while (std::fgets(text, sizeof text, pipe) != nullptr) {
-        std::string line = text;
-        while (!line.empty() && line.back() == '\n') line.pop_back();
-        constexpr const char* inlined = " (inlined by) ";
-        if (line.starts_with(inlined)) line = line.substr(std::char_traits<char>::length(inlined));
-        if (!contains(line, "??")) lines.push_back(line);
-      }
-      pclose(pipe);
-    }
+  if (dladdr(call, &place.info) == 0) return Place();
+  place.offset = reinterpret_cast<std::uintptr_t>(call) - reinterpret_cast<std::uintptr_t>(place.info.dli_fbase);
+  return place;
+}
+
+std::string name_from_symbols(const Place& place) {
+  if (place.info.dli_fname == nullptr) return "?";
+  if (place.info.dli_sname != nullptr) {
+    int status = 0;
+    const std::unique_ptr<char, void (*)(void*)> demangled(
+        abi::__cxa_demangle(place.info.dli_sname, nullptr, nullptr, &status), std::free);
+    return status == 0 ? demangled.get() : place.info.dli_sname;
   }
-  if (lines.empty()) lines.push_back(name_from_symbols(info, offset));
-  return lines;
+  char text[64];
+  std::snprintf(text, sizeof text, "+0x%zx", static_cast<std::size_t>(place.offset));
+  return place.info.dli_fname + std::string(text);
+}
+
+// Asks addr2line for all places of one module at once: starting it is what takes its time.
+void add_lines(std::vector<Place>& places, const std::string& module) {
+  if (contains(module, "'")) return;
+  std::vector<Place*> asked;
+  std::string command = "addr2line -aCfip -e '" + module + "'";
+  for (Place& place : places) {
+    if (place.info.dli_fname == nullptr || place.info.dli_fname != module) continue;
+    char text[32];
+    std::snprintf(text, sizeof text, " 0x%zx", static_cast<std::size_t>(place.offset));
+    command += text;
+    asked.push_back(&place);
+  }
+  FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
+  if (pipe == nullptr) return;
+  std::size_t begun = 0;
+  char text[4096];
+  while (std::fgets(text, sizeof text, pipe) != nullptr) {
+    std::string line = text;
+    while (!line.empty() && line.back() == '\n') line.pop_back();
+    constexpr std::string_view inlined = " (inlined by) ";
+    if (line.starts_with("0x")) {
+      ++begun;
+      line.erase(0, line.find(": ") + 2);
+    } else if (line.starts_with(inlined)) {
+      line.erase(0, inlined.size());
+    }
+    if (begun > 0 && begun <= asked.size() && !contains(line, "??")) asked[begun - 1]->lines.push_back(line);
+  }
+  pclose(pipe);
 }
 
 }  // namespace
 
 std::vector<std::string> user_source_lines(std::span<void* const> return_addresses, std::size_t most) {
-  std::vector<std::string> found;
+  std::vector<Place> places;
+  std::set<std::string> modules;
   for (void* address : return_addresses) {
-    for (const std::string& line : lines_of(address)) {
+    places.push_back(place_of(address));
+    if (const char* module = places.back().info.dli_fname; module != nullptr) modules.insert(module);
+  }
+  for (const std::string& module : modules) add_lines(places, module);
+  Dl_info own{};
+  const bool known = dladdr(reinterpret_cast<void*>(&user_source_lines), &own) != 0;
+  // In a shared library of its own everything is ours, also where it has no debugging information.
+  const std::string own_library = known && contains(own.dli_fname, ".so") ? own.dli_fname : "";
+  std::vector<std::string> found;
+  for (Place& place : places) {
+    if (place.info.dli_fname != nullptr && place.info.dli_fname == own_library) continue;
+    if (place.lines.empty()) place.lines.push_back(name_from_symbols(place));
+    for (const std::string& line : place.lines) {
       if (is_entry(line)) return found;
       if (is_ours(line)) continue;
       found.push_back(line);

@@ -27,6 +27,7 @@ void run_thread(void* argument) {
     scheduler.wake_all(state.ended);
   }
   state.task = nullptr;
+  state.run_over = scheduler.unwinding();
 }
 
 }  // namespace

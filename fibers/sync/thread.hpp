@@ -28,6 +28,7 @@ struct ThreadState {
   std::function<void()> body;
   kernel::Object ended{"end of thread"};
   kernel::Task* task = nullptr;  ///< null once it ended
+  bool run_over = false;         ///< ended with its run: there is nothing to join
   std::uint64_t id = 0;
 };
 
@@ -65,10 +66,10 @@ class thread {
   thread(thread&& other) noexcept = default;
   /// As std::thread: the target must not be joinable.
   thread& operator=(thread&& other) noexcept;
-  /// As std::thread: must not be joinable. While a run is unwound, the thread is let go.
+  /// As std::thread: must not be joinable. While a run is unwound, and after it, the thread is let go.
   ~thread();
 
-  bool joinable() const noexcept { return state_ != nullptr; }
+  bool joinable() const noexcept { return state_ != nullptr && !state_->run_over; }
   void join();
   void detach();
   id get_id() const noexcept { return state_ ? id(state_->id) : id(); }

@@ -9,6 +9,11 @@ using genom::PosterStatus;
 using posters::GoToInput;
 using namespace std::chrono_literals;
 
+namespace {
+constexpr Duration look_period = 500ms;
+constexpr std::size_t looks_kept = 20;  // a little longer than `ndd` is patient
+}  // namespace
+
 Executive::Executive(genom::NameSpace& names, const Parameters& parameters, OccupancyGrid map,
                      const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random)
     : names_(names),
@@ -41,7 +46,7 @@ void Executive::run() {
     } else if (drive(order->via_points) == genom::ok) {
       order = &mission_.arrived(threads::now(), position());
     } else {
-      order = &mission_.blocked(threads::now(), position(), echoes_in_map());
+      order = &mission_.blocked(threads::now(), position(), seen());
     }
   }
   stop_modules();
@@ -75,24 +80,33 @@ Point Executive::position() const {
   return position.position.pose.position();
 }
 
-// Sends the via points and waits for the final report. What one request cannot hold follows in the next.
+// Sends the via points and waits for the final report, looking about meanwhile. What one request cannot hold follows in
+// the next.
 genom::Report Executive::drive(std::span<const Point> via_points) {
+  looks_.clear();
   while (!via_points.empty()) {
     GoToInput input;
     const std::size_t count = std::min(via_points.size(), posters::via_point_count_max);
     for (const Point point : via_points.first(count)) input.via.push_back(point);
-    if (const genom::Report report = client_.call("ndd", "GoTo", input).report; report != genom::ok) return report;
+    std::optional<std::uint32_t> request;
+    while (!(request = client_.send("ndd", "GoTo", input))) threads::this_thread::sleep_for(look_period);
+    std::optional<genom::Reply> reply;
+    while (!reply || reply->send_id != *request || !reply->final) {
+      reply = client_.receive(look_period);
+      if (!reply) look();
+    }
+    if (reply->report != genom::ok) return reply->report;
     via_points = via_points.subspan(count);
   }
   return genom::ok;
 }
 
-// What the laser sees from where the robot stands.
-std::vector<Point> Executive::echoes_in_map() const {
-  std::vector<Point> points;
+// Remembers what the laser sees now: when the way is given up, the robot may have turned its back on what blocks it.
+void Executive::look() {
   posters::FusedPosition position;
   posters::Echoes echoes;
-  if (position_.read(position) == PosterStatus::empty || echoes_.read(echoes) == PosterStatus::empty) return points;
+  if (position_.read(position) == PosterStatus::empty || echoes_.read(echoes) == PosterStatus::empty) return;
+  std::vector<Point> points;
   const Pose device = compose(position.position.pose, echoes.mount);
   for (std::size_t i = 0; i < echoes.scan.range_m.size(); ++i) {
     const double range = static_cast<double>(echoes.scan.range_m[i]);
@@ -101,6 +115,13 @@ std::vector<Point> Executive::echoes_in_map() const {
         exact::sincos(echoes.scan.first_angle_rad + echoes.scan.angle_step_rad * static_cast<double>(i));
     points.push_back(transform(device, {range * c, range * s}));
   }
+  looks_.push_back(std::move(points));
+  if (looks_.size() > looks_kept) looks_.pop_front();
+}
+
+std::vector<Point> Executive::seen() const {
+  std::vector<Point> points;
+  for (const std::vector<Point>& look : looks_) points.insert(points.end(), look.begin(), look.end());
   return points;
 }
 

@@ -6,6 +6,7 @@
 // leaves no way, for it may have been somebody passing. A goal that stays out of reach ends in a report that says why.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,8 @@ class Executive {
   void stop_modules();
   genom::Report drive(std::span<const Point> via_points);
   Point position() const;
-  std::vector<Point> echoes_in_map() const;
+  void look();
+  std::vector<Point> seen() const;
 
   genom::NameSpace& names_;
   Parameters parameters_;
@@ -57,6 +59,7 @@ class Executive {
   RoutePlanner planner_;
   Mission mission_;
   posters::KnownPose start_;
+  std::deque<std::vector<Point>> looks_;  // near echoes in the map frame, of the last seconds
   genom::PosterLink<posters::FusedPosition> position_{"pom.position"};
   genom::PosterLink<posters::Echoes> echoes_{"sick.echoes"};
 };

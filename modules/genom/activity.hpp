@@ -9,7 +9,9 @@
 //               |  +--------+   |  +---------|
 //               |  | INTER  | --|------------|--> ETHER, always with report ACTIVITY_INTERRUPTED
 //               |  +--------+   |            |
-//               +--> FAIL <-----+------------+ --> ZOMBIE (waits for an Abort; blocks further execution requests)
+//               +--> FAIL <-----+------------+ --> ZOMBIE (failed: final reply with its own report or
+//                                                  ACTIVITY_FAILED; keeps its slot, and blocks further execution
+//                                                  requests, until an Abort frees it)
 //
 // One codel is called per wake-up of the activity's execution task; the state it returns comes next. A codel that is
 // not given counts as one that returns the default at once: START->EXEC, EXEC->END, END->ETHER, FAIL->ZOMBIE,
@@ -61,8 +63,9 @@ inline constexpr std::size_t activities_max = 19;  // SERV_NMAX_RQST_ID - 1
 struct Activity {
   State state = State::ether;  ///< ETHER: free, or ended with its final reply still to be sent
   bool in_use = false;
+  bool replied = false;      ///< its final reply is sent: of a ZOMBIE
   bool interrupt = false;    ///< told to go to INTER
-  bool interrupted = false;  ///< went there: whatever its codels say, it reports ACTIVITY_INTERRUPTED
+  bool interrupted = false;  ///< went there: whatever its codels say, it ends with report ACTIVITY_INTERRUPTED
   const RequestType* type = nullptr;
   std::int32_t number = -1;
   std::uint32_t send_id = 0;

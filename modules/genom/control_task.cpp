@@ -34,7 +34,13 @@ void ControlTask::run() {
 
 void ControlTask::end_activities() {
   for (Activity& a : module_.activities()) {
-    if (!a.in_use || a.state != State::ether) continue;
+    if (!a.in_use) continue;
+    if (a.state == State::zombie && !a.replied) {
+      if (a.report == ok) a.report = module_.report(StandardReport::activity_failed);
+      a.replied = true;
+      reply(LetterKind::final_reply, a);
+    }
+    if (a.state != State::ether) continue;
     if (a.interrupted) a.report = module_.report(StandardReport::activity_interrupted);
     if (a.type->kind == RequestKind::init && a.report == ok) init_done_ = true;
     reply(LetterKind::final_reply, a);
@@ -60,7 +66,8 @@ void ControlTask::handle(const Letter& letter) {
 // Allocates an activity; its START comes when those that it interrupts are gone.
 Report ControlTask::execute(const RequestType& type, const Letter& letter) {
   if (ending_ || type.task->ended()) return module_.report(StandardReport::system_error);
-  if (type.task->suspended()) return module_.report(StandardReport::exec_task_suspended);
+  for (const ExecutionTask& task : module_.tasks_)
+    if (task.suspended()) return module_.report(StandardReport::exec_task_suspended);
   if (!init_done_ && type.kind != RequestKind::init) return module_.report(StandardReport::wait_init_request);
   auto& table = module_.activities();
   if (std::any_of(table.begin(), table.end(), [](const Activity& a) { return a.state == State::zombie; }))
@@ -102,9 +109,7 @@ void ControlTask::interrupt(Activity& a) {
     reply(LetterKind::final_reply, a);
     a = Activity();
   } else if (a.state == State::zombie) {
-    a.interrupted = true;
-    a.state = State::ether;
-    module_.mailbox().event().release();
+    a = Activity();
   } else if (interruptible(a.state)) {
     a.interrupt = true;
     a.type->task->signal();
@@ -132,11 +137,12 @@ Report ControlTask::abort(std::int32_t activity) {
   return ok;
 }
 
-// Whether an activity that `candidate` has to wait for is still there.
+// Whether an activity that `candidate` has to wait for is still there: a ZOMBIE does nothing any more.
 bool ControlTask::blocked(const Activity& candidate) const {
-  for (const Activity& a : module_.activities())
-    if (&a != &candidate && a.in_use && a.state != State::init && names(candidate.type->interrupts, a.type->name))
-      return true;
+  for (const Activity& a : module_.activities()) {
+    if (&a == &candidate || !a.in_use || a.state == State::init || a.state == State::zombie) continue;
+    if (names(candidate.type->interrupts, a.type->name)) return true;
+  }
   return false;
 }
 

@@ -9,7 +9,9 @@ ExecutionTask::ExecutionTask(Module& module, std::string name, TaskOptions optio
     : module_(module), name_(std::move(name)), options_(options) {}
 
 void ExecutionTask::signal() {
-  if (!periodic()) event_.release();
+  if (periodic() || signalled_) return;
+  signalled_ = true;
+  event_.release();
 }
 
 void ExecutionTask::run() {
@@ -18,10 +20,7 @@ void ExecutionTask::run() {
     const Module::BothLocks locks(module_);
     call_permanent(start_);
   }
-  while (wait()) {
-    wake_up();
-    threads::this_thread::yield();
-  }
+  while (wake_up(wait())) threads::this_thread::yield();
   {
     const Module::BothLocks locks(module_);
     call_permanent(end_);
@@ -31,18 +30,20 @@ void ExecutionTask::run() {
   module_.mailbox().event().release();
 }
 
-// False when the module is being ended.
-bool ExecutionTask::wait() {
-  if (periodic())
-    missed_periods_ += timer_->wait() - 1;
-  else
-    event_.acquire();
-  return !module_.ending();
+// The number of periods that passed meanwhile.
+std::int64_t ExecutionTask::wait() {
+  if (periodic()) return timer_->wait();
+  event_.acquire();
+  return 1;
 }
 
-void ExecutionTask::wake_up() {
+// False when the module is being ended.
+bool ExecutionTask::wake_up(std::int64_t periods) {
   const Module::BothLocks locks(module_);
-  if (suspended_) return;
+  signalled_ = false;
+  missed_periods_ += periods - 1;
+  if (module_.ending()) return false;
+  if (suspended_) return true;
   call_permanent(permanent_);
   bool state_changed = false;
   for (Activity& activity : module_.activities())
@@ -53,6 +54,7 @@ void ExecutionTask::wake_up() {
     poster->give();
   }
   if (state_changed) module_.mailbox().event().release();
+  return true;
 }
 
 void ExecutionTask::call_permanent(const std::function<void()>& codel) {
@@ -92,9 +94,8 @@ bool ExecutionTask::step(Activity& a) {
     return true;
   }
   a.state = *next;
-  if (a.state == State::fail && a.report == ok) a.report = module_.report(StandardReport::activity_failed);
   const bool goes_on = a.state != State::ether && a.state != State::zombie && a.state != State::sleep;
-  if (goes_on && !periodic()) event_.release();
+  if (goes_on) signal();
   return a.state != before;
 }
 

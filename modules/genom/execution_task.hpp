@@ -26,9 +26,9 @@ class Module;
 
 /// How a task is woken and what it costs; a scenario may overwrite these under `tasks.<task>`.
 struct TaskOptions {
-  Duration period_ms;  ///< 0: aperiodic, woken by events
-  Duration delay_ms;   ///< phase of a periodic task's ticks
-  Duration cost_us;    ///< of each permanent codel
+  Duration period_ms = {};  ///< 0: aperiodic, woken by events
+  Duration delay_ms = {};   ///< phase of a periodic task's ticks
+  Duration cost_us = {};    ///< of each permanent codel
 
   static constexpr auto fields() {
     return std::tuple(field("period_ms", &TaskOptions::period_ms), field("delay_ms", &TaskOptions::delay_ms),
@@ -50,7 +50,8 @@ class ExecutionTask {
   void set_start(std::function<void()> codel) { start_ = std::move(codel); }
   void set_end(std::function<void()> codel) { end_ = std::move(codel); }
 
-  /// Wakes the task at the next opportunity; a periodic task needs no waking.
+  /// Wakes the task once at the next opportunity, however often it is told before; a periodic task needs no waking.
+  /// Under the lock on the control data.
   void signal();
   void add(OutputPosterBase& poster) { posters_.push_back(&poster); }
 
@@ -65,8 +66,8 @@ class ExecutionTask {
   void run();
 
  private:
-  bool wait();
-  void wake_up();
+  std::int64_t wait();
+  bool wake_up(std::int64_t periods);
   void call_permanent(const std::function<void()>& codel);
   bool step(Activity& activity);
   void after_codel(Duration cost);
@@ -78,6 +79,7 @@ class ExecutionTask {
   std::vector<OutputPosterBase*> posters_;
   std::optional<threads::periodic_timer> timer_;
   threads::counting_semaphore<> event_{0, "task event"};
+  bool signalled_ = false;  // and not yet awake
   std::int64_t missed_periods_ = 0;
   bool suspended_ = false;
   bool ended_ = false;

@@ -52,7 +52,7 @@ void ObstacleMemory::drop_contradicted(const Pose& device, const posters::LaserR
   const double reach = parameters_.memory_range_m, beams = static_cast<double>(scan.range_m.size());
   const exact::SinCos facing = exact::sincos(device.heading);
   const Duration age_max = Duration::from_seconds(parameters_.memory_age_s);
-  const auto gone = [&, s = s, c = c](const Remembered& r) {
+  const auto gone = [&](const Remembered& r) {
     const Point d = r.point - device.position();
     const double square = dot(d, d);
     if (square > reach * reach || seen_ - r.seen > age_max) return true;
@@ -74,7 +74,7 @@ void ObstacleMemory::drop_contradicted(const Pose& device, const posters::LaserR
 void ObstacleMemory::points_from(const Pose& robot, std::vector<Point>& points) const {
   points.clear();
   const exact::SinCos facing = exact::sincos(robot.heading);
-  const auto add = [&, s = s, c = c](Point p) {
+  const auto add = [&](Point p) {
     const double dx = p.x - robot.x, dy = p.y - robot.y;
     points.push_back({facing.cos * dx + facing.sin * dy, facing.cos * dy - facing.sin * dx});
   };

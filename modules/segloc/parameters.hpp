@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/error.hpp"
 #include "core/fields.hpp"
 #include "modules/segloc/candidates.hpp"
 
@@ -43,8 +44,9 @@ struct Parameters {
   double join_m = 0.3;              ///< gap between two stretches of a wall that is closed
   double chi2_merge = 5.99;         ///< between two landmarks that are one line
 
-  // The robot slipped, if so many updates in a row find fewer matches than segments near a landmark that do not match.
-  // The pose is then less sure than thought, and nothing new is learnt until the matches are back or it takes too long.
+  // The robot slipped, if so many updates in a row have more segments near a landmark that do not match than matches
+  // (by two at least: a single one may be something new). The pose is then less sure than thought, and nothing new is
+  // learnt until the matches are back or it takes too long.
   std::uint32_t lost_updates = 2, lost_updates_max = 20;
   double lost_noise_m = 0.1, lost_noise_rad = 0.05;
   CandidateParameters candidates;
@@ -70,5 +72,14 @@ struct Parameters {
                       field("lost_noise_rad", &P::lost_noise_rad), field("candidates", &P::candidates));
   }
 };
+
+/// Throws BadInput for values that no filter works with.
+inline void check(const Parameters& p) {
+  if (p.landmarks_max < 1 || p.landmarks_max > 1000) throw BadInput("landmarks_max", "expected 1 to 1000");
+  if (p.matches_max < 1) throw BadInput("matches_max", "expected 1 or more");
+  if (!(p.angle_floor_rad > 0 && p.offset_floor_m > 0)) {
+    throw BadInput("angle_floor_rad, offset_floor_m", "expected more than 0");
+  }
+}
 
 }  // namespace waitpoint::segloc

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/exact_math.hpp"
 
 namespace waitpoint::segloc {
@@ -20,7 +19,6 @@ SegmentMapFilter::SegmentMapFilter(const Parameters& parameters, const PoseEstim
       covariance_(column_of(parameters.landmarks_max)),
       joint_(parameters.matches_max, covariance_.stride()),
       candidates_(parameters.candidates) {
-  WAITPOINT_CHECK(parameters.matches_max > 0 && parameters.landmarks_max > 0, "a filter without room for lines");
   landmarks_.reserve(parameters.landmarks_max);
   observations_.reserve(posters::segment_count_max);
   matched_.reserve(posters::segment_count_max);
@@ -220,7 +218,7 @@ void SegmentMapFilter::correct() {
 // Whether what does not match is the pose's fault, so that nothing should be learnt. When it goes on, the pose is made
 // less sure until the segments match again; when that does not help, they are taken for what they look like: new.
 bool SegmentMapFilter::lost(const Observed& result) {
-  lost_ = result.strayed > result.matched ? lost_ + 1 : 0;
+  lost_ = result.strayed > result.matched + 1 ? lost_ + 1 : 0;
   if (lost_ == 0 || lost_ > parameters_.lost_updates_max) return false;
   if (lost_ >= parameters_.lost_updates) {
     covariance_(0, 0) += square(parameters_.lost_noise_m);

@@ -115,7 +115,7 @@ class SegmentMapFilter {
   std::uint64_t update_ = 0;
   double travel_m_ = 0, turn_rad_ = 0;  ///< since the last update
   std::uint32_t scans_ = 0;             ///< since the last update
-  std::uint32_t lost_ = 0;              ///< updates in a row with fewer matches than strays
+  std::uint32_t lost_ = 0;              ///< updates in a row that speak of a slip
   Observed last_;
 
   std::vector<LineObservation> observations_;

@@ -17,6 +17,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/error.hpp"
 #include "modules/posters/laser.hpp"
 
 namespace waitpoint::sick {
@@ -53,6 +54,13 @@ struct SegmentExtractionParameters {
                       field("length_m_min", &P::length_m_min));
   }
 };
+
+/// Throws BadInput for values that no extraction works with.
+inline void check(const SegmentExtractionParameters& p) {
+  if (p.points_min < 3) throw BadInput("points_min", "expected 3 or more");
+  if (!(p.length_m_min > 0)) throw BadInput("length_m_min", "expected more than 0");
+  if (!(p.range_noise_m > 0)) throw BadInput("range_noise_m", "expected more than 0");
+}
 
 class SegmentExtraction {
  public:

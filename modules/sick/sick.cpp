@@ -11,6 +11,7 @@ using namespace std::chrono_literals;
 Parameters Sick::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
+  check(parameters.segments);
   return parameters;
 }
 

@@ -164,7 +164,7 @@ def jobs_of(build, arguments):
     if not arguments.filter:
         for name, command in OWN_CASES.items():
             words = [str(build) if word == BUILD else word for word in command]
-            yield name, False, lambda c=words: run_one_case(c, 300)
+            yield name, False, lambda c=words: run_one_case(c, OWN_CASE_TIMEOUT_S)
 
 
 def timed(job):

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The ends of tasks: their own, and that of a run which is over before them.
+#include "core/error.hpp"
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::kernel {
+
+void Scheduler::task_main(void* argument) {
+  Task& task = *static_cast<Task*>(argument);
+  Scheduler& scheduler = *task.scheduler;
+  scheduler.reclaim_ended();
+  if (!scheduler.unwinding_) scheduler.execute(task, Operation::start, nullptr);
+  task.entry(task.argument);
+  scheduler.waitpoint(Operation::end, nullptr);
+  scheduler.end_task(task);
+}
+
+void Scheduler::unlink(Task& task) {
+  task.state = TaskState::ended;
+  (task.previous == nullptr ? first_task_ : task.previous->next) = task.next;
+  (task.next == nullptr ? last_task_ : task.next->previous) = task.previous;
+  --tasks_;
+}
+
+void Scheduler::end_task(Task& task) {
+  unlink(task);
+  ended_ = &task;
+  if (!task.service && !unwinding_) {
+    if (--task.robot->live_tasks == 0) {
+      task.robot->ended = true;
+      task.robot->end_time = now_;
+    }
+    if (--live_tasks_ == 0) {
+      cause_ = StopCause::ended;
+      leave_to_main(RunState::stopped);
+    }
+  }
+  if (unwinding_) leave_to_main(RunState::stopped);
+  run_next();
+  bug(__FILE__, __LINE__, "control came back", "an ended task was entered");
+}
+
+void Scheduler::unwind() {
+  WAITPOINT_CHECK(running == nullptr, "unwind() is called from within a task");
+  unwinding_ = true;
+  paused_ = nullptr;
+  // Before any frame is left, because frames own objects: no task may be found at one that is gone.
+  for (Task* task = first_task_; task != nullptr; task = task->next)
+    if (task->blocked_on != nullptr) remove_waiter(*task);
+  // Timers may outlive the run: they must not find themselves in its list.
+  while (!events_.empty()) events_.pop();
+  // Each entry ends its task, which unlinks it.
+  while (last_task_ != nullptr) {
+    Task& task = *last_task_;
+    switch_to(task);
+    WAITPOINT_CHECK(last_task_ != &task, "a task went on although the run is over");
+  }
+}
+
+// A task that goes on calling although every call is refused would never end.
+bool Scheduler::refuse() {
+  if (++running->refusals > refusals_max) abandon();
+  return false;
+}
+
+void Scheduler::abandon() {
+  WAITPOINT_CHECK(unwinding_ && running != nullptr, "a task is abandoned while the run goes on");
+  Task& task = *running;
+  unlink(task);
+  task.next = first_abandoned_;
+  first_abandoned_ = &task;
+  leave_to_main(RunState::stopped);
+  bug(__FILE__, __LINE__, "control came back", "an abandoned task was entered");
+}
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How many times faster than real time the shipped scenarios run, digest included, and what each module costs.
+//
+// The speed is the fastest of some whole missions, by the wall clock. The costs come from one more mission, in which a
+// watch reads the clock at every event: the time since the event before belongs to the task of that one, its share of
+// the scheduler's work included. The readings themselves slow that mission down a little.
+#include <fmt/format.h>
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+#include "modules/bridge/experiment.hpp"
+#include "tests/bench/rows.hpp"
+#include "tests/runs/shipped.hpp"
+#include "tools/papers_modules.hpp"
+
+namespace waitpoint::bench {
+namespace {
+
+struct Case {
+  std::string scenario;
+  double must;  // times real time
+};
+const std::vector<Case> cases = {{"office.yaml", 50}, {"office-10.yaml", 8}};
+
+std::int64_t clock_ns(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+}
+
+/// Wall time by task, while it is hung on a run.
+class Costs : public kernel::Watch {
+ public:
+  Costs() : Watch{&Costs::take} { last_ns_ = clock_ns(CLOCK_MONOTONIC); }
+
+  /// Nanoseconds by module: tasks are named "<module>.<task>".
+  std::map<std::string, std::int64_t> by_module() const {
+    std::map<std::string, std::int64_t> costs;
+    for (const auto& [task, cost] : by_task_) costs[task.substr(0, task.find('.'))] += cost;
+    return costs;
+  }
+
+ private:
+  static void take(kernel::Watch& watch, const kernel::EventRecord& event) {
+    auto& self = static_cast<Costs&>(watch);
+    const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
+    if (self.cost_ != nullptr) *self.cost_ += now_ns - self.last_ns_;
+    if (event.task->name != self.name_) {
+      self.name_ = event.task->name;
+      self.cost_ = &self.by_task_[event.task->name];
+    }
+    self.last_ns_ = clock_ns(CLOCK_MONOTONIC);
+  }
+
+  std::map<std::string, std::int64_t> by_task_;
+  const char* name_ = nullptr;  // of the task whose event was the last
+  std::int64_t* cost_ = nullptr;
+  std::int64_t last_ns_;
+};
+
+struct Speed {
+  double simulated_s = 0, wall_s = 0, processor_s = 0;
+};
+
+Speed carry_out(const bridge::Scenario& scenario, const std::string& what, Costs* costs) {
+  const std::vector<genom::ModuleType> types = tools::papers_modules();
+  bridge::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
+  if (costs != nullptr) experiment.simulation().scheduler().set_watch(costs);
+  const std::int64_t wall_ns = clock_ns(CLOCK_MONOTONIC), processor_ns = clock_ns(CLOCK_PROCESS_CPUTIME_ID);
+  const Time until = Time() + scenario.until;
+  RunEnd end = RunEnd::time_reached;
+  for (Time reached; end == RunEnd::time_reached && reached < until;) {
+    reached = std::min(until, reached + std::chrono::seconds(1));
+    end = experiment.run_before(reached);
+    fmt::print(stderr, "\r{}: {} s simulated, {} of {} goals ", what, to_string(reached), experiment.goals_ended(),
+               experiment.goals());
+  }
+  fmt::print(stderr, "\r{:70}\r", "");
+  return {experiment.simulation().global_time().seconds(),
+          1e-9 * static_cast<double>(clock_ns(CLOCK_MONOTONIC) - wall_ns),
+          1e-9 * static_cast<double>(clock_ns(CLOCK_PROCESS_CPUTIME_ID) - processor_ns)};
+}
+
+class Bench {
+ public:
+  void run(const Case& of, const bridge::Scenario& scenario, int repeats) {
+    const std::string bench = scenario.name;
+    double by_wall = 0, by_processor = 0;
+    for (int i = 1; i <= repeats; ++i) {
+      const Speed speed = carry_out(scenario, fmt::format("{}, mission {} of {}", bench, i, repeats), nullptr);
+      by_wall = std::max(by_wall, speed.simulated_s / speed.wall_s);
+      by_processor = std::max(by_processor, speed.simulated_s / speed.processor_s);
+    }
+    add({bench, "whole mission", "waitpoint", by_wall, "times real time", of.must});
+    add({bench, "whole mission, processor time", "waitpoint", by_processor, "times real time", of.must});
+
+    Costs costs;
+    const Speed watched = carry_out(scenario, bench + ", what the modules cost", &costs);
+    std::vector<std::pair<std::int64_t, std::string>> modules;
+    std::int64_t all = 0;
+    for (const auto& [module, cost] : costs.by_module()) {
+      modules.push_back({cost, module});
+      all += cost;
+    }
+    std::sort(modules.rbegin(), modules.rend());
+    for (const auto& [cost, module] : modules) {
+      add({bench, "cost of a simulated second", module, 1e-3 * static_cast<double>(cost) / watched.simulated_s, "us"});
+      add({bench, "share of the time", module, 100.0 * static_cast<double>(cost) / static_cast<double>(all), "%"});
+    }
+  }
+
+  const std::vector<Row>& rows() const { return rows_; }
+
+ private:
+  void add(Row row) {
+    fmt::print("{}", table_row(row));
+    std::fflush(stdout);
+    rows_.push_back(std::move(row));
+  }
+
+  std::vector<Row> rows_;
+};
+
+int main(int argc, char** argv) {
+  CLI::App app("How fast the shipped scenarios run, and what each module costs.");
+  int repeats = 3;
+  std::string json;
+  app.add_option("--repeats", repeats, "missions of which the fastest counts")->check(CLI::Range(1, 1000));
+  app.add_option("--json", json, "file for the rows");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    Bench bench;
+    for (const Case& of : cases) bench.run(of, runs::shipped(of.scenario), repeats);
+    if (!json.empty()) write_json(json, bench.rows());
+    return 0;
+  } catch (const BadInput& error) {
+    fmt::print(stderr, "office: {}\n", error.what());
+    return 2;
+  }
+}
+
+}  // namespace
+}  // namespace waitpoint::bench
+
+int main(int argc, char** argv) { return waitpoint::bench::main(argc, argv); }

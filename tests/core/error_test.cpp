@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace waitpoint {
+namespace {
+
+TEST(BadInput, IsOneLineWithTheFileAndTheLine) {
+  EXPECT_STREQ(BadInput("office.yaml", 12, "step_ms should be positive").what(),
+               "office.yaml:12: step_ms should be positive");
+  EXPECT_STREQ(BadInput("office.png", 0, "cannot be read").what(), "office.png: cannot be read");
+  EXPECT_STREQ(BadInput("--seed", "should be an integer").what(), "--seed: should be an integer");
+}
+
+TEST(CheckDeathTest, ABrokenInvariantAbortsAndSaysWhere) {
+  WAITPOINT_CHECK(1 + 1 == 2, "arithmetic fails");
+  EXPECT_EXIT(WAITPOINT_CHECK(1 + 1 == 3, "arithmetic fails"), testing::KilledBySignal(SIGABRT),
+              "waitpoint: bug: arithmetic fails \\(1 \\+ 1 == 3\\) at .*error_test.cpp:");
+}
+
+}  // namespace
+}  // namespace waitpoint

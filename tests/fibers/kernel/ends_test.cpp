@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ends of tasks, and of a run before them.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/fibers/kernel/task_run.hpp"
+
+namespace waitpoint::kernel {
+namespace {
+
+// Who is in the middle of giving its ties a turn when the run ends must not let another task run.
+TEST(Ends, UnwindingFromAGivenTurnRunsNobodyElse) {
+  TaskRun run;
+  Object object("object");
+  run.spawn([&] {
+    for (std::uint32_t k = 0; k <= turns_max; ++k) run.scheduler.waitpoint(Operation::try_lock, &object);
+    run.log("first");
+  });
+  run.spawn([&] {
+    run.spawn([&] { run.log(run.scheduler.unwinding() ? "unborn" : "world"); }, {.phase = Phase::world});
+    run.log("stop");
+    run.scheduler.stop(StopCause::requested);
+  });
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::requested);
+  run.scheduler.unwind();
+  EXPECT_EQ(run.trace, "stop@0 unborn@0 first@0 ");
+}
+
+TEST(Ends, TheYoungestTaskIsUnwoundFirst) {
+  TaskRun run;
+  Object object("object");
+  for (const char* name : {"parent", "child", "grandchild"})
+    run.spawn([&run, &object, name] {
+      EXPECT_EQ(run.scheduler.block(object, Time::max()), Wake::unwinding);
+      run.log(name);
+    });
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::idle);
+  run.scheduler.unwind();
+  EXPECT_EQ(run.trace, "grandchild@0 child@0 parent@0 ");
+}
+
+TEST(Ends, ATaskThatGoesOnAfterTheEndIsAbandoned) {
+  TaskRun run;
+  Object object("object");
+  run.spawn(
+      [&] {
+        for (;;) {
+          running->local_time += Duration::from_ns(1);
+          run.scheduler.waitpoint(Operation::release, &object);
+        }
+      },
+      {.name = "endless"});
+  run.spawn([&] { run.log(run.scheduler.sleep_until(Time::from_ns(1000)) ? "slept" : "left"); });
+  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(500)), RunState::reached);
+  run.scheduler.unwind();
+  EXPECT_EQ(run.trace, "left@499 ");
+  ASSERT_NE(run.scheduler.first_abandoned(), nullptr);
+  EXPECT_STREQ(run.scheduler.first_abandoned()->name, "endless");
+  EXPECT_EQ(run.scheduler.first_abandoned()->next, nullptr);
+  EXPECT_EQ(run.scheduler.first_task(), nullptr);
+}
+
+TEST(Ends, TheDigestOfARobotIsFrozenWhenItsLastTaskEnds) {
+  const auto digest = [](int service_ends) {
+    TaskRun run;
+    Robot other;
+    run.scheduler.add(other, "other");
+    run.spawn([&] { run.sleep(10); });
+    run.spawn(
+        [&] {
+          for (int ns = 5; ns < service_ends; ns += 10) run.sleep(ns);
+        },
+        {.service = true});
+    run.spawn(other, [&] { run.sleep(1000); });
+    run.scheduler.run_before(Time::max());
+    EXPECT_TRUE(run.robot.ended);
+    EXPECT_EQ(run.robot.end_time, Time::from_ns(10));
+    return run.robot.digest.value();
+  };
+  EXPECT_EQ(digest(500), digest(900));
+}
+
+TEST(Ends, ServicesDoNotKeepTheRunAlive) {
+  TaskRun run;
+  std::int64_t ticks = 0;
+  run.spawn(
+      [&] {
+        while (run.scheduler.sleep_until(Time::from_ns(++ticks))) {
+        }
+      },
+      {.service = true});
+  run.spawn([&] { run.sleep(100); });
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  EXPECT_NEAR(static_cast<double>(ticks), 100, 1);
+}
+
+TEST(Ends, ManyTasksComeAndGoOnFewStacks) {
+  TaskRun run;
+  run.spawn([&] {
+    for (int i = 1; i <= 100'000; ++i) {
+      run.scheduler.spawn(
+          run.robot, {.stack = StackSize::small}, [](void*) {}, nullptr);
+      run.sleep(i);
+    }
+  });
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(run.scheduler.events(), 300'002u);
+}
+
+}  // namespace
+}  // namespace waitpoint::kernel

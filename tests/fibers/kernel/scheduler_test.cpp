@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/kernel/scheduler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/fibers/kernel/task_run.hpp"
+
+namespace waitpoint::kernel {
+namespace {
+
+TEST(Scheduler, RunsEventsInTheOrderOfTheirTimes) {
+  TaskRun run;
+  for (const int ns : {30, 10, 20})
+    run.spawn([&run, ns] {
+      run.log("start");
+      run.sleep(ns);
+      run.log(std::to_string(ns));
+    });
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  EXPECT_EQ(run.trace, "start@0 start@0 start@0 10@10 20@20 30@30 ");
+  EXPECT_EQ(run.scheduler.events(), 9u);
+}
+
+TEST(Scheduler, FirstInFirstOutIsTheOrderOfInsertionAtOneInstant) {
+  TaskRun run;
+  for (const char* name : {"a", "b", "c"})
+    run.spawn([&run, name] {
+      for (int i = 0; i < 2; ++i) {
+        run.log(name);
+        run.scheduler.yield();
+      }
+    });
+  run.scheduler.run_before(Time::max());
+  EXPECT_EQ(run.trace, "a@0 b@0 c@0 a@0 b@0 c@0 ");
+}
+
+TEST(Scheduler, InFirstInFirstOutATaskGoesOnThoughOthersTieWithIt) {
+  TaskRun run;
+  Object object("object");
+  for (const char* name : {"a", "b"})
+    run.spawn([&, name] {
+      for (int i = 0; i < 3; ++i) {
+        run.scheduler.waitpoint(Operation::lock, &object);
+        run.log(name);
+      }
+    });
+  run.scheduler.run_before(Time::max());
+  EXPECT_EQ(run.trace, "a@0 a@0 a@0 b@0 b@0 b@0 ");
+}
+
+TEST(Scheduler, AfterAThousandWaitpointsAtOneInstantTiesGetATurn) {
+  TaskRun run;
+  Object object("object");
+  int passed = 0, seen = -1;
+  run.spawn([&] {
+    for (; seen < 0; ++passed) run.scheduler.waitpoint(Operation::try_lock, &object);
+  });
+  run.spawn([&] { seen = passed; });
+  run.scheduler.run_before(Time::max());
+  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  EXPECT_EQ(seen, static_cast<int>(turns_max));
+}
+
+TEST(Scheduler, PhasesOfOneInstantComeInTheirOrder) {
+  for (const Order order : {Order::fifo, Order::seeded}) {
+    TaskRun run(order, 4);
+    const auto at_five = [&run](const char* name, Phase phase) {
+      run.spawn(
+          [&run, name] {
+            run.sleep(5);
+            run.log(name);
+          },
+          {.name = name, .phase = phase});
+    };
+    at_five("task", Phase::tasks);
+    at_five("world", Phase::world);
+    at_five("delivery", Phase::deliveries);
+    run.scheduler.run_before(Time::max());
+    EXPECT_EQ(run.trace, "delivery@5 world@5 task@5 ");
+  }
+}
+
+TEST(Scheduler, ATaskGivesWayToALowerPhaseThatComesUpAtItsInstant) {
+  TaskRun run;
+  Object object("object");
+  run.spawn([&] {
+    run.sleep(5);
+    run.spawn([&] { run.log("world"); }, {.phase = Phase::world});
+    run.scheduler.waitpoint(Operation::lock, &object);
+    run.log("task");
+  });
+  run.scheduler.run_before(Time::max());
+  EXPECT_EQ(run.trace, "world@5 task@5 ");
+}
+
+TEST(Scheduler, AWindowRunsWhatIsBeforeItsEndAndNothingElse) {
+  TaskRun run;
+  run.spawn([&] {
+    for (const int ns : {10, 20, 30}) {
+      run.sleep(ns);
+      run.log("a");
+    }
+  });
+  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(10)), RunState::reached);
+  EXPECT_EQ(run.trace, "");
+  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(11)), RunState::reached);
+  EXPECT_EQ(run.trace, "a@10 ");
+  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(11)), RunState::reached);
+  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(30)), RunState::reached);
+  EXPECT_EQ(run.trace, "a@10 a@20 ");
+  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(31)), RunState::stopped);
+  EXPECT_EQ(run.trace, "a@10 a@20 a@30 ");
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+}
+
+TEST(Scheduler, IsIdleWhenNothingCanRun) {
+  TaskRun run;
+  Object object("object");
+  run.spawn([&] {
+    run.scheduler.waitpoint(Operation::wait, &object);
+    run.scheduler.block(object, Time::max());
+    run.log("woken");
+  });
+  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(1000)), RunState::idle);
+  EXPECT_EQ(run.trace, "");
+}
+
+TEST(Scheduler, WhoIsWokenTakesTheGlobalTime) {
+  TaskRun run;
+  Object object("object");
+  run.spawn([&] {
+    run.scheduler.waitpoint(Operation::wait, &object);
+    EXPECT_EQ(run.scheduler.block(object, Time::max()), Wake::woken);
+    EXPECT_EQ(running->local_time, Time::from_ns(50));
+    EXPECT_EQ(run.scheduler.block(object, Time::from_ns(60)), Wake::timed_out);
+    EXPECT_EQ(running->local_time, Time::from_ns(60));
+  });
+  run.spawn([&] {
+    run.sleep(40);
+    running->local_time += Duration::from_ns(10);
+    run.scheduler.waitpoint(Operation::notify_one, &object);
+    EXPECT_NE(run.scheduler.wake_one(object), nullptr);
+    EXPECT_EQ(run.scheduler.wake_one(object), nullptr);
+  });
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(run.scheduler.global_time(), Time::from_ns(60));
+}
+
+TEST(Scheduler, AChildStartsAtItsParentsLocalTime) {
+  TaskRun run;
+  run.spawn([&] {
+    running->local_time += Duration::from_ns(70);
+    run.spawn([&] { run.log("child"); });
+  });
+  run.spawn([&] {
+    run.sleep(69);
+    run.log("other");
+  });
+  run.scheduler.run_before(Time::max());
+  EXPECT_EQ(run.trace, "other@69 child@70 ");
+}
+
+TEST(Scheduler, IdentityIsTheRobotAndTheCreationPath) {
+  const auto ids = [](int others) {
+    TaskRun run;
+    Robot other;
+    run.scheduler.add(other, "other");
+    for (int i = 0; i < others; ++i) run.spawn(other, [] {});
+    std::vector<std::uint64_t> found;
+    found.push_back(run.spawn([&] { found.push_back(run.spawn([] {}).id); }).id);
+    found.push_back(run.spawn([] {}).id);
+    run.scheduler.run_before(Time::max());
+    return found;
+  };
+  const std::vector<std::uint64_t> alone = ids(0);
+  EXPECT_EQ(alone.size(), 3u);
+  EXPECT_TRUE(alone[0] != alone[1] && alone[0] != alone[2] && alone[1] != alone[2]);
+  EXPECT_EQ(ids(5), alone);
+}
+
+TEST(Scheduler, ObjectsAreNumberedPerRobotAtFirstUseInARun) {
+  Object objects[3] = {Object("o"), Object("o"), Object("o")};
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    TaskRun run;
+    Robot other;
+    run.scheduler.add(other, "other");
+    run.spawn([&] {
+      run.scheduler.waitpoint(Operation::lock, &objects[2]);
+      run.scheduler.waitpoint(Operation::lock, &objects[0]);
+    });
+    run.spawn(other, [&] { run.scheduler.waitpoint(Operation::lock, &objects[1]); });
+    run.scheduler.run_before(Time::max());
+    EXPECT_EQ(objects[2].number, 1u);
+    EXPECT_EQ(objects[0].number, 2u);
+    EXPECT_EQ(objects[1].number, 1u);
+    EXPECT_EQ(objects[1].robot, &other);
+  }
+}
+
+TEST(Scheduler, AWatchSeesEveryExecutedEventAndChangesNothing) {
+  struct Counter : Watch {
+    std::vector<Operation> seen;
+  };
+  const auto run_once = [](Counter* counter) {
+    TaskRun run;
+    run.scheduler.set_watch(counter);
+    run.spawn([&] {
+      run.sleep(5);
+      run.scheduler.yield();
+    });
+    run.scheduler.run_before(Time::max());
+    return run.robot.digest.value();
+  };
+  Counter counter;
+  counter.event = [](Watch& self, const EventRecord& record) {
+    static_cast<Counter&>(self).seen.push_back(record.operation);
+  };
+  EXPECT_EQ(run_once(&counter), run_once(nullptr));
+  EXPECT_EQ(counter.seen, (std::vector{Operation::start, Operation::sleep, Operation::yield, Operation::end}));
+}
+
+TEST(Scheduler, SpinningWithoutVirtualTimeIsFoundInEveryOrder) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    TaskRun run(seed == 0 ? Order::fifo : Order::seeded, seed);
+    Object object("object");
+    bool go_on = true;
+    for (int i = 0; i < 3; ++i)
+      run.spawn([&] {
+        while (go_on && run.scheduler.waitpoint(Operation::try_lock, &object)) {
+        }
+      });
+    EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+    EXPECT_EQ(run.scheduler.stop_cause(), StopCause::no_progress);
+    run.scheduler.unwind();
+    EXPECT_EQ(run.scheduler.first_task(), nullptr);
+  }
+}
+
+TEST(Scheduler, AStackCanBeReadOfEveryTaskThatIsParked) {
+  TaskRun run;
+  Object object("object");
+  Task& blocked = run.spawn([&] {
+    run.scheduler.waitpoint(Operation::wait, &object);
+    run.scheduler.block(object, Time::from_ns(100));
+    run.log("blocked");
+  });
+  Task& paused = run.spawn([&] {
+    run.sleep(50);
+    run.log("paused");
+  });
+  Task& unborn = run.spawn([] {}, {.phase = Phase::tasks});
+  run.scheduler.run_before(Time::from_ns(0));
+  void* frames[16];
+  EXPECT_EQ(run.scheduler.call_stack(unborn, frames, 16), 0u);
+  run.scheduler.run_before(Time::from_ns(20));
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    EXPECT_GT(run.scheduler.call_stack(blocked, frames, 16), 4u);
+    EXPECT_GT(run.scheduler.call_stack(paused, frames, 16), 4u);
+    EXPECT_EQ(run.scheduler.call_stack(paused, frames, 2), 2u);
+  }
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(run.trace, "paused@50 blocked@100 ");
+}
+
+TEST(SchedulerDeathTest, MisuseIsABug) {
+  TaskRun run;
+  run.spawn([&] { EXPECT_DEATH(run.scheduler.run_before(Time::max()), "called from within a task"); });
+  run.spawn([&] { EXPECT_DEATH(run.scheduler.unwind(), "called from within a task"); });
+  run.spawn([&] { EXPECT_DEATH(run.scheduler.abandon(), "while the run goes on"); });
+  run.scheduler.run_before(Time::max());
+  run.scheduler.unwind();
+  EXPECT_DEATH(run.scheduler.run_before(Time::max()), "a run that is over is run");
+}
+
+// The report of a bug says when and where in the run it was.
+TEST(SchedulerDeathTest, ABugsReportNamesTimeTaskSeedAndReplay) {
+  TaskRun run(Order::seeded, 77);
+  run.scheduler.set_replay("the replay line");
+  run.spawn(
+      [&] {
+        run.sleep(1'500'000'000);
+        EXPECT_DEATH(WAITPOINT_CHECK(false, "on purpose"),
+                     "on purpose.*\n.*at virtual time 1.500000000 s, in task driver of robot, at its event 2 "
+                     "\\(sleep\\), seed 77\n.*replay: the replay line");
+      },
+      {.name = "driver"});
+  run.scheduler.run_before(Time::max());
+}
+
+}  // namespace
+}  // namespace waitpoint::kernel

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tasks at the kernel's own door: no primitive is above.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <functional>
+#include <string>
+
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::kernel {
+
+/// A scheduler with one robot, whose tasks are functions; they write down what they do and when.
+class TaskRun {
+  std::deque<std::function<void()>> bodies_;  // before the scheduler, which unwinds what is left of them
+
+ public:
+  explicit TaskRun(Order order = Order::fifo, std::uint64_t seed = 0) : scheduler(order, seed) {
+    scheduler.add(robot, "robot");
+  }
+
+  Task& spawn(std::function<void()> body, SpawnOptions options = {}) { return spawn(robot, std::move(body), options); }
+  Task& spawn(Robot& of, std::function<void()> body, SpawnOptions options = {}) {
+    Task* task = scheduler.spawn(
+        of, options, [](void* body) { (*static_cast<std::function<void()>*>(body))(); },
+        &bodies_.emplace_back(std::move(body)));
+    EXPECT_NE(task, nullptr);
+    return *task;
+  }
+  void sleep(std::int64_t until_ns) { scheduler.sleep_until(Time::from_ns(until_ns)); }
+  void log(const std::string& what) { trace += what + "@" + std::to_string(scheduler.global_time().ns()) + " "; }
+
+  Scheduler scheduler;
+  Robot robot;
+  std::string trace;
+};
+
+}  // namespace waitpoint::kernel

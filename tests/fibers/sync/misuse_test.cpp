@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each misuse of a primitive is a bug with a name, not undefined behaviour.
+#include <gtest/gtest.h>
+
+#include "fibers/sync/condition_variable.hpp"
+#include "fibers/sync/periodic_timer.hpp"
+#include "fibers/sync/semaphore.hpp"
+#include "fibers/sync/simulation.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(MisuseDeathTest, UnlockingWhatOneDoesNotHold) {
+  const char* message = "a task unlocks a mutex that it does not hold";
+  EXPECT_DEATH(simulate([] { mutex().unlock(); }), message);
+  EXPECT_DEATH(simulate([] {
+                 mutex m;
+                 m.lock();
+                 thread([&] { m.unlock(); }).join();
+               }),
+               message);
+  EXPECT_DEATH(simulate([] {
+                 mutex m;
+                 m.lock();
+                 m.unlock();
+                 m.unlock();
+               }),
+               message);
+}
+
+TEST(MisuseDeathTest, WaitingOnAConditionWithoutTheLock) {
+  const char* message = "waits on a condition variable without holding the lock";
+  EXPECT_DEATH(simulate([] {
+                 mutex m;
+                 std::unique_lock lock(m, std::defer_lock);
+                 condition_variable().wait(lock);
+               }),
+               message);
+}
+
+TEST(MisuseDeathTest, UseOutsideAnyTask) {
+  const char* message = "a simulated primitive is used outside a simulated task";
+  EXPECT_DEATH(mutex().lock(), message);
+  EXPECT_DEATH(mutex().try_lock(), message);
+  EXPECT_DEATH(timed_mutex().try_lock_for(1ms), message);
+  EXPECT_DEATH(condition_variable().notify_one(), message);
+  EXPECT_DEATH(counting_semaphore<>(1).acquire(), message);
+  EXPECT_DEATH(counting_semaphore<>(1).release(), message);
+  EXPECT_DEATH(periodic_timer(Period::hertz(1)).wait(), message);
+  EXPECT_DEATH(thread([] {}), message);
+  EXPECT_DEATH(this_thread::sleep_for(1ms), message);
+  EXPECT_DEATH(this_thread::yield(), message);
+  EXPECT_DEATH(now(), message);
+  EXPECT_DEATH(compute(1ms), message);
+}
+
+TEST(MisuseDeathTest, ReleasingASemaphoreBeyondItsGreatestCount) {
+  const char* message = "released beyond its greatest count";
+  EXPECT_DEATH(simulate([] { binary_semaphore(1).release(); }), message);
+  EXPECT_DEATH(simulate([] { counting_semaphore<3>(1).release(3); }), message);
+  EXPECT_DEATH(simulate([] { counting_semaphore<>(0).release(-1); }), message);
+}
+
+TEST(MisuseDeathTest, ThreadsThatAreNotJoinable) {
+  EXPECT_DEATH(simulate([] { thread().join(); }), "not joinable is joined");
+  EXPECT_DEATH(simulate([] { thread().detach(); }), "not joinable is detached");
+  EXPECT_DEATH(simulate([] {
+                 thread t([] {});
+                 t.join();
+                 t.join();
+               }),
+               "not joinable is joined");
+  EXPECT_EXIT(simulate([] { thread t([] { this_thread::sleep_for(1ms); }); }), testing::KilledBySignal(SIGABRT), "");
+  EXPECT_EXIT(simulate([] {
+                thread t([] { this_thread::sleep_for(1ms); });
+                t = thread();
+              }),
+              testing::KilledBySignal(SIGABRT), "");
+}
+
+TEST(MisuseDeathTest, ComputingForANegativeTime) {
+  EXPECT_DEATH(simulate([] { compute(-1ns); }), "computing takes no negative time");
+}
+
+TEST(MisuseDeathTest, TwoRobotsOfOneName) {
+  EXPECT_DEATH(
+      {
+        Simulation simulation;
+        simulation.add_robot("r");
+        simulation.add_robot("r");
+      },
+      "two robots of one name");
+  EXPECT_DEATH(Simulation().add_robot(std::string(48, 'r')), "a robot's name is too long");
+}
+
+// Each level uses a kilobyte.
+__attribute__((noinline)) int deep(int levels) {
+  volatile char room[1024];
+  room[0] = static_cast<char>(levels);
+  return levels == 0 ? 0 : deep(levels - 1) + room[0];
+}
+
+TEST(MisuseDeathTest, AStackThatOverflowsCrashesInsteadOfCorrupting) {
+  for (const auto size : {kernel::StackSize::small, kernel::StackSize::medium, kernel::StackSize::large}) {
+    const int room_kb = static_cast<int>(kernel::bytes(size) / 1024);
+    EXPECT_DEATH(simulate([&] { thread({.stack = size}, [&] { deep(room_kb + 8); }).join(); }), "");
+    EXPECT_TRUE(simulate([&] { thread({.stack = size}, [&] { deep(room_kb / 3); }).join(); }).passed);
+  }
+}
+
+}  // namespace
+}  // namespace waitpoint

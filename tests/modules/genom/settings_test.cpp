@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/genom/settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace waitpoint::genom {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Parameters {
+  double gain = 0.5;
+  bool on = false;
+  std::string label = "none";
+  std::int32_t count = 7;
+  std::uint8_t small = 1;
+  std::int64_t large = 0;
+  std::uint64_t positive = 0;
+  Duration pause_s = 1s;
+  Duration period_ms = 2ms;
+  Duration cost_us = 3us;
+
+  static constexpr auto fields() {
+    return std::tuple(field("gain", &Parameters::gain), field("on", &Parameters::on),
+                      field("label", &Parameters::label), field("count", &Parameters::count),
+                      field("small", &Parameters::small), field("large", &Parameters::large),
+                      field("positive", &Parameters::positive), field("pause_s", &Parameters::pause_s),
+                      field("period_ms", &Parameters::period_ms), field("cost_us", &Parameters::cost_us));
+  }
+};
+
+Parameters read(const std::string& key, const std::string& text) {
+  Settings settings({{key, text, "robot.yaml", 12}});
+  Parameters parameters;
+  settings.read(parameters);
+  settings.check_all_used();
+  return parameters;
+}
+
+std::string complaint(const std::string& key, const std::string& text) {
+  try {
+    read(key, text);
+  } catch (const BadInput& bad) {
+    return bad.what();
+  }
+  return "none";
+}
+
+TEST(Settings, EachTypeIsReadFromItsText) {
+  EXPECT_EQ(read("gain", "-2.5e-3").gain, -2.5e-3);
+  EXPECT_EQ(read("gain", "3").gain, 3);
+  EXPECT_TRUE(read("on", "true").on);
+  EXPECT_FALSE(read("on", "false").on);
+  EXPECT_EQ(read("label", "two words").label, "two words");
+  EXPECT_EQ(read("count", "-12").count, -12);
+  EXPECT_EQ(read("small", "255").small, 255);
+  EXPECT_EQ(read("large", "-9223372036854775808").large, std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(read("positive", "9223372036854775807").positive, 9223372036854775807u);
+}
+
+TEST(Settings, DurationsBearTheUnitOfTheirKey) {
+  EXPECT_EQ(read("pause_s", "0.25").pause_s, Duration(250ms));
+  EXPECT_EQ(read("period_ms", "13.3333333").period_ms, Duration::from_ns(13'333'333));
+  EXPECT_EQ(read("cost_us", "0.5").cost_us, Duration(500ns));
+  EXPECT_EQ(read("pause_s", "0").pause_s, Duration());
+}
+
+TEST(Settings, WhatIsNotSetKeepsItsValue) {
+  const Parameters parameters = read("count", "1");
+  EXPECT_EQ(parameters.gain, 0.5);
+  EXPECT_EQ(parameters.label, "none");
+  EXPECT_EQ(parameters.period_ms, Duration(2ms));
+}
+
+TEST(Settings, BadValuesAreBadInputWithPlaceKeyAndExpectation) {
+  EXPECT_EQ(complaint("gain", "much"), "robot.yaml:12: 'gain' should be a number, but is 'much'");
+  EXPECT_EQ(complaint("on", "yes"), "robot.yaml:12: 'on' should be true or false, but is 'yes'");
+  EXPECT_EQ(complaint("small", "256"), "robot.yaml:12: 'small' should be an integer between 0 and 255, but is '256'");
+  EXPECT_EQ(complaint("pause_s", "-1"),
+            "robot.yaml:12: 'pause_s' should be a duration that is not negative, at most 1e9 s, but is '-1'");
+  for (const char* text : {"", " ", "1.5x", "nan", "inf", "1e999", "0x10", "1,5"}) {
+    EXPECT_NE(complaint("gain", text), "none") << text;
+    EXPECT_NE(complaint("period_ms", text), "none") << text;
+    EXPECT_NE(complaint("count", text), "none") << text;
+  }
+  for (const char* text : {"1.5", "2147483648", "-2147483649", "1e3"}) EXPECT_NE(complaint("count", text), "none");
+  for (const char* text : {"-1", "9223372036854775808"}) EXPECT_NE(complaint("positive", text), "none");
+  EXPECT_NE(complaint("pause_s", "1e10"), "none");
+}
+
+TEST(Settings, AnUnknownKeyIsBadInputWithTheNearestKnownOne) {
+  EXPECT_EQ(complaint("perod_ms", "5"), "robot.yaml:12: unknown key 'perod_ms', did you mean 'period_ms'?");
+  EXPECT_EQ(complaint("colour", "5"), "robot.yaml:12: unknown key 'colour'");
+}
+
+TEST(Settings, KeysMayHaveAPrefix) {
+  Settings settings({{"motion.gain", "2", "f", 1}, {"gain", "3", "f", 2}});
+  Parameters parameters;
+  settings.read(parameters, "motion.");
+  EXPECT_EQ(parameters.gain, 2);
+  EXPECT_THROW(settings.check_all_used(), BadInput);
+  settings.read(parameters);
+  EXPECT_EQ(parameters.gain, 3);
+  settings.check_all_used();
+}
+
+}  // namespace
+}  // namespace waitpoint::genom

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is remembered of the surroundings, and how the route and its progress are kept.
+#include "modules/ndd/obstacle_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "modules/ndd/progress_watch.hpp"
+#include "modules/ndd/route.hpp"
+#include "tests/modules/ndd/closed_loop.hpp"
+
+namespace waitpoint::ndd {
+namespace {
+
+Time ms(std::int64_t n) { return Time::from_ns(n * 1000000); }
+
+posters::Echoes scan_from(const test::Shapes& shapes, const Pose& robot, Time date) {
+  posters::Echoes echoes;
+  echoes.mount = {0.1, 0, 0};
+  echoes.scan.date = date;
+  echoes.scan.first_angle_rad = -exact::pi / 2;
+  echoes.scan.angle_step_rad = exact::pi / 360;
+  echoes.scan.range_max_m = 32;
+  const Pose device = compose(robot, echoes.mount);
+  for (int i = 0; i <= 360; ++i) {
+    const double angle = device.heading + echoes.scan.first_angle_rad + i * echoes.scan.angle_step_rad;
+    echoes.scan.range_m.push_back(static_cast<float>(shapes.range(device.position(), angle, 32)));
+  }
+  return echoes;
+}
+
+double nearest(const std::vector<Point>& points, Point p) {
+  double best = 100;
+  for (const Point q : points) best = std::min(best, length(p - q));
+  return best;
+}
+
+struct ObstacleMemoryTest : testing::Test {
+  Parameters parameters;
+  ObstacleMemory memory{parameters};
+  test::Shapes shapes;
+  std::vector<Point> points;
+};
+
+TEST_F(ObstacleMemoryTest, EchoesStandWhereTheObstacleIsInTheRobotsFrame) {
+  shapes.wall(2, -1, 2.2, 1);
+  const Pose robot = {0.5, 0.2, 0.3};
+  memory.see(robot, scan_from(shapes, robot, ms(100)));
+  memory.points_from(robot, points);
+  for (const double y : {-0.9, 0.0, 0.9}) EXPECT_LT(nearest(points, between(robot, {2, y, 0}).position()), 0.02);
+  const Pose moved = {1.0, 0.0, -0.5};
+  memory.points_from(moved, points);
+  EXPECT_LT(nearest(points, between(moved, {2, 0, 0}).position()), 0.02);
+}
+
+TEST_F(ObstacleMemoryTest, WhatLeavesTheViewIsRemembered) {
+  shapes.wall(1, -0.5, 1.2, 0.5);
+  memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(100)));
+  const Pose turned = {0, 0, 3.0};
+  memory.see(turned, scan_from(shapes, turned, ms(200)));
+  EXPECT_GT(memory.remembered(), 10u);
+  memory.points_from(turned, points);
+  EXPECT_LT(nearest(points, between(turned, {1, 0, 0}).position()), 0.03);
+}
+
+TEST_F(ObstacleMemoryTest, WhatIsSeenThroughIsForgotten) {
+  shapes.discs.push_back({{1.5, 0}, 0.26});
+  memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(100)));
+  memory.see({0, 0, 3.0}, scan_from(shapes, {0, 0, 3.0}, ms(200)));
+  EXPECT_GT(memory.remembered(), 5u);
+  shapes.discs.clear();  // it went away while nobody looked
+  memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(300)));
+  EXPECT_EQ(memory.remembered(), 0u);
+}
+
+TEST_F(ObstacleMemoryTest, WhatIsHiddenIsKept) {
+  shapes.wall(2, -0.3, 2.2, 0.3);
+  memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(100)));
+  shapes.discs.push_back({{1, 0}, 0.3});
+  memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(200)));
+  memory.points_from({0, 0, 0}, points);
+  EXPECT_LT(nearest(points, {2, 0}), 0.05);
+}
+
+TEST_F(ObstacleMemoryTest, OldAndFarPointsAreForgotten) {
+  shapes.wall(1, -0.5, 1.2, 0.5);
+  memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(100)));
+  memory.see({0, 0, 3.0}, scan_from(shapes, {0, 0, 3.0}, ms(200)));
+  ASSERT_GT(memory.remembered(), 10u);
+  memory.see({-4, 0, 3.0}, scan_from(shapes, {-4, 0, 3.0}, ms(300)));
+  EXPECT_EQ(memory.remembered(), 0u);
+  memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(400)));
+  memory.see({0, 0, 3.0}, scan_from(shapes, {0, 0, 3.0}, ms(500)));
+  ASSERT_GT(memory.remembered(), 10u);
+  const Time later = ms(500) + Duration::from_seconds(parameters.memory_age_s + 1);
+  memory.see({0, 0, 3.0}, scan_from(shapes, {0, 0, 3.0}, later));
+  EXPECT_EQ(memory.remembered(), 0u);
+}
+
+TEST(Route, PassesViaPointsNearByOrWhenBeyond) {
+  Route route;
+  const std::vector<Point> via = {{2, 0}, {4, 0}, {4, 3}};
+  route.start({0, 0}, via);
+  route.advance({1, 0}, 0.4);
+  EXPECT_EQ(route.target(), via[0]);
+  EXPECT_NEAR(route.remaining_m({1, 0}), 6, 1e-12);
+  route.advance({1.7, 0}, 0.4);
+  EXPECT_EQ(route.target(), via[1]);
+  route.advance({4.1, 0.8}, 0.4);  // beyond, though not near
+  EXPECT_EQ(route.target(), via[2]);
+  route.advance({4, 3.5}, 0.4);  // the last is never passed
+  EXPECT_TRUE(route.target_is_last());
+  EXPECT_EQ(route.target(), via[2]);
+}
+
+TEST(ProgressWatch, WantsAStepInEverySpan) {
+  ProgressWatch watch(0.2, Duration(std::chrono::seconds(5)));
+  watch.start(ms(0));
+  EXPECT_TRUE(watch.progressing(ms(100), 10));
+  EXPECT_TRUE(watch.progressing(ms(5000), 9.9));
+  EXPECT_TRUE(watch.progressing(ms(5050), 9.7));
+  EXPECT_TRUE(watch.progressing(ms(10000), 9.75));
+  EXPECT_FALSE(watch.progressing(ms(10100), 9.6));
+}
+
+}  // namespace
+}  // namespace waitpoint::ndd

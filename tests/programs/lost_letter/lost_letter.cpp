@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A test of somebody's own threads, with a mistake that few schedules show: the bell rings before anybody waits for it.
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <waitpoint/fibers/sync/simulation.hpp>
+#include <waitpoint/fibers/sync/threads.hpp>
+
+namespace {
+
+namespace threads = waitpoint::threads;  // the code under test names its threads so, instead of std
+
+void lose_a_letter() {
+  threads::mutex door("door");
+  threads::condition_variable bell("bell");
+  threads::thread reader({.name = "reader"}, [&] {
+    std::unique_lock lock(door);
+    bell.wait(lock);  // nobody asks whether the letter is there already
+  });
+  threads::thread postman({.name = "postman"}, [&] { bell.notify_one(); });
+  postman.join();
+  reader.join();
+}
+
+void deliver_a_letter() {
+  threads::mutex door("door");
+  threads::condition_variable bell("bell");
+  bool delivered = false;
+  threads::thread reader({.name = "reader"}, [&] {
+    std::unique_lock lock(door);
+    bell.wait(lock, [&] { return delivered; });
+  });
+  threads::thread postman({.name = "postman"}, [&] {
+    const std::lock_guard lock(door);
+    delivered = true;
+    bell.notify_one();
+  });
+  postman.join();
+  reader.join();
+}
+
+TEST(Letter, ArrivesInTheDefaultOrder) {
+  const waitpoint::Report report = waitpoint::simulate(lose_a_letter);
+  EXPECT_TRUE(report.passed) << report;
+}
+
+TEST(Letter, ArrivesInEveryOrderTried) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const auto report = waitpoint::simulate(lose_a_letter, {waitpoint::kernel::Order::seeded, seed, ""});
+    ASSERT_TRUE(report.passed) << "seed " << seed << ": " << report;
+  }
+}
+
+TEST(MendedLetter, ArrivesInEveryOrderTried) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const auto report = waitpoint::simulate(deliver_a_letter, {waitpoint::kernel::Order::seeded, seed, ""});
+    ASSERT_TRUE(report.passed) << "seed " << seed << ": " << report;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What users build outside the tree works against the installed library: programs_test.py BUILD.
+
+Installs the build folder into a temporary place and compiles the programs beside this file with the flags of pkg-config
+alone.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def run(*command, **options):
+    """Runs a command that must succeed; returns its standard output."""
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, command))}\nended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def flags(prefix, *arguments):
+    """What pkg-config answers; the packages of the installed library say that they lie in `prefix`."""
+    folders = os.pathsep.join(str(path.parent) for path in prefix.rglob("*.pc"))
+    environment = {**os.environ, "PKG_CONFIG_PATH": folders}
+    return run("pkg-config", f"--define-variable=prefix={prefix}", *arguments, env=environment).split()
+
+
+class Installed(unittest.TestCase):
+    """Installs once for all; what is compiled is compiled once too."""
+
+    @classmethod
+    def setUpClass(cls):
+        if hasattr(Installed, "folder"):
+            return
+        folder = tempfile.TemporaryDirectory()
+        unittest.addModuleCleanup(folder.cleanup)
+        Installed.folder = pathlib.Path(folder.name)
+        run("meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", cls.folder / "root")
+        Installed.prefix = next((cls.folder / "root").rglob("include/waitpoint")).parents[1]
+
+    def compile(self, name, *more):
+        """Compiles NAME/NAME.cpp with the given flags, in a folder outside the tree; returns the program."""
+        program = self.folder / name
+        if not program.exists():
+            compiler = os.environ.get("CXX", "g++").split()
+            run(*compiler, "-std=c++20", "-O1", "-g", HERE / name / f"{name}.cpp", "-o", program, *more, cwd=self.folder)
+        return program
+
+
+class Headers(Installed):
+    def test_they_need_neither_the_tree_nor_other_libraries(self):
+        # Real threads take the place of the simulated ones: never both.
+        headers = sorted(path.relative_to(self.prefix / "include") for path in self.prefix.rglob("*.hpp")
+                         if path.name != "real_threads.hpp")
+        self.assertGreater(len(headers), 50)
+        text = "".join(f"#include <{header}>\n" for header in headers)
+        source = self.folder / "all.cpp"
+        source.write_text(text)
+        run("g++", "-std=c++20", "-fsyntax-only", *flags(self.prefix, "--cflags", "waitpoint-robots"), source)
+        self.assertFalse(re.search(r"<(Eigen|fcl|yaml-cpp|nlohmann|CLI)/", "".join(path.read_text() for path in
+                                   self.prefix.rglob("*.hpp"))), "a header asks for a library that users need not have")
+
+    def test_the_tree_lacks_no_header(self):
+        for source in HERE.parents[1].rglob("*.hpp"):
+            tree = source.relative_to(HERE.parents[1])
+            if tree.parts[0] in ("core", "fibers", "modules", "tools", "world"):
+                self.assertTrue((self.prefix / "include/waitpoint" / tree).exists(), f"{tree} is in no list of headers")
+
+
+class Blinker(Installed):
+    """Modules of one's own, in a robot that has no others, no base and no goals."""
+
+    def test_runs_its_scenario_and_repeats(self):
+        program = self.compile("blinker", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"))
+        outputs = [run(program, "run", HERE / "blinker/blinker.yaml", "--events", self.folder / "events") for _ in range(2)]
+        lines = outputs[0].splitlines()
+        self.assertEqual([line.split(": ")[1] for line in lines if "the lamp is" in line], ["the lamp is on", "the lamp is off"] * 3)
+        self.assertIn("final reply: ok", outputs[0])
+        digests = [re.findall(r"wp1:[0-9a-f]{16}", output) for output in outputs]
+        self.assertTrue(digests[0])
+        self.assertEqual(digests[0], digests[1])
+        self.assertIn("lighthouse", (self.folder / "events").read_text())
+
+        other = run(program, "run", HERE / "blinker/blinker.yaml", "--set", "robots.0.modules.watchman.flashes=1")
+        self.assertEqual(other.count("the lamp is on"), 1)
+        self.assertNotEqual(re.findall(r"wp1:[0-9a-f]{16}", other), digests[0])
+
+        wrong = subprocess.run([program, "run", HERE / "blinker/blinker.yaml", "--set", "robots.0.modules.watchman.flashs=1"],
+                               capture_output=True, text=True)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("did you mean 'flashes'?", wrong.stderr)
+
+    def test_stands_beside_the_papers_modules(self):
+        scenario = self.prefix / "share/waitpoint/scenarios/office.yaml"
+        program = self.compile("blinker", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"))
+        mixed = self.folder / "mixed.yaml"
+        mixed.write_text(f"""
+format: 1
+name: mixed
+until_s: 3
+world: {{include: {scenario.parent}/office-floor.yaml}}
+robot_types: {{include: {scenario.parent}/rackham.yaml}}
+robots:
+  - {{name: rackham, type: rackham, start: [20, 4, 90], goals: [[22.4, 6.6]], modules: [{{name: blinker}}, {{name: watchman}}]}}
+""")
+        self.assertEqual(run(program, "run", mixed, "--until", "3").count("the lamp is on"), 3)
+
+
+class LostLetter(Installed):
+    """Tests of one's own threads need neither world nor modules."""
+
+    def test_finds_the_lost_letter(self):
+        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+        self.assertFalse([flag for flag in needed if re.search("fcl|ccd|eigen|yaml|png|fmt|robots", flag.lower())], needed)
+        program = self.compile("lost_letter", *needed, "-lgtest", "-lgtest_main")
+        done = subprocess.run([program], capture_output=True, text=True, env={**os.environ, "GTEST_COLOR": "no"})
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("[       OK ] Letter.ArrivesInTheDefaultOrder", done.stdout)
+        self.assertIn("[  FAILED  ] Letter.ArrivesInEveryOrderTried", done.stdout)
+        self.assertIn("[       OK ] MendedLetter.ArrivesInEveryOrderTried", done.stdout)
+        report = re.search(r"seed (\d+): (deadlock at .*)", done.stdout, re.DOTALL)
+        self.assertIsNotNone(report, done.stdout)
+        self.assertIn('"bell"', report[2])
+        self.assertIn("lost_letter.cpp:", report[2])
+
+        # The line that the report prints repeats the run.
+        seed = re.search(r"replay: WAITPOINT_SEED=(\d+)", report[2])[1]
+        self.assertEqual(seed, report[1])
+        again = subprocess.run([program, "--gtest_filter=Letter.ArrivesInTheDefaultOrder"], capture_output=True, text=True,
+                               env={**os.environ, "WAITPOINT_SEED": seed})
+        self.assertIn("deadlock at ", again.stdout)
+
+
+# The primitives as threads.hpp names them, on the standard library's threads.
+REAL_THREADS = """
+#include <waitpoint/fibers/sync/threads.hpp>
+#include <waitpoint/modules/genom/client.hpp>
+namespace threads = waitpoint::threads;
+int main() {
+  using namespace std::chrono_literals;
+  threads::mutex door("door");
+  threads::condition_variable bell("bell");
+  threads::counting_semaphore<> read(0);
+  bool delivered = false;
+  threads::thread reader({.name = "reader"}, [&] {
+    std::unique_lock lock(door);
+    bell.wait(lock, [&] { return delivered; });
+    read.release();
+  });
+  threads::periodic_timer(waitpoint::Period::every(1ms)).wait();
+  {
+    const std::lock_guard lock(door);
+    delivered = true;
+  }
+  bell.notify_one();
+  read.acquire();
+  reader.join();
+}
+"""
+
+
+class RealThreads(Installed):
+    def test_the_same_source_runs_on_them(self):
+        source = self.folder / "real.cpp"
+        source.write_text(REAL_THREADS)
+        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+        run("g++", "-std=c++20", "-DWAITPOINT_REAL_THREADS", source, "-o", self.folder / "real", *needed, "-pthread")
+        run(self.folder / "real", timeout=20)
+
+
+if __name__ == "__main__":
+    BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+    if any((BUILD / "subprojects").glob("*")):
+        print("libraries of subprojects/ are not installed: nothing can be linked outside of the build")
+        sys.exit(77)
+    unittest.main()

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The runs of today are those of yesterday, and of every other machine: digests kept in tests/golden/digests.txt.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "tests/runs/shipped.hpp"
+
+namespace waitpoint::runs {
+namespace {
+
+std::map<std::string, std::string> golden_digests() {
+  std::ifstream file(root() / "tests/golden/digests.txt");
+  std::map<std::string, std::string> digests;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string scenario, digest;
+    if (line.starts_with('#') || !(words >> scenario >> digest)) continue;
+    digests[scenario] = digest;
+  }
+  return digests;
+}
+
+class Golden : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Golden, the_first_seconds_have_the_digest_that_they_had) {
+  const std::map<std::string, std::string> golden = golden_digests();
+  ASSERT_TRUE(golden.contains(GetParam()));
+  EXPECT_EQ(to_string(run(shipped(GetParam())).digest), golden.at(GetParam()))
+      << "if the run was meant to change, write its new digest into tests/golden/digests.txt";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenario, Golden, ::testing::Values("office.yaml", "office-10.yaml"),
+                         [](const auto& info) { return info.param == "office.yaml" ? "office" : "office_10"; });
+
+}  // namespace
+}  // namespace waitpoint::runs

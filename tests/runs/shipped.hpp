@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shipped scenarios, and runs of their first seconds in this process.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "modules/bridge/experiment.hpp"
+#include "modules/bridge/scenario.hpp"
+
+namespace waitpoint::runs {
+
+/// What tests of repetition run, of every scenario.
+inline constexpr Duration first_seconds = std::chrono::seconds(20);
+/// Of the program where --seed is not given.
+inline constexpr std::uint64_t usual_seed = 1;
+
+/// The repository: $WAITPOINT_ROOT, or the nearest folder above this program or this source that has the scenarios.
+std::filesystem::path root();
+
+/// `scenarios/<name>`, with assignments as of `--set`.
+bridge::Scenario shipped(const std::string& name, const std::vector<std::string>& assignments = {});
+
+/// Runs a scenario with the paper's modules, in one window.
+bridge::RunResult run(const bridge::Scenario& scenario, Duration until = first_seconds, std::uint64_t seed = usual_seed,
+                      kernel::Order order = kernel::Order::fifo);
+
+}  // namespace waitpoint::runs

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "tools/version.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+Options read(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "waitpoint");
+  return read_options(static_cast<int>(arguments.size()), arguments.data(), "waitpoint 1.2.3");
+}
+
+RunOptions run(const std::vector<const char*>& arguments) { return std::get<RunOptions>(read(arguments)); }
+
+std::string message(const std::vector<const char*>& arguments) {
+  try {
+    read(arguments);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class CommandLine : public ::testing::Test {
+ protected:
+  void SetUp() override { unsetenv("WAITPOINT_SEED"); }
+  void TearDown() override { unsetenv("WAITPOINT_SEED"); }
+};
+
+TEST_F(CommandLine, a_scenario_alone_has_the_defaults) {
+  const RunOptions options = run({"run", "office.yaml"});
+  EXPECT_EQ(options.scenario, "office.yaml");
+  EXPECT_EQ(options.seed, 1u);
+  EXPECT_EQ(options.speed, 0);
+  EXPECT_TRUE(options.assignments.empty());
+  EXPECT_FALSE(options.until || options.seeds || options.summary || options.picture || options.trajectory ||
+               options.digests || options.events);
+}
+
+TEST_F(CommandLine, every_option_arrives) {
+  const RunOptions options =
+      run({"run", "--seed", "18446744073709551615", "--until=1.5", "--speed", "2", "--summary", "s.json", "--picture",
+           "p.svg", "--trajectory", "t.tum", "--digests", "d", "--events", "e", "office.yaml"});
+  EXPECT_EQ(options.seed, 18446744073709551615u);
+  EXPECT_EQ(options.until, Duration(std::chrono::milliseconds(1500)));
+  EXPECT_EQ(options.speed, 2);
+  EXPECT_EQ(options.summary, "s.json");
+  EXPECT_EQ(options.picture, "p.svg");
+  EXPECT_EQ(options.trajectory, "t.tum");
+  EXPECT_EQ(options.digests, "d");
+  EXPECT_EQ(options.events, "e");
+  EXPECT_EQ(options.scenario, "office.yaml");
+}
+
+TEST_F(CommandLine, settings_are_kept_in_order_and_do_not_swallow_the_scenario) {
+  const RunOptions options = run({"run", "--set", "robots.0.goals=[[1,2],[3,4]]", "--set=a.b=[]", "office.yaml"});
+  EXPECT_EQ(options.assignments, (std::vector<std::string>{"robots.0.goals=[[1,2],[3,4]]", "a.b=[]"}));
+  EXPECT_EQ(options.scenario, "office.yaml");
+  EXPECT_EQ(std::get<CheckOptions>(read({"check", "a.yaml", "--set", "x=1"})).assignments.size(), 1u);
+}
+
+TEST_F(CommandLine, a_range_of_seeds) {
+  const RunOptions options = run({"run", "a", "--seeds", "3..10"});
+  ASSERT_TRUE(options.seeds.has_value());
+  EXPECT_EQ(options.seeds->first, 3u);
+  EXPECT_EQ(options.seeds->last, 10u);
+}
+
+TEST_F(CommandLine, the_environments_seed_gives_way_to_the_options) {
+  setenv("WAITPOINT_SEED", "77", 1);
+  EXPECT_EQ(run({"run", "a"}).seed, 77u);
+  EXPECT_EQ(run({"run", "a", "--seed", "5"}).seed, 5u);
+  setenv("WAITPOINT_SEED", "many", 1);
+  EXPECT_EQ(message({"run", "a"}), "WAITPOINT_SEED: expected a whole number from 0 to 2^64 - 1, found 'many'");
+}
+
+TEST_F(CommandLine, help_and_version_are_texts) {
+  EXPECT_EQ(std::get<ShownText>(read({"--version"})).text, "waitpoint 1.2.3\n");
+  const std::string help = std::get<ShownText>(read({"run", "--help"})).text;
+  for (const char* option : {"--seed", "--seeds", "--until", "--speed", "--summary", "--picture", "--trajectory",
+                             "--digests", "--events", "--set"}) {
+    EXPECT_NE(help.find(option), std::string::npos) << option;
+  }
+  EXPECT_NE(std::get<ShownText>(read({"--help"})).text.find("check"), std::string::npos);
+}
+
+TEST_F(CommandLine, what_is_not_understood_is_one_clear_line) {
+  EXPECT_EQ(message({}), "command line: expected a command, run or check; waitpoint --help tells more");
+  EXPECT_EQ(message({"rnu", "a"}), "command line: unknown command 'rnu', did you mean 'run'?");
+  EXPECT_EQ(message({"run"}), "command line: SCENARIO is required");
+  EXPECT_EQ(message({"run", "a", "--sede", "4"}), "command line: unknown option '--sede', did you mean '--seed'?");
+  EXPECT_EQ(message({"run", "a", "b"}), "command line: unknown argument 'b'; --help lists what there is");
+  EXPECT_EQ(message({"run", "a", "--seed", "-1"}), "--seed: expected a whole number from 0 to 2^64 - 1, found '-1'");
+  EXPECT_EQ(message({"run", "a", "--until", "0"}), "--until: expected a positive number of seconds, found '0'");
+  EXPECT_EQ(message({"run", "a", "--until", "5s"}), "--until: expected a positive number of seconds, found '5s'");
+  EXPECT_EQ(message({"run", "a", "--speed", "nan"}), "--speed: expected a number that is not negative, found 'nan'");
+  EXPECT_EQ(message({"run", "a", "--seeds", "5..1"}), "--seeds: expected FIRST..LAST, found '5..1'");
+  EXPECT_EQ(message({"run", "a", "--seeds", "1..2", "--picture", "p"}),
+            "--seeds: cannot be used together with --picture");
+}
+
+TEST(Version, tells_compiler_flags_and_math) {
+  const std::string text = version_text();
+  for (const char* part : {"waitpoint ", "\ncompiler  ", "\nflags     ", "\nmath      "}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace
+}  // namespace waitpoint::tools
