@@ -64,9 +64,10 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
     run->add_option(name, value, description)->type_name(type);
   };
   add_scenario(*run, arguments);
-  add("--seed", arguments.seed, "N", "seed of every random stream (default: $WAITPOINT_SEED, or 1)");
+  add("--seed", arguments.seed, "N",
+      "seed of the random streams and of the seeded order (default:\n$WAITPOINT_SEED, or 1)");
   add("--seeds", arguments.seeds, "A..B",
-      "run each seed from A to B and print a row for each; without files of\nsingle runs");
+      "run each seed from A to B and print a row for each; of the files, only\n--summary can be written, of all runs");
   add("--order", arguments.order, "ORDER",
       "order of events of one instant: fifo, the default, or seeded, by hashes\nof the seed");
   add("--until", arguments.until, "S", "end at this virtual time, in seconds (default: the scenario's until_s)");
@@ -160,6 +161,7 @@ BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
 Options read_options(int argc, const char* const* argv, const std::string& version) {
   CLI::App app("Simulates robots whose software runs as simulated threads: one seed, one run, bit for bit.",
                "waitpoint");
+  app.set_help_flag("-h,--help", "print this text");
   app.set_version_flag("--version", version, "print version, compiler, flags and the fingerprint of the math");
   Arguments arguments;
   CLI::App* run = add_run(app, arguments);

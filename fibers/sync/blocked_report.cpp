@@ -76,7 +76,7 @@ std::string describe_spinning(kernel::Scheduler& scheduler) {
     if (task->state == kernel::TaskState::blocked || task->local_time != scheduler.global_time()) continue;
     if (++spinning > tasks_shown) continue;
     text += "\n  task " + full_name(*task) + " (" + kernel::name(task->operation);
-    if (task->at != nullptr) text += " " + describe(*task->at);
+    if (task->at != nullptr) text.append(" ").append(describe(*task->at));
     text += ")";
     add_place(text, scheduler, *task);
   }

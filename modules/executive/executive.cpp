@@ -38,15 +38,20 @@ void Executive::connect() {
 void Executive::run() {
   start_modules();
   wait_for_position();
-  const Order* order = &mission_.start(threads::now(), position());
+  // Not within one call: compilers differ in the order of arguments, and reading the position may take time.
+  Point here = position();
+  const Order* order = &mission_.start(threads::now(), here);
   while (order->kind != Order::Kind::finished) {
     if (order->kind == Order::Kind::wait) {
       threads::this_thread::sleep_until(order->until);
-      order = &mission_.waited(threads::now(), position());
+      here = position();
+      order = &mission_.waited(threads::now(), here);
     } else if (drive(order->via_points) == genom::ok) {
-      order = &mission_.arrived(threads::now(), position());
+      here = position();
+      order = &mission_.arrived(threads::now(), here);
     } else {
-      order = &mission_.blocked(threads::now(), position(), seen());
+      here = position();
+      order = &mission_.blocked(threads::now(), here, seen());
     }
   }
   stop_modules();

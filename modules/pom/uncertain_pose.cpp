@@ -110,6 +110,10 @@ UncertainPose fuse(const UncertainPose& prior, const UncertainPose& measured) {
           congruent(kept, prior.covariance) + congruent(gain, measured.covariance)};
 }
 
+UncertainPose fuse_correlated(const UncertainPose& prior, const UncertainPose& measured) {
+  return fuse({prior.pose, 2.0 * prior.covariance}, {measured.pose, 2.0 * measured.covariance});
+}
+
 double greatest_deviation_m(const Matrix3& c) {
   const double mean = 0.5 * (c[0] + c[4]), half = 0.5 * (c[0] - c[4]);
   return std::sqrt(std::max(0.0, mean + std::sqrt(half * half + c[1] * c[1])));

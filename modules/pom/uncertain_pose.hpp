@@ -51,6 +51,11 @@ double disagreement(const UncertainPose& a, const UncertainPose& b);
 /// The Kalman fusion of two independent estimates of one pose. `prior` if neither has any uncertainty.
 UncertainPose fuse(const UncertainPose& prior, const UncertainPose& measured);
 
+/// The fusion of two estimates that may share any part of their errors, as positions do that went through the same
+/// odometry: covariance intersection with equal weights (Julier, Uhlmann 1997). Never surer than the surer of the two
+/// warrants, however often it is repeated.
+UncertainPose fuse_correlated(const UncertainPose& prior, const UncertainPose& measured);
+
 /// The standard deviation along the longest axis of the position's error ellipse.
 double greatest_deviation_m(const Matrix3& covariance);
 

@@ -14,8 +14,7 @@ struct KnownPose {
   double position_deviation_m = 0.01, heading_deviation_rad = 0.005;
 
   static constexpr auto fields() {
-    return std::tuple(field("pose", &KnownPose::pose),
-                      field("position_deviation_m", &KnownPose::position_deviation_m),
+    return std::tuple(field("pose", &KnownPose::pose), field("position_deviation_m", &KnownPose::position_deviation_m),
                       field("heading_deviation_rad", &KnownPose::heading_deviation_rad));
   }
 };

@@ -95,7 +95,7 @@ class Bench {
       by_processor = std::max(by_processor, speed.simulated_s / speed.processor_s);
     }
     add({bench, "whole mission", "waitpoint", by_wall, "times real time", of.must});
-    add({bench, "whole mission, processor time", "waitpoint", by_processor, "times real time", of.must});
+    add({bench, "whole mission, processor time", "waitpoint", by_processor, "times real time"});
 
     Costs costs;
     const Speed watched = carry_out(scenario, bench + ", what the modules cost", &costs);
@@ -106,10 +106,10 @@ class Bench {
       all += cost;
     }
     std::sort(modules.rbegin(), modules.rend());
-    for (const auto& [cost, module] : modules) {
+    for (const auto& [cost, module] : modules)
       add({bench, "cost of a simulated second", module, 1e-3 * static_cast<double>(cost) / watched.simulated_s, "us"});
+    for (const auto& [cost, module] : modules)
       add({bench, "share of the time", module, 100.0 * static_cast<double>(cost) / static_cast<double>(all), "%"});
-    }
   }
 
   const std::vector<Row>& rows() const { return rows_; }

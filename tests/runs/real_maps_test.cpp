@@ -12,6 +12,7 @@
 #include "core/random.hpp"
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/scenario_reader.hpp"
+#include "tests/data_folder.hpp"
 #include "tools/papers_modules.hpp"
 #include "world/formats/map_server.hpp"
 
@@ -23,11 +24,6 @@ constexpr double clearance_m = 0.05;
 constexpr int goal_count = 6;
 
 std::filesystem::path project_root() { return std::filesystem::path(__FILE__).parent_path() / ".." / ".."; }
-
-std::filesystem::path data_folder() {
-  if (const char* folder = std::getenv("WAITPOINT_DATA")) return folder;
-  return project_root() / ".." / "shared" / "data";
-}
 
 // Cells whose centres are free and further than radius + clearance from every occupied square.
 std::vector<bool> open_cells(const OccupancyGrid& grid) {
@@ -126,8 +122,9 @@ Point true_position_at(const bridge::RobotResult& robot, Time date) {
 class RealMap : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealMap, EveryGoalThatIsFreeAndConnectedIsReached) {
-  const std::filesystem::path map = data_folder() / "maps" / GetParam();
-  if (!std::filesystem::exists(map)) GTEST_SKIP() << map << " is not there: set WAITPOINT_DATA";
+  const std::optional<std::string> data = test::data_folder();
+  if (!data) GTEST_SKIP() << "no data folder: set WAITPOINT_DATA";
+  const std::filesystem::path map = std::filesystem::path(*data) / "maps" / GetParam();
   const std::uint64_t rounds =
       std::getenv("WAITPOINT_ROUNDS") ? std::strtoull(std::getenv("WAITPOINT_ROUNDS"), nullptr, 10) : 10;
   for (std::uint64_t seed = 1; seed <= rounds; ++seed) {

@@ -8,7 +8,7 @@ configure() {
   if [[ ! -e $build/build.ninja ]]; then
     # What an interrupted set-up left is no start for another one.
     rm -rf "$build/meson-private" "$build/meson-info"
-    meson setup "$build" "$root" --buildtype=release "$@" >&2
+    meson setup "$build" "$root" --buildtype=debugoptimized "$@" >&2
   elif ! grep -qF "\"source\": \"$root\"" "$build/meson-info/meson-info.json"; then
     say 'this folder was moved since build/ was set up: setting it up anew'
     meson setup --wipe "$build" "$root" "$@" >&2

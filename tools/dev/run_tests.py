@@ -23,6 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What the repository says about itself. Each is one case; a part whose tool is not installed is left out. The word BUILD
 # stands for the build folder.
 BUILD = "BUILD"
+OWN_CASE_TIMEOUT_S = 900
 OWN_CASES = {
     "check dependencies": [str(ROOT / "tools/dev/check.sh"), "dependencies"],
     "check files": [str(ROOT / "tools/dev/check.sh"), "files"],

@@ -57,7 +57,10 @@ TEST(Scheduler, AfterAThousandWaitpointsAtOneInstantTiesGetATurn) {
   Object object("object");
   int passed = 0, seen = -1;
   run.spawn([&] {
-    for (; seen < 0; ++passed) run.scheduler.waitpoint(Operation::try_lock, &object);
+    while (seen < 0) {
+      run.scheduler.waitpoint(Operation::try_lock, &object);
+      ++passed;
+    }
   });
   run.spawn([&] { seen = passed; });
   run.scheduler.run_before(Time::max());

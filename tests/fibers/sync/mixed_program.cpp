@@ -72,7 +72,7 @@ void round(Shared& shared, const RandomStream& random, std::uint64_t number, boo
 
 void spawn_mixed_program(Simulation& simulation, const MixedProgram& program) {
   for (int r = 0; r < program.robots; ++r) {
-    kernel::Robot& robot = simulation.add_robot("r" + std::to_string(r));
+    kernel::Robot& robot = simulation.add_robot(std::string("r").append(std::to_string(r)));
     const auto shared = std::make_shared<Shared>();
     for (int t = 0; t < 5; ++t) {
       const RandomStream random(program.seed, robot.name, "task " + std::to_string(t));

@@ -2,7 +2,6 @@
 // Maps for tests: drawn in text, cast at random, or read from the real ones where the data folder is there.
 #pragma once
 
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "core/occupancy_grid.hpp"
 #include "core/random.hpp"
+#include "tests/data_folder.hpp"
 
 namespace waitpoint::test {
 
@@ -40,9 +40,9 @@ inline OccupancyGrid random_map(std::int32_t width, std::int32_t height, double 
 /// Reads maps/`name`.pgm (binary, 8 bits) of the data folder with the resolution and thresholds that its YAML has;
 /// nothing if the folder is not there.
 inline std::optional<OccupancyGrid> real_map(const std::string& name, double resolution_m, double free_below) {
-  const char* variable = std::getenv("WAITPOINT_DATA");
-  const std::string folder = variable ? variable : "../shared/data";
-  std::ifstream file(folder + "/maps/" + name + ".pgm", std::ios::binary);
+  const std::optional<std::string> folder = data_folder();
+  if (!folder) return std::nullopt;
+  std::ifstream file(*folder + "/maps/" + name + ".pgm", std::ios::binary);
   if (!file) return std::nullopt;
   std::string magic, word;
   file >> magic;

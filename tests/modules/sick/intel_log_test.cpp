@@ -10,7 +10,7 @@
 
 #include "core/exact_math.hpp"
 #include "modules/sick/segment_extraction.hpp"
-#include "tests/world/data_folder.hpp"
+#include "tests/data_folder.hpp"
 
 namespace waitpoint::sick {
 namespace {
@@ -31,7 +31,7 @@ bool read_flaser(const char* line, posters::LaserReading& scan) {
 }
 
 TEST(IntelLog, MostScansHavePlausibleSegments) {
-  const auto folder = world::data_folder();
+  const auto folder = test::data_folder();
   if (!folder) GTEST_SKIP() << "no data folder (WAITPOINT_DATA or ../shared/data)";
   const std::string command = "gzip -dc '" + *folder + "/logs/intel_lab.clf.gz' 2>/dev/null";
   std::FILE* log = popen(command.c_str(), "r");

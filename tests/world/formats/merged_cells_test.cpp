@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tests/world/data_folder.hpp"
+#include "tests/data_folder.hpp"
 #include "tests/world/scenes.hpp"
 #include "world/fcl/scene.hpp"
 #include "world/formats/map_server.hpp"
@@ -79,7 +79,7 @@ TEST(MergedCells, ObstaclesStandWhereTheCellsAreUnderATurnedOriginToo) {
 }
 
 TEST(MergedCells, CoverRealMapsExactlyAndInFewBlocks) {
-  const auto data = data_folder();
+  const auto data = test::data_folder();
   if (!data) GTEST_SKIP() << "no real maps here: neither $WAITPOINT_DATA nor ../shared/data";
   for (const char* name : {"depot", "tb3_sandbox", "warehouse"}) {
     const OccupancyGrid grid = read_map_server_map(*data + "/maps/" + name + ".yaml");

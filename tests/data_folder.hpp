@@ -7,17 +7,17 @@
 #include <optional>
 #include <string>
 
-namespace waitpoint::world {
+namespace waitpoint::test {
 
 /// $WAITPOINT_DATA, or ../shared/data seen from the project's root; none if there is no such folder.
 inline std::optional<std::string> data_folder() {
   namespace fs = std::filesystem;
   const char* given = std::getenv("WAITPOINT_DATA");
-  const fs::path root = fs::path(__FILE__).parent_path() / "../..";
+  const fs::path root = fs::path(__FILE__).parent_path() / "..";
   const fs::path folder = given != nullptr ? fs::path(given) : root / "../shared/data";
   std::error_code none;
   if (!fs::is_directory(folder, none)) return std::nullopt;
   return folder.string();
 }
 
-}  // namespace waitpoint::world
+}  // namespace waitpoint::test
