@@ -3,6 +3,7 @@
 // the run.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -15,11 +16,15 @@ class Pacing {
   /// `speed` simulated seconds a second; 0 does not hold back.
   explicit Pacing(double speed) : speed_(speed), start_(std::chrono::steady_clock::now()) {}
 
-  /// Waits until the wall clock has come to `now`.
-  void wait_for(Time now) const {
+  /// Waits until the wall clock has come to `now`, or `stop()` says so: it is asked ten times a second.
+  template <class Stop>
+  void wait_for(Time now, Stop stop) const {
     if (speed_ <= 0) return;
-    std::this_thread::sleep_until(start_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                               std::chrono::duration<double>(now.seconds() / speed_)));
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point due =
+        start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(now.seconds() / speed_));
+    while (Clock::now() < due && !stop())
+      std::this_thread::sleep_until(std::min(due, Clock::now() + std::chrono::milliseconds(100)));
   }
 
  private:

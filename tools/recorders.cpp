@@ -18,18 +18,27 @@ EventRecorder::EventRecorder(const std::filesystem::path& path) : Watch{&EventRe
 }
 
 void EventRecorder::write(kernel::Watch& watch, const kernel::EventRecord& record) {
-  char line[320];
-  const long long ns = record.time.ns();
-  int length = std::snprintf(line, sizeof line, "%lld.%09lld %s %s %s", ns / 1'000'000'000, ns % 1'000'000'000,
-                             record.task->robot->name, record.task->name, kernel::name(record.operation));
+  EventRecorder& self = static_cast<EventRecorder&>(watch);
+  if (self.failure_ != nullptr) return;
+  std::string& line = self.line_;
+  line = to_string(record.time);
+  line += std::string(" ") + record.task->robot->name + " " + record.task->name + " " + kernel::name(record.operation);
   if (const kernel::Object* object = record.object; object != nullptr) {
-    length += std::snprintf(line + length, sizeof line - static_cast<std::size_t>(length), " %s#%u", object->kind,
-                            object->number);
-    if (object->label[0] != '\0')
-      length += std::snprintf(line + length, sizeof line - static_cast<std::size_t>(length), " \"%s\"", object->label);
+    line += std::string(" ") + object->kind + "#" + std::to_string(object->number);
+    if (object->label[0] != '\0') line += std::string(" \"") + object->label + "\"";
   }
-  line[length++] = '\n';
-  static_cast<EventRecorder&>(watch).file_.write({line, static_cast<std::size_t>(length)});
+  line += '\n';
+  // Nothing may be thrown through the kernel: what fails here is told at the end.
+  try {
+    self.file_.write(line);
+  } catch (...) {
+    self.failure_ = std::current_exception();
+  }
+}
+
+void EventRecorder::finish() {
+  if (failure_ != nullptr) std::rethrow_exception(failure_);
+  file_.commit();
 }
 
 }  // namespace waitpoint::tools

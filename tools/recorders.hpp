@@ -5,6 +5,9 @@
 // Neither changes the run.
 #pragma once
 
+#include <exception>
+#include <string>
+
 #include "fibers/sync/simulation.hpp"
 #include "tools/output_file.hpp"
 
@@ -26,12 +29,14 @@ class EventRecorder : private kernel::Watch {
  public:
   explicit EventRecorder(const std::filesystem::path& path);
   void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
-  void finish() { file_.commit(); }
+  void finish();
 
  private:
   static void write(kernel::Watch& watch, const kernel::EventRecord& record);
 
   OutputFile file_;
+  std::string line_;
+  std::exception_ptr failure_;
 };
 
 }  // namespace waitpoint::tools

@@ -79,6 +79,10 @@ class Outputs {
   std::optional<EventRecorder> events_;
 };
 
+void flush_stdout() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw BadInput("standard output", "cannot be written");
+}
+
 std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   std::string line = "waitpoint run " + options.scenario.string() + " --seed " + std::to_string(seed);
   if (options.order == kernel::Order::seeded) line += " --order seeded";
@@ -98,10 +102,10 @@ bridge::RunResult carry_out(const RunOptions& options, const bridge::Scenario& s
   for (std::int64_t k = 1; end == RunEnd::time_reached && reached < until && interrupted == 0; ++k) {
     reached = std::min(until, Time() + window * k);
     end = experiment.run_before(reached);
-    progress.update(reached, experiment.goals_ended(), experiment.goals());
+    progress.update(reached, experiment.goals_reached(), experiment.goals());
     if (k % windows_per_second == 0 || end != RunEnd::time_reached || reached == until)
       outputs.second(experiment.simulation(), (k + windows_per_second - 1) / windows_per_second);
-    pacing.wait_for(reached);
+    pacing.wait_for(reached, [] { return interrupted != 0; });
   }
   progress.finish();
 
@@ -144,7 +148,8 @@ int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::
     summary->write(summary_json(results));
     summary->commit();
   }
-  return worst;
+  flush_stdout();
+  return interrupted != 0 ? 130 : worst;
 }
 
 }  // namespace
@@ -156,8 +161,9 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   bridge::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
   Outputs outputs(options, scenario);
   const bridge::RunResult result = carry_out(options, scenario, options.seed, experiment, outputs);
-  outputs.write(experiment, result);
   std::fputs(summary_text(result).c_str(), stdout);
+  outputs.write(experiment, result);
+  flush_stdout();
   return status(scenario, result);
 }
 

@@ -45,10 +45,8 @@ void Scheduler::unwind() {
   WAITPOINT_CHECK(running == nullptr, "unwind() is called from within a task");
   unwinding_ = true;
   paused_ = nullptr;
-  // Before any frame is left, because frames own objects: no task may be found at one that is gone.
-  for (Task* task = first_task_; task != nullptr; task = task->next)
-    if (task->blocked_on != nullptr) remove_waiter(*task);
-  // Timers may outlive the run: they must not find themselves in its list.
+  // Timers may outlive the run: they must not find themselves in its list. Objects that tasks wait for are not touched:
+  // they may be gone with the frames that own them, and read as fresh in the next run.
   while (!events_.empty()) events_.pop();
   // Each entry ends its task, which unlinks it.
   while (last_task_ != nullptr) {

@@ -68,9 +68,9 @@ RunEnd Experiment::run_before(Time until) {
   return end_;
 }
 
-std::size_t Experiment::goals_ended() const {
+std::size_t Experiment::goals_reached() const {
   std::size_t count = 0;
-  for (const auto& robot : robots_) count += robot->goals_ended();
+  for (const auto& robot : robots_) count += robot->goals_reached();
   return count;
 }
 

@@ -37,8 +37,8 @@ class Experiment {
   Simulation& simulation() { return simulation_; }
   const world::World& world() const { return *world_; }
   const std::vector<std::unique_ptr<Robot>>& robots() const { return robots_; }
-  /// Goals that have been reported on, reached or not, and all there are.
-  std::size_t goals_ended() const;
+  /// Goals reached so far, and all there are.
+  std::size_t goals_reached() const;
   std::size_t goals() const;
 
   /// What has come out so far.

@@ -9,10 +9,10 @@
 namespace waitpoint::bridge {
 namespace {
 
-OccupancyGrid grid_around(const std::vector<world::Obstacle>& obstacles) {
+OccupancyGrid grid_around(const Scenario& scenario) {
   double low_x = 0, low_y = 0, high_x = 1, high_y = 1;
   bool first = true;
-  for (const world::Obstacle& obstacle : obstacles) {
+  for (const world::Obstacle& obstacle : scenario.shapes) {
     const Pose& at = obstacle.shape.pose;
     const double radius = obstacle.shape.radius_m;
     const auto [s, c] = exact::sincos(at.heading);
@@ -27,6 +27,11 @@ OccupancyGrid grid_around(const std::vector<world::Obstacle>& obstacles) {
     high_y = first ? at.y + half_y : std::max(high_y, at.y + half_y);
     first = false;
   }
+  // The map is drawn in cells: the floor that shapes span must be one that can be.
+  const double floor_m2_max = static_cast<double>(OccupancyGrid::cells_max) * drawn_resolution_m * drawn_resolution_m;
+  if (!((high_x - low_x + 1) * (high_y - low_y + 1) < floor_m2_max))
+    throw BadInput(scenario.file,
+                   "the shapes span more than " + std::to_string(static_cast<long>(floor_m2_max)) + " m2");
   const auto cells = [](double length_m) {
     return std::max(1, static_cast<int>(std::ceil(length_m / drawn_resolution_m - 1e-9)));
   };
@@ -36,7 +41,7 @@ OccupancyGrid grid_around(const std::vector<world::Obstacle>& obstacles) {
 }  // namespace
 
 OccupancyGrid known_map(const Scenario& scenario, const OccupancyGrid* map) {
-  OccupancyGrid grid = map != nullptr ? *map : grid_around(scenario.shapes);
+  OccupancyGrid grid = map != nullptr ? *map : grid_around(scenario);
   std::vector<world::Shape> known;
   for (const world::Obstacle& obstacle : scenario.shapes)
     if (obstacle.known) known.push_back(obstacle.shape);

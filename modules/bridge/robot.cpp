@@ -104,11 +104,11 @@ void Robot::stepped(Time now) {
   bridge_.stepped();
 }
 
-std::size_t Robot::goals_ended() const {
+std::size_t Robot::goals_reached() const {
   if (!executive_) return 0;
   const auto& goals = executive_->goals();
   return static_cast<std::size_t>(
-      std::count_if(goals.begin(), goals.end(), [](auto& g) { return g.state != executive::GoalState::ahead; }));
+      std::count_if(goals.begin(), goals.end(), [](auto& g) { return g.state == executive::GoalState::reached; }));
 }
 
 std::optional<Duration> Robot::least_period() const {

@@ -36,7 +36,7 @@ class Robot {
   const std::string& name() const { return scenario_.name; }
   genom::NameSpace& names() { return names_; }
   std::size_t goals() const { return scenario_.goals.size(); }
-  std::size_t goals_ended() const;
+  std::size_t goals_reached() const;
   /// The least period of all execution tasks; nothing if none is periodic.
   std::optional<Duration> least_period() const;
   RobotResult result() const;

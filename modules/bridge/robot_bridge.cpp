@@ -13,6 +13,7 @@ RobotBridge::RobotBridge(const RobotScenario& robot, world::World& world, world:
     lasers_[i].number = i;
     lasers_[i].description = robot.body.lasers[i];
   }
+  if (robot.body.sonars.size() > 1) throw robot.written.bad("the base's controller takes one ring of sonars at most");
   rows_.reserve(robot.bridge.size());
   for (const BridgeRow& row : robot.bridge) add_row(row);
 }
@@ -77,7 +78,7 @@ void RobotBridge::add_base_row(Row& row, const std::string& value) {
     reading.battery_volts = world_.battery_volts(body_);
     reading.stalled = world_.body(body_).stalled;
     if (sonars_on_ && !robot_.body.sonars.empty()) {
-      world_.sonar(body_, 0, step_, sonar_m_);
+      if (sonar_m_.empty() || due(robot_.body.sonars[0].period)) world_.sonar(body_, 0, step_, sonar_m_);
       for (const double range : sonar_m_) reading.sonar_m.push_back(range);
     }
     poster.write(reading);

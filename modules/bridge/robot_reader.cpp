@@ -21,6 +21,10 @@ std::string read_name(const YamlNode& node, std::string_view what) {
     throw node.written.bad("expected " + std::string(what) + " to be of letters, digits, '_' and '-', found '" + name +
                            "'");
   }
+  constexpr std::size_t letters_max = 40;  // the kernel keeps names in place
+  if (name.size() > letters_max || name == "environment" || name == "base")
+    throw node.written.bad("expected " + std::string(what) + " to have at most " + std::to_string(letters_max) +
+                           " letters and not to be 'environment' or 'base', found '" + name + "'");
   return name;
 }
 

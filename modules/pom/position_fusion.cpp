@@ -50,7 +50,7 @@ void PositionFusion::apply_from(std::size_t first) {
     c.accepted = disagreement(predicted, c.measured) <= parameters_.gate;
     UncertainPose result = predicted;
     if (c.accepted && parameters_.kalman) {
-      result = fuse_correlated(predicted, c.measured);
+      result = parameters_.shared_errors ? fuse_correlated(predicted, c.measured) : fuse(predicted, c.measured);
     } else if (c.accepted &&
                greatest_deviation_m(c.measured.covariance) <= greatest_deviation_m(predicted.covariance)) {
       result = c.measured;

@@ -27,6 +27,7 @@ namespace waitpoint::pom {
 
 struct FusionParameters {
   bool kalman = true;                  ///< fuse; false: the more certain of state and correction stands alone
+  bool shared_errors = true;           ///< sources may share errors with odometry, as one that went through it does
   double gate = 16.27;                 ///< chi square of 3 degrees of freedom at 99.9 %
   double uncertain_m = 0.3;            ///< the state is `uncertain` above this standard deviation
   double uncertain_rad = 0.2;          ///< or above this one
@@ -34,7 +35,8 @@ struct FusionParameters {
   double extrapolation_s_max = 0.1;    ///< beyond the newest odometry the last motion is assumed to go on
 
   static constexpr auto fields() {
-    return std::tuple(field("kalman", &FusionParameters::kalman), field("gate", &FusionParameters::gate),
+    return std::tuple(field("kalman", &FusionParameters::kalman),
+                      field("shared_errors", &FusionParameters::shared_errors), field("gate", &FusionParameters::gate),
                       field("uncertain_m", &FusionParameters::uncertain_m),
                       field("uncertain_rad", &FusionParameters::uncertain_rad),
                       field("motion_covariance_scale", &FusionParameters::motion_covariance_scale),

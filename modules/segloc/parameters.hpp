@@ -39,10 +39,12 @@ struct Parameters {
   double gap_m_max = 1.5;           ///< between what is seen and what was seen of a landmark before
   double information_min = 0.1;     ///< matches that teach less, relative to their noise, are left out of the update
   double disputed_offset_m = 0.15;  ///< a segment so near a landmark that it does not match is no new line
-  double length_m_min = 0.5;        ///< of a segment that is used
-  double length_at_once_m = 1.0;    ///< of a new line that becomes a landmark unconfirmed, see consider_new()
-  double join_m = 0.3;              ///< gap between two stretches of a wall that is closed
-  double chi2_merge = 5.99;         ///< between two landmarks that are one line
+  // Of a segment that is used. On a building's raster map, shorter ones made the heading, and with it the position, err
+  // more in most tours: their angles seem surer than they are.
+  double length_m_min = 1.0;
+  double length_at_once_m = 1.0;  ///< of a new line that becomes a landmark unconfirmed, see consider_new()
+  double join_m = 0.3;            ///< gap between two stretches of a wall that is closed
+  double chi2_merge = 5.99;       ///< between two landmarks that are one line
 
   // The robot slipped, if so many updates in a row have more segments near a landmark that do not match than matches
   // (by two at least: a single one may be something new). The pose is then less sure than thought, and nothing new is

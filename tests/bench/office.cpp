@@ -75,7 +75,7 @@ Speed carry_out(const bridge::Scenario& scenario, const std::string& what, Costs
   for (Time reached; end == RunEnd::time_reached && reached < until;) {
     reached = std::min(until, reached + std::chrono::seconds(1));
     end = experiment.run_before(reached);
-    fmt::print(stderr, "\r{}: {} s simulated, {} of {} goals ", what, to_string(reached), experiment.goals_ended(),
+    fmt::print(stderr, "\r{}: {} s simulated, {} of {} goals ", what, to_string(reached), experiment.goals_reached(),
                experiment.goals());
   }
   fmt::print(stderr, "\r{:70}\r", "");

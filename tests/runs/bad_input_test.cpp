@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/project.hpp"
 #include "tools/main.hpp"
 
 namespace waitpoint {
@@ -23,7 +24,7 @@ class BadInputTest : public testing::Test {
   BadInputTest() : folder_(fs::temp_directory_path() / ("waitpoint-bad-input-" + std::to_string(getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    const fs::path shipped = fs::path(__FILE__).parent_path() / ".." / ".." / "scenarios";
+    const fs::path shipped = test::project_root() / "scenarios";
     for (const char* file : {"office.yaml", "office-floor.yaml", "rackham.yaml"})
       fs::copy_file(shipped / file, folder_ / file);
   }

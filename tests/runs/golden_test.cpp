@@ -6,13 +6,14 @@
 #include <map>
 #include <sstream>
 
+#include "tests/project.hpp"
 #include "tests/runs/shipped.hpp"
 
 namespace waitpoint::runs {
 namespace {
 
 std::map<std::string, std::string> golden_digests() {
-  std::ifstream file(root() / "tests/golden/digests.txt");
+  std::ifstream file(test::project_root() / "tests/golden/digests.txt");
   std::map<std::string, std::string> digests;
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);

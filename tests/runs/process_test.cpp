@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/project.hpp"
 #include "tests/runs/program.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tests/tools/folder.hpp"
@@ -108,8 +109,8 @@ TEST(Process, a_debugger_that_stops_it_a_hundred_times_does_not_change_a_run) {
 TEST(Process, the_whole_mission_is_the_same_in_two_processes) {
   const tools::Folder folder;
   const auto command = [&](const std::string& name) {
-    return Command{{program(), "run", root() / "scenarios/office.yaml", "--digests", folder / (name + ".digests"),
-                    "--summary", folder / (name + ".json")}};
+    return Command{{program(), "run", test::project_root() / "scenarios/office.yaml", "--digests",
+                    folder / (name + ".digests"), "--summary", folder / (name + ".json")}};
   };
   Command padded = command("second");
   padded.environment = {"PADDING=" + std::string(50'000, 'x'), "LC_ALL=tr_TR.UTF-8"};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/runs/program.hpp"
+#include "tests/project.hpp"
 
 #include <sys/personality.h>
 #include <sys/wait.h>
@@ -76,7 +77,7 @@ std::string Outcome::digest() const {
 }
 
 Command run_command(const std::string& scenario, const std::string& until_s, const std::vector<std::string>& more) {
-  Command command{{program(), "run", root() / "scenarios" / scenario, "--until", until_s}};
+  Command command{{program(), "run", test::project_root() / "scenarios" / scenario, "--until", until_s}};
   command.words.insert(command.words.end(), more.begin(), more.end());
   return command;
 }

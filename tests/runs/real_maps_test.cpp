@@ -12,7 +12,7 @@
 #include "core/random.hpp"
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/scenario_reader.hpp"
-#include "tests/data_folder.hpp"
+#include "tests/project.hpp"
 #include "tools/papers_modules.hpp"
 #include "world/formats/map_server.hpp"
 
@@ -22,8 +22,6 @@ namespace {
 constexpr double radius_m = 0.26;
 constexpr double clearance_m = 0.05;
 constexpr int goal_count = 6;
-
-std::filesystem::path project_root() { return std::filesystem::path(__FILE__).parent_path() / ".." / ".."; }
 
 // Cells whose centres are free and further than radius + clearance from every occupied square.
 std::vector<bool> open_cells(const OccupancyGrid& grid) {
@@ -91,7 +89,7 @@ struct Round {
   bridge::Scenario scenario() const {
     std::string list;
     for (const Point goal : goals) list += (list.empty() ? "[" : ", [") + number(goal.x) + ", " + number(goal.y) + "]";
-    return bridge::read_scenario(project_root() / "scenarios" / "office.yaml",
+    return bridge::read_scenario(test::project_root() / "scenarios" / "office.yaml",
                                  {"world.shapes=[]", "world.map.file=" + map.string(), "until_s=4000",
                                   "robots.0.start=[" + number(start.x) + ", " + number(start.y) + ", " +
                                       number(start.heading * 180 / exact::pi) + "]",

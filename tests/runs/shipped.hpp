@@ -16,9 +16,6 @@ inline constexpr Duration first_seconds = std::chrono::seconds(20);
 /// Of the program where --seed is not given.
 inline constexpr std::uint64_t usual_seed = 1;
 
-/// The repository: $WAITPOINT_ROOT, or the nearest folder above this program or this source that has the scenarios.
-std::filesystem::path root();
-
 /// `scenarios/<name>`, with assignments as of `--set`.
 bridge::Scenario shipped(const std::string& name, const std::vector<std::string>& assignments = {});
 

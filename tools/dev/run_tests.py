@@ -29,6 +29,7 @@ OWN_CASES = {
     "check files": [str(ROOT / "tools/dev/check.sh"), "files"],
     "check formatting": [str(ROOT / "tools/dev/check.sh"), "formatting"],
     "dev": [sys.executable, str(ROOT / "tests/dev/dev_test.py")],
+    "clang++ -O0 and this build are one run": [str(ROOT / "tools/dev/builds.sh"), "build", "clang++-O0"],
     "programs": [sys.executable, str(ROOT / "tests/programs/programs_test.py"), BUILD],
 }
 

@@ -102,11 +102,17 @@ TEST(Scheduler, ATaskGivesWayToALowerPhaseThatComesUpAtItsInstant) {
 
 TEST(Scheduler, AWindowRunsWhatIsBeforeItsEndAndNothingElse) {
   TaskRun run;
+  Object object("object");
   run.spawn([&] {
     for (const int ns : {10, 20, 30}) {
       run.sleep(ns);
       run.log("a");
     }
+  });
+  run.spawn([&] {
+    run.scheduler.waitpoint(Operation::wait, &object);
+    run.scheduler.block(object, Time::from_ns(30));
+    run.log("b");
   });
   EXPECT_EQ(run.scheduler.run_before(Time::from_ns(10)), RunState::reached);
   EXPECT_EQ(run.trace, "");
@@ -116,7 +122,7 @@ TEST(Scheduler, AWindowRunsWhatIsBeforeItsEndAndNothingElse) {
   EXPECT_EQ(run.scheduler.run_before(Time::from_ns(30)), RunState::reached);
   EXPECT_EQ(run.trace, "a@10 a@20 ");
   EXPECT_EQ(run.scheduler.run_before(Time::from_ns(31)), RunState::stopped);
-  EXPECT_EQ(run.trace, "a@10 a@20 a@30 ");
+  EXPECT_EQ(run.trace, "a@10 a@20 b@30 a@30 ");
   EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
 }
 

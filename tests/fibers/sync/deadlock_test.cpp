@@ -212,7 +212,7 @@ TEST(Deadlock, ShowsTheUsersFramesAndOnlyThose) {
     counting_semaphore<> s(0);
     Driver::run_thread_of_mine(s);
   });
-  if (!source_lines_can_be_had()) GTEST_SKIP() << "addr2line is not installed";
+  if (!source_lines_can_be_had()) GTEST_SKIP() << "no addr2line, or no debugging information";
   const std::size_t inner = report.text.find("wait_for_ever"), outer = report.text.find("run_thread_of_mine");
   EXPECT_LT(inner, outer) << report;
   EXPECT_NE(outer, std::string::npos) << report;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "modules/bridge/scenario_reader.hpp"
+#include "tests/project.hpp"
 #include "world/planar/separation.hpp"
 #include "world/start_check.hpp"
 
@@ -11,8 +12,7 @@ namespace waitpoint::bridge {
 namespace {
 
 Scenario shipped(const std::string& name, const std::vector<std::string>& assignments = {}) {
-  const std::filesystem::path root = std::filesystem::path(__FILE__).parent_path() / "../../..";
-  return read_scenario(root / "scenarios" / name, assignments);
+  return read_scenario(test::project_root() / "scenarios" / name, assignments);
 }
 
 /// From the point to the nearest shape.

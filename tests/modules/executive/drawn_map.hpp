@@ -9,7 +9,7 @@
 
 #include "core/occupancy_grid.hpp"
 #include "core/random.hpp"
-#include "tests/data_folder.hpp"
+#include "tests/project.hpp"
 
 namespace waitpoint::test {
 

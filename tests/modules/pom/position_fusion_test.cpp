@@ -132,7 +132,9 @@ TEST(PositionFusion, ErrorsAreAsLargeAsTheCovarianceSays) {
     const RandomStream start_noise(seed, "test", "start");
     UncertainPose known = start();
     known.pose = {0.001 * start_noise.normal(0, 0), 0.001 * start_noise.normal(0, 1), 0.001 * start_noise.normal(0, 2)};
-    PositionFusion fusion({}, known);
+    FusionParameters parameters;
+    parameters.shared_errors = false;  // the fixes come from elsewhere
+    PositionFusion fusion(parameters, known);
     for (const PositionEstimate& o : drive.odometry) fusion.add_odometry(o);
     for (const PositionEstimate& fix : drive.fixes) fusion.add_absolute(0, fix);
     const PositionEstimate fused = fusion.at(drive.odometry.back().date).position;

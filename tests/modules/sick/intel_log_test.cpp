@@ -10,7 +10,7 @@
 
 #include "core/exact_math.hpp"
 #include "modules/sick/segment_extraction.hpp"
-#include "tests/data_folder.hpp"
+#include "tests/project.hpp"
 
 namespace waitpoint::sick {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tests/data_folder.hpp"
+#include "tests/project.hpp"
 #include "tests/world/scenes.hpp"
 #include "world/fcl/scene.hpp"
 #include "world/formats/map_server.hpp"
