@@ -33,6 +33,30 @@ std::size_t capture_call_stack(void** frames, std::size_t room) {
   return capture.found;
 }
 
+// After a task got control back: as long as it is only asked for its call stack, it is not its turn yet.
+void Scheduler::rest() {
+  Task& task = *running;
+  while (task.describe) {
+    task.describe = false;
+    frames_found_ = capture_call_stack(frames_, frames_room_);
+    leave_to_main(state_);
+  }
+}
+
+std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
+  WAITPOINT_CHECK(running == nullptr && task.state != TaskState::ended, "no call stack can be had of this task");
+  if (task.sequence == 0) return 0;  // it never ran
+  const TaskState state = task.state;
+  const RunState run_state = state_;
+  frames_ = frames;
+  frames_room_ = room;
+  task.describe = true;
+  switch_to(task);
+  task.state = state;
+  state_ = run_state;
+  return frames_found_;
+}
+
 void describe_run(const Task& task) {
   const long long ns = task.local_time.ns();
   std::fprintf(stderr, "  at virtual time %lld.%09lld s, in task %s of %s, at its event %llu (%s), seed %llu\n",

@@ -63,7 +63,6 @@ void Executive::start_modules() {
   client_.send("sick", "ContinuousShot");
   // A robot without SLAM goes by its odometry.
   if (names_.find_module("segloc") != nullptr) client_.send("segloc", "Localise", start_);
-  client_.send("rflex", "SonarOn");
   client_.send("rflex", "TrackSpeedStart");
 }
 
