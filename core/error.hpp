@@ -2,10 +2,10 @@
 // The three classes of error.
 //
 //   a bug                an invariant of ours or a contract of a caller is broken: WAITPOINT_CHECK, always on; prints
-//   the
-//                        place, the virtual time, the task, the seed and the replay line, then aborts
+//                        the place, the virtual time, the task, the seed and the replay line, then aborts
 //   bad input            a file, an option or a scenario is wrong: BadInput, thrown before time 0; one line, exit
-//   status 2 an expected outcome  a timeout, a full mailbox, a stale poster: a value, see the function that returns it
+//                        status 2
+//   an expected outcome  a timeout, a full mailbox, a stale poster: a value, see the function that returns it
 #pragma once
 
 #include <stdexcept>

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "core/error.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::kernel {

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/call_stack.hpp"
 
 namespace waitpoint::kernel {
 
