@@ -266,7 +266,7 @@ void Scheduler::check_progress(Task& task) {
     turns_given_at_ = now_;
     turns_given_ = 0;
   }
-  if (++turns_given_ <= turns_max * tasks_) return;
+  if (++turns_given_ <= std::uint64_t{turns_max} * tasks_) return;
   culprit_ = &task;
   stop(StopCause::no_progress);
 }

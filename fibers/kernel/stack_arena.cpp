@@ -49,7 +49,7 @@ Stack StackArena::describe(const Range& range, StackSize size, std::uint32_t slo
   Stack stack;
   char* base = range.base + slot * bytes(size);
   stack.low = base + page;
-  stack.high = base + bytes(size) - (slot % 61) * 64;
+  stack.high = base + bytes(size) - (slot % 61) * std::size_t{64};
   stack.slot = slot;
   stack.size = size;
   stack.guard = slot < range.unguarded_from ? Guard::page : Guard::canary;

@@ -13,7 +13,7 @@ namespace {
 
 /// Names go into paths of --set, names of posters and names of files.
 std::string read_name(const YamlNode& node, std::string_view what) {
-  const std::string name = read_text(node, what);
+  std::string name = read_text(node, what);
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };

@@ -72,7 +72,7 @@ void ShortestPath::expand(const FreeSpace& space, CellIndex cell, CellIndex goal
   const auto width = static_cast<std::uint32_t>(space.map().width());
   const std::uint32_t cost =
       nodes_[static_cast<std::uint32_t>(cell.y) * width + static_cast<std::uint32_t>(cell.x)].cost;
-  for (std::uint8_t k = 0; k < steps.size(); ++k) {
+  for (std::uint32_t k = 0; k < steps.size(); ++k) {
     const CellIndex next = {cell.x + steps[k].x, cell.y + steps[k].y};
     if (!space.passable(next)) continue;
     const std::uint32_t i = static_cast<std::uint32_t>(next.y) * width + static_cast<std::uint32_t>(next.x);
@@ -81,7 +81,7 @@ void ShortestPath::expand(const FreeSpace& space, CellIndex cell, CellIndex goal
     const std::uint32_t next_cost = cost + steps[k].length * space.cell_cost(next);
     if (next_cost >= node.cost) continue;
     node.cost = next_cost;
-    node.came_by = k;
+    node.came_by = static_cast<std::uint8_t>(k);
     open(next_cost + least_cost(next, goal), i);
   }
 }
