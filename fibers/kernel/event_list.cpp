@@ -3,78 +3,109 @@
 
 #include <sys/mman.h>
 
+#include <bit>
+#include <cstring>
+
 #include "core/error.hpp"
 
 namespace waitpoint::kernel {
+namespace {
 
-EventList::EventList(std::uint32_t capacity) : capacity_(capacity) {
-  void* memory = mmap(nullptr, capacity * sizeof(Entry), PROT_READ | PROT_WRITE,
+EventEntry* reserve(std::size_t entries) {
+  void* memory = mmap(nullptr, entries * sizeof(EventEntry), PROT_READ | PROT_WRITE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   WAITPOINT_CHECK(memory != MAP_FAILED, "no address space for the event list");
-  entries_ = static_cast<Entry*>(memory);
+  return static_cast<EventEntry*>(memory);
 }
 
-EventList::~EventList() { munmap(entries_, capacity_ * sizeof(Entry)); }
+// The heap's entries, then the run's: room for two runs, so that a bucket fits behind what is left of the one before.
+std::size_t entries(std::uint32_t capacity) { return std::size_t{capacity} * 4 + EventHeap::margin + 1; }
 
-void EventList::insert(EventNode& node, EventKey key) {
-  WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
-  WAITPOINT_CHECK(size_ < capacity_, "more events than the event list holds");
-  sift_up(size_++, Entry{key, &node});
+// Buckets that hold one event or two each.
+unsigned ideal_width_log2(std::uint64_t gap_ns) { return static_cast<unsigned>(std::bit_width(gap_ns)); }
+
+}  // namespace
+
+EventList::EventList(std::uint32_t capacity)
+    : capacity_(capacity), memory_(reserve(entries(capacity))), heap_(memory_), calendar_(capacity) {
+  run_ = memory_ + capacity + EventHeap::margin;
+  run_[0].key = EventKey::never();
 }
+
+EventList::~EventList() { munmap(memory_, entries(capacity_) * sizeof(EventEntry)); }
 
 void EventList::remove(EventNode& node) {
-  WAITPOINT_CHECK(node.place < size_ && entries_[node.place].node == &node, "an event to remove is not in the list");
-  const std::uint32_t at = node.place;
-  node.place = EventNode::absent;
-  const Entry last = entries_[--size_];
-  if (at == size_) return;
-  if (at > 0 && last.key < entries_[(at - 1) / 4].key)
-    sift_up(at, last);
-  else
-    sift_down(at, last);
-}
-
-EventNode& EventList::pop() {
-  WAITPOINT_CHECK(size_ > 0, "the event list is empty");
-  EventNode& node = *entries_[0].node;
-  node.place = EventNode::absent;
-  const Entry last = entries_[--size_];
-  if (size_ > 0) sift_down(0, last);
-  return node;
-}
-
-EventNode& EventList::pop_and_insert(EventNode& node, EventKey key) {
-  WAITPOINT_CHECK(size_ > 0, "the event list is empty");
-  WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
-  EventNode& least = *entries_[0].node;
-  least.place = EventNode::absent;
-  sift_down(0, Entry{key, &node});
-  return least;
-}
-
-void EventList::sift_up(std::uint32_t at, const Entry& entry) {
-  while (at > 0) {
-    const std::uint32_t parent = (at - 1) / 4;
-    if (!(entry.key < entries_[parent].key)) break;
-    place(at, entries_[parent]);
-    at = parent;
+  WAITPOINT_CHECK(node.in_list(), "an event to remove is not in the list");
+  switch (node.part()) {
+    case EventNode::Part::heap: heap_.remove(node.index()); break;
+    case EventNode::Part::run:
+      run_[node.index()].node = nullptr;
+      if (node.index() == run_head_) pass_gaps();
+      break;
+    case EventNode::Part::calendar: calendar_.remove(node); break;
   }
-  place(at, entry);
+  node.place = EventNode::absent;
+  --size_;
+  if (run_end_ - run_head_ < lookahead_) refill();
 }
 
-void EventList::sift_down(std::uint32_t at, const Entry& entry) {
-  for (;;) {
-    const std::uint32_t first = 4 * at + 1;
-    if (first >= size_) break;
-    const std::uint32_t end = first + 4 < size_ ? first + 4 : size_;
-    std::uint32_t least = first;
-    for (std::uint32_t child = first + 1; child < end; ++child)
-      if (entries_[child].key < entries_[least].key) least = child;
-    if (!(entries_[least].key < entry.key)) break;
-    place(at, entries_[least]);
-    at = least;
+void EventList::move_run_down() {
+  std::uint32_t end = 0;
+  for (std::uint32_t i = run_head_; i < run_end_; ++i) {
+    if (run_[i].node == nullptr) continue;
+    run_[i].node->place = EventNode::in_run(end);
+    run_[end++] = run_[i];
   }
-  place(at, entry);
+  run_head_ = 0;
+  run_end_ = end;
+  run_[end].key = EventKey::never();
+}
+
+void EventList::refill() {
+  if (size_ < few) return close_calendar();
+  do {
+    // What is left is little, and would wander through the memory.
+    if (run_head_ >= 64) move_run_down();
+    const std::uint32_t count = calendar_.take_next(run_ + run_end_);
+    if (count == 0) return;
+    for (std::uint32_t i = run_end_; i < run_end_ + count; ++i) run_[i].node->place = EventNode::in_run(i);
+    run_end_ += count;
+    passed_ += count;
+    run_[run_end_].key = EventKey::never();
+  } while (run_end_ - run_head_ < lookahead_);
+}
+
+// Now and then: does the calendar fit the events?
+void EventList::calibrate() {
+  if (!calendar_.is_open()) passed_ += calibration_period_;
+  calibration_period_ = size_ < calibration_period_min ? calibration_period_min : size_;
+  until_calibration_ = calibration_period_;
+  if (present_ns_ <= calibrated_at_ns_) return;
+  // Where nearly all are timeouts that do not come about, too little passes to measure by.
+  if (size_ >= many && passed_ >= size_ / 8) open_calendar((present_ns_ - calibrated_at_ns_) / passed_);
+  calibrated_at_ns_ = present_ns_;
+  passed_ = 0;
+}
+
+void EventList::open_calendar(std::uint64_t gap_ns) {
+  const unsigned width = ideal_width_log2(gap_ns);
+  const std::uint32_t buckets = std::bit_ceil(size_) * 2;
+  if (calendar_.is_open()) {
+    const int wider = static_cast<int>(calendar_.width_log2()) - static_cast<int>(width);
+    if (wider >= -1 && wider <= 1 && calendar_.buckets() >= buckets / 2 && calendar_.buckets() <= buckets * 2) return;
+  }
+  // All of the run stays ahead of the horizon.
+  std::uint64_t bound_ns = present_ns_;
+  if (run_head_ < run_end_ && run_[run_end_ - 1].key.due_ns() > bound_ns) bound_ns = run_[run_end_ - 1].key.due_ns();
+  calendar_.open(bound_ns, width, buckets, [&](const EventEntry& early) { heap_.insert(early); });
+  heap_.drain_from(calendar_.horizon(), [&](const EventEntry& late) { calendar_.insert(*late.node, late.key); });
+  lookahead_ = lookahead;
+  refill();
+}
+
+void EventList::close_calendar() {
+  calendar_.close([&](const EventEntry& entry) { heap_.insert(entry); });
+  lookahead_ = 0;
 }
 
 }  // namespace waitpoint::kernel

@@ -5,54 +5,26 @@
 // The order is exact and total: by time, then by order = phase:4 | tie:60. Nodes live in their tasks and timers and
 // know their place, so that a timeout that did not happen is removed truly.
 //
-// The structure is a heap with four children a node, its entries by value beside the nodes' addresses:
+// Few events are in a heap. When they become many, those that are not due soon go to a calendar, whose buckets come
+// back sorted, one after the other, into the run; the heap has what was put in since for a time before the horizon:
 //
-//   entries_:  [0: least] [1][2][3][4] [5..8: children of 1] [9..12: children of 2] ...
+//      least of run and heap | ......... | horizon | ................ calendar ................
+//
+// How long a bucket's span is follows from how fast virtual time goes over the events, measured now and then.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
-#include "core/time.hpp"
+#include "core/error.hpp"
+#include "fibers/kernel/calendar.hpp"
+#include "fibers/kernel/event.hpp"
+#include "fibers/kernel/event_heap.hpp"
 
 namespace waitpoint::kernel {
 
-/// At one instant, what runs before what.
-enum class Phase : std::uint8_t { deliveries = 0, world = 1, tasks = 2 };
-
-inline constexpr std::uint64_t tie_mask = (std::uint64_t{1} << 60) - 1;
-
-constexpr std::uint64_t make_order(Phase phase, std::uint64_t tie) {
-  return static_cast<std::uint64_t>(phase) << 60 | (tie & tie_mask);
-}
-
-/// When an event is due, and its place among those due then.
-struct EventKey {
-  Time time;
-  std::uint64_t order = 0;
-
-  friend constexpr bool operator<(const EventKey& a, const EventKey& b) {
-    return a.time < b.time || (a.time == b.time && a.order < b.order);
-  }
-};
-
-struct EventNode {
-  static constexpr std::uint32_t absent = 0xFFFFFFFF;
-  std::uint32_t place = absent;  ///< in the heap
-  /// What a timer or a delivery does when due; null for a task, which is switched to. Must not block.
-  void (*fire)(EventNode&) = nullptr;
-
-  bool in_list() const { return place != absent; }
-};
-
 class EventList {
  public:
-  struct Entry {
-    EventKey key;
-    EventNode* node;
-  };
-
-  /// Room for `capacity` events is reserved, and committed only as it is used.
+  /// Room for `capacity` events, at most 2^29, is reserved, and committed only as it is used.
   explicit EventList(std::uint32_t capacity);
   ~EventList();
   EventList(const EventList&) = delete;
@@ -60,28 +32,120 @@ class EventList {
 
   bool empty() const { return size_ == 0; }
   std::uint32_t size() const { return size_; }
-  const Entry& least() const { return entries_[0]; }
+  /// The least entry; its key reads as never due if the list is empty.
+  const EventEntry& least() const {
+    const EventEntry& run = run_[run_head_];
+    return heap_.least().key < run.key ? heap_.least() : run;
+  }
+  /// The node that is `ahead` events behind the least one of the run, if it is known already: to make it ready early.
+  const EventNode* coming(std::uint32_t ahead) const {
+    return run_head_ + ahead < run_end_ ? run_[run_head_ + ahead].node : nullptr;
+  }
 
   /// `node` must not be in the list.
-  void insert(EventNode& node, EventKey key);
+  void insert(EventNode& node, const EventKey& key) {
+    check_insertion(node);
+    ++size_;
+    put(node, key);
+  }
   /// `node` must be in the list.
   void remove(EventNode& node);
   /// The list must not be empty.
-  EventNode& pop();
+  EventNode& pop() {
+    WAITPOINT_CHECK(size_ > 0, "the event list is empty");
+    EventNode& node = take_least();
+    --size_;
+    if (run_end_ - run_head_ < lookahead_) refill();
+    if (--until_calibration_ == 0) calibrate();
+    return node;
+  }
   /// Takes the least event out and puts `node` in, which must not be there: one pass instead of two.
-  EventNode& pop_and_insert(EventNode& node, EventKey key);
+  EventNode& pop_and_insert(EventNode& node, const EventKey& key) {
+    WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
+    if (key.due_ns() < calendar_.horizon() && heap_.least().key < run_[run_head_].key && until_calibration_ > 1) {
+      EventNode& least = *heap_.least().node;
+      present_ns_ = heap_.least().key.due_ns();
+      --until_calibration_;
+      least.place = EventNode::absent;
+      heap_.replace_least({key, &node});
+      return least;
+    }
+    EventNode& least = pop();
+    insert(node, key);
+    return least;
+  }
 
  private:
-  void place(std::uint32_t at, const Entry& entry) {
-    entries_[at] = entry;
-    entry.node->place = at;
-  }
-  void sift_up(std::uint32_t at, const Entry& entry);
-  void sift_down(std::uint32_t at, const Entry& entry);
+  static constexpr std::uint32_t few = 12;   // events below which a calendar is given up
+  static constexpr std::uint32_t many = 32;  // from which on one is taken
+  static constexpr std::uint32_t lookahead = 4;
+  static constexpr std::uint32_t calibration_period_min = 512;
 
-  Entry* entries_;
-  std::uint32_t size_ = 0;
+  void check_insertion(const EventNode& node) const {
+    WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
+    WAITPOINT_CHECK(size_ < capacity_, "more events than the event list holds");
+  }
+  void put(EventNode& node, const EventKey& key) {
+    if (key.due_ns() >= calendar_.horizon()) {
+      calendar_.insert(node, key);
+      if (run_end_ - run_head_ < lookahead_) refill();
+    } else if (key.due_ns() == present_ns_ && (run_head_ == run_end_ || !(key < run_[run_end_ - 1].key))) {
+      append_to_run(node, key);
+    } else {
+      heap_.insert({key, &node});
+    }
+  }
+  // Who is woken at the present instant: in their order, as a rule.
+  void append_to_run(EventNode& node, const EventKey& key) {
+    if (run_end_ >= 2 * capacity_) move_run_down();
+    node.place = EventNode::in_run(run_end_);
+    run_[run_end_++] = {key, &node};
+    run_[run_end_].key = EventKey::never();
+  }
+  EventNode& take_least() {
+    const EventEntry& run = run_[run_head_];
+    EventNode* node = nullptr;
+    if (heap_.least().key < run.key) {
+      node = heap_.least().node;
+      present_ns_ = heap_.least().key.due_ns();
+      heap_.remove(0);
+    } else {
+      node = run.node;
+      present_ns_ = run.key.due_ns();
+      ++run_head_;
+      pass_gaps();
+    }
+    node->place = EventNode::absent;
+    return *node;
+  }
+  // The head of the run is an event that was not removed; an empty run begins at the beginning.
+  void pass_gaps() {
+    while (run_head_ < run_end_ && run_[run_head_].node == nullptr) ++run_head_;
+    if (run_head_ == run_end_) {
+      run_head_ = run_end_ = 0;
+      run_[0].key = EventKey::never();
+    }
+  }
+  void move_run_down();
+  void refill();
+  void calibrate();
+  void open_calendar(std::uint64_t gap_ns);
+  void close_calendar();
+
   std::uint32_t capacity_;
+  std::uint32_t size_ = 0;
+  EventEntry* memory_;
+  EventHeap heap_;
+  EventEntry* run_;  // from head to end in ascending order, and behind it an entry that is never due
+  std::uint32_t run_head_ = 0;
+  std::uint32_t run_end_ = 0;
+  std::uint32_t lookahead_ = 0;                                // the run is kept so long, while there is a calendar
+  std::uint32_t calibration_period_ = calibration_period_min;  // in events taken
+  std::uint32_t until_calibration_ = calibration_period_min;
+  std::uint64_t present_ns_ = 0;  // when the event that was taken last was due
+  std::uint64_t calibrated_at_ns_ = 0;
+  std::uint32_t passed_ = 0;  // events since then: all, or while there is a calendar, those that came from there
+  Calendar calendar_;
 };
 
 }  // namespace waitpoint::kernel

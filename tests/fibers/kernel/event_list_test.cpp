@@ -68,6 +68,83 @@ TEST(EventList, AgreesWithASortedReferenceWhenSmall) { compare_with_reference(6,
 TEST(EventList, AgreesWithASortedReferenceWhenMiddling) { compare_with_reference(200, 400'000); }
 TEST(EventList, AgreesWithASortedReferenceWhenLarge) { compare_with_reference(5000, 300'000); }
 
+// As in a run: the least event is taken and comes back some time later, others are put in and taken out again; time
+// goes on. `increment` says how much later, from a drawn word.
+template <class Increment>
+void hold_beside_a_reference(std::size_t events, std::uint64_t operations, Increment increment) {
+  const RandomStream random(events, "", "hold");
+  EventList list(static_cast<std::uint32_t>(2 * events));
+  std::vector<EventNode> nodes(2 * events);
+  std::vector<Reference> of(2 * events);
+  std::set<Reference> reference;
+  std::int64_t now = 0;
+  std::uint64_t drawn = 0;
+  const auto draw = [&] { return random.below(std::uint64_t{1} << 62, ++drawn); };
+  const auto put = [&](std::size_t node) {
+    of[node] = {now + increment(draw()), make_order(Phase::tasks, ++drawn), node};
+    list.insert(nodes[node], {Time::from_ns(of[node].time), of[node].order});
+    reference.insert(of[node]);
+  };
+  for (std::size_t node = 0; node < events; ++node) put(node);
+  for (std::uint64_t i = 0; i < operations; ++i) {
+    const Reference least = *reference.begin();
+    reference.erase(reference.begin());
+    now = least.time;
+    if (i % 2 == 0) {
+      ASSERT_EQ(&list.pop(), &nodes[least.node]) << i;
+      put(least.node);
+    } else {
+      ASSERT_EQ(list.least().node, &nodes[least.node]) << i;
+      list.remove(nodes[least.node]);
+      put(least.node);
+    }
+    // A timeout that does not come about.
+    const std::size_t timeout = events + draw() % events;
+    if (nodes[timeout].in_list()) {
+      reference.erase(of[timeout]);
+      list.remove(nodes[timeout]);
+    } else {
+      put(timeout);
+    }
+    // Now and then most of them go, or come back.
+    if (i % 50'000 == 49'999)
+      for (std::size_t node = 10; node < events; ++node) {
+        if (nodes[node].in_list()) {
+          reference.erase(of[node]);
+          list.remove(nodes[node]);
+        } else {
+          put(node);
+        }
+      }
+  }
+  while (!reference.empty()) {
+    ASSERT_EQ(&list.pop(), &nodes[reference.begin()->node]);
+    reference.erase(reference.begin());
+  }
+  EXPECT_TRUE(list.empty());
+}
+
+TEST(EventList, HoldsUniformIncrements) {
+  for (const std::size_t events : {20, 300, 5000})
+    hold_beside_a_reference(events, 220'000,
+                            [](std::uint64_t word) { return static_cast<std::int64_t>(word % 1'000'000); });
+}
+TEST(EventList, HoldsFarIncrementsAmongNearOnes) {
+  for (const std::size_t events : {300, 3000})
+    hold_beside_a_reference(events, 220'000, [](std::uint64_t word) {
+      return static_cast<std::int64_t>(word % 100 == 0 ? word % 1'000'000'000'000 : word % 1'000);
+    });
+}
+TEST(EventList, HoldsManyEventsOfOneInstant) {
+  for (const std::size_t events : {300, 3000})
+    hold_beside_a_reference(events, 220'000,
+                            [](std::uint64_t word) { return static_cast<std::int64_t>(1000 * (word % 4)); });
+}
+TEST(EventList, HoldsTimesUpToTheEndOfTime) {
+  hold_beside_a_reference(400, 20'000,
+                          [](std::uint64_t word) { return static_cast<std::int64_t>(word % (1ull << 47)); });
+}
+
 TEST(EventList, OrdersByTimeThenPhaseThenTie) {
   EventList list(8);
   EventNode nodes[5];

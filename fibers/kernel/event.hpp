@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An event: when it is due, its place among those due then, and the node by which its task or timer finds it again.
+#pragma once
+
+#include <cstdint>
+
+#include "core/time.hpp"
+
+namespace waitpoint::kernel {
+
+/// At one instant, what runs before what.
+enum class Phase : std::uint8_t { deliveries = 0, world = 1, tasks = 2 };
+
+inline constexpr std::uint64_t tie_mask = (std::uint64_t{1} << 60) - 1;
+
+constexpr std::uint64_t make_order(Phase phase, std::uint64_t tie) {
+  return static_cast<std::uint64_t>(phase) << 60 | (tie & tie_mask);
+}
+
+/// When an event is due, not before the start of the run, and its place among those due then: phase:4 | tie:60.
+struct EventKey {
+  Time time;
+  std::uint64_t order = 0;
+
+  /// Behind every event.
+  static constexpr EventKey never() { return {Time::max(), ~std::uint64_t{0}}; }
+
+  constexpr std::uint64_t due_ns() const { return static_cast<std::uint64_t>(time.ns()); }
+
+  // As one number of 128 bits: compared without a branch.
+  friend constexpr bool operator<(const EventKey& a, const EventKey& b) { return a.whole() < b.whole(); }
+
+ private:
+  __extension__ using Whole = unsigned __int128;
+  constexpr Whole whole() const { return static_cast<Whole>(due_ns()) << 64 | order; }
+};
+
+struct EventNode {
+  static constexpr std::uint32_t absent = 0xFFFFFFFF;
+
+  // Which part of the event list has the event, and where.
+  enum class Part : std::uint32_t { heap = 0, run = 1, calendar = 2 };
+  static constexpr std::uint32_t in_heap(std::uint32_t at) { return at; }
+  static constexpr std::uint32_t in_run(std::uint32_t at) { return 1u << 30 | at; }
+  static constexpr std::uint32_t in_calendar(std::uint32_t at) { return 2u << 30 | at; }
+  Part part() const { return static_cast<Part>(place >> 30); }
+  std::uint32_t index() const { return place & ((1u << 30) - 1); }
+
+  std::uint32_t place = absent;
+  /// What a timer or a delivery does when due; null for a task, which is switched to. Must not block.
+  void (*fire)(EventNode&) = nullptr;
+
+  bool in_list() const { return place != absent; }
+};
+
+struct EventEntry {
+  EventKey key;
+  EventNode* node;
+};
+
+}  // namespace waitpoint::kernel
