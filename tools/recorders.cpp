@@ -8,7 +8,7 @@ void DigestRecorder::record(const Simulation& simulation, std::int64_t second) {
     char line[160];
     const int length =
         std::snprintf(line, sizeof line, "%lld %s %s %llu\n", static_cast<long long>(second), robot->name,
-                      to_string(robot->digest).c_str(), static_cast<unsigned long long>(robot->events));
+                      to_string(robot->digest.digest()).c_str(), static_cast<unsigned long long>(robot->events));
     file_.write({line, static_cast<std::size_t>(length)});
   }
 }

@@ -34,14 +34,16 @@ std::size_t capture_call_stack(void** frames, std::size_t room) {
   return capture.found;
 }
 
-// After a task got control back: as long as it is only asked for its call stack, it is not its turn yet.
-void Scheduler::rest() {
+// After a task got control back: as long as it is only asked for its call stack, it is not its turn yet. False when the
+// run is over.
+bool Scheduler::rest() {
   Task& task = *running;
   while (task.describe) {
     task.describe = false;
     frames_found_ = capture_call_stack(frames_, frames_room_);
     leave_to_main(state_);
   }
+  return !unwinding_;
 }
 
 std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
@@ -51,8 +53,10 @@ std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
   const RunState run_state = state_;
   frames_ = frames;
   frames_room_ = room;
-  task.describe = true;
+  const bool interrupted = interrupted_;
+  task.describe = interrupted_ = true;
   switch_to(task);
+  interrupted_ = interrupted;
   task.state = state;
   state_ = run_state;
   return frames_found_;

@@ -9,8 +9,8 @@ namespace waitpoint::kernel {
 void Scheduler::task_main(void* argument) {
   Task& task = *static_cast<Task*>(argument);
   Scheduler& scheduler = *task.scheduler;
-  scheduler.reclaim_ended();
-  if (!scheduler.unwinding_) scheduler.execute(task, Operation::start, nullptr);
+  if (scheduler.ended_ != nullptr) scheduler.reclaim_ended();
+  if (!scheduler.unwinding_) scheduler.begin(task);
   task.entry(task.argument);
   scheduler.waitpoint(Operation::end, nullptr);
   scheduler.end_task(task);
@@ -37,13 +37,13 @@ void Scheduler::end_task(Task& task) {
     }
   }
   if (unwinding_) leave_to_main(RunState::stopped);
-  run_next();
+  leave_for_next(task);
   bug(__FILE__, __LINE__, "control came back", "an ended task was entered");
 }
 
 void Scheduler::unwind() {
   WAITPOINT_CHECK(running == nullptr, "unwind() is called from within a task");
-  unwinding_ = true;
+  unwinding_ = interrupted_ = true;
   paused_ = nullptr;
   // Timers may outlive the run: they must not find themselves in its list. Objects that tasks wait for are not touched:
   // they may be gone with the frames that own them, and read as fresh in the next run.

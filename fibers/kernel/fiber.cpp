@@ -43,9 +43,16 @@ struct Globals {
   unsigned int uncaught_exceptions;
 };
 
-Globals& globals() { return *reinterpret_cast<Globals*>(abi::__cxa_get_globals()); }
+// Of the thread that runs the fibers: looking them up costs as much as the switch.
+Globals* globals = nullptr;
+int* error_number = nullptr;
 
 }  // namespace
+
+void bind_to_thread() {
+  globals = reinterpret_cast<Globals*>(abi::__cxa_get_globals());
+  error_number = &errno;
+}
 
 void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), void* argument) {
   fiber.stack = stack;
@@ -56,11 +63,10 @@ void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), 
 }
 
 void switch_fiber(Fiber& from, Fiber& to) {
-  Globals& state = globals();
-  from.thread_state = {state.caught_exceptions, state.uncaught_exceptions, errno};
-  state.caught_exceptions = to.thread_state.caught_exceptions;
-  state.uncaught_exceptions = static_cast<unsigned int>(to.thread_state.uncaught_exceptions);
-  errno = to.thread_state.error_number;
+  from.thread_state = {globals->caught_exceptions, globals->uncaught_exceptions, *error_number};
+  globals->caught_exceptions = to.thread_state.caught_exceptions;
+  globals->uncaught_exceptions = to.thread_state.uncaught_exceptions;
+  *error_number = to.thread_state.error_number;
   void* target = to.context;
   to.context = nullptr;
   note_where_left(context::jump_fcontext(target, &from));

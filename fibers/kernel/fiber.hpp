@@ -15,7 +15,7 @@ namespace waitpoint::kernel {
 /// What the C++ runtime and the C library keep per thread, of which every fiber needs its own.
 struct ThreadState {
   void* caught_exceptions = nullptr;
-  std::uint64_t uncaught_exceptions = 0;
+  unsigned int uncaught_exceptions = 0;
   int error_number = 0;
 };
 
@@ -24,6 +24,9 @@ struct Fiber {
   ThreadState thread_state;
   Stack stack;
 };
+
+/// Fibers run in the calling thread from now on: to be told before it leaves its own stack for the first time.
+void bind_to_thread();
 
 /// Makes `fiber` ready to run `entry(argument)` on `stack` below `top`. `entry` must not return.
 void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), void* argument);

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/fetch.hpp"
 
 namespace waitpoint::kernel {
 
@@ -24,6 +25,9 @@ void copy_name(char (&to)[name_size], const char* from) {
 std::uint64_t child_id(std::uint64_t parent, std::uint32_t number) {
   return Digest::mix(parent + (std::uint64_t{number} + 1) * 0x9E3779B97F4A7C15u);
 }
+
+// A parked task's registers, and the frames from its switch up to its own code.
+constexpr int stack_lines_fetched = 6;
 
 }  // namespace
 
@@ -84,68 +88,103 @@ RunState Scheduler::run_before(Time until) {
   if (cause_ != StopCause::none) return RunState::stopped;
   if (paused_ != nullptr) {
     Task& task = *paused_;
+    if (precedes(task, events_.least().key)) {
+      if (task.local_time >= until_) return RunState::reached;
+      paused_ = nullptr;
+      switch_to(task);
+      return state_;
+    }
     paused_ = nullptr;
-    switch_to(task);
-  } else {
-    run_next();
+    events_.insert(task.event, key(task, task.local_time));
   }
+  leave(main_, next_fiber());
   return state_;
 }
 
-// Goes on with the least event; comes back when it is this context's turn again.
-void Scheduler::run_next() {
+// Takes the least event out, and what is not a task's until one is: the fiber that goes on. Where the window or the run
+// ends, that of the context outside. To be left for at once.
+Fiber& Scheduler::next_fiber() {
   for (;;) {
-    if (events_.empty()) return leave_to_main(RunState::idle);
-    const Time time = events_.least().key.time;
-    if (time >= until_) return leave_to_main(RunState::reached);
-    if (dispatch(events_.pop(), time)) return;
+    const EventEntry& least = events_.least();
+    if (least.key.time >= until_) return outside(events_.empty() ? RunState::idle : RunState::reached);
+    const Time time = least.key.time;
+    if (Task* task = due(events_.pop(), time)) return task->fiber;
   }
 }
 
-// True if the event was a task's, and control has been there and come back.
-bool Scheduler::dispatch(EventNode& node, Time time) {
+// The task whose event it is, which is running now; null for others, which are done with.
+inline Task* Scheduler::due(EventNode& node, Time time) {
   now_ = time;
-  if (node.fire != nullptr) {
+  if (__builtin_expect(node.fire != nullptr, 0)) {
     node.fire(node);
-    return false;
+    return nullptr;
   }
+  prepare_coming();
   Task& task = reinterpret_cast<Task&>(node);  // the node is its first member
   if (task.state == TaskState::blocked) {
     remove_waiter(task);
     task.wake = Wake::timed_out;
   }
   task.local_time = time;
-  switch_to(task);
-  return true;
+  resume(task);
+  return &task;
+}
+
+// With many tasks, each one's record and stack are out of the cache by the time it is due: they are fetched while the
+// ones before it run.
+inline void Scheduler::prepare_coming() const {
+  const EventNode* soon = events_.coming(0);
+  if (soon == nullptr || soon->fire != nullptr) return;
+  const char* stack = static_cast<const char*>(reinterpret_cast<const Task*>(soon)->fiber.context);
+  for (int line = 0; line < stack_lines_fetched; ++line) fetch(stack + 64 * line);
+  if (const EventNode* later = events_.coming(2)) {
+    fetch(later);
+    fetch(reinterpret_cast<const char*>(later) + 64);
+  }
+}
+
+inline void Scheduler::resume(Task& task) {
+  WAITPOINT_CHECK(StackArena::intact(task.fiber.stack), "a task ran over the end of its stack");
+  task.state = TaskState::running;
+  running = &task;
+}
+
+Fiber& Scheduler::outside(RunState state) {
+  state_ = state;
+  running = nullptr;
+  return main_;
+}
+
+// The one place where fibers are switched. What is decided before is decided in functions that have returned: a parked
+// stack is to keep few cache lines.
+inline void Scheduler::leave(Fiber& from, Fiber& to) {
+  if (&from == &to) return;
+  if (&from == &main_) bind_to_thread();
+  switch_fiber(from, to);
+  if (ended_ != nullptr) reclaim_ended();
 }
 
 void Scheduler::switch_to(Task& task) {
-  task.state = TaskState::running;
-  Task* from = running;
-  if (&task == from) return;
-  WAITPOINT_CHECK(StackArena::intact(task.fiber.stack), "a task ran over the end of its stack");
-  running = &task;
-  switch_fiber(from != nullptr ? from->fiber : main_, task.fiber);
-  reclaim_ended();
+  resume(task);
+  leave(main_, task.fiber);
 }
 
 void Scheduler::leave_to_main(RunState state) {
   state_ = state;
-  Task* from = running;
-  if (from == nullptr) return;
-  running = nullptr;
-  switch_fiber(from->fiber, main_);
-  reclaim_ended();
+  if (running == nullptr) return;
+  Fiber& from = running->fiber;
+  leave(from, outside(state));
 }
+
+void Scheduler::leave_for_next(Task& task) { leave(task.fiber, next_fiber()); }
 
 void Scheduler::stop(StopCause cause) {
   cause_ = cause;
   leave_to_main(RunState::stopped);
-  rest();
+  if (interrupted_) rest();
 }
 
 void Scheduler::reclaim_ended() {
-  if (ended_ == nullptr) return;
   const Stack stack = ended_->fiber.stack;
   ended_ = nullptr;
   arena_.give_back(stack);
@@ -154,7 +193,7 @@ void Scheduler::reclaim_ended() {
 // --- the waitpoint ---
 
 // Whether the task's event, were it in the list, would come before `other`.
-bool Scheduler::precedes(const Task& task, const EventKey& other) {
+inline bool Scheduler::precedes(const Task& task, const EventKey& other) {
   if (task.local_time != other.time) return task.local_time < other.time;
   // First-in-first-out: at the present instant a task goes on although others tie with it. One whose time has moved on
   // comes behind them, as through the list: else it would depend on unrelated events in between.
@@ -164,43 +203,42 @@ bool Scheduler::precedes(const Task& task, const EventKey& other) {
   return make_order(task.phase, tie) <= other.order;
 }
 
-void Scheduler::arrive(Task& task) {
-  for (;;) {
-    if (events_.empty() || precedes(task, events_.least().key)) {
-      if (task.local_time < until_) break;
-      // The end of a window must not cost a task its place: it does not go through the list.
-      paused_ = &task;
-      task.state = TaskState::ready;
-      leave_to_main(RunState::reached);
-      rest();
-      if (unwinding_) return;
-      continue;
-    }
-    const Time time = events_.least().key.time;
-    task.state = TaskState::ready;
-    if (time >= until_) {
-      events_.insert(task.event, key(task, task.local_time));
-      leave_to_main(RunState::reached);
-    } else if (!dispatch(events_.pop_and_insert(task.event, key(task, task.local_time)), time)) {
-      run_next();
-    }
-    rest();
-    if (unwinding_) return;
-    break;
+// Another event is before the task's, or the window ends: the fiber to leave for.
+Fiber& Scheduler::give_way(Task& task) {
+  const EventEntry& least = events_.least();
+  const Time time = least.key.time;
+  task.state = TaskState::ready;
+  if (precedes(task, least.key)) {
+    // The end of a window must not cost a task its place: it does not go through the list.
+    paused_ = &task;
+    return outside(RunState::reached);
   }
-  now_ = task.local_time;
+  const EventKey own = key(task, task.local_time);
+  if (time >= until_) {
+    events_.insert(task.event, own);
+    return outside(RunState::reached);
+  }
+  Task* next = due(events_.pop_and_insert(task.event, own), time);
+  return next != nullptr ? next->fiber : next_fiber();
 }
 
 bool Scheduler::waitpoint(Operation operation, Object* object) {
-  if (unwinding_) return refuse();
+  if (__builtin_expect(unwinding_, 0)) return refuse();
   Task& task = *running;
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
-  take_turn(task);
-  if (unwinding_) return false;
-  arrive(task);
-  if (unwinding_) return false;
+  if (task.turns_at != task.local_time) {
+    task.turns_at = task.local_time;
+    task.turns = 1;
+  } else if (++task.turns > turns_max && !give_turn(task)) {
+    return false;
+  }
+  if (task.local_time >= until_ || !precedes(task, events_.least().key)) {
+    leave(task.fiber, give_way(task));
+    if (interrupted_ && !rest()) return false;
+  }
+  now_ = task.local_time;
   execute(task, operation, object);
   return true;
 }
@@ -214,9 +252,8 @@ bool Scheduler::yield() {
   if (unwinding_) return false;
   events_.insert(task.event, key(task, task.local_time));
   task.state = TaskState::ready;
-  run_next();
-  rest();
-  if (unwinding_) return false;
+  leave(task.fiber, next_fiber());
+  if (interrupted_ && !rest()) return false;
   execute(task, Operation::yield, nullptr);
   return true;
 }
@@ -228,7 +265,7 @@ bool Scheduler::sleep_until(Time time) {
   return waitpoint(Operation::sleep, nullptr);
 }
 
-void Scheduler::execute(Task& task, Operation operation, const Object* object) {
+inline void Scheduler::execute(Task& task, Operation operation, const Object* object) {
   ++executed_;
   ++task.sequence;
   Robot& robot = *task.robot;
@@ -239,25 +276,22 @@ void Scheduler::execute(Task& task, Operation operation, const Object* object) {
       what |= object->number;
       if (object->robot != &robot) what ^= object->robot->id;
     }
-    robot.digest.add(static_cast<std::uint64_t>(now_.ns()));
-    robot.digest.add(task.id + what);
+    robot.digest.add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
   }
   if (__builtin_expect(watch_ != nullptr, 0)) watch_->event(*watch_, {now_, &task, operation, object});
 }
 
-// A task that passes many waitpoints at one instant gives its ties a turn.
-void Scheduler::take_turn(Task& task) {
-  if (task.turns_at != task.local_time) {
-    task.turns_at = task.local_time;
-    task.turns = 0;
-  }
-  if (++task.turns <= turns_max) return;
+void Scheduler::begin(Task& task) { execute(task, Operation::start, nullptr); }
+
+// A task that passes many waitpoints at one instant gives its ties a turn; false when the run is over.
+bool Scheduler::give_turn(Task& task) {
   task.turns = 1;
   const Operation operation = task.operation;
   const Object* at = task.at;
-  yield();
+  if (!yield()) return false;
   task.operation = operation;
   task.at = at;
+  return true;
 }
 
 // If all tasks of an instant do nothing but give each other turns, the run is stuck.
@@ -266,7 +300,7 @@ void Scheduler::check_progress(Task& task) {
     turns_given_at_ = now_;
     turns_given_ = 0;
   }
-  if (++turns_given_ <= std::uint64_t{turns_max} * tasks_) return;
+  if (++turns_given_ <= idle_turns_max + std::uint64_t{turns_max} * tasks_) return;
   culprit_ = &task;
   stop(StopCause::no_progress);
 }
@@ -274,20 +308,17 @@ void Scheduler::check_progress(Task& task) {
 void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
   Robot& robot = *running->robot;
   if (robot.ended || unwinding_) return;
-  robot.digest.add(name);
-  robot.digest.add(value);
+  robot.digest.add(name, value);
 }
 
 // --- blocking ---
 
-bool Scheduler::enter(Object& object) {
-  if (object.epoch == epoch_) return false;
+void Scheduler::adopt(Object& object) {
   object.epoch = epoch_;
   object.robot = running->robot;
   object.number = ++object.robot->objects;
   object.owner = nullptr;
   object.first_waiter = object.last_waiter = nullptr;
-  return true;
 }
 
 Wake Scheduler::block(Object& object, Time deadline) {
@@ -296,6 +327,14 @@ Wake Scheduler::block(Object& object, Time deadline) {
     return Wake::unwinding;
   }
   Task& task = *running;
+  leave(task.fiber, park(task, object, deadline));
+  if (interrupted_ && !rest()) return Wake::unwinding;
+  execute(task, task.wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
+  return task.wake;
+}
+
+// The task waits from now on: the fiber to leave for.
+Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
   append_waiter(object, task);
   task.state = TaskState::blocked;
   task.finite_wait = deadline != Time::max();
@@ -303,14 +342,10 @@ Wake Scheduler::block(Object& object, Time deadline) {
     events_.insert(task.event, key(task, deadline < now_ ? now_ : deadline));
   } else if (object.owner != nullptr && owners_form_a_cycle(task)) {
     culprit_ = &task;
-    stop(StopCause::deadlock);
-    return Wake::unwinding;
+    cause_ = StopCause::deadlock;
+    return outside(RunState::stopped);
   }
-  run_next();
-  rest();
-  if (unwinding_) return Wake::unwinding;
-  execute(task, task.wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
-  return task.wake;
+  return next_fiber();
 }
 
 bool Scheduler::owners_form_a_cycle(const Task& task) const {

@@ -60,6 +60,9 @@ struct SpawnOptions {
 inline constexpr std::uint32_t tasks_max = 1u << 20;
 /// Waitpoints that a task may pass at one instant before its ties get a turn.
 inline constexpr std::uint32_t turns_max = 1000;
+/// Turns at one instant, and turns_max more a task, after which a run makes no progress: some tens of millions of
+/// waitpoints, which a test that gives its computing no cost may well pass.
+inline constexpr std::uint64_t idle_turns_max = 20'000;
 /// Calls that a task may make while it is unwound: one that makes more does not leave, and is abandoned.
 inline constexpr std::uint32_t refusals_max = 10'000;
 
@@ -108,7 +111,11 @@ class Scheduler {
   /// As wake_one, but the first: for timers, which are no tasks and leave no choice.
   Task* wake_first(Object& object);
   /// Makes `object` belong to this run; true if it was not yet, so that a primitive can take its initial state.
-  bool enter(Object& object);
+  bool enter(Object& object) {
+    if (object.epoch == epoch_) return false;
+    adopt(object);
+    return true;
+  }
   /// Adds words to the digest of the running task's robot.
   void record_output(std::uint64_t name, std::uint64_t value);
 
@@ -146,17 +153,25 @@ class Scheduler {
   [[noreturn]] void end_task(Task& task);
   void unlink(Task& task);
   bool refuse();
-  void arrive(Task& task);
+  void adopt(Object& object);
+  void begin(Task& task);
   void execute(Task& task, Operation operation, const Object* object);
-  void take_turn(Task& task);
+  bool give_turn(Task& task);
   void check_progress(Task& task);
   EventKey key(const Task& task, Time time) { return {time, make_order(task.phase, chooser_.tie(task))}; }
   bool precedes(const Task& task, const EventKey& other);
-  void run_next();
-  bool dispatch(EventNode& node, Time time);
+  Fiber& give_way(Task& task);
+  Fiber& park(Task& task, Object& object, Time deadline);
+  Fiber& next_fiber();
+  Fiber& outside(RunState state);
+  Task* due(EventNode& node, Time time);
+  void prepare_coming() const;
+  void resume(Task& task);
+  void leave(Fiber& from, Fiber& to);
   void switch_to(Task& task);
   void leave_to_main(RunState state);
-  void rest();
+  void leave_for_next(Task& task);
+  bool rest();
   void reclaim_ended();
   void append_waiter(Object& object, Task& task);
   void remove_waiter(Task& task);
@@ -189,6 +204,8 @@ class Scheduler {
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
   bool unwinding_ = false;
+  bool interrupted_ =
+      false;                 // tasks that get control are not to go on: they are unwound, or asked for their call stack
   void** frames_ = nullptr;  // where call_stack() wants them
   std::size_t frames_room_ = 0;
   std::size_t frames_found_ = 0;

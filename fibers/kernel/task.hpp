@@ -27,7 +27,7 @@ struct Robot {
   char name[name_size] = {};
   Robot* next = nullptr;
   Scheduler* scheduler = nullptr;
-  Digest digest;         ///< of its own events and outputs, until it ended
+  PairDigest digest;     ///< of its own events and outputs, until it ended
   std::uint64_t id = 0;  ///< from its name
   std::uint64_t events = 0;
   std::uint32_t objects = 0;     ///< numbers given to objects
@@ -68,25 +68,16 @@ enum class Wake : std::uint8_t {
 };
 
 struct Task {
-  EventNode event;  // first: an event's node is its task
-  Fiber fiber;
+  // What every event touches, in the first cache lines. The event comes first: an event's node is its task.
+  EventNode event;
   Time local_time;
-  Scheduler* scheduler = nullptr;
   Robot* robot = nullptr;
   std::uint64_t id = 0;        ///< from robot and creation path
   std::uint64_t sequence = 0;  ///< its events so far
   const Object* at = nullptr;  ///< the object of its last waitpoint, if any
-  Object* blocked_on = nullptr;
-  Task* next_waiter = nullptr;
-  Task* previous_waiter = nullptr;
-  Task* next = nullptr;  // all tasks of the run in the order of their making, in an intrusive list
-  Task* previous = nullptr;
-  void (*entry)(void*) = nullptr;
-  void* argument = nullptr;
-  std::uint32_t children = 0;
-  std::uint32_t turns = 0;  ///< waitpoints passed at one instant
+  Fiber fiber;
   Time turns_at;
-  std::uint32_t refusals = 0;  ///< calls made since the run is over
+  std::uint32_t turns = 0;  ///< waitpoints passed at one instant
   Phase phase = Phase::tasks;
   TaskState state = TaskState::ready;
   Operation operation = Operation::start;
@@ -94,6 +85,17 @@ struct Task {
   bool service = false;      ///< does not keep the run alive
   bool finite_wait = false;  ///< blocked with a finite timeout
   bool describe = false;     ///< asked to write down its own call stack and to switch back
+
+  Object* blocked_on = nullptr;
+  Task* next_waiter = nullptr;
+  Task* previous_waiter = nullptr;
+  Scheduler* scheduler = nullptr;
+  Task* next = nullptr;  // all tasks of the run in the order of their making, in an intrusive list
+  Task* previous = nullptr;
+  void (*entry)(void*) = nullptr;
+  void* argument = nullptr;
+  std::uint32_t children = 0;
+  std::uint32_t refusals = 0;  ///< calls made since the run is over
   char name[name_size] = {};
 };
 

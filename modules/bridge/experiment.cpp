@@ -85,7 +85,7 @@ RunResult Experiment::result() const {
   result.scenario = scenario_.name;
   result.seed = options_.seed;
   result.digest = simulation_.digest();
-  result.environment_digest = simulation_.environment().digest;
+  result.environment_digest = simulation_.environment().digest.digest();
   for (const auto& robot : robots_) result.robots.push_back(robot->result());
   result.warnings = warnings_;
   result.events = simulation_.scheduler().events();

@@ -122,7 +122,7 @@ std::optional<Duration> Robot::least_period() const {
 RobotResult Robot::result() const {
   RobotResult result;
   result.name = scenario_.name;
-  result.digest = lane_->digest;
+  result.digest = lane_->digest.digest();
   result.shape = scenario_.body.shape;
   for (std::size_t i = 0; i < scenario_.goals.size(); ++i) {
     const executive::GoalRecord& record = executive_->goals()[i];

@@ -90,5 +90,28 @@ TEST(Digest, IsTheRecordedOne) {
   EXPECT_EQ(to_string(Digest()).size(), 20u);
 }
 
+TEST(PairDigest, EverySingleBitAndTheOrderCount) {
+  const auto of = [](std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d) {
+    PairDigest digest;
+    digest.add(a, b);
+    digest.add(c, d);
+    return digest.value();
+  };
+  std::set<std::uint64_t> seen = {of(1, 2, 3, 4), of(3, 4, 1, 2), of(2, 1, 3, 4), of(1, 2, 4, 3)};
+  for (int bit = 0; bit < 64; ++bit) {
+    const std::uint64_t flip = std::uint64_t{1} << bit;
+    for (const std::uint64_t value :
+         {of(1 ^ flip, 2, 3, 4), of(1, 2 ^ flip, 3, 4), of(1, 2, 3 ^ flip, 4), of(1, 2, 3, 4 ^ flip)})
+      seen.insert(value);
+  }
+  EXPECT_EQ(seen.size(), 4u + 4 * 64);
+}
+
+TEST(PairDigest, TheNumberOfPairsCounts) {
+  PairDigest none, one;
+  one.add(0, 0);
+  EXPECT_NE(none.value(), one.value());
+}
+
 }  // namespace
 }  // namespace waitpoint
