@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/fetch.hpp"
+#include "fibers/kernel/local_clock.hpp"
 
 namespace waitpoint::kernel {
 
@@ -16,6 +17,8 @@ namespace {
 
 // Tells the objects of one run from those of all others in this process; never part of an event.
 std::uint64_t runs = 0;
+
+bool needs_attention(const Task& task) { return __builtin_expect(task.attention != 0, 0); }
 
 void copy_name(char (&to)[name_size], const char* from) {
   std::strncpy(to, from, name_size - 1);
@@ -59,11 +62,12 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   task.scheduler = this;
   task.robot = &robot;
   task.id = running != nullptr ? child_id(running->id, running->children++) : child_id(robot.id, robot.children++);
-  task.local_time = running != nullptr ? running->local_time : now_;
+  task.local_time = running != nullptr ? kernel::local_time(*running) : now_;
   task.entry = entry;
   task.argument = argument;
   task.phase = options.phase;
   task.service = options.service;
+  set_clock(task, options.clock);
   copy_name(task.name, options.name);
   prepare(task.fiber, stack, top, task_main, &task);
 
@@ -222,9 +226,22 @@ Fiber& Scheduler::give_way(Task& task) {
   return next != nullptr ? next->fiber : next_fiber();
 }
 
+// Goes on when the task's event is the least; false when the run is over.
+inline bool Scheduler::arrive(Task& task) {
+  if (task.local_time >= until_ || !precedes(task, events_.least().key)) {
+    leave(task.fiber, give_way(task));
+    if (interrupted_ && !rest()) return false;
+  }
+  now_ = task.local_time;
+  return true;
+}
+
+bool Scheduler::arrive_after_signal(Task& task) { return arrive(task); }
+
 bool Scheduler::waitpoint(Operation operation, Object* object) {
   if (__builtin_expect(unwinding_, 0)) return refuse();
   Task& task = *running;
+  if (needs_attention(task)) end_segment(task);
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
@@ -234,11 +251,8 @@ bool Scheduler::waitpoint(Operation operation, Object* object) {
   } else if (++task.turns > turns_max && !give_turn(task)) {
     return false;
   }
-  if (task.local_time >= until_ || !precedes(task, events_.least().key)) {
-    leave(task.fiber, give_way(task));
-    if (interrupted_ && !rest()) return false;
-  }
-  now_ = task.local_time;
+  if (!arrive(task)) return false;
+  if (needs_attention(task) && !begin_segment(task, operation, object)) return false;
   execute(task, operation, object);
   return true;
 }
@@ -246,6 +260,7 @@ bool Scheduler::waitpoint(Operation operation, Object* object) {
 bool Scheduler::yield() {
   if (unwinding_) return refuse();
   Task& task = *running;
+  if (needs_attention(task)) end_segment(task);
   task.operation = Operation::yield;
   task.at = nullptr;
   check_progress(task);
@@ -254,6 +269,7 @@ bool Scheduler::yield() {
   task.state = TaskState::ready;
   leave(task.fiber, next_fiber());
   if (interrupted_ && !rest()) return false;
+  if (needs_attention(task) && !begin_segment(task, Operation::yield, nullptr)) return false;
   execute(task, Operation::yield, nullptr);
   return true;
 }
@@ -261,6 +277,7 @@ bool Scheduler::yield() {
 bool Scheduler::sleep_until(Time time) {
   if (unwinding_) return refuse();
   Task& task = *running;
+  if (needs_attention(task)) end_segment(task);
   if (time > task.local_time) task.local_time = time;
   return waitpoint(Operation::sleep, nullptr);
 }
@@ -281,7 +298,10 @@ inline void Scheduler::execute(Task& task, Operation operation, const Object* ob
   if (__builtin_expect(watch_ != nullptr, 0)) watch_->event(*watch_, {now_, &task, operation, object});
 }
 
-void Scheduler::begin(Task& task) { execute(task, Operation::start, nullptr); }
+void Scheduler::begin(Task& task) {
+  if (needs_attention(task) && !begin_segment(task, Operation::start, nullptr)) return;
+  execute(task, Operation::start, nullptr);
+}
 
 // A task that passes many waitpoints at one instant gives its ties a turn; false when the run is over.
 bool Scheduler::give_turn(Task& task) {
@@ -329,8 +349,11 @@ Wake Scheduler::block(Object& object, Time deadline) {
   Task& task = *running;
   leave(task.fiber, park(task, object, deadline));
   if (interrupted_ && !rest()) return Wake::unwinding;
-  execute(task, task.wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
-  return task.wake;
+  const Wake wake = task.wake;
+  const Operation operation = wake == Wake::woken ? Operation::resume : Operation::timeout;
+  if (needs_attention(task) && !begin_segment(task, operation, &object)) return Wake::unwinding;
+  execute(task, operation, &object);
+  return wake;
 }
 
 // The task waits from now on: the fiber to leave for.

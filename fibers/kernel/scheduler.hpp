@@ -55,6 +55,7 @@ struct SpawnOptions {
   StackSize stack = StackSize::medium;
   Phase phase = Phase::tasks;
   bool service = false;
+  LocalClock* clock = nullptr;  ///< must outlive the task; null: only what it declares moves its local time
 };
 
 inline constexpr std::uint32_t tasks_max = 1u << 20;
@@ -140,6 +141,9 @@ class Scheduler {
   /// What waitpoint_describe_run() prints as the way to repeat this run; must outlive the run.
   void set_replay(const char* text) { replay_ = text; }
   const char* replay() const { return replay_; }
+  /// What delivers a task's signals, at its next waitpoint after attention::signal is set; called in the task, it may
+  /// compute and pass waitpoints itself.
+  void set_delivery(void (*deliver)(Task&)) { deliver_ = deliver; }
   /// What the layer above hangs on the run.
   void set_client(void* client) { client_ = client; }
   void* client() const { return client_; }
@@ -155,6 +159,10 @@ class Scheduler {
   bool refuse();
   void adopt(Object& object);
   void begin(Task& task);
+  bool arrive(Task& task);
+  bool arrive_after_signal(Task& task);
+  void end_segment(Task& task);
+  bool begin_segment(Task& task, Operation operation, Object* object);
   void execute(Task& task, Operation operation, const Object* object);
   bool give_turn(Task& task);
   void check_progress(Task& task);
@@ -195,6 +203,7 @@ class Scheduler {
   Watch* watch_ = nullptr;
   const char* replay_ = "";
   void* client_ = nullptr;
+  void (*deliver_)(Task&) = nullptr;
   std::uint64_t epoch_;
   std::uint64_t executed_ = 0;
   std::uint32_t live_tasks_ = 0;

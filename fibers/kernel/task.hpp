@@ -18,6 +18,7 @@
 namespace waitpoint::kernel {
 
 class Scheduler;
+struct LocalClock;
 struct Task;
 
 inline constexpr std::size_t name_size = 48;
@@ -67,6 +68,12 @@ enum class Wake : std::uint8_t {
   unwinding,  ///< the run is over: leave all frames without blocking again
 };
 
+/// Why the waitpoints of a task take the slow way: the bits of Task::attention. Without any they do not.
+namespace attention {
+inline constexpr std::uint8_t clock = 1;   ///< it has a local clock: what its segments cost is not declared alone
+inline constexpr std::uint8_t signal = 2;  ///< a signal is to be delivered
+}  // namespace attention
+
 struct Task {
   // What every event touches, in the first cache lines. The event comes first: an event's node is its task.
   EventNode event;
@@ -82,6 +89,7 @@ struct Task {
   TaskState state = TaskState::ready;
   Operation operation = Operation::start;
   Wake wake = Wake::woken;
+  std::uint8_t attention = 0;
   bool service = false;      ///< does not keep the run alive
   bool finite_wait = false;  ///< blocked with a finite timeout
   bool describe = false;     ///< asked to write down its own call stack and to switch back
@@ -94,6 +102,7 @@ struct Task {
   Task* previous = nullptr;
   void (*entry)(void*) = nullptr;
   void* argument = nullptr;
+  LocalClock* clock = nullptr;  ///< null: only what it declares moves its local time
   std::uint32_t children = 0;
   std::uint32_t refusals = 0;  ///< calls made since the run is over
   char name[name_size] = {};

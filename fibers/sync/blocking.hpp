@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "core/time.hpp"
+#include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::sync {
@@ -51,7 +52,7 @@ inline bool block(kernel::Object& object, Time deadline = Time::max()) {
 /// nanoseconds.
 template <class Rep, class Ratio>
 Time after(const std::chrono::duration<Rep, Ratio>& span) {
-  const Time now = running_task().local_time;
+  const Time now = kernel::local_time(running_task());
   if (span > std::chrono::duration<double>(9e9)) return Time::max();
   if (span <= span.zero()) return now;
   const auto ns = std::chrono::ceil<std::chrono::nanoseconds>(span);

@@ -16,20 +16,19 @@ struct steady_clock {
   using time_point = std::chrono::time_point<steady_clock>;
   static constexpr bool is_steady = true;
 
-  static time_point now() noexcept { return time_point(duration(sync::running_task().local_time.ns())); }
+  static time_point now() noexcept { return time_point(duration(kernel::local_time(sync::running_task()).ns())); }
 };
 
 /// The virtual time of a time point of the clock above.
 inline Time to_time(steady_clock::time_point t) { return Time::from_ns(t.time_since_epoch().count()); }
 
 /// The caller's local virtual time.
-inline Time now() { return sync::running_task().local_time; }
+inline Time now() { return kernel::local_time(sync::running_task()); }
 
-/// Tells the local clock that the caller computed for `cost`: its local virtual time moves on, and what it does next is
-/// seen by others that much later. Nothing happens in between: this is no waitpoint. A negative cost is a bug.
-inline void compute(Duration cost) {
-  WAITPOINT_CHECK(cost >= Duration(), "computing takes no negative time");
-  sync::running_task().local_time += cost;
-}
+/// Tells the local clock that what the caller computed costs something from `least` to `greatest`: its local virtual
+/// time moves on, and what it does next is seen by others that much later. Nothing happens in between: this is no
+/// waitpoint. Costs that are negative or swapped are a bug.
+inline void compute(Duration least, Duration greatest) { kernel::compute(sync::running_task(), least, greatest); }
+inline void compute(Duration cost) { kernel::compute(sync::running_task(), cost); }
 
 }  // namespace waitpoint
