@@ -31,7 +31,11 @@ class Chooser {
   }
   /// The tie of a timer's event: timers fire in the order of their numbers within a robot, robots by their names' hash.
   static std::uint64_t tie(const Object& timer) {
-    return (timer.robot->id & 0xFFFFFFFF) << 28 | (timer.number & 0x0FFFFFFF);
+    return (timer.robot->id & 0x7FFFFFFF) << 28 | (timer.number & 0x0FFFFFFF);
+  }
+  /// The tie of the arrival of the `message`-th message that `sender` sent: behind the timers, by sender and number.
+  static std::uint64_t tie(const Robot& sender, std::uint64_t message) {
+    return std::uint64_t{1} << 59 | (sender.id & 0x07FFFFFF) << 32 | (message & 0xFFFFFFFF);
   }
 
   /// Which of `count` waiters `waker` serves; `count` is positive.

@@ -26,15 +26,22 @@ enum class Operation : std::uint8_t {
   timer_wait,
   timer_tick,
   step,  ///< of the world
+  open,  ///< takes a name
+  close,
+  connect,
+  accept,
+  send,
+  receive,
+  poll,
 };
 
 /// The operation's name, as reports and event files show it.
 constexpr const char* name(Operation operation) {
-  constexpr const char* names[] = {"start",      "end",        "resume",     "timeout",     "yield",
-                                   "sleep",      "lock",       "try_lock",   "unlock",      "wait",
-                                   "notify_one", "notify_all", "acquire",    "try_acquire", "release",
-                                   "join",       "timer_wait", "timer_tick", "step"};
-  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::step) + 1);
+  constexpr const char* names[] = {
+      "start", "end",        "resume",     "timeout", "yield",       "sleep",   "lock",    "try_lock",   "unlock",
+      "wait",  "notify_one", "notify_all", "acquire", "try_acquire", "release", "join",    "timer_wait", "timer_tick",
+      "step",  "open",       "close",      "connect", "accept",      "send",    "receive", "poll"};
+  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::poll) + 1);
   return names[static_cast<int>(operation)];
 }
 

@@ -436,6 +436,15 @@ void Scheduler::schedule(EventNode& node, Time time, const Object& timer) {
   events_.insert(node, {time, make_order(Phase::deliveries, Chooser::tie(timer))});
 }
 
+void Scheduler::deliver(EventNode& node, Time time, Robot& sender) {
+  events_.insert(node, {time, make_order(Phase::deliveries, Chooser::tie(sender, ++sender.messages))});
+}
+
+void Scheduler::declare_latency(Duration least) {
+  WAITPOINT_CHECK(least > Duration(), "a link between robots has no latency");
+  if (least < lookahead_) lookahead_ = least;
+}
+
 }  // namespace waitpoint::kernel
 
 extern "C" void waitpoint_describe_run() {

@@ -126,6 +126,16 @@ class Scheduler {
   void schedule(EventNode& node, Time time, const Object& timer);
   void cancel(EventNode& node) { events_.remove(node); }
 
+  // --- messages between robots ---
+
+  /// Puts the arrival of a message of `sender` into the list, ahead of the tasks of that instant and behind its timers.
+  /// Arrivals of one instant come in the order of (sender, how many messages it had sent), whenever they were put in.
+  void deliver(EventNode& node, Time time, Robot& sender);
+  /// Declares a link between robots on which nothing arrives sooner than `least` after it was sent; positive.
+  void declare_latency(Duration least);
+  /// The least latency of all links: what a robot does is noticed by no other sooner. Duration::max() without links.
+  Duration lookahead() const { return lookahead_; }
+
   Time global_time() const { return now_; }
   Chooser& chooser() { return chooser_; }
   Task* first_task() const { return first_task_; }
@@ -192,6 +202,7 @@ class Scheduler {
   Fiber main_;
   Time now_;
   Time until_;
+  Duration lookahead_ = Duration::max();
   Task* first_task_ = nullptr;
   Task* last_task_ = nullptr;
   Robot* first_robot_ = nullptr;

@@ -31,6 +31,7 @@ struct Robot {
   PairDigest digest;     ///< of its own events and outputs, until it ended
   std::uint64_t id = 0;  ///< from its name
   std::uint64_t events = 0;
+  std::uint64_t messages = 0;    ///< sent to other robots
   std::uint32_t objects = 0;     ///< numbers given to objects
   std::uint32_t children = 0;    ///< tasks spawned from outside any task
   std::uint32_t live_tasks = 0;  ///< that are no services
