@@ -3,27 +3,38 @@
 
 #include <algorithm>
 #include <deque>
-
-#include "core/random.hpp"
+#include <utility>
 
 namespace waitpoint::reference {
 namespace {
 
 constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+constexpr std::int64_t for_ever = -1;
 
 class Model {
  public:
-  explicit Model(const Program& program) : program_(program), tasks_(program.size()) {
-    for (std::size_t i = 0; i < tasks_.size(); ++i) put(i, 0);
+  Model(const Program& program, const Choices& choices)
+      : program_(program),
+        choices_(choices),
+        tasks_(program.tasks.size()),
+        mutexes_(program.objects),
+        semaphores_(program.objects),
+        conditions_(program.objects) {
+    for (std::size_t i = 0; i < program.roots; ++i) start(i, 0);
   }
 
-  // Algorithm 1: the least event is executed, until there is none.
+  // Algorithm 1: the least event is executed, until no task has one or waits for a timer's.
   Outcome run() {
-    while (!events_.empty()) {
-      const auto least = std::min_element(events_.begin(), events_.end());
-      const Event event = *least;
-      events_.erase(least);
+    while (to_come_ > 0) {
+      const Event event = events_.front();
+      events_.erase(events_.begin());
       now_ = event.time;
+      if (event.phase == timers) {
+        tick(event.task);
+        continue;
+      }
+      --to_come_;
+      outcome_.end_ns = now_;
       Task& task = tasks_[event.task];
       task.time = now_;
       if (task.waits_at != nullptr) {  // this was its timeout
@@ -31,29 +42,40 @@ class Model {
         task.waits_at = nullptr;
         task.in_time = false;
       }
-      go_on(event.task);
+      execute(event.task);
     }
-    outcome_.end_ns = now_;
-    outcome_.ended = ended_ == tasks_.size();
+    outcome_.ended = living_ == 0;
     return outcome_;
   }
 
  private:
   using Waiters = std::deque<std::size_t>;
+  enum Phase { timers, tasks };
   struct Event {
     std::int64_t time;
-    std::uint64_t insertion;
+    Phase phase;
+    std::uint64_t tie;
     std::size_t task;
     friend auto operator<=>(const Event&, const Event&) = default;
   };
-  // How far a task is within its step.
-  enum class Stage { before_waitpoint, at_waitpoint, blocked, relocking };
+  struct Timer {
+    std::uint64_t number = 0;  // of its first use
+    bool started = false;
+    std::int64_t ticks = 0;
+    Waiters waiters;
+  };
   struct Task {
     std::int64_t time = 0;  // local
+    std::uint64_t sequence = 0;
     std::size_t step = 0;
-    Stage stage = Stage::before_waitpoint;
+    int part = 0;  // of the step
+    std::int64_t deadline = for_ever;
     Waiters* waits_at = nullptr;
-    bool in_time = true;
+    bool in_time = true;   // its last wait
+    bool notified = true;  // its last wait on a condition, while it waits for the mutex again
+    bool ended = false;
+    Waiters joiners;
+    Timer timer;
   };
   struct Mutex {
     std::size_t owner = nobody;
@@ -63,160 +85,219 @@ class Model {
     int count = 1;
     Waiters waiters;
   };
+  // How a part of a step leaves its task.
+  enum class Then { next_part, done, waits, gone };
 
-  void put(std::size_t task, std::int64_t time) { events_.push_back({time, ++insertions_, task}); }
-
-  void block(std::size_t task, Waiters& waiters, std::int64_t deadline, Stage stage) {
-    waiters.push_back(task);
-    tasks_[task].waits_at = &waiters;
-    tasks_[task].stage = stage;
-    if (deadline >= 0) put(task, deadline);
+  void start(std::size_t i, std::int64_t time) {
+    ++living_;
+    tasks_[i].time = time;
+    put(i, time);
   }
 
-  // Algorithm 2: who is woken takes the global time as its local one.
-  std::size_t wake(Waiters& waiters) {
-    if (waiters.empty()) return nobody;
-    const std::size_t task = waiters.front();
-    waiters.pop_front();
-    tasks_[task].waits_at = nullptr;
-    std::erase_if(events_, [task](const Event& e) { return e.task == task; });
-    tasks_[task].time = now_;
-    put(task, now_);
-    return task;
+  // --- the event list ---
+
+  std::uint64_t tie(std::size_t i) { return choices_.tie ? choices_.tie(i, tasks_[i].sequence) : ++insertions_; }
+
+  void put(const Event& event) { events_.insert(std::lower_bound(events_.begin(), events_.end(), event), event); }
+  void put(std::size_t i, std::int64_t time) {
+    put({time, tasks, tie(i), i});
+    ++to_come_;
   }
 
-  void finish(std::size_t i, bool in_time) {
+  // --- Algorithm 2: a primitive begins with a waitpoint ---
+
+  Then waitpoint(std::size_t i) {
     Task& task = tasks_[i];
-    outcome_.done.push_back({i, task.step, task.time, in_time});
-    const Step& step = program_[i][task.step];
-    task.step = step.kind == Kind::lock_for && !in_time ? step.otherwise : task.step + 1;
-    task.stage = Stage::before_waitpoint;
-    task.in_time = true;
+    ++task.part;
+    // In first-in-first-out order a task goes on at the present instant, whoever ties with it.
+    const bool timers_first = !events_.empty() && events_.front().time == now_ && events_.front().phase == timers;
+    if (!choices_.tie && task.time == now_ && !timers_first) {
+      count(i);
+      return Then::next_part;
+    }
+    put(i, task.time);
+    return Then::waits;
   }
 
-  // Executes a task until its event is not the least or it blocks.
-  void go_on(std::size_t i) {
+  Then block(std::size_t i, Waiters& waiters, std::int64_t deadline) {
+    Task& task = tasks_[i];
+    ++task.part;
+    task.in_time = true;
+    task.waits_at = &waiters;
+    waiters.push_back(i);
+    if (deadline != for_ever) put(i, deadline);
+    return Then::waits;
+  }
+
+  // Who is woken takes the global time as its local one; its timeout is cancelled.
+  void wake(Waiters& waiters, std::size_t place) {
+    const std::size_t i = waiters[place];
+    waiters.erase(waiters.begin() + static_cast<std::ptrdiff_t>(place));
+    tasks_[i].waits_at = nullptr;
+    to_come_ -= std::erase_if(events_, [i](const Event& event) { return event.phase == tasks && event.task == i; });
+    tasks_[i].time = now_;
+    put(i, now_);
+  }
+  std::size_t wake_one(std::size_t waker, Waiters& waiters) {
+    if (waiters.empty()) return nobody;
+    const auto count = static_cast<std::uint32_t>(waiters.size());
+    const std::uint32_t place =
+        choices_.waiter && count > 1 ? choices_.waiter(waker, tasks_[waker].sequence, count) : 0;
+    const std::size_t woken = waiters[place];
+    wake(waiters, place);
+    return woken;
+  }
+  void wake_all(Waiters& waiters) {
+    while (!waiters.empty()) wake(waiters, 0);
+  }
+
+  // --- timers ---
+
+  void tick(std::size_t i) {
+    Task& task = tasks_[i];
+    put({now_ + program_.periods_ns[i], timers, task.timer.number, i});
+    ++task.timer.ticks;
+    if (task.timer.waiters.empty()) return;
+    --to_come_;
+    wake(task.timer.waiters, 0);
+  }
+
+  std::int64_t take_ticks(std::size_t i) { return std::exchange(tasks_[i].timer.ticks, 0); }
+
+  // --- tasks ---
+
+  void count(std::size_t i) {
+    ++tasks_[i].sequence;
+    ++outcome_.events;
+  }
+
+  // The event of task `i`, and all that follows until it waits.
+  void execute(std::size_t i) {
+    count(i);
     Task& task = tasks_[i];
     for (;;) {
-      if (task.stage == Stage::before_waitpoint) {
-        const bool last = task.step == program_[i].size();
-        if (!last && program_[i][task.step].kind == Kind::compute) {
-          task.time += program_[i][task.step].span_ns;
-          finish(i, true);
-          continue;
-        }
-        if (!last && program_[i][task.step].kind == Kind::sleep) task.time += program_[i][task.step].span_ns;
-        task.stage = Stage::at_waitpoint;
-        // At the present instant a task goes on; else its event goes through the list.
-        if (task.time != now_ || (!last && program_[i][task.step].kind == Kind::yield)) return put(i, task.time);
-      }
-      if (task.step == program_[i].size()) {
-        ++ended_;
-        return;
-      }
-      if (!execute(i, program_[i][task.step])) return;
+      const bool last = task.step == program_.tasks[i].size();
+      const Then then = last ? end(i) : perform(i, program_.tasks[i][task.step]);
+      if (then == Then::waits || then == Then::gone) return;
     }
   }
 
-  // The step itself, after its waitpoint or its block; false if it blocks.
-  bool execute(std::size_t i, const Step& step) {
+  Then end(std::size_t i) {
+    if (tasks_[i].part == 0) return waitpoint(i);
+    if (tasks_[i].part == 1) {
+      wake_all(tasks_[i].joiners);
+      tasks_[i].ended = true;
+      return waitpoint(i);
+    }
+    --living_;
+    return Then::gone;
+  }
+
+  Then finish(std::size_t i, std::int64_t result = 1) {
     Task& task = tasks_[i];
-    const bool was_blocked = task.stage != Stage::at_waitpoint;
+    outcome_.done.push_back({i, task.step, task.time, result});
+    const Step& step = program_.tasks[i][task.step];
+    task.step = step.kind == Kind::lock_for && result == 0 ? step.otherwise : task.step + 1;
+    task.part = 0;
+    return Then::done;
+  }
+
+  // The next part of a step: what comes before its waitpoint, what comes after it, what comes after a wait.
+  Then perform(std::size_t i, const Step& step) {
+    Task& task = tasks_[i];
+    if (task.part == 0) return begin(i, step);
     switch (step.kind) {
       case Kind::lock:
-      case Kind::lock_for: {
-        Mutex& m = mutexes_[step.object];
-        if (was_blocked) return finish(i, task.in_time), true;
-        if (m.owner == nobody) return m.owner = i, finish(i, true), true;
-        if (step.kind == Kind::lock_for && step.span_ns == 0) return finish(i, false), true;
-        return block(i, m.waiters, step.kind == Kind::lock ? -1 : task.time + step.span_ns, Stage::blocked), false;
-      }
-      case Kind::unlock: unlock(step.object); return finish(i, true), true;
+      case Kind::lock_for: return task.part == 1 ? take(i, mutexes_[step.object]) : finish(i, task.in_time);
+      case Kind::unlock: return give(i, mutexes_[step.object]), finish(i);
       case Kind::acquire:
-      case Kind::acquire_for: {
-        Semaphore& s = semaphores_[step.object];
-        if (was_blocked) return finish(i, task.in_time), true;
-        if (s.count > 0) return --s.count, finish(i, true), true;
-        if (step.kind == Kind::acquire_for && step.span_ns == 0) return finish(i, false), true;
-        return block(i, s.waiters, step.kind == Kind::acquire ? -1 : task.time + step.span_ns, Stage::blocked), false;
-      }
+      case Kind::acquire_for: return task.part == 1 ? take(i, semaphores_[step.object]) : finish(i, task.in_time);
       case Kind::release:
-        if (wake(semaphores_[step.object].waiters) == nobody) ++semaphores_[step.object].count;
-        return finish(i, true), true;
-      case Kind::wait_for: {
-        Mutex& m = mutexes_[step.mutex];
-        if (task.stage == Stage::relocking) return finish(i, task.in_time), true;
-        if (!was_blocked) {
-          unlock(step.mutex);
-          return block(i, conditions_[step.object], task.time + step.span_ns, Stage::blocked), false;
-        }
-        if (m.owner == nobody) return m.owner = i, finish(i, task.in_time), true;
-        return block(i, m.waiters, -1, Stage::relocking), false;
-      }
-      case Kind::notify_one: wake(conditions_[step.object]); return finish(i, true), true;
-      case Kind::notify_all:
-        while (wake(conditions_[step.object]) != nobody) {
-        }
-        return finish(i, true), true;
-      default: return finish(i, true), true;
+        if (wake_one(i, semaphores_[step.object].waiters) == nobody) ++semaphores_[step.object].count;
+        return finish(i);
+      case Kind::wait_for: return wait(i, step);
+      case Kind::notify_one: return wake_one(i, conditions_[step.object]), finish(i);
+      case Kind::notify_all: return wake_all(conditions_[step.object]), finish(i);
+      case Kind::tick: return tick_comes(i);
+      case Kind::join:
+        if (task.part == 2 || tasks_[step.object].ended) return finish(i);
+        return block(i, tasks_[step.object].joiners, for_ever);
+      default: return finish(i);
     }
   }
 
-  void unlock(std::size_t mutex) { mutexes_[mutex].owner = wake(mutexes_[mutex].waiters); }
+  Then begin(std::size_t i, const Step& step) {
+    Task& task = tasks_[i];
+    task.deadline = task.time + step.span_ns;
+    switch (step.kind) {
+      case Kind::compute: return task.time += step.span_ns, finish(i);
+      case Kind::spawn: return start(step.object, task.time), finish(i);
+      case Kind::detach: return finish(i);
+      case Kind::yield: return ++task.part, put(i, task.time), Then::waits;
+      case Kind::sleep: task.time += step.span_ns; break;
+      case Kind::lock:
+      case Kind::acquire: task.deadline = for_ever; break;
+      case Kind::tick:
+        if (task.timer.number == 0) task.timer.number = ++timers_met_;
+        break;
+      default: break;
+    }
+    return waitpoint(i);
+  }
+
+  Then take(std::size_t i, Mutex& mutex) {
+    if (mutex.owner == nobody) return mutex.owner = i, finish(i);
+    return tasks_[i].deadline == now_ ? finish(i, false) : block(i, mutex.waiters, tasks_[i].deadline);
+  }
+  void give(std::size_t i, Mutex& mutex) { mutex.owner = wake_one(i, mutex.waiters); }
+
+  Then take(std::size_t i, Semaphore& semaphore) {
+    if (semaphore.count > 0) return --semaphore.count, finish(i);
+    return tasks_[i].deadline == now_ ? finish(i, false) : block(i, semaphore.waiters, tasks_[i].deadline);
+  }
+
+  Then wait(std::size_t i, const Step& step) {
+    Task& task = tasks_[i];
+    Mutex& mutex = mutexes_[step.mutex];
+    switch (task.part) {
+      case 1: return give(i, mutex), block(i, conditions_[step.object], task.deadline);
+      case 2: task.notified = task.in_time; return waitpoint(i);
+      case 3:
+        if (mutex.owner != nobody) return block(i, mutex.waiters, for_ever);
+        mutex.owner = i;
+        return finish(i, task.notified);
+      default: return finish(i, task.notified);
+    }
+  }
+
+  Then tick_comes(std::size_t i) {
+    Task& task = tasks_[i];
+    if (task.part == 2 || task.timer.ticks > 0) return finish(i, take_ticks(i));
+    if (!std::exchange(task.timer.started, true)) {
+      const std::int64_t period = program_.periods_ns[i];
+      put({(now_ / period + 1) * period, timers, task.timer.number, i});
+    }
+    ++to_come_;
+    return block(i, task.timer.waiters, for_ever);
+  }
 
   const Program& program_;
+  const Choices& choices_;
+  std::vector<Event> events_;  // sorted
   std::vector<Task> tasks_;
-  std::vector<Event> events_;
-  Mutex mutexes_[objects_of_a_kind];
-  Semaphore semaphores_[objects_of_a_kind];
-  Waiters conditions_[objects_of_a_kind];
+  std::vector<Mutex> mutexes_;
+  std::vector<Semaphore> semaphores_;
+  std::vector<Waiters> conditions_;
   std::int64_t now_ = 0;
   std::uint64_t insertions_ = 0;
-  std::size_t ended_ = 0;
+  std::uint64_t timers_met_ = 0;
+  std::size_t to_come_ = 0;  // tasks with an event in the list, or to be woken by a timer's
+  std::size_t living_ = 0;
   Outcome outcome_;
 };
 
 }  // namespace
 
-Program random_program(std::uint64_t seed, std::size_t tasks, std::size_t steps) {
-  const RandomStream random(seed, "", "program");
-  std::uint64_t drawn = 0;
-  const auto below = [&](std::uint64_t bound) { return random.below(bound, ++drawn); };
-  const auto span = [&] { return static_cast<std::int64_t>(10 * below(5)); };
-  Program program(tasks);
-  for (std::vector<Step>& task : program) {
-    const auto idle = [&] { task.push_back({below(2) == 0 ? Kind::compute : Kind::sleep, 0, span()}); };
-    while (task.size() < steps) {
-      const std::size_t object = below(objects_of_a_kind), mutex = below(objects_of_a_kind);
-      switch (below(9)) {
-        case 0:
-        case 1: idle(); break;
-        case 2: task.push_back({Kind::yield}); break;
-        case 3:
-          task.push_back({Kind::lock, mutex});
-          idle();
-          task.push_back({Kind::unlock, mutex});
-          break;
-        case 4:
-          task.push_back({Kind::lock_for, mutex, span(), 0, task.size() + 3});
-          idle();
-          task.push_back({Kind::unlock, mutex});
-          break;
-        case 5:
-          task.push_back({Kind::lock, mutex});
-          task.push_back({Kind::wait_for, object, span(), mutex});
-          idle();
-          task.push_back({Kind::unlock, mutex});
-          break;
-        case 6: task.push_back({Kind::release, object}); break;
-        case 7: task.push_back({below(6) == 0 ? Kind::acquire : Kind::acquire_for, object, span()}); break;
-        default: task.push_back({below(3) == 0 ? Kind::notify_all : Kind::notify_one, object});
-      }
-    }
-  }
-  return program;
-}
-
-Outcome run_by_the_book(const Program& program) { return Model(program).run(); }
+Outcome run_by_the_book(const Program& program, const Choices& choices) { return Model(program, choices).run(); }
 
 }  // namespace waitpoint::reference

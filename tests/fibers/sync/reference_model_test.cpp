@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <deque>
 #include <ostream>
 
 #include "fibers/sync/condition_variable.hpp"
+#include "fibers/sync/periodic_timer.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/sync/orders.hpp"
@@ -13,98 +16,174 @@
 namespace waitpoint::reference {
 
 void PrintTo(const Done& done, std::ostream* out) {
-  *out << "task " << done.task << " step " << done.step << " at " << done.time_ns << (done.in_time ? "" : " too late");
+  *out << "task " << done.task << " step " << done.step << " at " << done.time_ns << ": " << done.result;
 }
 
 namespace {
 
 using std::chrono::nanoseconds;
 
-struct Objects {
-  timed_mutex timed[objects_of_a_kind];
-  counting_semaphore<> semaphores[objects_of_a_kind] = {counting_semaphore<>(1), counting_semaphore<>(1),
-                                                        counting_semaphore<>(1)};
-  condition_variable conditions[objects_of_a_kind];
+// What the tasks of a program share, and what each has for itself.
+struct World {
+  explicit World(const Program& of) : program(of), ids(of.tasks.size()), threads(of.tasks.size()) {
+    for (std::size_t i = 0; i < program.objects; ++i) {
+      mutexes.emplace_back();
+      semaphores.emplace_back(1);
+      conditions.emplace_back();
+    }
+    for (const std::int64_t period_ns : program.periods_ns) timers.emplace_back(Period::every(nanoseconds(period_ns)));
+  }
+
+  std::int64_t do_step(std::size_t task, const Step& step);
+  void do_task(std::size_t task);
+
+  const Program& program;
+  Outcome outcome;
+  std::vector<std::uint64_t> ids;
+  std::deque<timed_mutex> mutexes;
+  std::deque<counting_semaphore<>> semaphores;
+  std::deque<condition_variable> conditions;
+  std::deque<periodic_timer> timers;
+  std::vector<thread> threads;
 };
 
-bool do_step(const Step& step, Objects& o) {
+constexpr thread_attributes small_stack{.name = "task", .stack = kernel::StackSize::small};
+
+std::int64_t World::do_step(std::size_t task, const Step& step) {
   const nanoseconds span(step.span_ns);
   switch (step.kind) {
     case Kind::compute: compute(span); break;
     case Kind::sleep: this_thread::sleep_for(span); break;
     case Kind::yield: this_thread::yield(); break;
-    case Kind::lock: o.timed[step.object].lock(); break;
-    case Kind::lock_for: return o.timed[step.object].try_lock_for(span);
-    case Kind::unlock: o.timed[step.object].unlock(); break;
-    case Kind::acquire: o.semaphores[step.object].acquire(); break;
-    case Kind::acquire_for: return o.semaphores[step.object].try_acquire_for(span);
-    case Kind::release: o.semaphores[step.object].release(); break;
+    case Kind::lock: mutexes[step.object].lock(); break;
+    case Kind::lock_for: return mutexes[step.object].try_lock_for(span);
+    case Kind::unlock: mutexes[step.object].unlock(); break;
+    case Kind::acquire: semaphores[step.object].acquire(); break;
+    case Kind::acquire_for: return semaphores[step.object].try_acquire_for(span);
+    case Kind::release: semaphores[step.object].release(); break;
     case Kind::wait_for: {
-      std::unique_lock<mutex> lock(o.timed[step.mutex], std::adopt_lock);
-      const bool in_time = o.conditions[step.object].wait_for(lock, span) == cv_status::no_timeout;
+      std::unique_lock<mutex> lock(mutexes[step.mutex], std::adopt_lock);
+      const bool in_time = conditions[step.object].wait_for(lock, span) == cv_status::no_timeout;
       lock.release();
       return in_time;
     }
-    case Kind::notify_one: o.conditions[step.object].notify_one(); break;
-    case Kind::notify_all: o.conditions[step.object].notify_all(); break;
+    case Kind::notify_one: conditions[step.object].notify_one(); break;
+    case Kind::notify_all: conditions[step.object].notify_all(); break;
+    case Kind::tick: return timers[task].wait();
+    case Kind::spawn:
+      threads[step.object] = thread(small_stack, [this, child = step.object] { do_task(child); });
+      break;
+    case Kind::join: threads[step.object].join(); break;
+    case Kind::detach: threads[step.object].detach(); break;
   }
-  return true;
+  return 1;
 }
 
-Outcome run_on_the_scheduler(const Program& program, const SimulationOptions& options = {}) {
-  Objects objects;
+void World::do_task(std::size_t task) {
+  ids[task] = kernel::running->id;
+  const std::vector<Step>& steps = program.tasks[task];
+  for (std::size_t step = 0; step < steps.size();) {
+    const std::int64_t result = do_step(task, steps[step]);
+    outcome.done.push_back({task, step, now().ns(), result});
+    step = steps[step].kind == Kind::lock_for && result == 0 ? steps[step].otherwise : step + 1;
+  }
+}
+
+struct Run {
   Outcome outcome;
+  std::vector<std::uint64_t> ids;  // of the tasks: what their choices are hashes of
+};
+
+Run run_on_the_scheduler(const Program& program, const SimulationOptions& options = {}) {
+  World world(program);
   Simulation simulation(options);
-  for (std::size_t i = 0; i < program.size(); ++i)
-    simulation.spawn(simulation.environment(), {.stack = kernel::StackSize::small}, [&, i] {
-      for (std::size_t step = 0; step < program[i].size();) {
-        const bool in_time = do_step(program[i][step], objects);
-        outcome.done.push_back({i, step, now().ns(), in_time});
-        step = program[i][step].kind == Kind::lock_for && !in_time ? program[i][step].otherwise : step + 1;
-      }
-    });
-  // The last task to be blocked may leave the time behind its last event: the end is where the run stopped.
-  kernel::RunState state = simulation.scheduler().run_before(Time::max());
-  outcome.ended = state == kernel::RunState::stopped;
-  outcome.end_ns = simulation.global_time().ns();
+  for (std::size_t i = 0; i < program.roots; ++i)
+    simulation.spawn(simulation.environment(), {.stack = kernel::StackSize::small}, [&world, i] { world.do_task(i); });
+  const kernel::RunState state = simulation.scheduler().run_before(Time::max());
+  world.outcome.ended = state == kernel::RunState::stopped;
+  world.outcome.end_ns = simulation.global_time().ns();
+  world.outcome.events = simulation.scheduler().events();
   simulation.unwind();
-  return outcome;
+  return {std::move(world.outcome), std::move(world.ids)};
 }
 
-TEST(ReferenceModel, TheSchedulerDoesRandomProgramsAsTheAlgorithmsSay) {
+// The choices of a seeded order: nothing but hashes of the seed, the task and its own count of events.
+Choices choices_of_seed(std::uint64_t seed, const std::vector<std::uint64_t>& ids) {
+  const auto record = [&ids](std::size_t task, std::uint64_t sequence) {
+    kernel::Task so_far;
+    so_far.id = ids[task];
+    so_far.sequence = sequence;
+    return so_far;
+  };
+  return {
+      .tie =
+          [=](std::size_t task, std::uint64_t sequence) {
+            return kernel::make_order(kernel::Phase::tasks,
+                                      kernel::Chooser(kernel::Order::seeded, seed).tie(record(task, sequence)));
+          },
+      .waiter =
+          [=](std::size_t waker, std::uint64_t sequence, std::uint32_t count) {
+            return kernel::Chooser(kernel::Order::seeded, seed).waiter(record(waker, sequence), count);
+          },
+  };
+}
+
+// What programs came to, all together.
+struct Tally {
+  int programs = 0;
   int ended = 0;
-  std::size_t steps = 0;
-  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
-    const Program program = random_program(seed, 2 + seed % 7, 10 + seed % 31);
-    const Outcome expected = run_by_the_book(program), found = run_on_the_scheduler(program);
-    ASSERT_EQ(found.done, expected.done) << "program " << seed;
-    ASSERT_EQ(found.ended, expected.ended) << "program " << seed;
-    ASSERT_EQ(found.end_ns, expected.end_ns) << "program " << seed;
-    ended += found.ended;
-    steps += found.done.size();
-  }
-  // Programs that end and programs that hang were both among them, and most had something to do.
-  EXPECT_GT(ended, 60);
-  EXPECT_LT(ended, 540);
-  EXPECT_GT(steps, 40'000u);
+  std::uint64_t events = 0;
+};
+
+// Runs a random program both ways, in the default order (seed 0) or that of `seed`.
+void compare(std::uint64_t number, std::size_t tasks, std::size_t steps, std::uint64_t seed, Tally& tally) {
+  const Program program = random_program(number, tasks, steps);
+  const auto [found, ids] = run_on_the_scheduler(program, order_number(seed));
+  const Outcome expected = run_by_the_book(program, seed == 0 ? Choices() : choices_of_seed(seed, ids));
+  const auto [here, there] =
+      std::mismatch(found.done.begin(), found.done.end(), expected.done.begin(), expected.done.end());
+  ASSERT_TRUE(here == found.done.end() && there == expected.done.end())
+      << "program " << number << ", seed " << seed << ", step " << here - found.done.begin() << ": "
+      << (here == found.done.end() ? "the end" : testing::PrintToString(*here)) << ", by the book "
+      << (there == expected.done.end() ? "the end" : testing::PrintToString(*there));
+  ASSERT_EQ(found.events, expected.events) << "program " << number << ", seed " << seed;
+  ASSERT_EQ(found.ended, expected.ended) << "program " << number << ", seed " << seed;
+  ASSERT_EQ(found.end_ns, expected.end_ns) << "program " << number << ", seed " << seed;
+  ++tally.programs;
+  tally.ended += found.ended;
+  tally.events += found.events;
 }
 
-// In the other orders nothing is foretold, but each step is done in time order, and no mutex is held by two.
-TEST(ReferenceModel, SeededOrdersKeepTimeAndMutualExclusion) {
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+TEST(ReferenceModel, AMillionEventsOfRandomProgramsAreAsTheAlgorithmsSay) {
+  Tally small, large;
+  for (std::uint64_t number = 1; number <= 1200 && !testing::Test::HasFatalFailure(); ++number)
+    compare(number, 2 + number % 9, 10 + number % 61, number % 3, small);
+  for (std::uint64_t number = 1; number <= 12 && !testing::Test::HasFatalFailure(); ++number)
+    compare(number, 40 * number, 300, number % 3, large);
+  if (testing::Test::HasFatalFailure()) return;
+  // Programs that end and programs that hang were both among them.
+  EXPECT_GT(small.ended, 120);
+  EXPECT_LT(small.ended, 1080);
+  EXPECT_GT(small.events + large.events, 1'000'000u);
+  RecordProperty("events", std::to_string(small.events + large.events));
+}
+
+// Whatever the model says: each step is done in time order, and no mutex is held by two.
+TEST(ReferenceModel, EveryOrderKeepsTimeAndMutualExclusion) {
+  for (std::uint64_t seed = 0; seed <= 200; ++seed) {
     const Program program = random_program(seed, 6, 30);
-    const Outcome outcome = run_on_the_scheduler(program, order_number(seed));
-    const std::size_t nobody = program.size();
-    std::vector<std::size_t> owner(objects_of_a_kind, nobody), next_step(program.size(), 0);
+    const Outcome outcome = run_on_the_scheduler(program, order_number(seed)).outcome;
+    const std::size_t nobody = program.tasks.size();
+    std::vector<std::size_t> owner(program.objects, nobody), next_step(program.tasks.size(), 0);
     // A task that is in a wait does not hold the mutex.
     const auto is_free = [&](std::size_t mutex) {
       const std::size_t task = owner[mutex];
-      return task == nobody || program[task][next_step[task]].kind == Kind::wait_for;
+      return task == nobody || program.tasks[task][next_step[task]].kind == Kind::wait_for;
     };
     std::int64_t time = 0;
     for (const Done& done : outcome.done) {
-      const Step& step = program[done.task][done.step];
-      if (step.kind == Kind::lock || (step.kind == Kind::lock_for && done.in_time)) {
+      const Step& step = program.tasks[done.task][done.step];
+      if (step.kind == Kind::lock || (step.kind == Kind::lock_for && done.result != 0)) {
         ASSERT_TRUE(is_free(step.object));
         owner[step.object] = done.task;
       } else if (step.kind == Kind::unlock) {
@@ -115,7 +194,8 @@ TEST(ReferenceModel, SeededOrdersKeepTimeAndMutualExclusion) {
         owner[step.mutex] = done.task;
       }
       next_step[done.task] = done.step + 1;
-      if (step.kind == Kind::compute) continue;  // ahead of the others
+      // What needs no waitpoint may be ahead of the others.
+      if (step.kind == Kind::compute || step.kind == Kind::spawn || step.kind == Kind::detach) continue;
       ASSERT_GE(done.time_ns, time);
       time = done.time_ns;
     }
