@@ -51,14 +51,15 @@ class Digest {
 class PairDigest {
  public:
   constexpr void add(std::uint64_t first, std::uint64_t second) {
-    place_ += 0x9E3779B97F4A7C15u;
-    sum_ += Digest::mix(first * 0xD6E8FEB86659FD93u + std::rotl(second * 0xA0761D6478BD642Fu, 32) + place_);
+    const std::uint64_t place = ++pairs_ * 0x9E3779B97F4A7C15u;
+    sum_ += Digest::mix(first * 0xD6E8FEB86659FD93u + std::rotl(second * 0xA0761D6478BD642Fu, 32) + place);
   }
 
+  constexpr std::uint64_t pairs() const { return pairs_; }
   /// Of all pairs so far, and how many they are.
   constexpr Digest digest() const {
     Digest digest;
-    digest.add(place_);
+    digest.add(pairs_);
     digest.add(sum_);
     return digest;
   }
@@ -66,7 +67,7 @@ class PairDigest {
 
  private:
   std::uint64_t sum_ = 0;
-  std::uint64_t place_ = 0;
+  std::uint64_t pairs_ = 0;
 };
 
 /// The printed form: "wp1:" and 16 hexadecimal digits. The prefix changes when the definition of what is hashed does.

@@ -6,9 +6,9 @@ namespace waitpoint::tools {
 void DigestRecorder::record(const Simulation& simulation, std::int64_t second) {
   for (const kernel::Robot* robot = simulation.scheduler().first_robot(); robot != nullptr; robot = robot->next) {
     char line[160];
-    const int length =
-        std::snprintf(line, sizeof line, "%lld %s %s %llu\n", static_cast<long long>(second), robot->name,
-                      to_string(robot->digest.digest()).c_str(), static_cast<unsigned long long>(robot->events));
+    const int length = std::snprintf(line, sizeof line, "%lld %s %s %llu\n", static_cast<long long>(second),
+                                     robot->name, to_string(robot->digest.digest()).c_str(),
+                                     static_cast<unsigned long long>(robot->digest.pairs()));
     file_.write({line, static_cast<std::size_t>(length)});
   }
 }

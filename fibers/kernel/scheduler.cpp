@@ -34,7 +34,8 @@ constexpr int stack_lines_fetched = 6;
 
 }  // namespace
 
-Scheduler::Scheduler(Order order, std::uint64_t seed) : events_(2 * tasks_max), chooser_(order, seed), epoch_(++runs) {}
+Scheduler::Scheduler(Order order, std::uint64_t seed)
+    : events_(2 * tasks_max), chooser_(order, seed), epoch_(++runs), may_stay_(order == Order::fifo) {}
 
 Scheduler::~Scheduler() {
   WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
@@ -79,7 +80,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
     ++live_tasks_;
     ++robot.live_tasks;
   }
-  events_.insert(task.event, key(task, task.local_time));
+  put(task.event, key(task, task.local_time));
   return &task;
 }
 
@@ -128,8 +129,8 @@ inline Task* Scheduler::due(EventNode& node, Time time) {
   if (task.state == TaskState::blocked) {
     remove_waiter(task);
     task.wake = Wake::timed_out;
+    set_local_time(task, time);
   }
-  task.local_time = time;
   resume(task);
   return &task;
 }
@@ -151,6 +152,19 @@ inline void Scheduler::resume(Task& task) {
   WAITPOINT_CHECK(StackArena::intact(task.fiber.stack), "a task ran over the end of its stack");
   task.state = TaskState::running;
   running = &task;
+  stays_ = may_stay_;
+}
+
+// A new instant for the task: it may pass as many waitpoints again.
+inline void Scheduler::set_local_time(Task& task, Time time) {
+  if (task.local_time == time) return;
+  task.local_time = time;
+  task.turns = 0;
+}
+
+inline void Scheduler::put(EventNode& node, const EventKey& key) {
+  events_.insert(node, key);
+  if (key.time <= now_ && running != nullptr && key.order < make_order(running->phase, 0)) stays_ = false;
 }
 
 Fiber& Scheduler::outside(RunState state) {
@@ -233,24 +247,35 @@ inline bool Scheduler::arrive(Task& task) {
     if (interrupted_ && !rest()) return false;
   }
   now_ = task.local_time;
+  stays_ = may_stay_;
   return true;
 }
 
 bool Scheduler::arrive_after_signal(Task& task) { return arrive(task); }
 
 bool Scheduler::waitpoint(Operation operation, Object* object) {
-  if (__builtin_expect(unwinding_, 0)) return refuse();
   Task& task = *running;
+  // The case that must be quick: nothing can come between.
+  const bool stays = stays_ && task.local_time == now_ && task.attention == 0 && task.turns < turns_max;
+  if (__builtin_expect(!stays, 0)) return waitpoint_in_the_list(task, operation, object);
+  ++task.turns;
+  task.operation = operation;
+  task.at = object;
+  if (object != nullptr) enter(*object);
+  execute(task, operation, object);
+  return true;
+}
+
+bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
+  if (unwinding_) return refuse();
   if (needs_attention(task)) end_segment(task);
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
-  if (task.turns_at != task.local_time) {
-    task.turns_at = task.local_time;
+  if (task.local_time != now_)
     task.turns = 1;
-  } else if (++task.turns > turns_max && !give_turn(task)) {
+  else if (++task.turns > turns_max && !give_turn(task))
     return false;
-  }
   if (!arrive(task)) return false;
   if (needs_attention(task) && !begin_segment(task, operation, object)) return false;
   execute(task, operation, object);
@@ -263,6 +288,7 @@ bool Scheduler::yield() {
   if (needs_attention(task)) end_segment(task);
   task.operation = Operation::yield;
   task.at = nullptr;
+  if (task.local_time != now_) task.turns = 0;
   check_progress(task);
   if (unwinding_) return false;
   events_.insert(task.event, key(task, task.local_time));
@@ -283,17 +309,13 @@ bool Scheduler::sleep_until(Time time) {
 }
 
 inline void Scheduler::execute(Task& task, Operation operation, const Object* object) {
-  ++executed_;
   ++task.sequence;
   Robot& robot = *task.robot;
+  ++robot.events;
   if (!robot.ended) {
-    ++robot.events;
-    std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
-    if (object != nullptr) {
-      what |= object->number;
-      if (object->robot != &robot) what ^= object->robot->id;
-    }
-    robot.digest.add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
+    const std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
+    robot.digest.add(static_cast<std::uint64_t>(now_.ns()),
+                     task.id + (object != nullptr ? what ^ object->identity : what));
   }
   if (__builtin_expect(watch_ != nullptr, 0)) watch_->event(*watch_, {now_, &task, operation, object});
 }
@@ -337,6 +359,7 @@ void Scheduler::adopt(Object& object) {
   object.epoch = epoch_;
   object.robot = running->robot;
   object.number = ++object.robot->objects;
+  object.identity = child_id(object.robot->id, object.number);
   object.owner = nullptr;
   object.first_waiter = object.last_waiter = nullptr;
 }
@@ -404,8 +427,8 @@ void Scheduler::wake(Task& task) {
   if (task.event.in_list()) events_.remove(task.event);
   task.wake = Wake::woken;
   task.state = TaskState::ready;
-  task.local_time = now_;
-  events_.insert(task.event, key(task, now_));
+  set_local_time(task, now_);
+  put(task.event, key(task, now_));
 }
 
 Task* Scheduler::wake_one(Object& object) {
@@ -432,12 +455,18 @@ void Scheduler::wake_all(Object& object) {
   while (object.first_waiter != nullptr) wake(*object.first_waiter);
 }
 
+std::uint64_t Scheduler::events() const {
+  std::uint64_t events = 0;
+  for (const Robot* robot = first_robot_; robot != nullptr; robot = robot->next) events += robot->events;
+  return events;
+}
+
 void Scheduler::schedule(EventNode& node, Time time, const Object& timer) {
-  events_.insert(node, {time, make_order(Phase::deliveries, Chooser::tie(timer))});
+  put(node, {time, make_order(Phase::deliveries, Chooser::tie(timer))});
 }
 
 void Scheduler::deliver(EventNode& node, Time time, Robot& sender) {
-  events_.insert(node, {time, make_order(Phase::deliveries, Chooser::tie(sender, ++sender.messages))});
+  put(node, {time, make_order(Phase::deliveries, Chooser::tie(sender, ++sender.messages))});
 }
 
 void Scheduler::declare_latency(Duration least) {

@@ -28,9 +28,9 @@ struct Robot {
   char name[name_size] = {};
   Robot* next = nullptr;
   Scheduler* scheduler = nullptr;
-  PairDigest digest;     ///< of its own events and outputs, until it ended
-  std::uint64_t id = 0;  ///< from its name
-  std::uint64_t events = 0;
+  PairDigest digest;             ///< of its own events and outputs, until it ended
+  std::uint64_t id = 0;          ///< from its name
+  std::uint64_t events = 0;      ///< of its tasks, also after it ended
   std::uint64_t messages = 0;    ///< sent to other robots
   std::uint32_t objects = 0;     ///< numbers given to objects
   std::uint32_t children = 0;    ///< tasks spawned from outside any task
@@ -47,10 +47,11 @@ struct Object {
 
   const char* kind;
   const char* label;
-  std::uint64_t epoch = 0;   ///< of the run that the rest belongs to
-  std::uint32_t number = 0;  ///< at first use in a run, counted per robot
-  Robot* robot = nullptr;    ///< whose count that is
-  Task* owner = nullptr;     ///< who holds it, where it can be held
+  std::uint64_t epoch = 0;     ///< of the run that the rest belongs to
+  std::uint32_t number = 0;    ///< at first use in a run, counted per robot
+  std::uint64_t identity = 0;  ///< of robot and number: what the digest takes in
+  Robot* robot = nullptr;      ///< whose count that is
+  Task* owner = nullptr;       ///< who holds it, where it can be held
   Task* first_waiter = nullptr;
   Task* last_waiter = nullptr;
 };
@@ -84,8 +85,7 @@ struct Task {
   std::uint64_t sequence = 0;  ///< its events so far
   const Object* at = nullptr;  ///< the object of its last waitpoint, if any
   Fiber fiber;
-  Time turns_at;
-  std::uint32_t turns = 0;  ///< waitpoints passed at one instant
+  std::uint32_t turns = 0;  ///< waitpoints passed at its local time
   Phase phase = Phase::tasks;
   TaskState state = TaskState::ready;
   Operation operation = Operation::start;
