@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How long the tasks of the timed workloads sleep, in nanoseconds of virtual time; the same for everybody.
+//
+//   periods       each task its own period, all unequal, between 1 and 9 ms
+//   harmonic      periods of 1, 2, 4 and 8 ms: whole crowds are due at the same instant
+//   exponential   mean 5 ms
+//   bimodal       nine of ten sleeps about 0.5 ms, the tenth about 45 ms
+//   far           99 of 100 sleeps about 5 ms, the last one 5 s
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace waitpoint::bench {
+
+/// Mixes the bits of `x` (the finaliser of splitmix64).
+inline std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15u;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+  return x ^ (x >> 31);
+}
+
+/// In (0, 1).
+inline double uniform(std::uint64_t number) { return (static_cast<double>(mixed(number) >> 12) + 0.5) * 0x1p-52; }
+
+constexpr std::int64_t mean_sleep_ns = 5'000'000;
+
+/// Of task `i` of `tasks`: a random one of as many equal parts of the range, and a random place in it. Distinct, for the
+/// parts are: they are dealt by a multiplication that permutes them.
+inline std::int64_t period_ns(int i, int tasks) {
+  constexpr std::int64_t least = 1'000'000, range = 8'000'000, multiplier = 1'000'003;  // a prime above all tasks
+  const std::int64_t part = i * multiplier % tasks, width = range / tasks;
+  return least + part * width + static_cast<std::int64_t>(uniform(static_cast<std::uint64_t>(i)) * static_cast<double>(width));
+}
+
+inline std::int64_t harmonic_period_ns(int i) { return std::int64_t{1'000'000} << (i % 4); }
+
+/// A long list of increments that every task goes round in, from a place of its own: drawing them costs next to nothing.
+class Increments {
+ public:
+  explicit Increments(const std::string& kind) : list_(size) {
+    for (std::size_t k = 0; k < size; ++k) list_[k] = draw(kind, k);
+  }
+  std::size_t start(int task) const { return mixed(static_cast<std::uint64_t>(task)) % size; }
+  /// The increment at `at`, which moves on.
+  std::int64_t next(std::size_t& at) const { return list_[at++ % size]; }
+
+ private:
+  static constexpr std::size_t size = std::size_t{1} << 14;
+
+  static std::int64_t draw(const std::string& kind, std::uint64_t k) {
+    const double mean = mean_sleep_ns, choice = uniform(2 * k), u = uniform(2 * k + 1);
+    double ns = 0;
+    if (kind == "exponential")
+      ns = -mean * std::log(u);
+    else if (kind == "bimodal")
+      ns = choice < 0.9 ? 0.2 * mean * u : mean * (8.6 + u);
+    else
+      ns = choice < 0.99 ? 2 * mean * u : mean * (999.5 + u);
+    return 1 + static_cast<std::int64_t>(ns);
+  }
+
+  std::vector<std::int64_t> list_;
+};
+
+}  // namespace waitpoint::bench

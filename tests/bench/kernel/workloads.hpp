@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The workloads, written once for all who are compared. A Kit gives the primitives of one of them:
+//
+//   Kit::clock                    what time counts
+//   Kit::spawn(i, tasks, body)    task number i; from within a task
+//   Kit::sleep(ns)                of virtual time
+//   Kit::Semaphore(units)         acquire, release
+//   Kit::Signal(units)            a semaphore with acquire_for(ns), false when it timed out
+//   Kit::Mutex, Kit::Condition    lock, unlock; wait(mutex), notify
+//
+// Where tasks hand over to each other at one instant, virtual time moves on now and then, in all of them alike.
+#pragma once
+
+#include <algorithm>
+#include <deque>
+#include <vector>
+
+#include "tests/bench/kernel/increments.hpp"
+#include "tests/bench/kernel/meter.hpp"
+
+namespace waitpoint::bench {
+
+/// Hand-overs, items or locks between two instants.
+constexpr int at_one_instant = 256;
+constexpr std::int64_t step_ns = 1000;
+/// Virtual time that holds some ten thousand events of the workloads that hand over.
+constexpr std::int64_t many_steps_ns = 50 * step_ns;
+
+/// Tasks that sleep and wake up. Some 20 000 wake-ups pass in one stretch of the measurement.
+template <class Kit>
+void sleepers(const Request& request) {
+  const int n = request.tasks;
+  static const Increments increments(request.workload);
+  for (int i = 0; i < n; ++i)
+    if (request.workload == "periods" || request.workload == "harmonic")
+      Kit::spawn(i, n, [period = request.workload == "periods" ? period_ns(i, n) : harmonic_period_ns(i)] {
+        for (;;) {
+          Kit::sleep(period);
+          count();
+        }
+      });
+    else
+      Kit::spawn(i, n, [at = increments.start(i)]() mutable {
+        for (;;) {
+          Kit::sleep(increments.next(at));
+          count();
+        }
+      });
+  measure(request, Kit::clock, [stretch = 20'000 * mean_sleep_ns / n] { Kit::sleep(stretch); });
+}
+
+/// Pairs that hand over to and fro, each wait with a timeout. One wait of a thousand does time out.
+template <class Kit>
+void timeouts(const Request& request) {
+  constexpr std::int64_t timeout_ns = 100 * step_ns;
+  struct Pair {
+    typename Kit::Signal there{0}, back{0};
+  };
+  static std::deque<Pair> pairs(static_cast<std::size_t>(request.tasks / 2));
+  for (int i = 0; i + 1 < request.tasks; i += 2) {
+    Pair& pair = pairs[static_cast<std::size_t>(i / 2)];
+    Kit::spawn(i, request.tasks, [&pair, i] {
+      for (std::int64_t round = i;; ++round) {
+        for (int k = 0; k < 32; ++k) {
+          pair.there.release();
+          pair.back.acquire_for(timeout_ns);
+          count();
+        }
+        Kit::sleep(round % 16 == 0 ? 3 * timeout_ns / 2 : step_ns + i);
+      }
+    });
+    Kit::spawn(i + 1, request.tasks, [&pair] {
+      for (;;) {
+        if (pair.there.acquire_for(timeout_ns)) pair.back.release();
+        count();
+      }
+    });
+  }
+  measure(request, Kit::clock, [stretch = 1 + 300 * many_steps_ns / request.tasks] { Kit::sleep(stretch); });
+}
+
+/// Two tasks that hand over to and fro by semaphores.
+template <class Kit>
+void handover(const Request& request) {
+  static typename Kit::Semaphore there(0), back(0);
+  Kit::spawn(0, 2, [] {
+    for (;;) {
+      for (int k = 0; k < at_one_instant; ++k) {
+        there.release();
+        back.acquire();
+        count(2);
+      }
+      Kit::sleep(step_ns);
+    }
+  });
+  Kit::spawn(1, 2, [] {
+    for (;;) {
+      there.acquire();
+      back.release();
+    }
+  });
+  measure(request, Kit::clock, [] { Kit::sleep(many_steps_ns); });
+}
+
+/// Tasks that want the same mutex, and sleep while they hold it. Answers also how often it was had by who had it least,
+/// as a part of an equal share, and how many times more by who had it most.
+template <class Kit>
+void mutex_with_sleep(const Request& request) {
+  static typename Kit::Mutex mutex;
+  static std::vector<std::uint64_t> served(static_cast<std::size_t>(request.tasks));
+  for (int i = 0; i < request.tasks; ++i)
+    Kit::spawn(i, request.tasks, [&mine = served[static_cast<std::size_t>(i)]] {
+      for (;;) {
+        mutex.lock();
+        Kit::sleep(step_ns);
+        ++mine;
+        count();
+        mutex.unlock();
+      }
+    });
+  measure(request, Kit::clock, [] { Kit::sleep(10'000 * step_ns); });
+  const auto [least, most] = std::minmax_element(served.begin(), served.end());
+  answer("served_least", static_cast<double>(*least) * request.tasks / static_cast<double>(events()));
+  answer("served_apart", static_cast<double>(*most - *least));
+}
+
+/// A producer and a consumer with 16 places between them, each place guarded by the mutex and told of by a condition
+/// variable, as the textbook has it.
+template <class Kit>
+void buffer(const Request& request) {
+  constexpr int places = 16;
+  static typename Kit::Mutex mutex;
+  static typename Kit::Condition not_full, not_empty;
+  static int items[places], first = 0, stored = 0;
+  static std::int64_t sum = 0;
+  Kit::spawn(0, 2, [] {
+    for (int item = 1;; ++item) {
+      mutex.lock();
+      while (stored == places) not_full.wait(mutex);
+      items[(first + stored++) % places] = item;
+      not_empty.notify();
+      mutex.unlock();
+      if (item % at_one_instant == 0) Kit::sleep(step_ns);
+    }
+  });
+  Kit::spawn(1, 2, [] {
+    for (;;) {
+      mutex.lock();
+      while (stored == 0) not_empty.wait(mutex);
+      sum += items[first];
+      first = (first + 1) % places;
+      --stored;
+      count();
+      not_full.notify();
+      mutex.unlock();
+    }
+  });
+  measure(request, Kit::clock, [] { Kit::sleep(many_steps_ns); });
+}
+
+/// One task that locks and unlocks a mutex which nobody else wants.
+template <class Kit>
+void free_mutex(const Request& request) {
+  static typename Kit::Mutex mutex;
+  Kit::spawn(0, 1, [] {
+    for (;;) {
+      for (int k = 0; k < at_one_instant; ++k) {
+        mutex.lock();
+        mutex.unlock();
+      }
+      count(at_one_instant);
+      Kit::sleep(step_ns);
+    }
+  });
+  measure(request, Kit::clock, [] { Kit::sleep(many_steps_ns); });
+}
+
+/// What a parked task keeps resident: on its stack, in its records, in the page tables.
+template <class Kit>
+void parked(const Request& request) {
+  static typename Kit::Semaphore never(0);
+  const std::int64_t before = resident_bytes(), tables_before = page_table_bytes();
+  for (int i = 0; i < request.tasks; ++i) Kit::spawn(i, request.tasks, [] { never.acquire(); });
+  Kit::sleep(step_ns);
+  answer("bytes", static_cast<double>(resident_bytes() - before) / request.tasks);
+  answer("page_table_bytes", static_cast<double>(page_table_bytes() - tables_before) / request.tasks);
+}
+
+/// The workload asked for, from within the first task of a kit that has virtual time.
+template <class Kit>
+void carry_out(const Request& request) {
+  const std::string& workload = request.workload;
+  if (workload == "timeouts") return timeouts<Kit>(request);
+  if (workload == "handover") return handover<Kit>(request);
+  if (workload == "mutex") return mutex_with_sleep<Kit>(request);
+  if (workload == "buffer") return buffer<Kit>(request);
+  if (workload == "free mutex") return free_mutex<Kit>(request);
+  if (workload == "parked") return parked<Kit>(request);
+  sleepers<Kit>(request);
+}
+
+}  // namespace waitpoint::bench
