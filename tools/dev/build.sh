@@ -24,6 +24,17 @@ configure() {
   fi
 }
 
+# Peers of the benchmarks that were installed since build/ was set up: Meson looks for libraries only then.
+look_for_peers() {
+  local peer
+  for peer in boost-fiber simgrid systemc; do
+    if ! grep -qF "tests/bench/kernel-$peer:" "$build/build.ninja"; then
+      meson setup --reconfigure "$build" "$root" >&2
+      return
+    fi
+  done
+}
+
 compile() { (cd "$build" && ninja -j "$(nproc)" "$@") >&2; }
 
 # Every C++ source of the repository, each ended by a NUL, relative to its root: the current folder.

@@ -8,6 +8,7 @@ declare -A debian=(
          nlohmann-json3-dev libpng-dev'
   [test]='libgtest-dev clang gdb'
   [bench]='libbenchmark-dev'
+  [peers]='libsystemc-dev libsimgrid-dev libboost-fiber-dev'
   [check]='clang-format clang-tidy'
   [format]='clang-format'
 )
@@ -16,12 +17,14 @@ declare -A upstream=(
          yaml-cpp, CLI11, fmt, nlohmann_json, libpng'
   [test]='GoogleTest, g++ and clang++, gdb'
   [bench]='Google Benchmark'
+  [peers]='SystemC 2.3.4, SimGrid 3.32, Boost.Fiber 1.74 (each is left out where it is missing)'
   [check]='clang-format and clang-tidy 14'
   [format]='clang-format 14'
 )
-# Without these nothing can be built; all libraries but Google Benchmark come from subprojects/ when they are missing.
+# Without these nothing can be built; all libraries but Google Benchmark and its peers come from subprojects/ when they
+# are missing.
 declare -A tools=(
-  [run]='meson ninja c++ pkg-config python3' [test]='' [bench]='' [check]='' [format]='clang-format'
+  [run]='meson ninja c++ pkg-config python3' [test]='' [bench]='' [peers]='' [check]='' [format]='clang-format'
 )
 
 say() { echo "dev: $*" >&2; }

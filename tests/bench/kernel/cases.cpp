@@ -18,9 +18,12 @@ Case sleepers(const char* workload, int tasks, const char* what, std::vector<Bou
 
 const std::vector<Subject>& subjects() {
   static const std::vector<Subject> all = {
-      {"waitpoint", "waitpoint", false, 0},      {"limit", limit, false, 0},
-      {"systemc", systemc, true, 100'000},       {"simgrid", simgrid, true, 100'000},
-      {"boost-fiber", "libboost-fiber-dev", true, 100'000}, {"threads", threads, true, 10'000},
+      {"waitpoint", "waitpoint", false, 0},
+      {"limit", limit, false, 0},
+      {"systemc", systemc, true, 100'000},
+      {"simgrid", simgrid, true, 100'000},
+      {"boost-fiber", "libboost-fiber-dev", true, 100'000},
+      {"threads", threads, true, 1'000},
   };
   return all;
 }
@@ -43,9 +46,18 @@ const std::vector<Case>& cases() {
       {"timeouts", 1'000, "timeouts cancelled", "ns a wait", {faster_than(systemc, 5)}, {ns(15)}},
       sleepers("periods", 100'000, "timed wake-ups", {faster_than(systemc, 10)}, {faster_than(systemc, 25)}),
       sleepers("periods", 1'000'000, "timed wake-ups", {{"resident_gb", "", 6}}, {ns(110)}),
-      {"handover", 2, "semaphore hand-over", "ns a hand-over", {faster_than(systemc, 4), faster_than(threads, 150)},
+      {"handover",
+       2,
+       "semaphore hand-over",
+       "ns a hand-over",
+       {faster_than(systemc, 4), faster_than(threads, 150)},
        {ns(8)}},
-      {"mutex", 8, "mutex, sleep inside", "ns a locking", {faster_than(systemc, 10), {"served_apart", "", 1}}, {ns(12)}},
+      {"mutex",
+       8,
+       "mutex, sleep inside",
+       "ns a locking",
+       {faster_than(systemc, 10), {"served_apart", "", 1}},
+       {ns(12)}},
       {"buffer", 2, "bounded buffer", "ns an item", {faster_than(systemc, 2), faster_than(threads, 150)}, {ns(7)}},
       {"free mutex", 1, "free mutex", "ns a lock + unlock", {ns(15)}, {ns(4)}},
       {"parked", 10'000, "parked task", "", {{"bytes", "", 5 * 1024}}, {{"bytes", "", 4.4 * 1024}}},

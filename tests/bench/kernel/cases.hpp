@@ -10,9 +10,9 @@ namespace waitpoint::bench {
 /// One who carries workloads out, each a program of its own, build/tests/bench/kernel-PROGRAM.
 struct Subject {
   std::string program;
-  std::string name;     ///< in tables: of a peer, the package that it comes from
-  bool peer = true;     ///< else it is us, or the limit, which need nothing that is not needed anyway
-  int tasks_max = 0;    ///< more it cannot; 0 is without limit
+  std::string name;   ///< in tables: of a peer, the package that it comes from
+  bool peer = true;   ///< else it is us, or the limit, which need nothing that is not needed anyway
+  int tasks_max = 0;  ///< more it cannot; 0 is without limit
 };
 const std::vector<Subject>& subjects();
 
@@ -28,7 +28,7 @@ struct Case {
   std::string workload;
   int tasks;
   std::string title;
-  std::string unit;                  ///< what a nanosecond figure is counted by
+  std::string unit;  ///< what a nanosecond figure is counted by
   std::vector<Bound> musts, aims;
 };
 const std::vector<Case>& cases();

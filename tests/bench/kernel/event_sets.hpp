@@ -4,7 +4,8 @@
 // Each task has one event. The order is exact: by time, then by insertion.
 //
 //   HeapSet       a heap with four children a node: best for few events
-//   CalendarSet   days of about three events, as lists; a day is sorted when it comes. Events beyond the year wait aside.
+//   CalendarSet   days of about three events, as lists; a day is sorted when it comes. Events beyond the year wait
+//   aside.
 #pragma once
 
 #include <cstdint>

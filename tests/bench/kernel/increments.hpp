@@ -29,17 +29,19 @@ inline double uniform(std::uint64_t number) { return (static_cast<double>(mixed(
 
 constexpr std::int64_t mean_sleep_ns = 5'000'000;
 
-/// Of task `i` of `tasks`: a random one of as many equal parts of the range, and a random place in it. Distinct, for the
-/// parts are: they are dealt by a multiplication that permutes them.
+/// Of task `i` of `tasks`: a random one of as many equal parts of the range, and a random place in it. Distinct, for
+/// the parts are: they are dealt by a multiplication that permutes them.
 inline std::int64_t period_ns(int i, int tasks) {
   constexpr std::int64_t least = 1'000'000, range = 8'000'000, multiplier = 1'000'003;  // a prime above all tasks
   const std::int64_t part = i * multiplier % tasks, width = range / tasks;
-  return least + part * width + static_cast<std::int64_t>(uniform(static_cast<std::uint64_t>(i)) * static_cast<double>(width));
+  return least + part * width +
+         static_cast<std::int64_t>(uniform(static_cast<std::uint64_t>(i)) * static_cast<double>(width));
 }
 
 inline std::int64_t harmonic_period_ns(int i) { return std::int64_t{1'000'000} << (i % 4); }
 
-/// A long list of increments that every task goes round in, from a place of its own: drawing them costs next to nothing.
+/// A long list of increments that every task goes round in, from a place of its own: drawing them costs next to
+/// nothing.
 class Increments {
  public:
   explicit Increments(const std::string& kind) : list_(size) {

@@ -57,7 +57,7 @@ class Bench {
     for (const Subject* subject : present_) {
       if (subject->tasks_max != 0 && of.tasks > subject->tasks_max) continue;
       figures.push_back({subject, false, {}});
-      if (subject == present_.front() && options_.hooks) figures.push_back({subject, true, {}});
+      if (subject == present_.front() && options_.hooks && !of.unit.empty()) figures.push_back({subject, true, {}});
     }
     const int repeats = of.tasks < 100'000 ? options_.repeats : std::min(options_.repeats, 2);
     for (int i = 1; i <= repeats; ++i)
@@ -71,9 +71,7 @@ class Bench {
     fmt::print("\n{:<23}{:>8}  {:<20}{:>10} {:<19}{:>8}{:>9}{:>9}\n", "workload", "tasks", "who", "figure", "unit",
                "ratio", "must", "aim");
   }
-  void print_sum() {
-    fmt::print("\n{} of {} musts met, {} of {} aims\n", musts_met_, musts_, aims_met_, aims_);
-  }
+  void print_sum() { fmt::print("\n{} of {} musts met, {} of {} aims\n", musts_met_, musts_, aims_met_, aims_); }
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
@@ -81,7 +79,8 @@ class Bench {
 
   void measure(const Case& of, Figure& figure, int number, int repeats) {
     if (number > 1 && figure.best.end != Measured::End::answered) return;
-    fmt::print(stderr, "\r{:<78}", fmt::format("{}: {} of {}, {}", case_name(of), number, repeats, figure.subject->name));
+    fmt::print(stderr, "\r{:<78}",
+               fmt::format("{}: {} of {}, {}", case_name(of), number, repeats, figure.subject->name));
     keep_best(figure.best, measure_once(program(*figure.subject), of.workload, of.tasks, options_.budget_ms,
                                         figure.hooks, options_.limit_s));
   }
@@ -130,8 +129,8 @@ class Bench {
     const std::string bounds = against.empty() ? "" : judge(of, "ns", against, ratio);
     line(of, who, fmt::format("{:>10.1f} {:<19}{:>7.2f}x{}", value, unit, ratio, bounds));
     rows_.push_back({"kernel", case_name(of) + (figure.hooks ? ", hooks on" : ""), figure.subject->name, value, unit});
-    Row row{"kernel", fmt::format("{}, ratio to {}", case_name(of), figure.hooks ? "hooks off" : who), "waitpoint", ratio,
-            "times"};
+    Row row{"kernel", fmt::format("{}, ratio to {}", case_name(of), figure.hooks ? "hooks off" : who), "waitpoint",
+            ratio, "times"};
     for (const Bound& must : of.musts)
       if (!against.empty() && must.against == against) row.must = must.bound;
     rows_.push_back(std::move(row));
@@ -166,7 +165,8 @@ class Bench {
 };
 
 bool is_wanted(const Case& of, const Options& options) {
-  return of.tasks <= options.tasks_max && (case_name(of) + " " + of.workload).find(options.pattern) != std::string::npos;
+  return of.tasks <= options.tasks_max &&
+         (case_name(of) + " " + of.workload).find(options.pattern) != std::string::npos;
 }
 
 int main(int argc, char** argv) {

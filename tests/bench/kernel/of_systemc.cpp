@@ -18,7 +18,9 @@ namespace {
 constexpr int guarded_tasks_max = 30'000;
 bool guarded = true;
 
-sc_core::sc_time ns(std::int64_t value) { return sc_core::sc_time::from_value(static_cast<sc_core::sc_time::value_type>(value)); }
+sc_core::sc_time ns(std::int64_t value) {
+  return sc_core::sc_time::from_value(static_cast<sc_core::sc_time::value_type>(value));
+}
 
 struct Kit {
   static constexpr Clock clock = Clock::processor;
