@@ -5,9 +5,10 @@
 //   harmonic      periods of 1, 2, 4 and 8 ms: whole crowds are due at the same instant
 //   exponential   mean 5 ms
 //   bimodal       nine of ten sleeps about 0.5 ms, the tenth about 45 ms
-//   far           99 of 100 sleeps about 5 ms, the last one 5 s
+//   far           99 of 100 sleeps about 5 ms, the last one 5 s: nine of ten tasks wait far away
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -40,14 +41,25 @@ inline std::int64_t period_ns(int i, int tasks) {
 
 inline std::int64_t harmonic_period_ns(int i) { return std::int64_t{1'000'000} << (i % 4); }
 
-/// A long list of increments that every task goes round in, from a place of its own: drawing them costs next to
-/// nothing.
+/// A long list of increments that every task goes round in: drawing them costs next to nothing. A task begins at a
+/// random point of all of them laid end to end, so that the mixture of short and long sleeps is from the start what it
+/// stays.
 class Increments {
  public:
-  explicit Increments(const std::string& kind) : list_(size) {
-    for (std::size_t k = 0; k < size; ++k) list_[k] = draw(kind, k);
+  explicit Increments(const std::string& kind) : list_(size), ends_(size) {
+    std::int64_t end = 0;
+    for (std::size_t k = 0; k < size; ++k) ends_[k] = end += list_[k] = draw(kind, k);
   }
-  std::size_t start(int task) const { return mixed(static_cast<std::uint64_t>(task)) % size; }
+  std::int64_t mean_ns() const { return ends_.back() / static_cast<std::int64_t>(size); }
+
+  /// The first sleep of a task, and where it goes on.
+  std::int64_t first(int task, std::size_t& at) const {
+    const auto point =
+        static_cast<std::int64_t>(uniform(static_cast<std::uint64_t>(task)) * static_cast<double>(ends_.back()));
+    const auto end = std::upper_bound(ends_.begin(), ends_.end() - 1, point);
+    at = static_cast<std::size_t>(end - ends_.begin()) + 1;
+    return *end - point;
+  }
   /// The increment at `at`, which moves on.
   std::int64_t next(std::size_t& at) const { return list_[at++ % size]; }
 
@@ -67,6 +79,7 @@ class Increments {
   }
 
   std::vector<std::int64_t> list_;
+  std::vector<std::int64_t> ends_;  // sums up to and with each
 };
 
 }  // namespace waitpoint::bench

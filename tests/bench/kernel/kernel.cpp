@@ -145,7 +145,7 @@ class Bench {
         const bool is_met = at_least ? value >= bound.bound : value <= bound.bound;
         ++count;
         met += is_met ? 1 : 0;
-        return fmt::format("{}{:.5g} {}", at_least ? ">" : "<", bound.bound, is_met ? "yes" : "NO ");
+        return fmt::format("{}{:.4g} {}", at_least ? ">" : "<", bound.bound, is_met ? "yes" : "NO ");
       }
       return "";
     };

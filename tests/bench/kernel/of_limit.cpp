@@ -19,82 +19,90 @@ void echo(context::transfer_t from) {
   for (;;) from = context::jump_fcontext(from.fctx, nullptr);
 }
 
+/// The mean over the budget of `round`, which carries out some operations and returns how many; at least `least` of
+/// them.
+template <class Round>
+double mean_ns(int budget_ms, std::uint64_t least, Round round) {
+  std::uint64_t done = 0;
+  const std::int64_t from = clock_ns(Clock::processor);
+  std::int64_t spent = 0;
+  do {
+    done += round();
+    spent = clock_ns(Clock::processor) - from;
+  } while (spent < std::int64_t{1'000'000} * budget_ms || done < least);
+  return static_cast<double>(spent) / static_cast<double>(done);
+}
+
 double switch_ns(int budget_ms) {
   static char stack[0x4000];
-  constexpr int round = 10'000;
   context::transfer_t other{context::make_fcontext(stack + sizeof stack, sizeof stack, echo), nullptr};
-  std::uint64_t switches = 0;
-  const std::int64_t from = clock_ns(Clock::processor);
-  std::int64_t spent = 0;
-  do {
-    for (int i = 0; i < round; ++i) other = context::jump_fcontext(other.fctx, nullptr);
-    switches += 2 * round;
-    spent = clock_ns(Clock::processor) - from;
-  } while (spent < std::int64_t{1'000'000} * budget_ms);
-  return static_cast<double>(spent) / static_cast<double>(switches);
+  return mean_ns(budget_ms, 0, [&] {
+    constexpr int times = 10'000;
+    for (int i = 0; i < times; ++i) other = context::jump_fcontext(other.fctx, nullptr);
+    return 2 * times;  // there and back
+  });
 }
 
-/// The first tasks in the order of a set; `next` is a fresh start of its own.
-template <class Set, class Next>
-std::vector<std::uint32_t> first_turns(const Request& request, Next next) {
-  const auto tasks = static_cast<std::uint32_t>(request.tasks);
-  Set set(tasks, mean_sleep_ns);
-  for (std::uint32_t task = 0; task < tasks; ++task) set.insert(next(task), task);
-  std::vector<std::uint32_t> turns;
-  for (std::uint32_t i = 0; i < 3 * tasks; ++i) {
+/// The sleeps of tasks; a copy begins where the original stood.
+struct Periods {
+  explicit Periods(const Request& request) {
+    for (int i = 0; i < request.tasks; ++i)
+      of.push_back(request.workload == "harmonic" ? harmonic_period_ns(i) : period_ns(i, request.tasks));
+  }
+  std::int64_t first(std::uint32_t task) const { return of[task]; }
+  std::int64_t next(std::uint32_t task) const { return of[task]; }
+  std::int64_t mean() const { return mean_sleep_ns; }
+  std::vector<std::int64_t> of;
+};
+struct Draws {
+  explicit Draws(const Request& request) : increments(request.workload), at(static_cast<std::size_t>(request.tasks)) {}
+  std::int64_t first(std::uint32_t task) { return increments.first(static_cast<int>(task), at[task]); }
+  std::int64_t next(std::uint32_t task) { return increments.next(at[task]); }
+  std::int64_t mean() const { return increments.mean_ns(); }
+  Increments increments;
+  std::vector<std::size_t> at;
+};
+
+/// A set with its tasks.
+template <class Set, class Sleeps>
+struct Turning {
+  explicit Turning(Sleeps of) : sleeps(std::move(of)), tasks(count_of(sleeps)), set(tasks, sleeps.mean()) {
+    for (std::uint32_t task = 0; task < tasks; ++task) set.insert(sleeps.first(task), task);
+  }
+  static std::uint32_t count_of(const Periods& periods) { return static_cast<std::uint32_t>(periods.of.size()); }
+  static std::uint32_t count_of(const Draws& draws) { return static_cast<std::uint32_t>(draws.at.size()); }
+
+  /// Takes the least event out and puts that task's next one in.
+  std::uint32_t turn() {
     const SetEntry least = set.least();
-    turns.push_back(least.task);
-    set.move_least(least.time + next(least.task));
+    set.move_least(least.time + sleeps.next(least.task));
+    return least.task;
   }
-  return turns;
-}
+  double turn_ns(int budget_ms) {
+    for (std::uint32_t i = 0; i < 2 * tasks; ++i) turn();
+    return mean_ns(budget_ms, tasks, [this] {
+      constexpr int times = 20'000;
+      for (int i = 0; i < times; ++i) turn();
+      return times;
+    });
+  }
 
-/// Nanoseconds to take the least event out and to put that task's next one in.
-template <class Set, class Next>
-double turn_ns(const Request& request, Next next) {
-  constexpr int round = 20'000;
-  const auto tasks = static_cast<std::uint32_t>(request.tasks);
-  Set set(tasks, mean_sleep_ns);
-  for (std::uint32_t task = 0; task < tasks; ++task) set.insert(next(task), task);
-  const auto turns = [&](std::uint64_t count) {
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const SetEntry least = set.least();
-      set.move_least(least.time + next(least.task));
+  Sleeps sleeps;
+  std::uint32_t tasks;
+  Set set;
+};
+
+template <class Sleeps>
+double best_set_ns(const Request& request) {
+  const Sleeps sleeps(request);
+  Turning<HeapSet, Sleeps> heap(sleeps);
+  Turning<CalendarSet, Sleeps> calendar(sleeps);
+  for (std::uint32_t i = 0; i < 3 * heap.tasks; ++i)
+    if (heap.turn() != calendar.turn()) {
+      std::fprintf(stderr, "the event sets disagree on the order\n");
+      std::exit(1);
     }
-  };
-  turns(2 * tasks);
-  std::uint64_t turned = 0;
-  const std::int64_t from = clock_ns(Clock::processor);
-  std::int64_t spent = 0;
-  do {
-    turns(round);
-    turned += round;
-    spent = clock_ns(Clock::processor) - from;
-  } while (spent < std::int64_t{1'000'000} * request.budget_ms || turned < tasks);
-  return static_cast<double>(spent) / static_cast<double>(turned);
-}
-
-template <class Next>
-double best_set_ns(const Request& request, Next next) {
-  if (first_turns<HeapSet>(request, next) != first_turns<CalendarSet>(request, next)) {
-    std::fprintf(stderr, "the event sets disagree on the order\n");
-    std::exit(1);
-  }
-  return std::min(turn_ns<HeapSet>(request, next), turn_ns<CalendarSet>(request, next));
-}
-
-double set_ns(const Request& request) {
-  const int n = request.tasks;
-  std::vector<std::int64_t> periods;
-  for (int i = 0; i < n; ++i)
-    periods.push_back(request.workload == "harmonic" ? harmonic_period_ns(i) : period_ns(i, n));
-  if (request.workload == "periods" || request.workload == "harmonic")
-    return best_set_ns(request, [periods](std::uint32_t task) { return periods[task]; });
-  const Increments increments(request.workload);
-  std::vector<std::size_t> places;
-  for (int i = 0; i < n; ++i) places.push_back(increments.start(i));
-  return best_set_ns(request,
-                     [&increments, places](std::uint32_t task) mutable { return increments.next(places[task]); });
+  return std::min(heap.turn_ns(request.budget_ms), calendar.turn_ns(request.budget_ms));
 }
 
 void run(const Request& request) {
@@ -103,7 +111,10 @@ void run(const Request& request) {
       workload == "parked")
     decline();
   double ns = switch_ns(request.budget_ms);
-  if (workload != "handover") ns += set_ns(request);
+  if (workload == "periods" || workload == "harmonic")
+    ns += best_set_ns<Periods>(request);
+  else if (workload != "handover")
+    ns += best_set_ns<Draws>(request);
   answer("ns", ns);
   leave();
 }

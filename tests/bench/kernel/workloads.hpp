@@ -40,7 +40,9 @@ void sleepers(const Request& request) {
         }
       });
     else
-      Kit::spawn(i, n, [at = increments.start(i)]() mutable {
+      Kit::spawn(i, n, [i] {
+        std::size_t at = 0;
+        Kit::sleep(increments.first(i, at));
         for (;;) {
           Kit::sleep(increments.next(at));
           count();
