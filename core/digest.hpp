@@ -45,14 +45,16 @@ class Digest {
   std::uint64_t state_ = 0x77616974706F696Eu;  // "waitpoin"
 };
 
-/// As Digest, of a sequence of pairs of words that may be long and must be quick: each pair is hashed with its place in
-/// the sequence, and the hashes are added, so that none waits for the one before it. For a given place and first word
-/// the hash is a bijection of the second, and the other way round: here too no single changed bit is lost.
+/// A hash of a sequence of pairs of words that may be long and must be quick: each pair is hashed with its place in the
+/// sequence, by one multiplication to 128 bits, and the hashes are added, so that none waits for the one before it. A
+/// changed word is lost with a chance of 2^-64.
 class PairDigest {
  public:
   constexpr void add(std::uint64_t first, std::uint64_t second) {
-    const std::uint64_t place = ++pairs_ * 0x9E3779B97F4A7C15u;
-    sum_ += Digest::mix(first * 0xD6E8FEB86659FD93u + std::rotl(second * 0xA0761D6478BD642Fu, 32) + place);
+    std::uint64_t key = ++pairs_ * 0x9E3779B97F4A7C15u;
+    key ^= key >> 32;  // else the keys would be an arithmetic progression, and sums over it
+    const Product product = static_cast<Product>(first ^ key) * (second + std::rotl(key, 19));
+    sum_ += static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
   }
 
   constexpr std::uint64_t pairs() const { return pairs_; }
@@ -66,6 +68,8 @@ class PairDigest {
   constexpr std::uint64_t value() const { return digest().value(); }
 
  private:
+  __extension__ using Product = unsigned __int128;
+
   std::uint64_t sum_ = 0;
   std::uint64_t pairs_ = 0;
 };

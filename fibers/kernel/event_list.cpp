@@ -49,6 +49,12 @@ void EventList::remove(EventNode& node) {
   if (run_end_ - run_head_ < lookahead_) refill();
 }
 
+void EventList::put_later(EventNode& node, const EventKey& key) {
+  if (key.due_ns() < calendar_.horizon()) return heap_.insert({key, &node});
+  calendar_.insert(node, key);
+  if (run_end_ - run_head_ < lookahead_) refill();
+}
+
 void EventList::move_run_down() {
   std::uint32_t end = 0;
   for (std::uint32_t i = run_head_; i < run_end_; ++i) {
@@ -75,11 +81,16 @@ void EventList::refill() {
   } while (run_end_ - run_head_ < lookahead_);
 }
 
+void EventList::keep_up() {
+  if (run_end_ - run_head_ < lookahead_) refill();
+  if (until_upkeep_ == 0) calibrate();
+}
+
 // Now and then: does the calendar fit the events?
 void EventList::calibrate() {
   if (!calendar_.is_open()) passed_ += calibration_period_;
   calibration_period_ = size_ < calibration_period_min ? calibration_period_min : size_;
-  until_calibration_ = calibration_period_;
+  until_upkeep_ = calibration_period_;
   if (present_ns_ <= calibrated_at_ns_) return;
   // Where nearly all are timeouts that do not come about, too little passes to measure by.
   if (size_ >= many && passed_ >= size_ / 8) open_calendar((present_ns_ - calibrated_at_ns_) / passed_);

@@ -43,7 +43,7 @@ class EventList {
   }
 
   /// `node` must not be in the list.
-  void insert(EventNode& node, const EventKey& key) {
+  [[gnu::always_inline]] void insert(EventNode& node, const EventKey& key) {
     check_insertion(node);
     ++size_;
     put(node, key);
@@ -53,19 +53,23 @@ class EventList {
   /// The list must not be empty.
   EventNode& pop() {
     WAITPOINT_CHECK(size_ > 0, "the event list is empty");
-    EventNode& node = take_least();
-    --size_;
-    if (run_end_ - run_head_ < lookahead_) refill();
-    if (--until_calibration_ == 0) calibrate();
-    return node;
+    return take_least(heap_.least().key < run_[run_head_].key);
   }
+  /// As pop(), unless the least event is due at `until` or later, or there is none: null then.
+  EventNode* pop_before(Time until) {
+    const bool of_heap = heap_.least().key < run_[run_head_].key;
+    const EventEntry& least = of_heap ? heap_.least() : run_[run_head_];
+    return least.key.time < until ? &take_least(of_heap) : nullptr;
+  }
+  /// When the event that was taken last was due.
+  Time present() const { return Time::from_ns(static_cast<std::int64_t>(present_ns_)); }
   /// Takes the least event out and puts `node` in, which must not be there: one pass instead of two.
   EventNode& pop_and_insert(EventNode& node, const EventKey& key) {
     WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
-    if (key.due_ns() < calendar_.horizon() && heap_.least().key < run_[run_head_].key && until_calibration_ > 1) {
+    if (key.due_ns() < calendar_.horizon() && heap_.least().key < run_[run_head_].key && until_upkeep_ > 1) {
       EventNode& least = *heap_.least().node;
       present_ns_ = heap_.least().key.due_ns();
-      --until_calibration_;
+      --until_upkeep_;
       least.place = EventNode::absent;
       heap_.replace_least({key, &node});
       return least;
@@ -85,49 +89,49 @@ class EventList {
     WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
     WAITPOINT_CHECK(size_ < capacity_, "more events than the event list holds");
   }
-  void put(EventNode& node, const EventKey& key) {
-    if (key.due_ns() >= calendar_.horizon()) {
-      calendar_.insert(node, key);
-      if (run_end_ - run_head_ < lookahead_) refill();
-    } else if (key.due_ns() == present_ns_ && (run_head_ == run_end_ || !(key < run_[run_end_ - 1].key))) {
+  [[gnu::always_inline]] void put(EventNode& node, const EventKey& key) {
+    // Who is woken at the present instant: in their order, as a rule.
+    if (key.due_ns() == present_ns_ && (run_head_ == run_end_ || !(key < run_[run_end_ - 1].key)) &&
+        run_end_ < 2 * capacity_ && key.due_ns() < calendar_.horizon()) {
       append_to_run(node, key);
     } else {
-      heap_.insert({key, &node});
+      put_later(node, key);
     }
   }
-  // Who is woken at the present instant: in their order, as a rule.
   void append_to_run(EventNode& node, const EventKey& key) {
-    if (run_end_ >= 2 * capacity_) move_run_down();
     node.place = EventNode::in_run(run_end_);
-    run_[run_end_++] = {key, &node};
-    run_[run_end_].key = EventKey::never();
+    EventEntry* end = run_ + run_end_++;
+    end[0] = {key, &node};
+    end[1].key = EventKey::never();
   }
-  EventNode& take_least() {
+  void put_later(EventNode& node, const EventKey& key);
+  EventNode& take_least(bool of_heap) {
+    --size_;
     const EventEntry& run = run_[run_head_];
-    EventNode* node = nullptr;
-    if (heap_.least().key < run.key) {
+    EventNode* node = run.node;
+    if (of_heap) {
       node = heap_.least().node;
       present_ns_ = heap_.least().key.due_ns();
       heap_.remove(0);
     } else {
-      node = run.node;
       present_ns_ = run.key.due_ns();
       ++run_head_;
       pass_gaps();
     }
     node->place = EventNode::absent;
+    if (__builtin_expect(--until_upkeep_ == 0 || run_end_ - run_head_ < lookahead_, 0)) keep_up();
     return *node;
   }
   // The head of the run is an event that was not removed; an empty run begins at the beginning.
   void pass_gaps() {
-    while (run_head_ < run_end_ && run_[run_head_].node == nullptr) ++run_head_;
-    if (run_head_ == run_end_) {
-      run_head_ = run_end_ = 0;
-      run_[0].key = EventKey::never();
-    }
+    for (; run_head_ < run_end_; ++run_head_)
+      if (run_[run_head_].node != nullptr) return;
+    run_head_ = run_end_ = 0;
+    run_[0].key = EventKey::never();
   }
   void move_run_down();
   void refill();
+  void keep_up();
   void calibrate();
   void open_calendar(std::uint64_t gap_ns);
   void close_calendar();
@@ -141,7 +145,7 @@ class EventList {
   std::uint32_t run_end_ = 0;
   std::uint32_t lookahead_ = 0;                                // the run is kept so long, while there is a calendar
   std::uint32_t calibration_period_ = calibration_period_min;  // in events taken
-  std::uint32_t until_calibration_ = calibration_period_min;
+  std::uint32_t until_upkeep_ = calibration_period_min;
   std::uint64_t present_ns_ = 0;  // when the event that was taken last was due
   std::uint64_t calibrated_at_ns_ = 0;
   std::uint32_t passed_ = 0;  // events since then: all, or while there is a calendar, those that came from there

@@ -110,10 +110,9 @@ RunState Scheduler::run_before(Time until) {
 // ends, that of the context outside. To be left for at once.
 Fiber& Scheduler::next_fiber() {
   for (;;) {
-    const EventEntry& least = events_.least();
-    if (least.key.time >= until_) return outside(events_.empty() ? RunState::idle : RunState::reached);
-    const Time time = least.key.time;
-    if (Task* task = due(events_.pop(), time)) return task->fiber;
+    EventNode* node = events_.pop_before(until_);
+    if (node == nullptr) return outside(events_.empty() ? RunState::idle : RunState::reached);
+    if (Task* task = due(*node, events_.present())) return task->fiber;
   }
 }
 
@@ -152,7 +151,21 @@ inline void Scheduler::resume(Task& task) {
   WAITPOINT_CHECK(StackArena::intact(task.fiber.stack), "a task ran over the end of its stack");
   task.state = TaskState::running;
   running = &task;
-  stays_ = may_stay_;
+  lane_ = task.robot->ended ? &unheard_ : &task.robot->digest;
+  let_pass(task);
+}
+
+// What is left to the running task of its waitpoints at the present instant, it may pass without a look at the event
+// list: they count as passed until something comes between.
+inline void Scheduler::let_pass(Task& task) {
+  if (!may_stay_ || task.attention != 0 || task.turns >= turns_max) return;
+  free_passes_ = turns_max - task.turns;
+  task.turns = turns_max;
+}
+
+inline void Scheduler::end_free_passes(Task& task) {
+  task.turns -= free_passes_;
+  free_passes_ = 0;
 }
 
 // A new instant for the task: it may pass as many waitpoints again.
@@ -164,7 +177,7 @@ inline void Scheduler::set_local_time(Task& task, Time time) {
 
 inline void Scheduler::put(EventNode& node, const EventKey& key) {
   events_.insert(node, key);
-  if (key.time <= now_ && running != nullptr && key.order < make_order(running->phase, 0)) stays_ = false;
+  if (key.time <= now_ && running != nullptr && key.order < make_order(running->phase, 0)) end_free_passes(*running);
 }
 
 Fiber& Scheduler::outside(RunState state) {
@@ -191,6 +204,7 @@ void Scheduler::leave_to_main(RunState state) {
   state_ = state;
   if (running == nullptr) return;
   Fiber& from = running->fiber;
+  end_free_passes(*running);
   leave(from, outside(state));
 }
 
@@ -247,18 +261,18 @@ inline bool Scheduler::arrive(Task& task) {
     if (interrupted_ && !rest()) return false;
   }
   now_ = task.local_time;
-  stays_ = may_stay_;
+  let_pass(task);
   return true;
 }
 
 bool Scheduler::arrive_after_signal(Task& task) { return arrive(task); }
 
 bool Scheduler::waitpoint(Operation operation, Object* object) {
-  Task& task = *running;
   // The case that must be quick: nothing can come between.
-  const bool stays = stays_ && task.local_time == now_ && task.attention == 0 && task.turns < turns_max;
-  if (__builtin_expect(!stays, 0)) return waitpoint_in_the_list(task, operation, object);
-  ++task.turns;
+  Task& task = *running;
+  if (__builtin_expect(free_passes_ == 0 || task.local_time != now_, 0))
+    return waitpoint_in_the_list(task, operation, object);
+  --free_passes_;
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
@@ -268,6 +282,7 @@ bool Scheduler::waitpoint(Operation operation, Object* object) {
 
 bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
   if (unwinding_) return refuse();
+  end_free_passes(task);
   if (needs_attention(task)) end_segment(task);
   task.operation = operation;
   task.at = object;
@@ -285,6 +300,7 @@ bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* o
 bool Scheduler::yield() {
   if (unwinding_) return refuse();
   Task& task = *running;
+  end_free_passes(task);
   if (needs_attention(task)) end_segment(task);
   task.operation = Operation::yield;
   task.at = nullptr;
@@ -309,14 +325,11 @@ bool Scheduler::sleep_until(Time time) {
 }
 
 inline void Scheduler::execute(Task& task, Operation operation, const Object* object) {
+  ++executed_;
   ++task.sequence;
-  Robot& robot = *task.robot;
-  ++robot.events;
-  if (!robot.ended) {
-    const std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
-    robot.digest.add(static_cast<std::uint64_t>(now_.ns()),
-                     task.id + (object != nullptr ? what ^ object->identity : what));
-  }
+  std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
+  if (object != nullptr) what ^= object->identity;
+  lane_->add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
   if (__builtin_expect(watch_ != nullptr, 0)) watch_->event(*watch_, {now_, &task, operation, object});
 }
 
@@ -348,9 +361,7 @@ void Scheduler::check_progress(Task& task) {
 }
 
 void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
-  Robot& robot = *running->robot;
-  if (robot.ended || unwinding_) return;
-  robot.digest.add(name, value);
+  if (!unwinding_) lane_->add(name, value);
 }
 
 // --- blocking ---
@@ -381,6 +392,7 @@ Wake Scheduler::block(Object& object, Time deadline) {
 
 // The task waits from now on: the fiber to leave for.
 Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
+  end_free_passes(task);
   append_waiter(object, task);
   task.state = TaskState::blocked;
   task.finite_wait = deadline != Time::max();
@@ -405,7 +417,7 @@ bool Scheduler::owners_form_a_cycle(const Task& task) const {
   return false;
 }
 
-void Scheduler::append_waiter(Object& object, Task& task) {
+inline void Scheduler::append_waiter(Object& object, Task& task) {
   task.blocked_on = &object;
   task.next_waiter = nullptr;
   task.previous_waiter = object.last_waiter;
@@ -413,16 +425,15 @@ void Scheduler::append_waiter(Object& object, Task& task) {
   object.last_waiter = &task;
 }
 
-void Scheduler::remove_waiter(Task& task) {
+inline void Scheduler::remove_waiter(Task& task) {
   Object& object = *task.blocked_on;
   (task.previous_waiter == nullptr ? object.first_waiter : task.previous_waiter->next_waiter) = task.next_waiter;
   (task.next_waiter == nullptr ? object.last_waiter : task.next_waiter->previous_waiter) = task.previous_waiter;
-  task.next_waiter = task.previous_waiter = nullptr;
   task.blocked_on = nullptr;
 }
 
 // Algorithm 2: who was woken takes the global time as its local one.
-void Scheduler::wake(Task& task) {
+inline void Scheduler::wake(Task& task) {
   remove_waiter(task);
   if (task.event.in_list()) events_.remove(task.event);
   task.wake = Wake::woken;
@@ -432,8 +443,8 @@ void Scheduler::wake(Task& task) {
 }
 
 Task* Scheduler::wake_one(Object& object) {
-  if (unwinding_ || object.epoch != epoch_ || object.first_waiter == nullptr) return nullptr;
   Task* chosen = object.first_waiter;
+  if (chosen == nullptr || unwinding_ || object.epoch != epoch_) return nullptr;
   if (chooser_.order() != Order::fifo) {
     std::uint32_t count = 0;
     for (Task* t = chosen; t != nullptr; t = t->next_waiter) ++count;
@@ -453,12 +464,6 @@ Task* Scheduler::wake_first(Object& object) {
 void Scheduler::wake_all(Object& object) {
   if (unwinding_ || object.epoch != epoch_) return;
   while (object.first_waiter != nullptr) wake(*object.first_waiter);
-}
-
-std::uint64_t Scheduler::events() const {
-  std::uint64_t events = 0;
-  for (const Robot* robot = first_robot_; robot != nullptr; robot = robot->next) events += robot->events;
-  return events;
 }
 
 void Scheduler::schedule(EventNode& node, Time time, const Object& timer) {

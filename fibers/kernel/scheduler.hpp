@@ -141,7 +141,7 @@ class Scheduler {
   Task* first_task() const { return first_task_; }
   Robot* first_robot() const { return first_robot_; }
   /// Events executed so far, by tasks of all robots.
-  std::uint64_t events() const;
+  std::uint64_t events() const { return executed_; }
   bool unwinding() const { return unwinding_; }
   /// Tasks that are left and are no services.
   std::uint32_t live_tasks() const { return live_tasks_; }
@@ -186,6 +186,8 @@ class Scheduler {
   Task* due(EventNode& node, Time time);
   void prepare_coming() const;
   void resume(Task& task);
+  void let_pass(Task& task);
+  void end_free_passes(Task& task);
   void set_local_time(Task& task, Time time);
   void put(EventNode& node, const EventKey& key);
   void leave(Fiber& from, Fiber& to);
@@ -219,15 +221,18 @@ class Scheduler {
   void* client_ = nullptr;
   void (*deliver_)(Task&) = nullptr;
   std::uint64_t epoch_;
+  std::uint64_t executed_ = 0;
   std::uint32_t live_tasks_ = 0;
   std::uint32_t tasks_ = 0;
   std::uint64_t turns_given_ = 0;  // since virtual time last moved
   Time turns_given_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  // Whether the running task passes its waitpoints at the present instant without a look at the event list: in the
-  // first-in-first-out order, as long as no event of an earlier phase was put in for this instant.
-  bool stays_ = false;
+  // How many more waitpoints the running task passes at the present instant without a look at the event list: some in
+  // the first-in-first-out order, as long as no event of an earlier phase was put in for this instant.
+  std::uint32_t free_passes_ = 0;
+  PairDigest* lane_ = nullptr;  // where the running task's events are hashed
+  PairDigest unheard_;          // of robots that ended
   bool may_stay_;
   bool unwinding_ = false;
   bool interrupted_ =

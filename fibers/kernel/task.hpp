@@ -30,7 +30,6 @@ struct Robot {
   Scheduler* scheduler = nullptr;
   PairDigest digest;             ///< of its own events and outputs, until it ended
   std::uint64_t id = 0;          ///< from its name
-  std::uint64_t events = 0;      ///< of its tasks, also after it ended
   std::uint64_t messages = 0;    ///< sent to other robots
   std::uint32_t objects = 0;     ///< numbers given to objects
   std::uint32_t children = 0;    ///< tasks spawned from outside any task
