@@ -23,7 +23,7 @@ const std::vector<Subject>& subjects() {
       {"systemc", systemc, true, 100'000},
       {"simgrid", simgrid, true, 100'000},
       {"boost-fiber", "libboost-fiber-dev", true, 100'000},
-      {"threads", threads, true, 1'000},
+      {"threads", threads, true, 100},
   };
   return all;
 }

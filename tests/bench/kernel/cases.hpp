@@ -30,6 +30,9 @@ struct Case {
   std::string title;
   std::string unit;  ///< what a nanosecond figure is counted by
   std::vector<Bound> musts, aims;
+
+  /// Whether it is measured with a watch on the kernel, too.
+  bool has_hooks() const { return workload != "parked" && tasks <= 100'000; }
 };
 const std::vector<Case>& cases();
 

@@ -19,7 +19,7 @@ namespace waitpoint::bench {
 namespace {
 
 struct Options {
-  int repeats = 5, budget_ms = 100, limit_s = 60;
+  int repeats = 3, budget_ms = 100, limit_s = 60;
   bool peers = true, hooks = true;
   int tasks_max = 1'000'000;
   std::string pattern;
@@ -57,9 +57,9 @@ class Bench {
     for (const Subject* subject : present_) {
       if (subject->tasks_max != 0 && of.tasks > subject->tasks_max) continue;
       figures.push_back({subject, false, {}});
-      if (subject == present_.front() && options_.hooks && !of.unit.empty()) figures.push_back({subject, true, {}});
+      if (subject == present_.front() && options_.hooks && of.has_hooks()) figures.push_back({subject, true, {}});
     }
-    const int repeats = of.tasks < 100'000 ? options_.repeats : std::min(options_.repeats, 2);
+    const int repeats = of.tasks <= 100'000 ? options_.repeats : 1;
     for (int i = 1; i <= repeats; ++i)
       for (Figure& figure : figures) measure(of, figure, i, repeats);
     fmt::print(stderr, "\r{:78}\r", "");
@@ -95,12 +95,14 @@ class Bench {
       }
       if (&figure == &ours) {
         for (const auto& [answer, value] : figure.best.values) print_ours(of, answer, value);
+        print_guard(of, figure);
       } else if (figure.hooks) {
         print_ratio(of, figure, name + ", hooks on", figure.value("ns") / ours.value("ns"), "");
       } else if (ours.best.end == Measured::End::answered) {
         const char* answer = figure.value("ns") > 0 ? "ns" : "bytes";
         const double ratio = figure.value(answer) / ours.value(answer);
         print_ratio(of, figure, name, name == "limit" ? 1 / ratio : ratio, name);
+        print_guard(of, figure);
         if (figure.value("served_apart") > 0)
           line(of, name, fmt::format("{:>10.2f} of an equal share for the least served", figure.value("served_least")));
       }
@@ -134,6 +136,13 @@ class Bench {
     for (const Bound& must : of.musts)
       if (!against.empty() && must.against == against) row.must = must.bound;
     rows_.push_back(std::move(row));
+  }
+
+  /// How the stacks are guarded, where there are so many that it is a question.
+  void print_guard(const Case& of, const Figure& figure) {
+    const auto guard = figure.best.words.find("guard");
+    if ((of.tasks < 100'000 && of.workload != "parked") || guard == figure.best.words.end()) return;
+    line(of, figure.subject->name, "           stacks: " + guard->second);
   }
 
   /// The columns "must" and "aim" of a figure, each with a mark where it is met.
