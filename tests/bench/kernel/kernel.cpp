@@ -37,7 +37,9 @@ struct Figure {
   }
 };
 
-std::string case_name(const Case& of) { return fmt::format("{}, {} tasks", of.title, of.tasks); }
+std::string case_name(const Case& of) {
+  return fmt::format("{}, {} task{}", of.title, of.tasks, of.tasks == 1 ? "" : "s");
+}
 
 class Bench {
  public:

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <deque>
 #include <vector>
 
@@ -133,10 +134,10 @@ void buffer(const Request& request) {
   constexpr int places = 16;
   static typename Kit::Mutex mutex;
   static typename Kit::Condition not_full, not_empty;
-  static int items[places], first = 0, stored = 0;
-  static std::int64_t sum = 0;
+  static std::uint32_t items[places];
+  static int first = 0, stored = 0;
   Kit::spawn(0, 2, [] {
-    for (int item = 1;; ++item) {
+    for (std::uint32_t item = 1;; ++item) {
       mutex.lock();
       while (stored == places) not_full.wait(mutex);
       items[(first + stored++) % places] = item;
@@ -146,10 +147,10 @@ void buffer(const Request& request) {
     }
   });
   Kit::spawn(1, 2, [] {
-    for (;;) {
+    for (std::uint32_t item = 1;; ++item) {
       mutex.lock();
       while (stored == 0) not_empty.wait(mutex);
-      sum += items[first];
+      if (items[first] != item) std::abort();
       first = (first + 1) % places;
       --stored;
       count();
