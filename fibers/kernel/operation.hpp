@@ -33,15 +33,43 @@ enum class Operation : std::uint8_t {
   send,
   receive,
   poll,
+  timer_start,
+  timer_stop,
+  signal,  ///< is sent
+  lock_shared,
+  try_lock_shared,
+  unlock_shared,
+  arrive,
+  count_down,
+  try_wait,
+  request_stop,
+  stop_requested,
+  add_callback,
+  remove_callback,
+  make_ready,  ///< a future's shared state
+  call_once,
+  load,
+  store,
+  exchange,
+  compare_exchange,
+  modify,  ///< an atomic, by fetch_add and its kin
+  fence,
 };
 
 /// The operation's name, as reports and event files show it.
 constexpr const char* name(Operation operation) {
+  // clang-format off
   constexpr const char* names[] = {
-      "start", "end",        "resume",     "timeout", "yield",       "sleep",   "lock",    "try_lock",   "unlock",
-      "wait",  "notify_one", "notify_all", "acquire", "try_acquire", "release", "join",    "timer_wait", "timer_tick",
-      "step",  "open",       "close",      "connect", "accept",      "send",    "receive", "poll"};
-  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::poll) + 1);
+      "start", "end", "resume", "timeout", "yield", "sleep",
+      "lock", "try_lock", "unlock", "wait", "notify_one", "notify_all", "acquire", "try_acquire", "release", "join",
+      "timer_wait", "timer_tick", "step",
+      "open", "close", "connect", "accept", "send", "receive", "poll",
+      "timer_start", "timer_stop", "signal",
+      "lock_shared", "try_lock_shared", "unlock_shared", "arrive", "count_down", "try_wait",
+      "request_stop", "stop_requested", "add_callback", "remove_callback", "make_ready", "call_once",
+      "load", "store", "exchange", "compare_exchange", "modify", "fence"};
+  // clang-format on
+  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::fence) + 1);
   return names[static_cast<int>(operation)];
 }
 
