@@ -5,7 +5,6 @@
 // destructors of all frames, and return at once if a destructor makes them. Calls that release never throw it.
 #pragma once
 
-#include <chrono>
 #include <exception>
 
 #include "core/time.hpp"
@@ -46,19 +45,6 @@ inline bool block(kernel::Object& object, Time deadline = Time::max()) {
   const kernel::Wake wake = running_task().scheduler->block(object, deadline);
   if (wake == kernel::Wake::unwinding) unwind();
   return wake == kernel::Wake::woken;
-}
-
-/// The local virtual time `span` from now; for ever if that cannot be represented, now if it is past. Rounded up to
-/// nanoseconds.
-template <class Rep, class Ratio>
-Time after(const std::chrono::duration<Rep, Ratio>& span) {
-  const Time now = kernel::local_time(running_task());
-  if (span > std::chrono::duration<double>(9e9)) return Time::max();
-  if (span <= span.zero()) return now;
-  const auto ns = std::chrono::ceil<std::chrono::nanoseconds>(span);
-  std::int64_t at = 0;
-  if (__builtin_add_overflow(now.ns(), ns.count(), &at)) return Time::max();
-  return Time::from_ns(at);
 }
 
 }  // namespace waitpoint::sync

@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The clock of simulated tasks, in the shape of std::chrono::steady_clock: now() is the caller's local virtual time.
+// The clocks of simulated tasks, in the shape of the standard library's: both show the caller's local virtual time, one
+// since the start of the run, one as a date. And the way from its time points and durations to ours.
+//
+// What timed calls do with unusual ones, all of them alike:
+//
+//   a negative duration, a time point that is past   as the standard says: what can be had at once is had, none waits
+//   a duration or time point beyond the range of Time for ever: hours::max() is no error
+//   a fraction of a nanosecond                       rounded up: no call returns early
+//   not a number                                     a bug
 #pragma once
 
 #include <chrono>
+#include <ctime>
+#include <limits>
 
 #include "core/time.hpp"
 #include "fibers/sync/blocking.hpp"
 
 namespace waitpoint {
+
+/// The caller's local virtual time.
+inline Time now() { return kernel::local_time(sync::running_task()); }
 
 struct steady_clock {
   using rep = std::int64_t;
@@ -16,14 +29,102 @@ struct steady_clock {
   using time_point = std::chrono::time_point<steady_clock>;
   static constexpr bool is_steady = true;
 
-  static time_point now() noexcept { return time_point(duration(kernel::local_time(sync::running_task()).ns())); }
+  static time_point now() noexcept { return time_point(duration(waitpoint::now().ns())); }
 };
 
-/// The virtual time of a time point of the clock above.
-inline Time to_time(steady_clock::time_point t) { return Time::from_ns(t.time_since_epoch().count()); }
+/// Counts from 1970-01-01 as std::chrono::system_clock does; a run starts at SimulationOptions::start_date. Nobody sets
+/// it while the run goes on.
+struct system_clock {
+  using rep = std::int64_t;
+  using period = std::nano;
+  using duration = std::chrono::nanoseconds;
+  using time_point = std::chrono::time_point<system_clock>;
+  static constexpr bool is_steady = true;
 
-/// The caller's local virtual time.
-inline Time now() { return kernel::local_time(sync::running_task()); }
+  static time_point now() noexcept;
+
+  static std::time_t to_time_t(const time_point& t) noexcept { return std::chrono::system_clock::to_time_t(cut(t)); }
+  static time_point from_time_t(std::time_t t) noexcept { return time_point(std::chrono::seconds(t)); }
+  /// To and from the standard's own time points of that epoch, which its calendar is made for.
+  template <class Span>
+  static std::chrono::sys_time<Span> to_sys(const std::chrono::time_point<system_clock, Span>& t) {
+    return std::chrono::sys_time<Span>(t.time_since_epoch());
+  }
+  template <class Span>
+  static std::chrono::time_point<system_clock, Span> from_sys(const std::chrono::sys_time<Span>& t) {
+    return std::chrono::time_point<system_clock, Span>(t.time_since_epoch());
+  }
+
+ private:
+  static std::chrono::system_clock::time_point cut(const time_point& t) {
+    return std::chrono::floor<std::chrono::system_clock::duration>(to_sys(t));
+  }
+};
+
+namespace sync {
+
+/// A deadline that is past whatever the time is.
+inline constexpr Time long_past = Time::from_ns(std::numeric_limits<std::int64_t>::min());
+
+/// `span` in nanoseconds, rounded up; the greatest or the least value where it is out of range. What is not a number is
+/// a bug.
+template <class Rep, class Ratio>
+constexpr std::int64_t ns_within_range(const std::chrono::duration<Rep, Ratio>& span) {
+  using Limits = std::numeric_limits<std::int64_t>;
+  if constexpr (std::chrono::treat_as_floating_point_v<Rep>) {
+    const double ns = std::chrono::duration<double, std::nano>(span).count();
+    WAITPOINT_CHECK(ns == ns, "a duration or a time is not a number");
+    if (ns >= 0x1p63) return Limits::max();
+    if (ns <= -0x1p63) return Limits::min();
+    const std::int64_t whole = static_cast<std::int64_t>(ns);
+    return static_cast<double>(whole) < ns ? whole + 1 : whole;
+  } else {
+    __extension__ using Wide = __int128;  // holds any count of any of the standard's units
+    const Wide ns = std::chrono::ceil<std::chrono::duration<Wide, std::nano>>(span).count();
+    if (ns > Limits::max()) return Limits::max();
+    return ns < Limits::min() ? Limits::min() : static_cast<std::int64_t>(ns);
+  }
+}
+
+/// The deadline `span` from the caller's local virtual time: now at the earliest.
+template <class Rep, class Ratio>
+Time after(const std::chrono::duration<Rep, Ratio>& span) {
+  const Time from = now();
+  const std::int64_t ns = ns_within_range(span);
+  std::int64_t at = 0;
+  if (ns <= 0) return from;
+  return __builtin_add_overflow(from.ns(), ns, &at) ? Time::max() : Time::from_ns(at);
+}
+
+/// What system_clock shows at the start of the caller's run, in nanoseconds.
+std::int64_t start_date_ns();
+
+}  // namespace sync
+
+/// The virtual time of a time point of the clocks above.
+template <class Span>
+Time to_time(const std::chrono::time_point<steady_clock, Span>& t) {
+  return Time::from_ns(sync::ns_within_range(t.time_since_epoch()));
+}
+template <class Span>
+Time to_time(const std::chrono::time_point<system_clock, Span>& t) {
+  const std::int64_t ns = sync::ns_within_range(t.time_since_epoch());
+  std::int64_t at = 0;
+  if (__builtin_sub_overflow(ns, sync::start_date_ns(), &at)) return ns < 0 ? sync::long_past : Time::max();
+  return ns == std::numeric_limits<std::int64_t>::max() ? Time::max() : Time::from_ns(at);
+}
+
+namespace sync {
+
+/// The deadline that a time point of a simulated clock is: one that has a to_time() as those above.
+template <class Clock, class Span>
+Time until(const std::chrono::time_point<Clock, Span>& deadline) {
+  static_assert(!std::is_same_v<Clock, std::chrono::steady_clock> && !std::is_same_v<Clock, std::chrono::system_clock>,
+                "simulated tasks wait for virtual time, not for a clock of the machine");
+  return to_time(deadline);
+}
+
+}  // namespace sync
 
 /// Tells the local clock that what the caller computed costs something from `least` to `greatest`: its local virtual
 /// time moves on, and what it does next is seen by others that much later. Nothing happens in between: this is no

@@ -5,6 +5,7 @@
 //   EXPECT_TRUE(report.passed) << report;
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <exception>
@@ -19,10 +20,14 @@
 
 namespace waitpoint {
 
+inline constexpr std::chrono::sys_days default_start_date{std::chrono::year(2000) / std::chrono::January / 1};
+
 struct SimulationOptions {
   kernel::Order order = kernel::Order::fifo;
   std::uint64_t seed = 0;
   std::string replay;  ///< the line that repeats this run, for reports
+  /// What system_clock shows at virtual time 0: a declared constant, never the date of the machine.
+  std::chrono::sys_time<std::chrono::nanoseconds> start_date = default_start_date;
 };
 
 /// How a run ended, or that it did not.
@@ -65,6 +70,7 @@ class Simulation {
 
   /// Of the robots in the order of their names, then of the environment.
   Digest digest() const;
+  const SimulationOptions& options() const { return options_; }
   Time global_time() const { return scheduler_.global_time(); }
   kernel::Scheduler& scheduler() { return scheduler_; }
   const kernel::Scheduler& scheduler() const { return scheduler_; }

@@ -93,7 +93,10 @@ inline void yield() {
 inline void sleep_until(Time time) {
   if (!sync::running_task().scheduler->sleep_until(time)) sync::unwind();
 }
-inline void sleep_until(steady_clock::time_point time) { sleep_until(to_time(time)); }
+template <class Clock, class Span>
+void sleep_until(const std::chrono::time_point<Clock, Span>& time) {
+  sleep_until(sync::until(time));
+}
 template <class Rep, class Ratio>
 void sleep_for(const std::chrono::duration<Rep, Ratio>& span) {
   sleep_until(sync::after(span));

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/sync/clock.hpp"
+
+#include "fibers/sync/simulation.hpp"
+
+namespace waitpoint {
+
+system_clock::time_point system_clock::now() noexcept {
+  return time_point(duration((Duration::from_ns(sync::start_date_ns()) + waitpoint::now().since_start()).ns()));
+}
+
+std::int64_t sync::start_date_ns() {
+  const Simulation& simulation = Simulation::of(*running_task().scheduler);
+  return simulation.options().start_date.time_since_epoch().count();
+}
+
+}  // namespace waitpoint
