@@ -372,6 +372,7 @@ void Scheduler::adopt(Object& object) {
   object.number = ++object.robot->objects;
   object.identity = child_id(object.robot->id, object.number);
   object.owner = nullptr;
+  object.holder_count = object.users = 0;
   object.first_waiter = object.last_waiter = nullptr;
 }
 
@@ -398,23 +399,11 @@ Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
   task.finite_wait = deadline != Time::max();
   if (task.finite_wait) {
     events_.insert(task.event, key(task, deadline < now_ ? now_ : deadline));
-  } else if (object.owner != nullptr && owners_form_a_cycle(task)) {
-    culprit_ = &task;
+  } else if ((object.owner != nullptr || object.holder_count != 0) && closes_a_cycle(task)) {
     cause_ = StopCause::deadlock;
     return outside(RunState::stopped);
   }
   return next_fiber();
-}
-
-bool Scheduler::owners_form_a_cycle(const Task& task) const {
-  const Task* at = &task;
-  // Bounded by the number of tasks: a cycle that does not contain `task` was reported when it closed.
-  for (std::uint32_t hops = 0; hops <= tasks_; ++hops) {
-    if (at->state != TaskState::blocked || at->finite_wait || at->blocked_on->owner == nullptr) return false;
-    at = at->blocked_on->owner;
-    if (at == &task) return true;
-  }
-  return false;
 }
 
 inline void Scheduler::append_waiter(Object& object, Task& task) {

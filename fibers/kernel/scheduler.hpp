@@ -109,6 +109,8 @@ class Scheduler {
   /// global.
   Task* wake_one(Object& object);
   void wake_all(Object& object);
+  /// Wakes `task`, which must be blocked: for primitives that choose among their waiters themselves.
+  void wake(Task& task);
   /// As wake_one, but the first: for timers, which are no tasks and leave no choice.
   Task* wake_first(Object& object);
   /// Makes `object` belong to this run; true if it was not yet, so that a primitive can take its initial state.
@@ -117,6 +119,8 @@ class Scheduler {
     adopt(object);
     return true;
   }
+  /// Whether what `object` says of owners and waiters is of this run.
+  bool has_entered(const Object& object) const { return object.epoch == epoch_; }
   /// Adds words to the digest of the running task's robot.
   void record_output(std::uint64_t name, std::uint64_t value);
 
@@ -145,7 +149,7 @@ class Scheduler {
   bool unwinding() const { return unwinding_; }
   /// Tasks that are left and are no services.
   std::uint32_t live_tasks() const { return live_tasks_; }
-  /// The task that found the deadlock.
+  /// A task of the cycle in a deadlock, whose `search.to` leads around it; null without a cycle.
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch) { watch_ = watch; }
   /// What waitpoint_describe_run() prints as the way to repeat this run; must outlive the run.
@@ -198,8 +202,7 @@ class Scheduler {
   void reclaim_ended();
   void append_waiter(Object& object, Task& task);
   void remove_waiter(Task& task);
-  void wake(Task& task);
-  bool owners_form_a_cycle(const Task& task) const;
+  bool closes_a_cycle(Task& task);
 
   EventList events_;
   StackArena arena_;
@@ -221,6 +224,7 @@ class Scheduler {
   void* client_ = nullptr;
   void (*deliver_)(Task&) = nullptr;
   std::uint64_t epoch_;
+  std::uint64_t searches_ = 0;
   std::uint64_t executed_ = 0;
   std::uint32_t live_tasks_ = 0;
   std::uint32_t tasks_ = 0;

@@ -50,7 +50,12 @@ struct Object {
   std::uint32_t number = 0;    ///< at first use in a run, counted per robot
   std::uint64_t identity = 0;  ///< of robot and number: what the digest takes in
   Robot* robot = nullptr;      ///< whose count that is
-  Task* owner = nullptr;       ///< who holds it, where it can be held
+  Task* owner = nullptr;       ///< who holds it, where one can hold it
+
+  Object* next_held = nullptr;     ///< of what its owner holds, what it took before
+  Task* const* holders = nullptr;  ///< who holds it, where several can
+  std::uint32_t holder_count = 0;
+  std::uint32_t users = 0;  ///< tasks within a call that blocks on it: those that wait, and those on their way out
   Task* first_waiter = nullptr;
   Task* last_waiter = nullptr;
 };
@@ -75,6 +80,15 @@ inline constexpr std::uint8_t clock = 1;   ///< it has a local clock: what its s
 inline constexpr std::uint8_t signal = 2;  ///< a signal is to be delivered
 }  // namespace attention
 
+/// A task's place in the search for a cycle of tasks that wait for each other: see wait_graph.cpp.
+struct WaitSearch {
+  std::uint64_t number = 0;  ///< of the search that the rest belongs to
+  Task* from = nullptr;      ///< who waits for this task
+  Task* to = nullptr;        ///< for whom it waits
+  std::uint32_t tried = 0;   ///< of those for whom it waits
+  bool on_path = false;
+};
+
 struct Task {
   // What every event touches, in the first cache lines. The event comes first: an event's node is its task.
   EventNode event;
@@ -92,9 +106,11 @@ struct Task {
   std::uint8_t attention = 0;
   bool service = false;      ///< does not keep the run alive
   bool finite_wait = false;  ///< blocked with a finite timeout
+  bool shared_wait = false;  ///< blocked where it would hold the object together with others
   bool describe = false;     ///< asked to write down its own call stack and to switch back
 
   Object* blocked_on = nullptr;
+  Object* held = nullptr;  ///< what it owns: the latest, then by Object::next_held
   Task* next_waiter = nullptr;
   Task* previous_waiter = nullptr;
   Scheduler* scheduler = nullptr;
@@ -104,7 +120,9 @@ struct Task {
   void* argument = nullptr;
   LocalClock* clock = nullptr;  ///< null: only what it declares moves its local time
   std::uint32_t children = 0;
-  std::uint32_t refusals = 0;  ///< calls made since the run is over
+  std::uint32_t held_shared = 0;  ///< how often it stands among the holders of something
+  std::uint32_t refusals = 0;     ///< calls made since the run is over
+  WaitSearch search;
   char name[name_size] = {};
 };
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
 
 namespace waitpoint::sync {
@@ -13,15 +14,6 @@ using kernel::Task;
 constexpr std::size_t frames_shown = 4;
 constexpr std::size_t tasks_shown = 16;
 
-std::string full_name(const Task& task) { return std::string(task.name) + " of " + task.robot->name; }
-
-std::string describe(const kernel::Object& object) {
-  std::string text = object.kind;
-  text += " #" + std::to_string(object.number);
-  if (object.label[0] != '\0') text += std::string(" \"") + object.label + "\"";
-  return text;
-}
-
 std::string more(std::size_t count) { return "\n  and " + std::to_string(count) + " more tasks"; }
 
 void add_place(std::string& text, kernel::Scheduler& scheduler, Task& task) {
@@ -30,14 +22,24 @@ void add_place(std::string& text, kernel::Scheduler& scheduler, Task& task) {
   for (const std::string& line : user_source_lines({frames, count}, frames_shown)) text += "\n      at " + line;
 }
 
+// The writer that a reader waits behind, where other readers hold the lock.
+const Task* writer_before(const Task& task) {
+  if (!task.shared_wait || task.blocked_on->owner != nullptr) return nullptr;
+  for (const Task* waiter = task.blocked_on->first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
+    if (!waiter->shared_wait) return waiter;
+  return nullptr;
+}
+
 std::string describe_wait(kernel::Scheduler& scheduler, Task& task) {
-  std::string text = "\n  task " + full_name(task);
+  std::string text = "\n  task " + describe(task);
   if (task.blocked_on == nullptr) return text + " is not blocked";
-  text += std::string(" waits (") + kernel::name(task.operation) + ") for " + describe(*task.blocked_on);
-  if (task.blocked_on->owner != nullptr) {
-    const bool is_end = std::string_view(task.blocked_on->kind) == "end of thread";
-    text += (is_end ? " of " : ", held by ") + full_name(*task.blocked_on->owner);
-  }
+  const kernel::Object& object = *task.blocked_on;
+  text += std::string(" waits (") + kernel::name(task.operation) + ") for " + describe(object);
+  if (std::string_view(object.kind) == "end of thread" && object.owner != nullptr)
+    text += " of " + describe(*object.owner);
+  else if (const std::string holders = describe_holders(object); !holders.empty())
+    text += ", " + holders;
+  if (const Task* writer = writer_before(task); writer != nullptr) text += ", behind " + describe(*writer);
   add_place(text, scheduler, task);
   return text;
 }
@@ -50,7 +52,7 @@ std::string describe_deadlock(kernel::Scheduler& scheduler) {
     Task* task = first;
     do {
       waiting.push_back(task);
-      task = task->blocked_on->owner;
+      task = task->search.to;
     } while (task != first);
   } else {
     for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
@@ -75,7 +77,7 @@ std::string describe_spinning(kernel::Scheduler& scheduler) {
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
     if (task->state == kernel::TaskState::blocked || task->local_time != scheduler.global_time()) continue;
     if (++spinning > tasks_shown) continue;
-    text += "\n  task " + full_name(*task) + " (" + kernel::name(task->operation);
+    text += "\n  task " + describe(*task) + " (" + kernel::name(task->operation);
     if (task->at != nullptr) text.append(" ").append(describe(*task->at));
     text += ")";
     add_place(text, scheduler, *task);

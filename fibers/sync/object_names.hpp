@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tasks and objects in words, as reports show them.
+#pragma once
+
+#include <string>
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::sync {
+
+/// "NAME of ROBOT".
+std::string describe(const kernel::Task& task);
+
+/// "mutex #3 "label"".
+std::string describe(const kernel::Object& object);
+
+/// "held by anna of r1", or "shared by" the first few and how many more; empty where nobody holds it.
+std::string describe_holders(const kernel::Object& object);
+
+}  // namespace waitpoint::sync
