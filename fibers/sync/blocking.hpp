@@ -42,8 +42,13 @@ inline bool before_releasing(kernel::Operation operation, kernel::Object& object
 
 /// Blocks the running task on `object`; false if the deadline came first. Throws Unwind when the run is over.
 inline bool block(kernel::Object& object, Time deadline = Time::max()) {
+  ++object.users;
   const kernel::Wake wake = running_task().scheduler->block(object, deadline);
-  if (wake == kernel::Wake::unwinding) unwind();
+  // A run that is over leaves its objects as they are: this one may be gone.
+  if (wake == kernel::Wake::unwinding)
+    unwind();
+  else
+    --object.users;
   return wake == kernel::Wake::woken;
 }
 

@@ -3,6 +3,11 @@
 
 namespace waitpoint {
 
+condition_variable::~condition_variable() {
+  sync::let_notified_leave(object_);
+  sync::check_destroyed(object_);
+}
+
 void condition_variable::notify_one() {
   if (sync::before_releasing(kernel::Operation::notify_one, object_)) kernel::running->scheduler->wake_one(object_);
 }
@@ -12,9 +17,13 @@ void condition_variable::notify_all() {
 }
 
 bool condition_variable::wait_before(std::unique_lock<mutex>& lock, Time deadline) {
-  WAITPOINT_CHECK(lock.owns_lock(), "a task waits on a condition variable without holding the lock");
   if (!sync::before_blocking(kernel::Operation::wait, object_)) return false;
-  lock.mutex()->release();
+  WAITPOINT_CHECK(lock.owns_lock() && lock.mutex()->core_.is_owned_by_caller(),
+                  sync::about(object_, "a task waits on a condition variable without holding the lock"));
+  WAITPOINT_CHECK(object_.first_waiter == nullptr || mutex_ == lock.mutex(),
+                  sync::about(object_, "tasks wait on a condition variable with different mutexes"));
+  mutex_ = lock.mutex();
+  lock.mutex()->core_.release();
   const bool woken = sync::block(object_, deadline);
   lock.mutex()->lock();
   return woken;

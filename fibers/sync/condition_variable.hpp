@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Condition variable, in the names and semantics of std::condition_variable, over waitpoint::mutex.
 //
-// Releasing the mutex and starting to wait are one step. There are no spurious wake-ups in the default order.
+// Releasing the mutex and starting to wait are one step. There are no spurious wake-ups. To wait without the mutex, or
+// with another one than those who wait already, is a bug, and so is destroying it while tasks wait; but as the standard
+// says, it may be destroyed as soon as all are notified.
 #pragma once
 
 #include <condition_variable>
@@ -17,6 +19,7 @@ class condition_variable {
  public:
   constexpr condition_variable() = default;
   explicit constexpr condition_variable(const char* label) : object_("condition variable", label) {}
+  ~condition_variable();
   condition_variable(const condition_variable&) = delete;
   condition_variable& operator=(const condition_variable&) = delete;
 
@@ -29,12 +32,14 @@ class condition_variable {
     while (!ready()) wait(lock);
   }
 
-  cv_status wait_until(std::unique_lock<mutex>& lock, steady_clock::time_point deadline) {
-    return wait_before(lock, to_time(deadline)) ? cv_status::no_timeout : cv_status::timeout;
+  template <class Clock, class Span>
+  cv_status wait_until(std::unique_lock<mutex>& lock, const std::chrono::time_point<Clock, Span>& deadline) {
+    return wait_before(lock, sync::until(deadline)) ? cv_status::no_timeout : cv_status::timeout;
   }
-  template <class Predicate>
-  bool wait_until(std::unique_lock<mutex>& lock, steady_clock::time_point deadline, Predicate ready) {
-    return wait_before(lock, to_time(deadline), ready);
+  template <class Clock, class Span, class Predicate>
+  bool wait_until(std::unique_lock<mutex>& lock, const std::chrono::time_point<Clock, Span>& deadline,
+                  Predicate ready) {
+    return wait_before(lock, sync::until(deadline), ready);
   }
 
   template <class Rep, class Ratio>
@@ -57,6 +62,7 @@ class condition_variable {
   }
 
   kernel::Object object_{"condition variable"};
+  const mutex* mutex_ = nullptr;  // of those who wait
 };
 
 }  // namespace waitpoint

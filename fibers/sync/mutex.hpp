@@ -2,11 +2,13 @@
 // Mutual exclusion, in the names and semantics of std::mutex and std::timed_mutex.
 //
 // An unlock with waiters hands the mutex to one of them: the first in the default order, the chooser's choice else.
-// Locking a mutex that the caller holds is a deadlock of one, and reported as such; unlocking one that it does not hold
-// is a bug.
+// Locking a mutex that the caller holds is a deadlock of one, and reported as such. Trying to, which the standard
+// leaves undefined, is a bug, and so are unlocking what one does not hold, ending while one holds it, and destroying it
+// while it is held or waited for.
 #pragma once
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/mutex_core.hpp"
 
 namespace waitpoint {
 
@@ -16,34 +18,25 @@ class mutex {
  public:
   constexpr mutex() = default;
   /// `label` is shown in reports; it must outlive the mutex.
-  explicit constexpr mutex(const char* label) : object_("mutex", label) {}
+  explicit constexpr mutex(const char* label) : core_("mutex", label) {}
   mutex(const mutex&) = delete;
   mutex& operator=(const mutex&) = delete;
 
   void lock() {
-    sync::before_blocking(kernel::Operation::lock, object_);
-    acquire(Time::max());
+    if (sync::before_blocking(kernel::Operation::lock, core_.object())) core_.acquire(Time::max());
   }
-  bool try_lock() {
-    sync::before_blocking(kernel::Operation::try_lock, object_);
-    if (object_.owner != nullptr) return false;
-    object_.owner = kernel::running;
-    return true;
-  }
+  bool try_lock() { return lock_before(sync::long_past); }
   void unlock() {
-    if (sync::before_releasing(kernel::Operation::unlock, object_)) release();
+    if (sync::before_releasing(kernel::Operation::unlock, core_.object())) core_.release();
   }
 
  protected:
-  // True once the caller holds the mutex; false if the deadline came first.
-  bool acquire(Time deadline);
-  kernel::Object& object() { return object_; }
+  bool lock_before(Time deadline);
 
  private:
   friend class condition_variable;
-  void release();
 
-  kernel::Object object_{"mutex"};
+  sync::MutexCore core_{"mutex", ""};
 };
 
 class timed_mutex : public mutex {
@@ -54,10 +47,10 @@ class timed_mutex : public mutex {
   bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
     return lock_before(sync::after(span));
   }
-  bool try_lock_until(steady_clock::time_point deadline) { return lock_before(to_time(deadline)); }
-
- private:
-  bool lock_before(Time deadline);
+  template <class Clock, class Span>
+  bool try_lock_until(const std::chrono::time_point<Clock, Span>& deadline) {
+    return lock_before(sync::until(deadline));
+  }
 };
 
 }  // namespace waitpoint

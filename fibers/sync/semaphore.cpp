@@ -10,7 +10,8 @@ void SemaphoreCore::refresh() {
 void SemaphoreCore::release(std::ptrdiff_t units) {
   refresh();
   if (!before_releasing(kernel::Operation::release, object_)) return;
-  WAITPOINT_CHECK(units >= 0 && units <= most_ - count_, "a semaphore is released beyond its greatest count");
+  WAITPOINT_CHECK(units >= 0 && units <= most_ - count_,
+                  about(object_, "a semaphore is released beyond its greatest count"));
   for (; units > 0; --units)
     if (kernel::running->scheduler->wake_one(object_) == nullptr) break;
   count_ += units;

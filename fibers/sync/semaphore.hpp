@@ -2,12 +2,14 @@
 // Counting semaphore, in the names and semantics of std::counting_semaphore.
 //
 // A release with waiters hands a unit to one of them directly. A semaphore that a run leaves behind reads as fresh,
-// with its initial count, in the next run.
+// with its initial count, in the next run. An initial count out of range is a bug, and so are a release beyond the
+// greatest count and destroying a semaphore while tasks wait for it.
 #pragma once
 
 #include <cstddef>
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/misuse.hpp"
 
 namespace waitpoint {
 
@@ -20,7 +22,10 @@ namespace sync {
 class SemaphoreCore {
  public:
   constexpr SemaphoreCore(std::ptrdiff_t initial, std::ptrdiff_t most, const char* label)
-      : object_("semaphore", label), initial_(initial), most_(most) {}
+      : object_("semaphore", label), initial_(initial), most_(most) {
+    WAITPOINT_CHECK(initial >= 0 && initial <= most, "a semaphore begins with a count out of its range");
+  }
+  ~SemaphoreCore() { check_destroyed(object_); }
 
   void release(std::ptrdiff_t units);
   bool acquire_before(Time deadline);
@@ -40,7 +45,10 @@ class SemaphoreCore {
 
 template <std::ptrdiff_t LeastMax>
 class counting_semaphore {
+  static_assert(LeastMax >= 0);
+
  public:
+  /// `label` is shown in reports; it must outlive the semaphore.
   constexpr explicit counting_semaphore(std::ptrdiff_t initial, const char* label = "")
       : core_(initial, LeastMax, label) {}
   counting_semaphore(const counting_semaphore&) = delete;
@@ -56,7 +64,10 @@ class counting_semaphore {
   bool try_acquire_for(const std::chrono::duration<Rep, Ratio>& span) {
     return core_.acquire_before(sync::after(span));
   }
-  bool try_acquire_until(steady_clock::time_point deadline) { return core_.acquire_before(to_time(deadline)); }
+  template <class Clock, class Span>
+  bool try_acquire_until(const std::chrono::time_point<Clock, Span>& deadline) {
+    return core_.acquire_before(sync::until(deadline));
+  }
 
  private:
   sync::SemaphoreCore core_;

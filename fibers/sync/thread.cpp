@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/thread.hpp"
 
+#include "fibers/sync/misuse.hpp"
 #include "fibers/sync/simulation.hpp"
 
 namespace waitpoint {
@@ -17,6 +18,7 @@ void run_thread(void* argument) {
     // What the function owns is let go while an exception is under way, so that its destructors need not wait.
     if (scheduler.unwinding()) throw Unwind();
     body();
+    if (!scheduler.unwinding()) check_holds_nothing(*kernel::running);
   } catch (const Unwind&) {
   } catch (...) {
     // While unwinding, this is what a task made of Unwind.

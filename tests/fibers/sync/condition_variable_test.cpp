@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <deque>
+#include <new>
 #include <set>
 #include <string>
 #include <vector>
@@ -141,11 +143,44 @@ TEST(ConditionVariable, TimesOutAtTheDeadlineHoldingTheLock) {
     EXPECT_FALSE(c.wait_for(lock, 2ms, [] { return false; }));
     EXPECT_EQ(now(), at(9ms));
     EXPECT_TRUE(c.wait_for(lock, 2ms, [] { return now() >= at(11ms); }));  // true only at the deadline
-    EXPECT_TRUE(c.wait_until(lock, {}, [] { return true; }));
+    EXPECT_TRUE(c.wait_until(lock, steady_clock::time_point(), [] { return true; }));
     EXPECT_EQ(now(), at(11ms));
     EXPECT_TRUE(lock.owns_lock());
     thread other([&] { EXPECT_FALSE(m.try_lock()); });
     other.join();
+  });
+}
+
+// As the standard has it: nobody who was notified needs the condition variable any more, though it still waits for the
+// mutex.
+TEST(ConditionVariable, MayBeDestroyedAsSoonAsAllAreNotified) {
+  in_every_order([] {
+    mutex m;
+    alignas(condition_variable) unsigned char memory[sizeof(condition_variable)];
+    auto* c = new (memory) condition_variable;
+    std::vector<thread> threads;
+    int woken = 0;
+    for (int i = 0; i < 4; ++i)
+      threads.emplace_back([&, i] {
+        Lock lock(m);
+        if (i == 0)
+          EXPECT_EQ(c->wait_for(lock, 1h), cv_status::no_timeout);
+        else
+          c->wait(lock);
+        ++woken;
+      });
+    sleep_for(5ms);
+    {
+      const Lock lock(m);
+      c->notify_one();
+      c->notify_all();
+      c->~condition_variable();
+      std::memset(memory, 0xAB, sizeof memory);
+      EXPECT_EQ(woken, 0);
+    }
+    for (thread& t : threads) t.join();
+    EXPECT_EQ(woken, 4);
+    for (const unsigned char byte : memory) ASSERT_EQ(byte, 0xAB);
   });
 }
 

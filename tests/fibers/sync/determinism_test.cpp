@@ -139,6 +139,7 @@ TEST(Digest, SeesTimesOperationsObjectsAndOutputs) {
       this_thread::sleep_for(sleep);
       operation == 0 ? m[object].lock() : (void)m[object].try_lock();
       threads::record(name, Output{value});
+      m[object].unlock();
     });
     return to_string(report.digest);
   };

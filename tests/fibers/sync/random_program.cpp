@@ -69,10 +69,11 @@ class Author {
         steps.push_back({Kind::unlock, mutex});
         break;
       case 5:
-        steps.push_back({Kind::lock, mutex});
-        steps.push_back({Kind::wait_for, object, span(), mutex});
+        // All who wait on one condition do so with one mutex.
+        steps.push_back({Kind::lock, object});
+        steps.push_back({Kind::wait_for, object, span(), object});
         add_idling(steps);
-        steps.push_back({Kind::unlock, mutex});
+        steps.push_back({Kind::unlock, object});
         break;
       case 6: steps.push_back({Kind::release, object}); break;
       case 7: steps.push_back({below(8) == 0 ? Kind::acquire : Kind::acquire_for, object, span()}); break;

@@ -26,7 +26,7 @@ TEST(Semaphore, GivesAsManyUnitsAsItHas) {
     EXPECT_TRUE(s.try_acquire_for(1h));
     EXPECT_FALSE(s.try_acquire());
     EXPECT_FALSE(s.try_acquire_for(0s));
-    EXPECT_FALSE(s.try_acquire_until({}));
+    EXPECT_FALSE(s.try_acquire_until(steady_clock::time_point()));
     s.release(2);
     EXPECT_TRUE(s.try_acquire());
     EXPECT_TRUE(s.try_acquire());

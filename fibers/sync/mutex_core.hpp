@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exclusive ownership: what mutex, timed_mutex and their recursive kin have in common.
+//
+// A lock has one owner or none; the locks that a task owns hang in a list in it. Both are written here alone, by own()
+// and disown(). A release with waiters hands the lock to one of them, of the chooser's choice: nobody comes between.
+#pragma once
+
+#include "fibers/sync/blocking.hpp"
+#include "fibers/sync/misuse.hpp"
+
+namespace waitpoint::sync {
+
+/// Makes `task` the owner of `object`, which nobody owns.
+inline void own(kernel::Object& object, kernel::Task& task) {
+  object.owner = &task;
+  object.next_held = task.held;
+  task.held = &object;
+}
+
+/// Takes `object` from its owner.
+void disown(kernel::Object& object);
+
+class MutexCore {
+ public:
+  constexpr MutexCore(const char* kind, const char* label) : object_(kind, label) {}
+  ~MutexCore() { check_destroyed(object_); }
+
+  kernel::Object& object() { return object_; }
+  const kernel::Object& object() const { return object_; }
+  bool is_owned_by_caller() const { return object_.owner == kernel::running; }
+
+  // --- after the caller's waitpoint ---
+
+  /// True once the caller owns the lock; false if the deadline came first. An owner waits for itself.
+  bool acquire(Time deadline);
+  /// Hands the lock on; it is a bug not to own it.
+  void release();
+
+ private:
+  kernel::Object object_;
+};
+
+}  // namespace waitpoint::sync
