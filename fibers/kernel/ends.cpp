@@ -26,6 +26,7 @@ void Scheduler::unlink(Task& task) {
 void Scheduler::end_task(Task& task) {
   unlink(task);
   ended_ = &task;
+  task.fiber.ended = true;
   if (!task.service && !unwinding_) {
     if (--task.robot->live_tasks == 0) {
       task.robot->ended = true;

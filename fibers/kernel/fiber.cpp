@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/kernel/fiber.hpp"
 
-#include <cxxabi.h>
-
 #include <boost/context/detail/fcontext.hpp>
 #include <cerrno>
-#include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/kernel/sanitizer.hpp"
+
+// The Itanium C++ ABI has it; libc++'s <cxxabi.h> has not.
+namespace __cxxabiv1 {
+struct __cxa_eh_globals;
+extern "C" __cxa_eh_globals* __cxa_get_globals() noexcept;
+}  // namespace __cxxabiv1
 
 namespace waitpoint::kernel {
 namespace {
@@ -16,6 +20,7 @@ namespace context = boost::context::detail;
 
 // What make_fcontext's function gets by its first switch.
 struct Start {
+  Fiber& fiber;
   void (*entry)(void*);
   void* argument;
 };
@@ -42,18 +47,27 @@ inline context::transfer_t jump(context::fcontext_t to, void* data) {
 }
 
 // The context of a fiber is known only to whom it switched to: that one writes it down.
-void note_where_left(const context::transfer_t& transfer) {
-  static_cast<Fiber*>(transfer.data)->context = transfer.fctx;
+Fiber& note_where_left(const context::transfer_t& transfer) {
+  Fiber& left = *static_cast<Fiber*>(transfer.data);
+  left.context = transfer.fctx;
+  return left;
+}
+
+// The switch, seen by a sanitizer.
+void jump_seen(Fiber& from, void* target, Fiber& to) {
+  sanitizer::leave(from, to);
+  Fiber& left = note_where_left(context::jump_fcontext(target, &from));
+  sanitizer::arrive(left, from);
 }
 
 void run_entry(context::transfer_t transfer) {
   // The outermost frame of the fiber: debuggers and unwinders stop here.
   asm volatile(".cfi_undefined rip");
   // prepare() switched here once so that the start could be read from its frame; the first real switch comes after.
-  Start start;
-  std::memcpy(&start, transfer.data, sizeof start);
+  const Start start = *static_cast<const Start*>(transfer.data);
   transfer = context::jump_fcontext(transfer.fctx, nullptr);
-  note_where_left(transfer);
+  Fiber& left = note_where_left(transfer);
+  if (sanitizer::present) sanitizer::arrive(left, start.fiber);
   start.entry(start.argument);
   bug(__FILE__, __LINE__, "entry returned", "a fiber's entry function returned");
 }
@@ -78,7 +92,8 @@ void bind_to_thread() {
 void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), void* argument) {
   fiber.stack = stack;
   fiber.thread_state = {};
-  Start start{entry, argument};
+  if (sanitizer::present) sanitizer::prepare(fiber);
+  Start start{fiber, entry, argument};
   context::fcontext_t fresh = context::make_fcontext(top, static_cast<std::size_t>(top - stack.low), run_entry);
   fiber.context = context::jump_fcontext(fresh, &start).fctx;
 }
@@ -90,6 +105,7 @@ void switch_fiber(Fiber& from, Fiber& to) {
   *error_number = to.thread_state.error_number;
   void* target = to.context;
   to.context = nullptr;
+  if (__builtin_expect(sanitizer::present, 0)) return jump_seen(from, target, to);
   note_where_left(jump(target, &from));
 }
 

@@ -23,6 +23,8 @@ struct Fiber {
   void* context = nullptr;  ///< where it goes on; null while it runs. A debugger reads it.
   ThreadState thread_state;
   Stack stack;
+  bool ended = false;        ///< it is left for good
+  void* known_as = nullptr;  ///< to a sanitizer
 };
 
 /// Fibers run in the calling thread from now on: to be told before it leaves its own stack for the first time.

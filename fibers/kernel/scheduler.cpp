@@ -8,6 +8,7 @@
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/fetch.hpp"
 #include "fibers/kernel/local_clock.hpp"
+#include "fibers/kernel/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 
@@ -35,7 +36,9 @@ constexpr int stack_lines_fetched = 6;
 }  // namespace
 
 Scheduler::Scheduler(Order order, std::uint64_t seed)
-    : events_(2 * tasks_max), chooser_(order, seed), epoch_(++runs), may_stay_(order == Order::fifo) {}
+    : events_(2 * tasks_max), chooser_(order, seed), epoch_(++runs), may_stay_(order == Order::fifo) {
+  set_watch(nullptr);
+}
 
 Scheduler::~Scheduler() {
   WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
@@ -71,6 +74,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   set_clock(task, options.clock);
   copy_name(task.name, options.name);
   prepare(task.fiber, stack, top, task_main, &task);
+  if (sanitizer::present) sanitizer::name(task.fiber, task.name);
 
   task.previous = last_task_;
   (last_task_ == nullptr ? first_task_ : last_task_->next) = &task;
@@ -330,7 +334,21 @@ inline void Scheduler::execute(Task& task, Operation operation, const Object* ob
   std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
   if (object != nullptr) what ^= object->identity;
   lane_->add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
-  if (__builtin_expect(watch_ != nullptr, 0)) watch_->event(*watch_, {now_, &task, operation, object});
+  if (__builtin_expect(watched_, 0)) show({now_, &task, operation, object});
+}
+
+void Scheduler::set_watch(Watch* watch) {
+  watch_ = watch;
+  watched_ = watch != nullptr || sanitizer::present;
+}
+
+void Scheduler::show(const EventRecord& record) {
+  // Every use of an object comes after all earlier ones.
+  if (sanitizer::present && record.object != nullptr) {
+    sanitizer::acquire(record.object);
+    sanitizer::release(record.object);
+  }
+  if (watch_ != nullptr) watch_->event(*watch_, record);
 }
 
 void Scheduler::begin(Task& task) {
@@ -394,6 +412,7 @@ Wake Scheduler::block(Object& object, Time deadline) {
 // The task waits from now on: the fiber to leave for.
 Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
   end_free_passes(task);
+  if (sanitizer::present) sanitizer::release(&object);
   append_waiter(object, task);
   task.state = TaskState::blocked;
   task.finite_wait = deadline != Time::max();
@@ -423,6 +442,7 @@ inline void Scheduler::remove_waiter(Task& task) {
 
 // Algorithm 2: who was woken takes the global time as its local one.
 inline void Scheduler::wake(Task& task) {
+  if (__builtin_expect(sanitizer::present, 0)) sanitizer::release(task.blocked_on);
   remove_waiter(task);
   if (task.event.in_list()) events_.remove(task.event);
   task.wake = Wake::woken;

@@ -151,7 +151,7 @@ class Scheduler {
   std::uint32_t live_tasks() const { return live_tasks_; }
   /// A task of the cycle in a deadlock, whose `search.to` leads around it; null without a cycle.
   Task* culprit() const { return culprit_; }
-  void set_watch(Watch* watch) { watch_ = watch; }
+  void set_watch(Watch* watch);
   /// What waitpoint_describe_run() prints as the way to repeat this run; must outlive the run.
   void set_replay(const char* text) { replay_ = text; }
   const char* replay() const { return replay_; }
@@ -179,6 +179,7 @@ class Scheduler {
   void end_segment(Task& task);
   bool begin_segment(Task& task, Operation operation, Object* object);
   void execute(Task& task, Operation operation, const Object* object);
+  void show(const EventRecord& record);
   bool give_turn(Task& task);
   void check_progress(Task& task);
   EventKey key(const Task& task, Time time) { return {time, make_order(task.phase, chooser_.tie(task))}; }
@@ -220,6 +221,7 @@ class Scheduler {
   Task* culprit_ = nullptr;
   Task* first_abandoned_ = nullptr;
   Watch* watch_ = nullptr;
+  bool watched_ = false;  // by a watch or a sanitizer
   const char* replay_ = "";
   void* client_ = nullptr;
   void (*deliver_)(Task&) = nullptr;

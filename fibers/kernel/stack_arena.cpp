@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 
 #include "core/error.hpp"
+#include "fibers/kernel/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 namespace {
@@ -20,6 +21,7 @@ std::uint32_t& link(const Stack& stack) { return reinterpret_cast<std::uint32_t*
 }  // namespace
 
 StackArena::StackArena() {
+  sanitizer::look();
   for (int i = 0; i < 3; ++i) {
     Range& range = ranges_[i];
     // A machine with little address space to give (limits, strict overcommit) gets fewer slots, not a failure.
@@ -67,12 +69,14 @@ bool StackArena::take(StackSize size, Stack& stack) {
     if (slot < range.unguarded_from && !install_guard(range.base + slot * bytes(size))) range.unguarded_from = slot;
     stack = describe(range, size, slot);
   }
+  if (sanitizer::present) sanitizer::open_stack(stack);
   if (stack.guard == Guard::canary) canary(stack) = canary_word;
   return true;
 }
 
 void StackArena::give_back(const Stack& stack) {
   WAITPOINT_CHECK(intact(stack), "a task ran over the end of its stack");
+  if (sanitizer::present) sanitizer::close_stack(stack);
   Range& range = ranges_[static_cast<int>(stack.size)];
   link(stack) = range.free_first;
   range.free_first = stack.slot;

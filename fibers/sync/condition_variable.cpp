@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/condition_variable.hpp"
 
+#include "fibers/kernel/sanitizer.hpp"
+
 namespace waitpoint {
 
 condition_variable::~condition_variable() {
@@ -23,6 +25,8 @@ bool condition_variable::wait_before(std::unique_lock<mutex>& lock, Time deadlin
   WAITPOINT_CHECK(object_.first_waiter == nullptr || mutex_ == lock.mutex(),
                   sync::about(object_, "tasks wait on a condition variable with different mutexes"));
   mutex_ = lock.mutex();
+  // An unlock without a waitpoint of its own.
+  if (kernel::sanitizer::present) kernel::sanitizer::release(&lock.mutex()->core_.object());
   lock.mutex()->core_.release();
   const bool woken = sync::block(object_, deadline);
   lock.mutex()->lock();

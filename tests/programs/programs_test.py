@@ -137,6 +137,33 @@ class LostLetter(Installed):
         self.assertIn("deadlock at ", again.stdout)
 
 
+class SharedCounter(Installed):
+    """The installed library is not instrumented; a program built with a sanitizer is, and its threads are seen as such."""
+
+    def outcome(self, sanitizer, how):
+        program = self.folder / sanitizer
+        if not program.exists():
+            needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+            run("g++", "-std=c++20", "-O1", "-g", f"-fsanitize={sanitizer}", HERE / "shared_counter/shared_counter.cpp", "-o",
+                program, *needed, cwd=self.folder)
+        done = subprocess.run([program, how], capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_thread_sanitizer_finds_the_race_of_two_simulated_threads(self):
+        self.assertEqual(self.outcome("thread", "locked"), (0, "counted to 6\n"))
+        status, output = self.outcome("thread", "unlocked")
+        self.assertEqual(status, 66, output)
+        self.assertRegex(output, r"data race.*\n.*by thread T\d+")
+        for name in ["one", "two"]:
+            self.assertRegex(output, rf"Thread T\d+ '{name}'")
+
+    def test_address_sanitizer_knows_the_stacks_of_simulated_threads(self):
+        self.assertEqual(self.outcome("address", "locked"), (0, "counted to 6\n"))
+        status, output = self.outcome("address", "beyond")
+        self.assertNotEqual(status, 0)
+        self.assertIn("stack-buffer-overflow", output)
+
+
 # The primitives as threads.hpp names them, on the standard library's threads.
 REAL_THREADS = """
 #include <waitpoint/fibers/sync/threads.hpp>

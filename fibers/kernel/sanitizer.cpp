@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/kernel/sanitizer.hpp"
+
+#include <sys/mman.h>
+
+#include <cstdint>
+
+#include "fibers/kernel/fiber.hpp"
+
+// The runtimes' public interfaces (sanitizer/*_interface.h), of which a program has one or none.
+extern "C" {
+#define WAITPOINT_WEAK __attribute__((weak))
+WAITPOINT_WEAK void __sanitizer_start_switch_fiber(void** fake_stack_save, const void* bottom, std::size_t size);
+WAITPOINT_WEAK void __sanitizer_finish_switch_fiber(void* fake_stack, const void** bottom_old, std::size_t* size_old);
+WAITPOINT_WEAK void __asan_unpoison_memory_region(const volatile void* address, std::size_t size);
+WAITPOINT_WEAK void __lsan_register_root_region(const void* begin, std::size_t size);
+WAITPOINT_WEAK void __lsan_unregister_root_region(const void* begin, std::size_t size);
+WAITPOINT_WEAK void* __tsan_get_current_fiber();
+WAITPOINT_WEAK void* __tsan_create_fiber(unsigned flags);
+WAITPOINT_WEAK void __tsan_destroy_fiber(void* fiber);
+WAITPOINT_WEAK void __tsan_switch_to_fiber(void* fiber, unsigned flags);
+WAITPOINT_WEAK void __tsan_set_fiber_name(void* fiber, const char* name);
+WAITPOINT_WEAK void __tsan_acquire(void* address);
+WAITPOINT_WEAK void __tsan_release(void* address);
+#undef WAITPOINT_WEAK
+}
+
+namespace waitpoint::kernel::sanitizer {
+
+bool present = false;
+
+namespace {
+
+bool address = false;
+bool thread = false;
+bool valgrind = false;
+
+// AddressSanitizer asks for the bounds of every stack that is entered, and tells those of the one that was left: so
+// this is known of the context outside, which has none of our stacks.
+const void* outside_low = nullptr;
+std::size_t outside_size = 0;
+
+// Stand for the context outside where ThreadSanitizer asks for an address.
+char from_outside, to_outside;
+
+constexpr unsigned without_synchronization = 1;  // a switch alone orders nothing
+
+bool is_outside(const Fiber& fiber) { return fiber.stack.low == nullptr; }
+
+// valgrind's client requests, as its manual gives them: a sequence of rotations that does nothing on a processor.
+constexpr std::uint64_t running_on_valgrind = 0x1001, register_stack = 0x1501, deregister_stack = 0x1502;
+
+std::uint64_t ask_valgrind(std::uint64_t request, std::uint64_t first = 0, std::uint64_t second = 0) {
+  const volatile std::uint64_t arguments[6] = {request, first, second, 0, 0, 0};
+  std::uint64_t answer = 0;
+  asm volatile("rolq $3, %%rdi; rolq $13, %%rdi; rolq $61, %%rdi; rolq $51, %%rdi; xchgq %%rbx, %%rbx"
+               : "=d"(answer)
+               : "a"(arguments), "0"(answer)
+               : "cc", "memory");
+  return answer;
+}
+
+std::size_t size_of(const Stack& stack) { return static_cast<std::size_t>(stack.high - stack.low); }
+
+}  // namespace
+
+void look() {
+  address = &__sanitizer_start_switch_fiber != nullptr && &__asan_unpoison_memory_region != nullptr;
+  thread = &__tsan_switch_to_fiber != nullptr;
+  valgrind = ask_valgrind(running_on_valgrind) != 0;
+  present = address || thread || valgrind;
+}
+
+void open_stack(const Stack& stack) {
+  if (address) {
+    __asan_unpoison_memory_region(stack.low, size_of(stack));
+    // Objects that only a parked task knows are no leaks.
+    if (&__lsan_register_root_region != nullptr) __lsan_register_root_region(stack.low, size_of(stack));
+  }
+  // ThreadSanitizer forgets who used memory when it is mapped anew.
+  if (thread) {
+    const std::size_t whole_pages = (size_of(stack) + 4095) / 4096 * 4096;
+    mmap(stack.low, whole_pages, PROT_READ | PROT_WRITE,
+         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK | MAP_FIXED, -1, 0);
+  }
+}
+
+void close_stack(const Stack& stack) {
+  if (address && &__lsan_unregister_root_region != nullptr) __lsan_unregister_root_region(stack.low, size_of(stack));
+}
+
+void prepare(Fiber& fiber) {
+  if (thread) fiber.known_as = __tsan_create_fiber(0);
+  if (valgrind)
+    fiber.known_as =
+        reinterpret_cast<void*>(ask_valgrind(register_stack, reinterpret_cast<std::uint64_t>(fiber.stack.low),
+                                             reinterpret_cast<std::uint64_t>(fiber.stack.high - 1)));
+}
+
+void name(const Fiber& fiber, const char* name) {
+  if (thread) __tsan_set_fiber_name(fiber.known_as, name);
+}
+
+void leave(Fiber& from, Fiber& to) {
+  if (address) {
+    const void* low = is_outside(to) ? outside_low : to.stack.low;
+    const std::size_t size = is_outside(to) ? outside_size : size_of(to.stack);
+    // Without a place to keep its frames that AddressSanitizer moved to the heap, a fiber loses them: at its end.
+    __sanitizer_start_switch_fiber(from.ended ? nullptr : &from.known_as, low, size);
+  }
+  if (thread) {
+    if (is_outside(from)) {
+      from.known_as = __tsan_get_current_fiber();
+      __tsan_release(&from_outside);
+    } else {
+      __tsan_release(&to_outside);
+    }
+    __tsan_switch_to_fiber(to.known_as, without_synchronization);
+  }
+}
+
+void arrive(Fiber& left, Fiber& here) {
+  if (address) {
+    const void* low = nullptr;
+    std::size_t size = 0;
+    __sanitizer_finish_switch_fiber(here.known_as, &low, &size);
+    if (is_outside(left)) {
+      outside_low = low;
+      outside_size = size;
+    }
+  }
+  if (thread) {
+    __tsan_acquire(is_outside(here) ? &to_outside : &from_outside);
+    if (left.ended) __tsan_destroy_fiber(left.known_as);
+  }
+  if (valgrind && left.ended) ask_valgrind(deregister_stack, reinterpret_cast<std::uint64_t>(left.known_as));
+}
+
+void release(const void* object) {
+  if (thread) __tsan_release(const_cast<void*>(object));
+}
+
+void acquire(const void* object) {
+  if (thread) __tsan_acquire(const_cast<void*>(object));
+}
+
+}  // namespace waitpoint::kernel::sanitizer
