@@ -2,6 +2,7 @@
 """The machinery sees what it must see: each check on a small tree that breaks its rule, the counting on programs that
 pass, fail, crash and hang."""
 
+import hashlib
 import pathlib
 import subprocess
 import sys
@@ -12,6 +13,7 @@ sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/dev"))
 import run_tests  # noqa: E402
+import wraps  # noqa: E402
 
 LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n"
 
@@ -122,6 +124,52 @@ class Symbols(InATemporaryFolder):
                 status, output = self.symbols_of(code)
                 self.assertEqual(status, 1, output)
                 self.assertIn(f": {what}: ", output)
+
+
+class Wraps(InATemporaryFolder):
+    TEXT = "# why\n[wrap-file]\ndirectory = a-1\nsource_filename = a-1.tar.gz\nsource_hash = {}\npatch_directory = a\n"
+
+    def archive(self, name, directory):
+        self.write(f"{directory}/a.c", "int a;\n")
+        subprocess.run(["tar", "-caf", name, directory], cwd=self.folder, check=True)
+        return self.folder / name
+
+    def test_upstreams_own_archive_is_taken_as_it_is(self):
+        archive = self.archive("a_1.orig.tar.gz", "a-1")
+        text = self.TEXT.format(hashlib.sha256(archive.read_bytes()).hexdigest())
+        self.assertEqual(wraps.fit(text, archive), text)
+
+    def test_an_archive_packed_anew_is_named_in_the_wrap(self):
+        archive = self.archive("a_1+ds.orig.tar.xz", "a-1.ds")
+        lines = wraps.fit(self.TEXT.format("0" * 64), archive).splitlines()
+        self.assertEqual(lines[2:4], ["directory = a-1.ds", "source_filename = a_1+ds.orig.tar.xz"])
+        self.assertEqual(lines[4], f"source_hash = {hashlib.sha256(archive.read_bytes()).hexdigest()}")
+        self.assertEqual((lines[0], lines[5]), ("# why", "patch_directory = a"))
+
+    def test_every_wrap_has_its_source_package_and_its_archive_is_found(self):
+        names = {path.stem for path in (ROOT / "subprojects").glob("*.wrap")}
+        self.assertEqual(set(wraps.SOURCE_PACKAGES), names)
+        for name in ["a_1.dsc", "a_1.orig.tar.gz.asc", "a_1.debian.tar.xz", "a2_1.orig.tar.gz"]:
+            self.write(name, "")
+        self.assertIsNone(wraps.find_archive(self.folder, "a"))
+        self.write("a_1.orig.tar.bz2", "")
+        self.assertEqual(wraps.find_archive(self.folder, "a").name, "a_1.orig.tar.bz2")
+
+    def test_a_copy_follows_the_tree_and_leaves_what_is_built_in_it(self):
+        tree, copy = self.folder / "tree", self.folder / "copy"
+        for path in ["core/a.cpp", "subprojects/packagefiles/a/meson.build", "subprojects/a.wrap", "build/b.o", ".git/c"]:
+            self.write(f"tree/{path}", path)
+        wraps.copy_tree(tree, copy)
+        copied = {"core/a.cpp", "subprojects/packagefiles/a/meson.build"}
+        self.assertEqual({str(path.relative_to(copy)) for path in copy.rglob("*") if path.is_file()}, copied)
+        time_before = (copy / "core/a.cpp").stat().st_mtime_ns
+        self.write("copy/subprojects/a-1/unpacked.c", "")
+        self.write("tree/core/b.cpp", "new")
+        (tree / "subprojects/packagefiles/a/meson.build").unlink()
+        wraps.copy_tree(tree, copy)
+        self.assertEqual((copy / "core/a.cpp").stat().st_mtime_ns, time_before)
+        self.assertEqual({str(path.relative_to(copy)) for path in copy.rglob("*") if path.is_file()},
+                         {"core/a.cpp", "core/b.cpp", "subprojects/a-1/unpacked.c"})
 
 
 class Counting(InATemporaryFolder):

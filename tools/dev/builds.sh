@@ -1,63 +1,116 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# The same run from several builds of the program: builds.sh [BUILD...], a BUILD being COMPILER-LEVEL like clang++-O0.
-# Each is built in build-BUILD/, runs the office for the 120 s in which the robot meets the blocked door, and must give the
-# digest and the fingerprint of the math that the first one gives. The BUILD called `build` is the one that everyone
-# uses, as it is. Status 77 where a compiler is missing.
+# The same run from several builds of the program: builds.sh [BUILD...]. A BUILD is one of
+#
+#   COMPILER[-libc++]-LEVEL[-v3]   like clang++-O0, clang++-libc++-O3-v3: built in build-BUILD/. With libc++ the C++
+#                                  libraries come from subprojects/, so that all of the program is built on it; v3 is
+#                                  x86-64-v3, the processors with AVX2 and FMA
+#   build                          the one that everyone uses, as it is
+#   build-no-fma                   the same program, told that the processor has neither FMA nor AVX2
+#
+# Each runs the office for the 120 s in which the robot meets the blocked door, and must give the digest and the
+# fingerprint of the math that the first one gives. Status 77 where a compiler or libc++ is missing.
+#
+#   builds.sh --outcome FOLDER     "digest fingerprint" of the program that was built in FOLDER
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/dev/packages.sh"
 source "$root/tools/dev/build.sh"
 
-(($#)) || set -- {g++,clang++}-O{0,1,2,3}
-for name; do
-  [[ $name == build ]] || command -v "${name%-O?}" >/dev/null || { say "there is no ${name%-O?} here" && exit 77; }
-done
+all_builds=({g++,clang++,clang++-libc++}-O{0,2,3} {g++,clang++,clang++-libc++}-O3-v3 build-no-fma)
 
-# Prints "digest fingerprint" of one build, or nothing when it cannot be built or run: outcome_of BUILD
-outcome_of() {
-  local compiler=${1%-O?} level=${1##*-O} build=$root/build-$1 log=$root/build-$1.log
-  if [[ $1 == build ]]; then
-    build=$root/build
-  # Warnings differ with the level and are the business of the one build that everyone uses.
-  elif ! { CXX=$compiler configure -Doptimization="$level" -Dwerror=false -Dtests=disabled -Dbenchmarks=disabled &&
-    compile tools/waitpoint; } >"$log" 2>&1; then
-    tail -n 20 "$log" >&2
-    return 1
-  fi
+# glibc chooses its sine by what the processor has; python's is glibc's.
+no_fma=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2
+sines() { python3 -c 'import math; print(hash(tuple(math.sin(k) for k in range(1, 50000))))'; }
+
+# Prints "digest fingerprint" of the program in FOLDER: outcome FOLDER
+outcome() {
   # Status 1 only says that 120 s do not meet what the scenario expects of the whole mission.
   local status=0
-  rm -f "$build/summary.json"
-  "$build/tools/waitpoint" run "$root/scenarios/office.yaml" --until 120 --summary "$build/summary.json" \
-    >"$log" 2>&1 || status=$?
-  if ((status > 1)) || [[ ! -e $build/summary.json ]]; then
+  rm -f "$1/summary.json"
+  "$1/tools/waitpoint" run "$root/scenarios/office.yaml" --until 120 --summary "$1/summary.json" >"$1/run.log" 2>&1 ||
+    status=$?
+  if ((status > 1)) || [[ ! -e $1/summary.json ]]; then
+    tail -n 20 "$1/run.log" >&2
+    return 1
+  fi
+  python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["digest"], end=" ")' "$1/summary.json"
+  "$1/tools/waitpoint" --version | sed -n 's/^math *//p'
+}
+
+# Builds BUILD in build-BUILD/; its log is shown if that fails: build_one BUILD
+build_one() {
+  local build=$root/build-$1 log=$root/build-$1.log words=$1 options=()
+  if [[ $words == *-v3 ]]; then
+    words=${words%-v3}
+    options+=(-Dcpp_args=-march=x86-64-v3)
+  fi
+  local compiler=${words%-O?} level=${words##*-O}
+  if [[ $compiler == *-libc++ ]]; then
+    compiler="${compiler%-libc++} -stdlib=libc++"
+    options+=(-Dforce_fallback_for=fcl,fmt,yaml-cpp,cli11,nlohmann_json)
+  fi
+  # Warnings differ with the level and are the business of the one build that everyone uses.
+  if ! {
+    if [[ $compiler == *libc++ ]]; then
+      python3 "$root/tools/dev/wraps.py" "$root/build-wraps" || return
+      local root=$root/build-wraps/tree
+    fi
+    options+=(-Doptimization="$level" -Dwerror=false -Dtests=disabled -Dbenchmarks=disabled)
+    CXX=$compiler configure "${options[@]}" &&
+      compile tools/waitpoint
+  } >"$log" 2>&1; then
     tail -n 20 "$log" >&2
     return 1
   fi
-  python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["digest"], end=" ")' "$build/summary.json"
-  "$build/tools/waitpoint" --version | sed -n 's/^math *//p'
   rm "$log"
 }
+
+outcome_of() {
+  case $1 in
+    build) outcome "$root/build" ;;
+    build-no-fma) GLIBC_TUNABLES=$no_fma outcome "$root/build" ;;
+    *) build_one "$1" && outcome "$root/build-$1" ;;
+  esac
+}
+
+if [[ ${1-} == --outcome ]]; then
+  outcome "$2"
+  exit
+fi
+
+(($#)) || set -- "${all_builds[@]}"
+for name; do
+  [[ $name != build* ]] || continue
+  compiler=${name%%+*}++
+  command -v "$compiler" >/dev/null || { say "there is no $compiler here" && exit 77; }
+  [[ $name != *libc++* ]] || echo '#include <vector>' | clang++ -stdlib=libc++ -fsyntax-only -x c++ - 2>/dev/null ||
+    { say 'there is no libc++ here' && exit 77; }
+done
+if [[ " $* " == *' build-no-fma '* && $(sines) == $(GLIBC_TUNABLES=$no_fma sines) ]]; then
+  say 'this processor has no FMA to switch off, or this C library does not listen'
+fi
 
 passed=0
 failed=0
 expected=
-printf '%-12s %-6s  %-70s %s\n' build '' digest 'fingerprint of the math'
+printf '%-24s %-6s %6s  %-22s %s\n' build '' 's' digest 'fingerprint of the math'
 for name; do
   say "building and running $name"
-  if outcome=$(outcome_of "$name") && [[ $outcome == wp*:*\ ?* ]]; then
-    expected=${expected:-$outcome}
+  start=$SECONDS
+  if found=$(outcome_of "$name") && [[ $found == wp*:*\ ?* ]]; then
+    expected=${expected:-$found}
   else
-    outcome='neither -'
+    found='neither -'
   fi
-  if [[ $outcome == "$expected" ]]; then
+  if [[ $found == "$expected" ]]; then
     verdict=equal passed=$((passed + 1))
   else
     verdict=FAILED failed=$((failed + 1))
   fi
-  printf '%-12s %-6s  %-70s %s\n' "$name" "$verdict" "${outcome%% *}" "${outcome#* }"
+  printf '%-24s %-6s %6d  %-22s %s\n' "$name" "$verdict" $((SECONDS - start)) "${found%% *}" "${found#* }"
 done
 echo "$passed passed, $failed failed"
 ((failed == 0 && passed > 0))

@@ -7,6 +7,9 @@ declare -A debian=(
   [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
          nlohmann-json3-dev libpng-dev'
   [test]='libgtest-dev clang gdb'
+  [builds]='clang libc++-dev libc++abi-dev'
+  [wraps]=''
+  [valgrind]='valgrind'
   [bench]='libbenchmark-dev'
   [peers]='libsystemc-dev libsimgrid-dev libboost-fiber-dev'
   [check]='clang-format clang-tidy'
@@ -16,6 +19,9 @@ declare -A upstream=(
   [run]='Meson 1.0, Ninja, a C++20 compiler, pkg-config, Python 3; Boost.Context 1.74, FCL 0.7 with libccd and Eigen 3.4,
          yaml-cpp, CLI11, fmt, nlohmann_json, libpng'
   [test]='GoogleTest, g++ and clang++, gdb'
+  [builds]='clang++ with libc++; Debian'"'"'s source packages'
+  [wraps]='Debian'"'"'s source packages'
+  [valgrind]='valgrind'
   [bench]='Google Benchmark'
   [peers]='SystemC 2.3.4, SimGrid 3.32, Boost.Fiber 1.74 (each is left out where it is missing)'
   [check]='clang-format and clang-tidy 14'
@@ -24,7 +30,8 @@ declare -A upstream=(
 # Without these nothing can be built; all libraries but Google Benchmark and its peers come from subprojects/ when they
 # are missing.
 declare -A tools=(
-  [run]='meson ninja c++ pkg-config python3' [test]='' [bench]='' [peers]='' [check]='' [format]='clang-format'
+  [run]='meson ninja c++ pkg-config python3' [test]='' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
+  [bench]='' [peers]='' [check]='' [format]='clang-format'
 )
 
 say() { echo "dev: $*" >&2; }

@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -143,7 +144,7 @@ def report_end(name, result, wall_s, total):
 
 
 def jobs_of(build, arguments):
-    """The tests as (name, runs alone, function), what Meson gives a higher priority first."""
+    """The tests as (name, runs alone, function), what Meson gives a higher priority first; with `programs`, these alone."""
     description = subprocess.run(["meson", "introspect", "--tests", str(build)], check=True, capture_output=True).stdout
     reports = build / "test-reports"
     reports.mkdir(exist_ok=True)
@@ -153,17 +154,20 @@ def jobs_of(build, arguments):
         options.append(f"--gtest_filter={'*' + arguments.filter + '*' if plain else arguments.filter}")
     for test in sorted(json.loads(description), key=lambda test: -test["priority"]):
         environment = {**os.environ, **test["env"]}
-        timeout_s = test["timeout"] or None
+        if arguments.programs and test["name"] not in arguments.programs:
+            continue
+        timeout_s = test["timeout"] * arguments.patience or None
         common = (timeout_s, environment, test["workdir"])
+        command = arguments.under + test["cmd"]
         if test["protocol"] == "gtest":
             report = reports / (re.sub(r"\W+", "-", test["name"]) + ".xml")
-            job = lambda c=test["cmd"] + options, r=report, a=common: run_googletest(c, r, *a, bool(arguments.filter))
+            job = lambda c=command + options, r=report, a=common: run_googletest(c, r, *a, bool(arguments.filter))
         elif arguments.filter:
             continue
         else:
-            job = lambda c=test["cmd"], a=common: run_one_case(c, *a)
+            job = lambda c=command, a=common: run_one_case(c, *a)
         yield test["name"], not test["is_parallel"], job
-    if not arguments.filter:
+    if not arguments.filter and not arguments.programs:
         for name, command in OWN_CASES.items():
             words = [str(build) if word == BUILD else word for word in command]
             yield name, False, lambda c=words: run_one_case(c, OWN_CASE_TIMEOUT_S)
@@ -179,6 +183,9 @@ def main():
     parser.add_argument("build", type=pathlib.Path, help=argparse.SUPPRESS)
     parser.add_argument("--filter", metavar="PATTERN", help="a word in the name of the cases, or GoogleTest's own pattern")
     parser.add_argument("--jobs", type=int, default=2, help="programs at a time (default: 2)")
+    parser.add_argument("--programs", type=lambda names: names.split(","), help=argparse.SUPPRESS)
+    parser.add_argument("--under", type=shlex.split, default=[], help=argparse.SUPPRESS)
+    parser.add_argument("--patience", type=int, default=1, help=argparse.SUPPRESS)
     arguments, arguments.options = parser.parse_known_args()
 
     total = Result()

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A copy of the tree whose subprojects need no network: wraps.py FOLDER.
+
+The wraps name upstream's archives. Where only Debian's packages can be had, the same releases are in its source packages:
+some archives bit by bit the same, others packed anew, without what Debian may not ship. This script downloads them with
+the system's own apt, copies the tree to FOLDER/tree and fills the wraps' package cache there; in the copy, the wraps of
+what is packed anew say so. A second run takes over what changed in the tree.
+"""
+
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Each wrap and Debian's source package of the same release.
+SOURCE_PACKAGES = {
+    "boost": "boost1.74",
+    "ccd": "libccd",
+    "cli11": "cli11",
+    "eigen3": "eigen3",
+    "fcl": "fcl",
+    "fmt": "fmtlib",
+    "gtest": "googletest",
+    "libpng": "libpng1.6",
+    "nlohmann_json": "nlohmann-json3",
+    "yaml-cpp": "yaml-cpp",
+    "zlib": "zlib",
+}
+
+
+def find_archive(folder, package):
+    """The upstream archive of a source package in `folder`, or None."""
+    archives = (path for path in folder.glob(f"{package}_*") if re.search(r"\.orig\.tar\.(gz|bz2|xz)$", path.name))
+    return next(archives, None)
+
+
+def apt(state, *arguments):
+    """apt-get with package lists of its own, which hold the source packages of where the binary ones come from."""
+    command = ["apt-get", "-q", "-o", f"Dir::Etc::sourcelist={state}/sources.list", "-o", "Dir::Etc::sourceparts=-",
+               "-o", f"Dir::State::lists={state}/lists", "-o", "Acquire::Retries=3", "-o", "APT::Sandbox::User=root"]
+    subprocess.run([*command, *arguments], check=True, stdout=sys.stderr, cwd=state)
+
+
+def download(packages, folder):
+    """Puts the archives of Debian's source packages into `folder`."""
+    (folder / "lists/partial").mkdir(parents=True, exist_ok=True)
+    targets = subprocess.run(
+        ["apt-get", "indextargets", "--format", "deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)", "Created-By: Packages",
+         "Origin: Debian"], check=True, capture_output=True, text=True).stdout
+    if not targets:
+        raise SystemExit("dev: apt has no lists of Debian's packages yet: run apt-get update")
+    (folder / "sources.list").write_text("".join(sorted(set(targets.splitlines(keepends=True)))))
+    apt(folder, "update")
+    apt(folder, "source", "--download-only", *packages)
+
+
+def files_of_tree(folder):
+    """The files of a tree, relative to it: not what was built or unpacked there, and not its wraps."""
+    for place, folders, files in os.walk(folder):
+        place = pathlib.Path(place).relative_to(folder)
+        if place == pathlib.Path("."):
+            folders[:] = [name for name in folders if not name.startswith((".", "build"))]
+        elif place == pathlib.Path("subprojects"):
+            folders[:], files = ["packagefiles"], []
+        folders[:] = [name for name in folders if name != "__pycache__"]
+        yield from (place / name for name in files)
+
+
+def write_if_new(path, content):
+    """What is as it was keeps its time, for Ninja."""
+    if not path.exists() or path.read_bytes() != content:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+
+
+def copy_tree(source, target):
+    """Makes `target` what `source` is, but for the wraps."""
+    wanted = set(files_of_tree(source))
+    for path in wanted:
+        write_if_new(target / path, (source / path).read_bytes())
+        shutil.copymode(source / path, target / path)
+    for path in set(files_of_tree(target)) - wanted:
+        (target / path).unlink()
+
+
+def fit(wrap_text, archive):
+    """The text of a wrap that takes `archive`: the same, if it is the one that it names."""
+    digest = hashlib.sha256(archive.read_bytes()).hexdigest()
+    if f"source_hash = {digest}\n" in wrap_text:
+        return wrap_text
+    with tarfile.open(archive) as contents:
+        directory = contents.next().name.split("/")[0]
+    for key, value in {"directory": directory, "source_filename": archive.name, "source_hash": digest}.items():
+        wrap_text = re.sub(rf"^{key} = .*$", f"{key} = {value}", wrap_text, flags=re.MULTILINE)
+    return wrap_text
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1]).resolve()
+    sources, tree = folder / "sources", folder / "tree"
+    sources.mkdir(parents=True, exist_ok=True)
+    missing = [package for package in SOURCE_PACKAGES.values() if not find_archive(sources, package)]
+    if missing:
+        download(missing, sources)
+    copy_tree(ROOT, tree)
+    cache = tree / "subprojects/packagecache"
+    cache.mkdir(parents=True, exist_ok=True)
+    same = 0
+    for wrap, package in SOURCE_PACKAGES.items():
+        archive = find_archive(sources, package)
+        text = (ROOT / f"subprojects/{wrap}.wrap").read_text()
+        fitted = fit(text, archive)
+        same += fitted == text
+        write_if_new(tree / f"subprojects/{wrap}.wrap", fitted.encode())
+        cached = cache / re.search(r"^source_filename = (.*)$", fitted, re.MULTILINE).group(1)
+        if not cached.exists():
+            shutil.copyfile(archive, cached)
+    print(f"dev: {len(SOURCE_PACKAGES)} archives from Debian, {same} of them upstream's own", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
