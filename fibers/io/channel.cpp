@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/io/channel.hpp"
+
+#include <algorithm>
+
+namespace waitpoint::io {
+
+void Channel::enter() {
+  kernel::Scheduler& scheduler = *sync::running_task().scheduler;
+  if (scheduler.enter(receiving_)) {
+    scheduler.enter(sending_);
+    scheduler_ = &scheduler;
+    pollers_.clear();
+    refresh();
+  }
+  WAITPOINT_CHECK(receiving_.robot == kernel::running->robot || scheduler.unwinding(),
+                  "a pipe, socket or mailbox is used by a task of another robot: robots talk through sockets and "
+                  "mailbox senders");
+}
+
+void Channel::remove_poller(const kernel::Object& poller) {
+  pollers_.erase(std::remove(pollers_.begin(), pollers_.end(), &poller), pollers_.end());
+}
+
+bool Channel::begin(kernel::Operation operation, kernel::Object& side) {
+  enter();
+  return sync::before_blocking(operation, side);
+}
+
+bool Channel::begin_release(kernel::Operation operation, kernel::Object& side) {
+  if (kernel::running == nullptr || kernel::running->scheduler->unwinding()) return false;
+  enter();
+  return sync::before_releasing(operation, side);
+}
+
+void Channel::wake_pollers() {
+  for (kernel::Object* poller : pollers_) scheduler_->wake_first(*poller);
+}
+
+void Channel::wake_one(kernel::Object& side) {
+  if (scheduler_ == nullptr) return;  // nobody has used it yet
+  scheduler_->wake_one(side);
+  wake_pollers();
+}
+
+void Channel::wake_first(kernel::Object& side) {
+  if (scheduler_ == nullptr) return;
+  scheduler_->wake_first(side);
+  wake_pollers();
+}
+
+void Channel::wake_all(kernel::Object& side) {
+  if (scheduler_ == nullptr) return;
+  scheduler_->wake_all(side);
+  wake_pollers();
+}
+
+void record_sent(std::string_view to, std::uint64_t what) {
+  Digest name;
+  name.add(to);
+  kernel::running->scheduler->record_output(name.value(), what);
+}
+
+}  // namespace waitpoint::io

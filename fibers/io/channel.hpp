@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The base of pipes, sockets and mailboxes: two sides at which tasks wait, and pollers that watch both.
+//
+//   tasks that receive -> receiving_ | ... |  sending_ <- tasks that send
+//                                     ready()
+//                                       ^ pollers_: tasks in poll()
+//
+// A channel belongs to the robot whose task first uses it in a run; use by another robot's task is a bug: what crosses
+// between robots goes through a medium. The one exception is an arrival, an event of no task, which wakes who waits.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fibers/io/deadline.hpp"
+#include "fibers/sync/blocking.hpp"
+
+namespace waitpoint::io {
+
+/// What a poll asks for and finds; a set.
+enum class Events : std::uint8_t {
+  none = 0,
+  readable = 1,  ///< a receiving call would not block: it has something to give, or end of file
+  writable = 2,  ///< a sending call would not block: there is room, or nobody left to send to
+  closed = 4,    ///< this end or the other one is closed; told whether asked for or not
+};
+constexpr Events operator|(Events a, Events b) {
+  return static_cast<Events>(static_cast<std::uint8_t>(a) | static_cast<std::uint8_t>(b));
+}
+constexpr Events operator&(Events a, Events b) {
+  return static_cast<Events>(static_cast<std::uint8_t>(a) & static_cast<std::uint8_t>(b));
+}
+constexpr bool any(Events events) { return events != Events::none; }
+/// The event if the condition holds, else none.
+constexpr Events when(bool condition, Events event) { return condition ? event : Events::none; }
+
+class Channel {
+ public:
+  virtual ~Channel() = default;
+  Channel(const Channel&) = delete;
+  Channel& operator=(const Channel&) = delete;
+
+  /// What would not block now.
+  virtual Events ready() const = 0;
+
+  /// Before a task uses the channel: makes it fresh in a new run. A task of another robot is a bug.
+  void enter();
+  /// `poller` is woken whenever ready() may have grown, until it is taken away.
+  void add_poller(kernel::Object& poller) { pollers_.push_back(&poller); }
+  void remove_poller(const kernel::Object& poller);
+
+ protected:
+  Channel(const char* kind, std::string label)
+      : label_(std::move(label)), receiving_(kind, label_.c_str()), sending_(kind, label_.c_str()) {}
+
+  /// A waitpoint at one of the sides before a call that may block. False in a destructor of a run that is over, else
+  /// throws sync::Unwind then.
+  bool begin(kernel::Operation operation, kernel::Object& side);
+  /// The same before a call that does not block; never throws. False when there is nothing to be done: the run is
+  /// over, or the caller is no task.
+  bool begin_release(kernel::Operation operation, kernel::Object& side);
+
+  /// Blocks at `side` until `holds()`, which is asked again whenever the side is woken.
+  template <class Condition>
+  Status wait(kernel::Object& side, const Deadline& deadline, Condition holds) {
+    while (!holds()) {
+      if (deadline.at() <= sync::running_task().local_time) return deadline.late();
+      if (!sync::block(side, deadline.at())) return Status::timed_out;
+    }
+    return Status::ok;
+  }
+
+  /// For one thing to be had: wakes one who waits at `side`, of the chooser's choice, and the pollers.
+  void wake_one(kernel::Object& side);
+  /// The same for an arrival, which no task chooses for: the first.
+  void wake_first(kernel::Object& side);
+  /// Wakes all who wait at `side`, to look again, and the pollers.
+  void wake_all(kernel::Object& side);
+
+  /// Names the channel in reports.
+  void set_label(std::string label) {
+    label_ = std::move(label);
+    receiving_.label = sending_.label = label_.c_str();
+  }
+  /// Forgets what an earlier run left.
+  virtual void refresh() {}
+
+ private:
+  void wake_pollers();
+  std::string label_;
+
+ protected:
+  kernel::Object receiving_;
+  kernel::Object sending_;
+
+ private:
+  kernel::Scheduler* scheduler_ = nullptr;
+  std::vector<kernel::Object*> pollers_;
+};
+
+/// Adds what is sent to the digest of the sender's robot.
+void record_sent(std::string_view to, std::uint64_t what);
+
+}  // namespace waitpoint::io

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What values that are sent between robots need: declared fields, for the digest and for how long they are on the air.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+
+#include "core/fields.hpp"
+
+namespace waitpoint::io {
+
+/// A value with declared fields, or a number.
+template <class T>
+concept Sendable = HasFields<T> || std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// The bytes of the declared fields, without padding; of a Bounded array, those of its elements and 4 for their number.
+template <class T>
+std::size_t wire_bytes(const T& value) {
+  if constexpr (HasFields<T>) {
+    std::size_t sum = 0;
+    for_each_field(value, [&](std::string_view, const auto& member) { sum += wire_bytes(member); });
+    return sum;
+  } else if constexpr (requires { value.begin(); }) {
+    std::size_t sum = requires { value.push_back(*value.begin()); }
+    ? 4 : 0;
+    for (const auto& item : value) sum += wire_bytes(item);
+    return sum;
+  } else {
+    return sizeof value;  // numbers, times, points and poses have no padding
+  }
+}
+
+template <Sendable T>
+std::uint64_t hash_of(const T& value) {
+  Digest digest;
+  add_value(digest, value);
+  return digest.value();
+}
+
+}  // namespace waitpoint::io

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/io/link.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace waitpoint::io {
+namespace {
+
+// What is drawn for a message: an index of the link's stream each.
+enum Draw : std::uint64_t { latency, loss };
+
+}  // namespace
+
+Link::Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, std::optional<Medium> medium,
+           const Distance& distance, std::size_t in_flight_max)
+    : scheduler_(scheduler),
+      from_(from),
+      to_(std::move(to)),
+      medium_(std::move(medium)),
+      distance_(distance),
+      in_flight_max_(in_flight_max),
+      random_(scheduler.chooser().seed(), from.name, "medium to " + to_) {
+  range_check_.link = this;
+  range_check_.fire = look_again;
+}
+
+Link::~Link() {
+  if (range_check_.in_list()) scheduler_.cancel(range_check_);
+  for (Flight& flight : flights_)
+    if (flight.in_list()) scheduler_.cancel(flight);
+}
+
+double Link::distance_m() const {
+  const double distance_m = distance_ == nullptr ? 0 : distance_(from_.name, to_);
+  WAITPOINT_CHECK(distance_m >= 0, "the distance between two robots is not a number from zero");
+  return distance_m;
+}
+
+// When the message arrives whose last bit follows those of all before it.
+Time Link::put_on_air(std::size_t bytes, double distance_m) {
+  ++number_;
+  free_at_ = std::max(free_at_, scheduler_.global_time()) + time_on_air(*medium_, bytes);
+  const std::int64_t spread_ns = (medium_->latency_most - medium_->latency_least).ns();
+  const std::uint64_t drawn_ns = random_.below(static_cast<std::uint64_t>(spread_ns) + 1, number_, Draw::latency);
+  return free_at_ + medium_->latency_least + Duration::from_ns(static_cast<std::int64_t>(drawn_ns)) +
+         Duration::from_seconds(medium_->latency_per_metre.seconds() * distance_m);
+}
+
+void Link::send_datagram(std::size_t bytes, Arrival arrival) {
+  ++statistics.sent;
+  if (!medium_) return arrival();
+  const Duration queued = std::max(free_at_, scheduler_.global_time()) - scheduler_.global_time();
+  if (queued > time_on_air(*medium_, medium_->queue_bytes)) {
+    ++statistics.overflowed;
+    return;
+  }
+  const double away_m = distance_m();
+  const bool in_range = away_m <= medium_->range_m;
+  // One that is lost has been on the air all the same.
+  const Time arrives = put_on_air(bytes, in_range ? away_m : 0);
+  if (!in_range)
+    ++statistics.out_of_range;
+  else if (random_.uniform(number_, Draw::loss) < medium_->loss)
+    ++statistics.lost;
+  else
+    launch(arrives, std::move(arrival));
+}
+
+void Link::send_in_order(std::size_t bytes, Arrival arrival) {
+  ++statistics.sent;
+  if (!medium_) return arrival();
+  const double away_m = distance_m();
+  if (waiting_.empty() && away_m <= medium_->range_m) return transmit_in_order(bytes, away_m, std::move(arrival));
+  check_room();
+  waiting_.push_back({bytes, std::move(arrival)});
+  if (!range_check_.in_list()) scheduler_.deliver(range_check_, scheduler_.global_time() + medium_->range_check, from_);
+}
+
+void Link::look_again(kernel::EventNode& node) {
+  Link& self = *static_cast<RangeCheck&>(node).link;
+  const double away_m = self.distance_m();
+  if (away_m > self.medium_->range_m) {
+    self.scheduler_.deliver(node, self.scheduler_.global_time() + self.medium_->range_check, self.from_);
+    return;
+  }
+  for (; !self.waiting_.empty(); self.waiting_.pop_front())
+    self.transmit_in_order(self.waiting_.front().bytes, away_m, std::move(self.waiting_.front().arrival));
+}
+
+void Link::transmit_in_order(std::size_t bytes, double distance_m, Arrival arrival) {
+  in_order_until_ = std::max(in_order_until_, put_on_air(bytes, distance_m));
+  launch(in_order_until_, std::move(arrival));
+}
+
+void Link::check_room() const {
+  WAITPOINT_CHECK(flights_.size() - landed_.size() + waiting_.size() <= in_flight_max_,
+                  "more messages are under way between two robots than NetworkLimits::in_flight_max");
+}
+
+void Link::launch(Time arrives, Arrival arrival) {
+  check_room();
+  WAITPOINT_CHECK(arrives - scheduler_.global_time() >= scheduler_.lookahead(), "a message arrives too soon");
+  Flight& flight = landed_.empty() ? flights_.emplace_back() : *landed_.back();
+  if (!landed_.empty()) landed_.pop_back();
+  flight.link = this;
+  flight.fire = land;
+  flight.arrival = std::move(arrival);
+  scheduler_.deliver(flight, arrives, from_);
+}
+
+void Link::land(kernel::EventNode& node) {
+  auto& flight = static_cast<Flight&>(node);
+  const Arrival arrival = std::exchange(flight.arrival, nullptr);
+  flight.link->landed_.push_back(&flight);
+  arrival();
+}
+
+}  // namespace waitpoint::io

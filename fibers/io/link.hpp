@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One direction between two robots: carries messages over the medium, as events of the sender; or within one robot,
+// where a message arrives at once.
+//
+// What becomes of a message is a function of (seed, sender, receiver, the message's number on this link) and of the
+// distance at its sending: no other link's traffic has a part in it.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/random.hpp"
+#include "fibers/io/medium.hpp"
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::io {
+
+/// Metres between two robots now, by their names.
+using Distance = std::function<double(const std::string& from, const std::string& to)>;
+
+/// What became of the messages sent on a link.
+struct LinkStatistics {
+  std::uint64_t sent = 0;          ///< all of them
+  std::uint64_t lost = 0;          ///< datagrams, by the medium
+  std::uint64_t out_of_range = 0;  ///< datagrams sent beyond the range
+  std::uint64_t overflowed = 0;    ///< datagrams for which the sender's queue was too long
+  std::uint64_t unreachable = 0;   ///< datagrams to a name that no socket had
+};
+
+class Link {
+ public:
+  /// Called when a message arrives, by the task that sent it or by no task: must neither block nor use the running one.
+  using Arrival = std::function<void()>;
+
+  /// `medium` none: within one robot.
+  Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, std::optional<Medium> medium,
+       const Distance& distance, std::size_t in_flight_max);
+  ~Link();
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  /// May be lost, or arrive before what was sent earlier.
+  void send_datagram(std::size_t bytes, Arrival arrival);
+  /// Arrives after all that was sent in order before; beyond the range it waits.
+  void send_in_order(std::size_t bytes, Arrival arrival);
+
+  /// Between robots, what is under way takes room that the receiver cannot give back at once.
+  bool crosses() const { return medium_.has_value(); }
+  const std::string& to() const { return to_; }
+  LinkStatistics statistics;
+
+ private:
+  struct Flight : kernel::EventNode {
+    Link* link = nullptr;
+    Arrival arrival;
+  };
+  struct RangeCheck : kernel::EventNode {
+    Link* link = nullptr;
+  };
+  struct Waiting {
+    std::size_t bytes;
+    Arrival arrival;
+  };
+
+  static void land(kernel::EventNode& node);
+  static void look_again(kernel::EventNode& node);
+  double distance_m() const;
+  Time put_on_air(std::size_t bytes, double distance_m);
+  void transmit_in_order(std::size_t bytes, double distance_m, Arrival arrival);
+  void check_room() const;
+  void launch(Time arrives, Arrival arrival);
+
+  kernel::Scheduler& scheduler_;
+  kernel::Robot& from_;
+  std::string to_;
+  std::optional<Medium> medium_;
+  const Distance& distance_;
+  std::size_t in_flight_max_;
+  RandomStream random_;
+  std::uint64_t number_ = 0;  // of the last message that went on the air
+  Time free_at_;              // when the last bit of all so far is on the air
+  Time in_order_until_;       // when the last message in order arrives
+  std::deque<Waiting> waiting_;
+  RangeCheck range_check_;
+  std::deque<Flight> flights_;
+  std::vector<Flight*> landed_;  // of flights_, to be used again
+};
+
+}  // namespace waitpoint::io

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bounded queue of values between tasks. Tasks of its own robot use it directly; others, and whoever knows it only by
+// name, by a mailbox_sender.
+//
+//   io::mailbox<Order> orders(8);              // ada
+//   orders.bind(network, "orders");
+//   auto order = orders.receive(50ms);
+//
+//   io::mailbox_sender<Order> to_ada(network, "ada:orders");    // bob
+//   to_ada.send(order);
+//
+// A full mailbox holds its own robot's senders up. A letter from a sender by name is bounded by the sender's window
+// instead: so many may be under way or not yet received. Letters are never lost: the medium delays them.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "fibers/io/letter.hpp"
+#include "fibers/io/network.hpp"
+
+namespace waitpoint::io {
+
+/// What a mailbox tells the sender of a letter: ok once it is received; refused or peer_closed if it never will be.
+using Receipt = std::function<void(Status)>;
+
+template <class T>
+class mailbox : public Channel {
+ public:
+  /// Holds `capacity` letters, at least one.
+  explicit mailbox(std::size_t capacity, std::string label = "")
+      : Channel("mailbox", std::move(label)), capacity_(capacity) {
+    WAITPOINT_CHECK(capacity > 0, "a mailbox holds at least one letter");
+  }
+  ~mailbox() override { shut(begin_release(kernel::Operation::close, receiving_)); }
+
+  /// Gives it a name on this robot: ok or address_in_use. A second name is a bug.
+  Status bind(Network& network, const std::string& port);
+
+  /// Puts a letter in, moved from only if the status is ok; peer_closed once the mailbox is closed.
+  template <class Letter = T>
+  Status send(Letter&& letter, const Deadline& deadline = {});
+  template <class Letter = T>
+  Status try_send(Letter&& letter) {
+    return send(std::forward<Letter>(letter), no_wait);
+  }
+  template <class Letter = T, class Span>
+  Status send_for(Letter&& letter, const Span& span) {
+    return send(std::forward<Letter>(letter), Deadline(span));
+  }
+
+  /// Takes the oldest letter; end_of_file once the mailbox is closed and empty.
+  Result<T> receive(const Deadline& deadline = {});
+  Result<T> try_receive() { return receive(no_wait); }
+  template <class Span>
+  Result<T> receive_for(const Span& span) {
+    return receive(Deadline(span));
+  }
+
+  /// Takes no letter any more, and no name; those that are in it can be received. Closing again does nothing.
+  void close() {
+    if (begin_release(kernel::Operation::close, receiving_)) shut(true);
+  }
+
+  std::size_t capacity() const { return capacity_; }
+  Events ready() const override {
+    return when(!letters_.empty() || closed_, Events::readable) |
+           when(letters_.size() < capacity_ || closed_, Events::writable) | when(closed_, Events::closed);
+  }
+
+  /// A letter from a sender by name.
+  void arrive(const T& letter, Receipt receipt) {
+    letters_.push_back({letter, std::move(receipt)});
+    wake_first(receiving_);
+  }
+
+ private:
+  struct Entry {
+    T letter;
+    Receipt receipt;  // none for the own robot's
+  };
+  void refresh() override {
+    letters_.clear();
+    closed_ = false;
+    node_ = nullptr;
+  }
+  void shut(bool tell);
+
+  std::size_t capacity_;
+  std::deque<Entry> letters_;
+  bool closed_ = false;
+  Node* node_ = nullptr;  // where it has a name
+  std::string port_;
+};
+
+template <class T>
+Status mailbox<T>::bind(Network& network, const std::string& port) {
+  if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
+  WAITPOINT_CHECK(node_ == nullptr, "a mailbox is bound a second time");
+  WAITPOINT_CHECK(!closed_, "a mailbox is bound after its close");
+  Node& node = network.own_node();
+  if (!node.bind(Protocol::mailbox, port, *this)) return Status::address_in_use;
+  node_ = &node;
+  port_ = port;
+  set_label(node.name() + ":" + port);
+  return Status::ok;
+}
+
+template <class T>
+template <class Letter>
+Status mailbox<T>::send(Letter&& letter, const Deadline& deadline) {
+  if (!begin(kernel::Operation::send, sending_)) return Status::closed;
+  const Status status = wait(sending_, deadline, [&] { return closed_ || letters_.size() < capacity_; });
+  if (status != Status::ok) return status;
+  if (closed_) return Status::peer_closed;
+  letters_.push_back({T(std::forward<Letter>(letter)), nullptr});
+  if constexpr (Sendable<T>) record_sent("mailbox", hash_of(letters_.back().letter));
+  wake_one(receiving_);
+  return Status::ok;
+}
+
+template <class T>
+Result<T> mailbox<T>::receive(const Deadline& deadline) {
+  if (!begin(kernel::Operation::receive, receiving_)) return Status::closed;
+  const Status status = wait(receiving_, deadline, [&] { return closed_ || !letters_.empty(); });
+  if (status != Status::ok) return status;
+  if (letters_.empty()) return Status::end_of_file;
+  Entry entry = std::move(letters_.front());
+  letters_.pop_front();
+  if (entry.receipt != nullptr) entry.receipt(Status::ok);
+  // A letter by name may have stood above the capacity: then there is no room yet.
+  if (letters_.size() < capacity_) wake_one(sending_);
+  return std::move(entry.letter);
+}
+
+template <class T>
+void mailbox<T>::shut(bool tell) {
+  if (node_ != nullptr) node_->release(Protocol::mailbox, port_);
+  node_ = nullptr;
+  if (std::exchange(closed_, true) || !tell) return;
+  for (const Entry& entry : letters_)
+    if (entry.receipt != nullptr) entry.receipt(Status::peer_closed);
+  wake_all(receiving_);
+  wake_all(sending_);
+}
+
+}  // namespace waitpoint::io

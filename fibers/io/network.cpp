@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/io/network.hpp"
+
+namespace waitpoint::io {
+namespace {
+
+std::pair<std::string, std::string> in_order(const std::string& a, const std::string& b) {
+  return a < b ? std::pair(a, b) : std::pair(b, a);
+}
+
+kernel::Robot* robot_named(const kernel::Scheduler& scheduler, const std::string& name) {
+  for (kernel::Robot* robot = scheduler.first_robot(); robot != nullptr; robot = robot->next)
+    if (name == robot->name) return robot;
+  return nullptr;
+}
+
+}  // namespace
+
+Address::Address(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon != std::string_view::npos) robot = text.substr(0, colon);
+  port = colon == std::string_view::npos ? text : text.substr(colon + 1);
+}
+
+std::string to_string(const Address& address) { return address.robot + ":" + address.port; }
+
+Link* Node::link_to(const std::string& robot) {
+  const std::string to = robot.empty() ? name() : robot;
+  const auto known = links_.find(to);
+  if (known != links_.end()) return &known->second;
+  std::optional<Medium> medium;
+  if (to != robot_.name) {
+    const Medium* declared = network_.medium(robot_.name, to);
+    if (declared == nullptr || network_.node(to) == nullptr) return nullptr;
+    medium = *declared;
+  }
+  return &links_
+              .try_emplace(to, network_.scheduler_, robot_, to, medium, network_.distance_,
+                           network_.limits_.in_flight_max)
+              .first->second;
+}
+
+Channel* Node::find(Protocol protocol, const std::string& port) const {
+  const auto found = ports_.find({protocol, port});
+  return found != ports_.end() ? found->second : nullptr;
+}
+
+bool Node::bind(Protocol protocol, const std::string& port, Channel& channel) {
+  WAITPOINT_CHECK(!port.empty() && port.find(':') == std::string::npos, "a name to bind is empty or has a colon in it");
+  return ports_.try_emplace({protocol, port}, &channel).second;
+}
+
+bool Node::has_room() const { return sockets_ < network_.limits_.sockets_max; }
+
+void Node::take_socket() {
+  WAITPOINT_CHECK(has_room(), "a robot has more sockets than NetworkLimits::sockets_max");
+  ++sockets_;
+}
+
+Network::Network(Simulation& simulation, NetworkLimits limits) : scheduler_(simulation.scheduler()), limits_(limits) {}
+
+Network::Network() : scheduler_(*sync::running_task().scheduler) {}
+
+Network::~Network() {
+  // Once a run is over, tasks that could not be unwound may have left sockets behind.
+  if (kernel::running == nullptr || scheduler_.unwinding()) return;
+  for (const auto& [name, node] : nodes_) WAITPOINT_CHECK(node.sockets() == 0, "a network goes before its sockets");
+}
+
+void Network::declare(const Medium& medium) {
+  check(medium);
+  scheduler_.declare_latency(medium.latency_least);
+  between_all_ = medium;
+}
+
+void Network::declare(const std::string& a, const std::string& b, const Medium& medium) {
+  check(medium);
+  for (const std::string& name : {a, b})
+    if (robot_named(scheduler_, name) == nullptr) throw BadInput("medium", "there is no robot '" + name + "'");
+  if (a == b) throw BadInput("medium", "within robot '" + a + "' there is no medium");
+  scheduler_.declare_latency(medium.latency_least);
+  between_[in_order(a, b)] = medium;
+}
+
+const Medium* Network::medium(const std::string& from, const std::string& to) const {
+  const auto special = between_.find(in_order(from, to));
+  if (special != between_.end()) return &special->second;
+  return between_all_ ? &*between_all_ : nullptr;
+}
+
+LinkStatistics Network::statistics(const std::string& from, const std::string& to) {
+  Node* const sender = node(from);
+  const Link* const link = sender != nullptr ? sender->link_to(to) : nullptr;
+  return link != nullptr ? link->statistics : LinkStatistics();
+}
+
+Node& Network::own_node() {
+  const kernel::Robot& robot = *sync::running_task().robot;
+  WAITPOINT_CHECK(robot.scheduler == &scheduler_, "a network of another run is used");
+  return *node(robot.name);
+}
+
+Node* Network::node(const std::string& name) {
+  const auto known = nodes_.find(name);
+  if (known != nodes_.end()) return &known->second;
+  kernel::Robot* const robot = robot_named(scheduler_, name);
+  return robot != nullptr ? &nodes_.try_emplace(name, *this, *robot).first->second : nullptr;
+}
+
+}  // namespace waitpoint::io

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The network of a run: the names that sockets and mailboxes have on each robot, and the links between robots.
+//
+//   io::Network network(simulation);
+//   network.declare({.latency_least = 2ms, .latency_most = 5ms, .loss = 0.01});     // between all robots
+//   network.declare("ada", "bob", {.latency_least = 40ms, .latency_most = 40ms});   // but between these
+//
+// Within a robot no medium is asked. Between robots without a declared medium there is no route. A network belongs to
+// one run and outlives the sockets in it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "fibers/io/channel.hpp"
+#include "fibers/io/link.hpp"
+#include "fibers/sync/simulation.hpp"
+
+namespace waitpoint::io {
+
+/// Where something can be sent to: a robot's name and a name there.
+struct Address {
+  Address() = default;
+  /// "ada:door", or "door" on the caller's own robot.
+  Address(std::string_view text);
+  Address(const char* text) : Address(std::string_view(text)) {}
+  Address(const std::string& text) : Address(std::string_view(text)) {}
+  Address(std::string of, std::string name) : robot(std::move(of)), port(std::move(name)) {}
+
+  std::string robot;  ///< empty: the caller's own
+  std::string port;
+  friend bool operator==(const Address&, const Address&) = default;
+};
+
+/// "ada:door".
+std::string to_string(const Address& address);
+
+/// What a program can make grow is bounded by these; going beyond is a bug with a name.
+struct NetworkLimits {
+  std::size_t sockets_max = 4096;     ///< of one robot, connections and mailbox senders included
+  std::size_t in_flight_max = 65536;  ///< messages under way from one robot to another
+};
+
+/// Each has names of its own.
+enum class Protocol : std::uint8_t { datagram, stream, mailbox };
+
+class Network;
+
+/// One robot's share of the network.
+class Node {
+ public:
+  Node(Network& network, kernel::Robot& robot) : network_(network), robot_(robot) {}
+
+  std::string name() const { return robot_.name; }
+  /// The link to a robot, which may be this one; null if there is no route.
+  Link* link_to(const std::string& robot);
+  /// Null if nothing has the name.
+  Channel* find(Protocol protocol, const std::string& port) const;
+  /// False if the name is in use.
+  bool bind(Protocol protocol, const std::string& port, Channel& channel);
+  void release(Protocol protocol, const std::string& port) { ports_.erase({protocol, port}); }
+  /// Counts a socket more; beyond NetworkLimits::sockets_max is a bug.
+  void take_socket();
+  void give_socket() { --sockets_; }
+  std::size_t sockets() const { return sockets_; }
+  bool has_room() const;
+
+ private:
+  Network& network_;
+  kernel::Robot& robot_;
+  std::map<std::pair<Protocol, std::string>, Channel*> ports_;
+  std::map<std::string, Link> links_;
+  std::size_t sockets_ = 0;
+};
+
+class Network {
+ public:
+  explicit Network(Simulation& simulation, NetworkLimits limits = {});
+  /// Of the running task's simulation.
+  Network();
+  ~Network();
+  Network(const Network&) = delete;
+  Network& operator=(const Network&) = delete;
+
+  /// Declares the medium between all robots. Before anything is sent between robots; one that makes no sense is
+  /// BadInput.
+  void declare(const Medium& medium);
+  /// Declares the medium between two robots, in both directions, in place of the one between all.
+  void declare(const std::string& a, const std::string& b, const Medium& medium);
+  /// How far robots are from each other; without it, not at all.
+  void set_distance(Distance metres) { distance_ = std::move(metres); }
+
+  /// What became of all that a robot has sent to another.
+  LinkStatistics statistics(const std::string& from, const std::string& to);
+
+  /// For sockets: the running task's robot.
+  Node& own_node();
+  /// Null if there is no robot of that name.
+  Node* node(const std::string& robot);
+
+ private:
+  friend class Node;
+  const Medium* medium(const std::string& from, const std::string& to) const;
+
+  kernel::Scheduler& scheduler_;
+  NetworkLimits limits_;
+  Distance distance_;
+  std::optional<Medium> between_all_;
+  std::map<std::pair<std::string, std::string>, Medium> between_;  // names in order
+  std::map<std::string, Node> nodes_;
+};
+
+}  // namespace waitpoint::io

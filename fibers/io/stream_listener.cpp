@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/io/stream_listener.hpp"
+
+namespace waitpoint::io {
+
+Listener::Listener(Network& network, const ListenOptions& options)
+    : Channel("stream listener", ""), node_(network.own_node()), options_(options) {
+  WAITPOINT_CHECK(options.backlog > 0, "a listener's backlog holds nothing");
+  node_.take_socket();
+}
+
+Listener::~Listener() { node_.give_socket(); }
+
+Status Listener::listen(const std::string& port) {
+  if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
+  WAITPOINT_CHECK(port_.empty(), "a stream listener listens a second time");
+  if (!node_.bind(Protocol::stream, port, *this)) return Status::address_in_use;
+  port_ = port;
+  set_label(node_.name() + ":" + port);
+  return Status::ok;
+}
+
+std::shared_ptr<Stream> Listener::take_in(Link& back) {
+  if (backlog_.size() == options_.backlog || !node_.has_room()) return nullptr;
+  backlog_.push_back(std::make_shared<Stream>(node_, back, options_.stream, node_.name() + ":" + port_));
+  wake_first(receiving_);
+  return backlog_.back();
+}
+
+Result<std::shared_ptr<Stream>> Listener::accept(const Deadline& deadline) {
+  if (!begin(kernel::Operation::accept, receiving_)) return Status::closed;
+  WAITPOINT_CHECK(!port_.empty(), "a listener accepts before it listens");
+  const Status status = wait(receiving_, deadline, [&] { return closed_ || !backlog_.empty(); });
+  if (status != Status::ok) return status;
+  if (closed_) return Status::closed;
+  std::shared_ptr<Stream> stream = std::move(backlog_.front());
+  backlog_.pop_front();
+  return stream;
+}
+
+void Listener::close() {
+  const bool tell = begin_release(kernel::Operation::close, receiving_);
+  if (!port_.empty()) node_.release(Protocol::stream, port_);
+  closed_ = true;
+  if (tell) wake_all(receiving_);
+  for (; !backlog_.empty(); backlog_.pop_front()) backlog_.front()->close();
+}
+
+Events Listener::ready() const {
+  return when(closed_ || !backlog_.empty(), Events::readable) | when(closed_, Events::closed);
+}
+
+stream_listener& stream_listener::operator=(stream_listener&& other) noexcept {
+  if (core_ != nullptr && core_ != other.core_) core_->close();
+  core_ = std::move(other.core_);
+  return *this;
+}
+
+stream_listener::~stream_listener() {
+  if (core_ != nullptr) core_->close();
+}
+
+Result<stream_socket> stream_listener::accept(const Deadline& deadline) {
+  const Result<std::shared_ptr<Stream>> accepted = use()->accept(deadline);
+  if (!accepted) return accepted.status();
+  return stream_socket(accepted.value());
+}
+
+void stream_listener::close() {
+  const auto core = use();
+  core_ = nullptr;
+  core->close();
+}
+
+}  // namespace waitpoint::io

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A name at which stream sockets are asked for, as a listening socket of TCP: connections are made when they are asked
+// for, and wait in a bounded backlog until accepted.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "fibers/io/stream_socket.hpp"
+
+namespace waitpoint::io {
+
+struct ListenOptions {
+  std::size_t backlog = 16;   ///< connections that wait to be accepted; more are refused
+  StreamOptions stream = {};  ///< of the connections
+};
+
+/// What a listener's handle shares with a task that waits in it.
+class Listener : public Channel {
+ public:
+  Listener(Network& network, const ListenOptions& options);
+  ~Listener() override;
+  Status listen(const std::string& port);
+  Result<std::shared_ptr<Stream>> accept(const Deadline& deadline);
+  void close();
+  /// An end for a connection asked for over the link whose way back is `back`; null if it is refused.
+  std::shared_ptr<Stream> take_in(Link& back);
+  Events ready() const override;
+
+ private:
+  Node& node_;
+  ListenOptions options_;
+  std::string port_;
+  std::deque<std::shared_ptr<Stream>> backlog_;
+  bool closed_ = false;
+};
+
+/// Movable; closed when it is destroyed, with the connections that nobody accepted. Any other use after close() is a
+/// bug.
+class stream_listener {
+ public:
+  stream_listener() = default;  ///< closed
+  /// Of the running task's robot.
+  explicit stream_listener(Network& network, const ListenOptions& options = {})
+      : core_(std::make_shared<Listener>(network, options)) {}
+  stream_listener(stream_listener&&) noexcept = default;
+  stream_listener& operator=(stream_listener&& other) noexcept;
+  ~stream_listener();
+
+  /// Takes a name on this robot: ok or address_in_use. A second name for one listener is a bug.
+  Status listen(const std::string& port) { return use()->listen(port); }
+  /// The connection that waits longest; closed if the listener is closed meanwhile.
+  Result<stream_socket> accept(const Deadline& deadline = {});
+  void close();
+
+  bool is_open() const { return core_ != nullptr; }
+  std::shared_ptr<Channel> channel() const { return use(); }
+
+ private:
+  std::shared_ptr<Listener> use() const {
+    WAITPOINT_CHECK(core_ != nullptr, "a stream listener is used after its close");
+    return core_;
+  }
+  std::shared_ptr<Listener> core_;
+};
+
+}  // namespace waitpoint::io

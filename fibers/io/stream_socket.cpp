@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/io/stream_socket.hpp"
+
+#include "fibers/io/stream_listener.hpp"
+
+namespace waitpoint::io {
+
+Stream::Stream(Node& node, Link& link, const StreamOptions& options, const std::string& label)
+    : Channel("stream socket", label), node_(node), link_(link), received_(options.buffer_bytes) {
+  WAITPOINT_CHECK(options.buffer_bytes > 0 && options.buffer_bytes <= buffer_max,
+                  "a stream's buffer holds at least one byte and at most 64 MiB");
+  node_.take_socket();
+}
+
+Stream::~Stream() { node_.give_socket(); }
+
+// Sends a message that does something at the peer, if it is still there then.
+template <class Message>
+void Stream::tell_peer(std::size_t bytes, Message message) {
+  link_.send_in_order(bytes, [peer = peer_, message = std::move(message)] {
+    if (const std::shared_ptr<Stream> there = peer.lock()) message(*there);
+  });
+}
+
+// --- the beginning ---
+
+Status Stream::connect(Node& target, const std::string& port, const Deadline& deadline) {
+  if (!begin(kernel::Operation::connect, sending_)) return Status::closed;
+  link_.send_in_order(0, [&target, port, client = weak_from_this(), own = node_.name(), credit = received_.capacity(),
+                          &question = link_] {
+    auto* const listener = static_cast<Listener*>(target.find(Protocol::stream, port));
+    Link& back = *target.link_to(own);
+    const std::shared_ptr<Stream> server = listener != nullptr ? listener->take_in(back) : nullptr;
+    if (server != nullptr) {
+      server->answer(client, credit, question);
+    } else {
+      back.send_in_order(0, [client] {
+        if (const auto there = client.lock()) there->refuse();
+      });
+    }
+  });
+  const Status status = wait(sending_, deadline, [&] { return state_ != State::asking || closed_; });
+  if (status != Status::ok) return status;
+  return closed_ ? Status::closed : state_ == State::refused ? Status::refused : Status::ok;
+}
+
+void Stream::answer(const std::weak_ptr<Stream>& client, std::size_t credit, Link& question) {
+  established(client, credit);
+  link_.send_in_order(0, [client, server = weak_from_this(), own_room = received_.capacity(), &question] {
+    if (const std::shared_ptr<Stream> there = client.lock()) {
+      there->established(server, own_room);
+      return;
+    }
+    // The client has given up meanwhile, and nobody else would tell the server.
+    question.send_in_order(0, [server] {
+      if (const std::shared_ptr<Stream> left = server.lock()) left->peer_gone();
+    });
+  });
+}
+
+void Stream::established(const std::weak_ptr<Stream>& peer, std::size_t credit) {
+  peer_ = peer;
+  state_ = State::open;
+  credit_ = credit;
+  // The caller of connect() may have given up in the meantime.
+  if (closed_) tell_peer(0, [](Stream& there) { there.peer_gone(); });
+  wake_all(sending_);
+}
+
+void Stream::refuse() {
+  state_ = State::refused;
+  wake_all(sending_);
+}
+
+// --- reading ---
+
+Result<std::size_t> Stream::read(std::span<std::byte> buffer, const Deadline& deadline) {
+  if (!begin(kernel::Operation::receive, receiving_)) return Status::closed;
+  if (buffer.empty()) return 0;
+  const Status status = wait(receiving_, deadline, [&] { return closed_ || !received_.empty() || peer_finished_; });
+  if (status != Status::ok) return status;
+  if (closed_) return Status::closed;
+  const std::size_t count = received_.pop(buffer);
+  if (count == 0) return Status::end_of_file;
+  tell_peer(0, [room = count + std::exchange(extra_charge_, 0)](Stream& there) { there.room_again(room); });
+  return count;
+}
+
+void Stream::arrive(std::span<const std::byte> data, std::size_t charge) {
+  if (closed_) return;
+  received_.push(data);
+  extra_charge_ += charge - data.size();
+  wake_all(receiving_);
+}
+
+void Stream::peer_finished() {
+  peer_finished_ = true;
+  wake_all(receiving_);
+}
+
+void Stream::peer_gone() {
+  peer_finished_ = peer_gone_ = true;
+  wake_all(receiving_);
+  wake_all(sending_);
+}
+
+// --- writing ---
+
+Result<std::size_t> Stream::write(std::span<const std::byte> data, const Deadline& deadline) {
+  if (!begin(kernel::Operation::send, sending_)) return Status::closed;
+  WAITPOINT_CHECK(!finished_, "a stream socket is written to after shutdown_write()");
+  Digest sent;
+  std::size_t written = 0;
+  Status status = Status::ok;
+  while (written < data.size()) {
+    status = wait(sending_, deadline, [&] { return closed_ || peer_gone_ || credit_ > 0; });
+    if (status == Status::ok && (closed_ || peer_gone_)) status = closed_ ? Status::closed : Status::peer_closed;
+    if (status != Status::ok) break;
+    const std::size_t count = std::min({data.size() - written, credit_, segment_bytes_max});
+    const std::size_t charge = link_.crosses() ? std::min(std::max(count, least_charge), credit_) : count;
+    const auto part = data.subspan(written, count);
+    credit_ -= charge;
+    written += count;
+    sent.add(std::string_view(reinterpret_cast<const char*>(part.data()), part.size()));
+    tell_peer(count, [bytes = std::vector<std::byte>(part.begin(), part.end()), charge](Stream& there) {
+      there.arrive(bytes, charge);
+    });
+  }
+  if (written > 0) record_sent(link_.to(), sent.value());
+  return {status, written};
+}
+
+void Stream::room_again(std::size_t bytes) {
+  credit_ += bytes;
+  wake_all(sending_);
+}
+
+// --- the end ---
+
+void Stream::shutdown_write() {
+  if (!begin_release(kernel::Operation::close, sending_)) return;
+  WAITPOINT_CHECK(!finished_, "a stream socket's writing is shut down twice");
+  finished_ = true;
+  tell_peer(0, [](Stream& there) { there.peer_finished(); });
+}
+
+void Stream::close() {
+  const bool tell = begin_release(kernel::Operation::close, receiving_);
+  closed_ = true;
+  if (!tell) return;
+  wake_all(receiving_);
+  wake_all(sending_);
+  if (state_ == State::open) tell_peer(0, [](Stream& there) { there.peer_gone(); });
+}
+
+Events Stream::ready() const {
+  return when(closed_ || !received_.empty() || peer_finished_, Events::readable) |
+         when(closed_ || peer_gone_ || (state_ == State::open && credit_ > 0), Events::writable) |
+         when(closed_ || peer_gone_, Events::closed);
+}
+
+// --- handles ---
+
+stream_socket& stream_socket::operator=(stream_socket&& other) noexcept {
+  if (stream_ != nullptr && stream_ != other.stream_) stream_->close();
+  stream_ = std::move(other.stream_);
+  return *this;
+}
+
+stream_socket::~stream_socket() {
+  if (stream_ != nullptr) stream_->close();
+}
+
+void stream_socket::close() {
+  const auto stream = use();
+  stream_ = nullptr;
+  stream->close();
+}
+
+Result<stream_socket> connect(Network& network, const Address& address, const Deadline& deadline,
+                              const StreamOptions& options) {
+  Node& node = network.own_node();
+  Link* const link = node.link_to(address.robot);
+  if (link == nullptr) return Status::no_route;
+  const auto stream = std::make_shared<Stream>(node, *link, options, "to " + to_string(address));
+  stream_socket socket(stream);  // closes the stream whatever comes
+  const Status status = stream->connect(*network.node(link->to()), address.port, deadline);
+  if (status != Status::ok) return status;
+  return Result<stream_socket>(std::move(socket));
+}
+
+}  // namespace waitpoint::io

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A stream socket: bytes in order in both directions between two tasks, of one robot or of two, to the semantics of
+// TCP.
+//
+//   robot bob                                             robot ada
+//   io::stream_listener door(network);                    auto socket = io::connect(network, "bob:door", 2s);
+//   door.listen("door");                                  if (socket) socket->write(question);
+//   auto socket = door.accept();
+//
+// Nothing is lost: the medium delays. A sender may have as many bytes under way or unread as the other side's buffer
+// holds, and learns that there is room again when word of it has come back over the medium. Between robots a write of
+// few bytes takes the room of `least_charge`: so what is under way is bounded in messages too.
+//
+//   write() -> credit_ falls --- bytes ---> received_ -> read()
+//              credit_ rises <--- room --------------------'
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <span>
+
+#include "fibers/io/byte_queue.hpp"
+#include "fibers/io/network.hpp"
+#include "fibers/io/pipe.hpp"
+
+namespace waitpoint::io {
+
+/// A write is cut into messages of so many bytes at most.
+inline constexpr std::size_t segment_bytes_max = 4096;
+/// The room that a message between robots takes of the receiver's buffer at least.
+inline constexpr std::size_t least_charge = 64;
+
+struct StreamOptions {
+  std::size_t buffer_bytes = buffer_default;  ///< for what arrives and is not yet read; 1 to buffer_max
+};
+
+/// One end of a connection.
+class Stream : public Channel, public std::enable_shared_from_this<Stream> {
+ public:
+  Stream(Node& node, Link& link, const StreamOptions& options, const std::string& label);
+  ~Stream() override;
+
+  /// The client's side of the beginning: asks for the connection, and waits for the answer.
+  Status connect(Node& target, const std::string& port, const Deadline& deadline);
+  /// The server's side: the connection that `client` asked for over `question`.
+  void answer(const std::weak_ptr<Stream>& client, std::size_t credit, Link& question);
+
+  Result<std::size_t> read(std::span<std::byte> buffer, const Deadline& deadline);
+  Result<std::size_t> write(std::span<const std::byte> data, const Deadline& deadline);
+  void shutdown_write();
+  void close();
+  const std::string& peer_robot() const { return link_.to(); }
+  Events ready() const override;
+
+ private:
+  enum class State : std::uint8_t { asking, open, refused };
+
+  // What the other end's messages do here; each may find this end closed.
+  void established(const std::weak_ptr<Stream>& peer, std::size_t credit);
+  void refuse();
+  void arrive(std::span<const std::byte> data, std::size_t charge);
+  void room_again(std::size_t bytes);
+  void peer_finished();
+  void peer_gone();
+  template <class Message>
+  void tell_peer(std::size_t bytes, Message message);
+
+  Node& node_;
+  Link& link_;  // to the peer's robot
+  std::weak_ptr<Stream> peer_;
+  State state_ = State::asking;
+  ByteQueue received_;
+  std::size_t extra_charge_ = 0;  // room taken by short messages beyond their bytes
+  std::size_t credit_ = 0;        // bytes that may be sent
+  bool finished_ = false;         // shutdown_write() was called
+  bool closed_ = false;
+  bool peer_finished_ = false;
+  bool peer_gone_ = false;
+};
+
+/// Movable; closed when it is destroyed. Any other use after close() is a bug.
+class stream_socket {
+ public:
+  stream_socket() = default;  ///< closed
+  explicit stream_socket(std::shared_ptr<Stream> stream) : stream_(std::move(stream)) {}
+  stream_socket(stream_socket&&) noexcept = default;
+  stream_socket& operator=(stream_socket&& other) noexcept;
+  ~stream_socket();
+
+  /// Takes at least one byte and at most buffer.size(): how many. end_of_file once all has been read and the peer has
+  /// closed, or shut down its writing; closed if this end is closed meanwhile.
+  Result<std::size_t> read(std::span<std::byte> buffer, const Deadline& deadline = {}) {
+    return use()->read(buffer, deadline);
+  }
+  /// Sends all of `data`: how many bytes, which is less than all of them only if the status is not ok. ok says that
+  /// they were sent, not that they were read. peer_closed once the peer is known to have closed.
+  Result<std::size_t> write(std::span<const std::byte> data, const Deadline& deadline = {}) {
+    return use()->write(data, deadline);
+  }
+  /// Half-close: the peer reads end of file after what was written; reading goes on. A write afterwards is a bug.
+  void shutdown_write() { use()->shutdown_write(); }
+  void close();
+
+  bool is_open() const { return stream_ != nullptr; }
+  /// The robot at the other end.
+  std::string peer_robot() const { return use()->peer_robot(); }
+  std::shared_ptr<Channel> channel() const { return use(); }
+
+ private:
+  std::shared_ptr<Stream> use() const {
+    WAITPOINT_CHECK(stream_ != nullptr, "a stream socket is used after its close");
+    return stream_;
+  }
+  std::shared_ptr<Stream> stream_;
+};
+
+/// Connects to a listener: refused if nobody listens there or its backlog is full, no_route, timed_out, would_block
+/// (with no_wait, between robots). The question and the answer each take the medium's time.
+Result<stream_socket> connect(Network& network, const Address& address, const Deadline& deadline = {},
+                              const StreamOptions& options = {});
+
+}  // namespace waitpoint::io

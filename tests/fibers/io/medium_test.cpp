@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a medium does to what crosses it: latency, bandwidth, range, loss; and to nobody else.
+#include "fibers/io/medium.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "fibers/io/datagram_socket.hpp"
+#include "fibers/io/stream_listener.hpp"
+#include "fibers/sync/thread.hpp"
+#include "tests/fibers/io/bytes.hpp"
+#include "tests/fibers/io/fleet.hpp"
+
+namespace waitpoint::io {
+namespace {
+
+using namespace std::chrono_literals;
+using this_thread::sleep_for;
+
+struct Arrival {
+  int number = 0;
+  Duration after;  // its sending
+};
+
+// `count` datagrams of `bytes` each from bob to ada, one every `pace`; what arrived.
+std::vector<Arrival> send_datagrams(Fleet& fleet, int count, Duration pace, std::size_t bytes = 4) {
+  std::vector<Arrival> arrived;
+  fleet.spawn("ada", [&] {
+    datagram_socket in(fleet.network, {.queue_max = 10'000});
+    EXPECT_EQ(in.bind("in"), Status::ok);
+    int number = 0;
+    while (in.receive({reinterpret_cast<std::byte*>(&number), sizeof number}, 10s))
+      arrived.push_back({number, now() - (Time() + pace * (number + 1))});
+  });
+  fleet.spawn("bob", [&, count, pace, bytes] {
+    datagram_socket out(fleet.network);
+    std::vector<std::byte> message(bytes);
+    for (int number = 0; number < count; ++number) {
+      this_thread::sleep_until(Time() + pace * (number + 1));
+      std::copy_n(reinterpret_cast<const std::byte*>(&number), sizeof number, message.data());
+      EXPECT_EQ(out.send_to("ada:in", message), Status::ok);
+    }
+  });
+  fleet.run();
+  return arrived;
+}
+
+TEST(Medium, AFixedLatencyIsTheSameForAll) {
+  Fleet fleet({"ada", "bob"});
+  const auto arrived = send_datagrams(fleet, 50, 1ms);
+  ASSERT_EQ(arrived.size(), 50u);
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_EQ(arrived[static_cast<std::size_t>(i)].number, i);
+    EXPECT_EQ(arrived[static_cast<std::size_t>(i)].after, Duration(2ms));
+  }
+  EXPECT_EQ(fleet.simulation.scheduler().lookahead(), Duration(2ms));
+}
+
+TEST(Medium, AnIntervalsLatenciesAreDrawnFromAllOfIt) {
+  Fleet fleet({"ada", "bob"}, {.latency_least = 10ms, .latency_most = 30ms});
+  const auto arrived = send_datagrams(fleet, 2000, 1ms);
+  ASSERT_EQ(arrived.size(), 2000u);
+  double sum = 0;
+  Duration least = Duration::max(), most;
+  bool overtaken = false;
+  for (std::size_t i = 0; i < arrived.size(); ++i) {
+    least = std::min(least, arrived[i].after);
+    most = std::max(most, arrived[i].after);
+    sum += arrived[i].after.seconds();
+    overtaken = overtaken || (i > 0 && arrived[i].number < arrived[i - 1].number);
+  }
+  EXPECT_GE(least, Duration(10ms));
+  EXPECT_LE(most, Duration(30ms));
+  EXPECT_LT(least, Duration(10100us));
+  EXPECT_GT(most, Duration(29900us));
+  // The mean of 2000 has a standard deviation of 20 ms / sqrt(12 * 2000).
+  EXPECT_NEAR(sum / 2000, 0.020, 4 * 0.020 / std::sqrt(12.0 * 2000));
+  EXPECT_TRUE(overtaken);
+}
+
+TEST(Medium, LossIsDrawnForEachMessageAlone) {
+  Fleet fleet({"ada", "bob"}, {.latency_least = 1ms, .latency_most = 1ms, .loss = 0.2});
+  const auto arrived = send_datagrams(fleet, 5000, 1ms);
+  const LinkStatistics statistics = fleet.network.statistics("bob", "ada");
+  EXPECT_EQ(statistics.sent, 5000u);
+  EXPECT_EQ(statistics.lost + arrived.size(), 5000u);
+  EXPECT_NEAR(static_cast<double>(statistics.lost), 1000, 4 * std::sqrt(5000 * 0.2 * 0.8));
+  // After a loss the next is lost as often as any other.
+  std::vector<bool> lost(5000, true);
+  for (const Arrival& arrival : arrived) lost[static_cast<std::size_t>(arrival.number)] = false;
+  int both = 0;
+  for (std::size_t i = 1; i < lost.size(); ++i) both += lost[i - 1] && lost[i];
+  EXPECT_NEAR(both, 200, 4 * std::sqrt(5000 * 0.04 * 0.96));
+}
+
+TEST(Medium, LossAndLatencyDependOnTheSeed) {
+  const Medium medium{.latency_least = 1ms, .latency_most = 9ms, .loss = 0.5};
+  const auto numbers = [&](std::uint64_t seed) {
+    Fleet fleet({"ada", "bob"}, medium, {kernel::Order::fifo, seed, ""});
+    std::vector<std::int64_t> result;
+    for (const Arrival& arrival : send_datagrams(fleet, 40, 1ms))
+      result.insert(result.end(), {arrival.number, arrival.after.ns()});
+    return result;
+  };
+  EXPECT_EQ(numbers(1), numbers(1));
+  EXPECT_NE(numbers(1), numbers(2));
+}
+
+TEST(Medium, MessagesQueueBehindEachOtherOnABandwidth) {
+  Fleet fleet({"ada", "bob"}, {.latency_least = 2ms, .latency_most = 2ms, .bandwidth_bit_s = 80'000});
+  // 100 bytes take 10 ms, and one comes every millisecond.
+  const auto arrived = send_datagrams(fleet, 5, 1ms, 100);
+  ASSERT_EQ(arrived.size(), 5u);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(arrived[static_cast<std::size_t>(i)].after, Duration(12ms) + i * Duration(9ms));
+}
+
+TEST(Medium, DatagramsThatFindTheQueueTooLongAreDroppedAndCounted) {
+  Fleet fleet({"ada", "bob"},
+              {.latency_least = 2ms, .latency_most = 2ms, .bandwidth_bit_s = 80'000, .queue_bytes = 300});
+  const auto arrived = send_datagrams(fleet, 20, 1us, 100);
+  EXPECT_EQ(arrived.size(), 4u) << "one on the air and three that wait";
+  EXPECT_EQ(fleet.network.statistics("bob", "ada").overflowed, 16u);
+}
+
+TEST(Medium, EachDirectionOfEachPairHasABandwidthOfItsOwn) {
+  Fleet fleet({"ada", "bob", "eve"}, {.latency_least = 1ms, .latency_most = 1ms, .bandwidth_bit_s = 8'000});
+  std::vector<Time> times;
+  for (const char* to : {"ada", "eve"}) {
+    fleet.spawn(to, [&, to] {
+      datagram_socket s(fleet.network);
+      EXPECT_EQ(s.bind("in"), Status::ok);
+      EXPECT_EQ(s.send_to("bob:in", bytes_of("x")), Status::ok);
+      EXPECT_TRUE(s.receive({}));
+      times.push_back(now());
+    });
+    fleet.spawn("bob", [&, to] {
+      EXPECT_EQ(datagram_socket(fleet.network).send_to(Address(to, "in"), bytes_of("x")), Status::ok);
+    });
+  }
+  fleet.run();
+  EXPECT_EQ(times, (std::vector<Time>{at(2ms), at(2ms)}));
+}
+
+TEST(Medium, LatencyGrowsWithTheDistanceAtTheSending) {
+  Fleet fleet({"ada", "bob"}, {.latency_least = 1ms, .latency_most = 1ms, .latency_per_metre = Duration(100us)});
+  // Bob goes away at 1 m/s.
+  fleet.network.set_distance([&](const std::string& from, const std::string& to) {
+    EXPECT_TRUE((from == "bob" && to == "ada") || (from == "ada" && to == "bob"));
+    return fleet.simulation.global_time().seconds();
+  });
+  const auto arrived = send_datagrams(fleet, 10, 1s);
+  ASSERT_EQ(arrived.size(), 10u);
+  for (const Arrival& arrival : arrived)
+    EXPECT_EQ(arrival.after, Duration(1ms) + (arrival.number + 1) * Duration(100us));
+}
+
+TEST(Medium, BeyondTheRangeDatagramsAreLost) {
+  Fleet fleet({"ada", "bob"}, {.latency_least = 1ms, .latency_most = 1ms, .range_m = 30});
+  fleet.network.set_distance([&](auto&, auto&) { return 10 * fleet.simulation.global_time().seconds(); });
+  const auto arrived = send_datagrams(fleet, 10, 1s);
+  EXPECT_EQ(arrived.size(), 3u) << "at 10, 20 and exactly 30 m";
+  EXPECT_EQ(fleet.network.statistics("bob", "ada").out_of_range, 7u);
+}
+
+TEST(Medium, BeyondTheRangeStreamsWaitAndLoseNothing) {
+  in_every_order({"ada", "bob"},
+                 {.latency_least = 1ms, .latency_most = 5ms, .range_m = 30, .loss = 1, .range_check = 20ms},
+                 [](Fleet& fleet) {
+                   // They meet after 100 ms, part at 200 ms, and meet again at 500 ms.
+                   fleet.network.set_distance([&](auto&, auto&) {
+                     const double t_s = fleet.simulation.global_time().seconds();
+                     return t_s < 0.1 || (t_s > 0.2 && t_s < 0.5) ? 31.0 : 5.0;
+                   });
+                   fleet.spawn("ada", [&] {
+                     stream_listener door(fleet.network);
+                     EXPECT_EQ(door.listen("door"), Status::ok);
+                     Result<stream_socket> socket = door.accept();
+                     EXPECT_GE(now(), at(101ms));
+                     EXPECT_LE(now(), at(125ms)) << "range is looked at every 20 ms";
+                     EXPECT_EQ(read_all(*socket), "before-while-after");
+                     EXPECT_GE(now(), at(601ms));
+                   });
+                   fleet.spawn("bob", [&] {
+                     Result<stream_socket> socket = io::connect(fleet.network, "ada:door");
+                     ASSERT_TRUE(socket);
+                     EXPECT_TRUE(socket->write(bytes_of("before-")));
+                     this_thread::sleep_until(at(300ms));
+                     EXPECT_TRUE(socket->write(bytes_of("while-")));
+                     this_thread::sleep_until(at(600ms));
+                     EXPECT_TRUE(socket->write(bytes_of("after")));
+                   });
+                 });
+}
+
+TEST(Medium, ConnectingBeyondTheRangeTimesOut) {
+  Fleet fleet({"ada", "bob"}, {.latency_least = 1ms, .latency_most = 1ms, .range_m = 30});
+  fleet.network.set_distance([](auto&, auto&) { return 31.0; });
+  fleet.spawn("bob", [&] {
+    EXPECT_EQ(io::connect(fleet.network, "ada:door", 1s).status(), Status::timed_out);
+    EXPECT_EQ(now(), at(1s));
+  });
+  fleet.run();
+}
+
+TEST(Medium, APairOfRobotsMayHaveOneOfItsOwn) {
+  Fleet fleet({"ada", "bob", "eve"});
+  fleet.network.declare("bob", "ada", {.latency_least = 500us, .latency_most = 500us});
+  EXPECT_EQ(fleet.simulation.scheduler().lookahead(), Duration(500us));
+  std::vector<Time> times;
+  for (const char* to : {"ada", "eve"})
+    fleet.spawn(to, [&] {
+      datagram_socket s(fleet.network);
+      EXPECT_EQ(s.bind("in"), Status::ok);
+      EXPECT_TRUE(s.receive({}));
+      times.push_back(now());
+    });
+  fleet.spawn("bob", [&] {
+    datagram_socket s(fleet.network);
+    for (const char* to : {"ada:in", "eve:in"}) EXPECT_EQ(s.send_to(to, {}), Status::ok);
+  });
+  fleet.run();
+  EXPECT_EQ(times, (std::vector<Time>{at(500us), at(2ms)}));
+}
+
+TEST(Medium, WithoutOneThereIsNoRoute) {
+  Simulation simulation;
+  Network network(simulation);
+  simulation.add_robot("ada");
+  simulation.spawn(simulation.add_robot("bob"), {}, [&] {
+    EXPECT_EQ(datagram_socket(network).send_to("ada:in", {}), Status::no_route);
+    EXPECT_EQ(io::connect(network, "ada:door").status(), Status::no_route);
+  });
+  EXPECT_EQ(simulation.run_before(), RunEnd::ended);
+  EXPECT_EQ(simulation.scheduler().lookahead(), Duration::max());
+}
+
+TEST(Medium, OneThatMakesNoSenseIsBadInput) {
+  Simulation simulation;
+  Network network(simulation);
+  simulation.add_robot("ada");
+  const auto message = [&](const Medium& medium) {
+    try {
+      network.declare(medium);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  EXPECT_EQ(message({}), "taken");
+  EXPECT_EQ(message({.latency_least = 0ms}),
+            "medium: expected a positive latency: what one robot does must not reach another at the same instant");
+  EXPECT_EQ(message({.latency_least = 3ms, .latency_most = 2ms}),
+            "medium: expected the least latency before the greatest");
+  EXPECT_EQ(message({.latency_per_metre = -1ms}), "medium: expected a latency per metre from 0 to 1 s");
+  EXPECT_EQ(message({.range_m = 0}), "medium: expected a positive range");
+  EXPECT_EQ(message({.loss = 1.5}), "medium: expected a loss from 0 to 1");
+  EXPECT_EQ(message({.loss = std::nan("")}), "medium: expected a loss from 0 to 1");
+  EXPECT_THROW(network.declare("ada", "nobody", {}), BadInput);
+  EXPECT_THROW(network.declare("ada", "ada", {}), BadInput);
+}
+
+TEST(MediumDeathTest, MessagesUnderWayAreBounded) {
+  EXPECT_DEATH(
+      {
+        Fleet fleet({"ada", "bob"}, two_ms, {}, {.in_flight_max = 100});
+        send_datagrams(fleet, 1000, Duration(1us));
+      },
+      "more messages are under way between two robots than NetworkLimits::in_flight_max");
+}
+
+// --- who notices whom ---
+
+// Bob and ada talk by all means; `strangers` talk among each other, and start before them.
+std::vector<std::string> digests(std::uint64_t number, int strangers, bool strangers_first = true) {
+  std::vector<std::string> names = {"ada", "bob"};
+  for (int i = 0; i < strangers; ++i)
+    names.insert(strangers_first ? names.begin() : names.end(), "stranger" + std::to_string(i));
+  Fleet fleet(names, {.latency_least = 1ms, .latency_most = 3ms, .bandwidth_bit_s = 10'000'000, .loss = 0.1},
+              order_number(number));
+  const auto talk = [&fleet](const std::string& from, const std::string& to) {
+    fleet.spawn(to, [&fleet] {
+      stream_listener door(fleet.network);
+      EXPECT_EQ(door.listen("door"), Status::ok);
+      datagram_socket in(fleet.network);
+      EXPECT_EQ(in.bind("in"), Status::ok);
+      Result<stream_socket> socket = door.accept();
+      EXPECT_EQ(read_all(*socket).size(), 1500u);
+      while (in.receive({}, 4ms)) sleep_for(100us);
+    });
+    fleet.spawn(from, [&fleet, to] {
+      datagram_socket out(fleet.network);
+      Result<stream_socket> socket = io::connect(fleet.network, Address(to, "door"));
+      for (int i = 0; i < 30; ++i) {
+        EXPECT_TRUE(socket->write(bytes_of(long_text(50))));
+        EXPECT_EQ(out.send_to(Address(to, "in"), bytes_of("x")), Status::ok);
+        sleep_for(250us);
+      }
+    });
+  };
+  if (strangers_first)
+    for (int i = 0; i < strangers; i += 2) talk("stranger" + std::to_string(i), "stranger" + std::to_string(i + 1));
+  talk("bob", "ada");
+  if (!strangers_first)
+    for (int i = 0; i < strangers; i += 2) talk("stranger" + std::to_string(i), "stranger" + std::to_string(i + 1));
+  fleet.run();
+  return {fleet.digest("ada"), fleet.digest("bob")};
+}
+
+TEST(Medium, TheSameSeedGivesTheSameRun) {
+  for (std::uint64_t number = 0; number <= 5; ++number) EXPECT_EQ(digests(number, 4), digests(number, 4));
+  EXPECT_NE(digests(1, 0), digests(2, 0));
+}
+
+TEST(Medium, RobotsThatDoNotTalkToOneAreNotNoticedByIt) {
+  for (std::uint64_t number = 0; number <= 5; ++number) {
+    const auto alone = digests(number, 0);
+    EXPECT_EQ(digests(number, 2), alone);
+    EXPECT_EQ(digests(number, 8), alone);
+    EXPECT_EQ(digests(number, 8, false), alone);
+  }
+}
+
+TEST(Medium, WindowsDoNotChangeARun) {
+  const auto run = [](Duration width) {
+    Fleet fleet({"ada", "bob"}, {.latency_least = 1ms, .latency_most = 9ms, .loss = 0.2});
+    fleet.spawn("ada", [&] {
+      datagram_socket in(fleet.network);
+      EXPECT_EQ(in.bind("in"), Status::ok);
+      while (in.receive({}, 20ms)) {
+      }
+    });
+    fleet.spawn("bob", [&] {
+      datagram_socket out(fleet.network);
+      for (int i = 0; i < 100; ++i, sleep_for(200us)) EXPECT_EQ(out.send_to("ada:in", {}), Status::ok);
+    });
+    for (Time until = Time() + width; fleet.simulation.run_before(until) == RunEnd::time_reached;) until += width;
+    return fleet.digest("ada");
+  };
+  const std::string whole = run(Duration(1h));
+  for (const auto width : {100us, 333us, 1000us}) EXPECT_EQ(run(width), whole);
+}
+
+}  // namespace
+}  // namespace waitpoint::io
