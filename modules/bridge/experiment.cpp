@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/experiment.hpp"
 
-#include <optional>
-
 #include "modules/bridge/known_map.hpp"
 #include "modules/bridge/scenario_checks.hpp"
 #include "world/fcl/fcl_world.hpp"
@@ -34,8 +32,10 @@ Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleTy
   check_goals(scenario, [&](const RobotScenario&, Point goal) { return place_on(map, goal); });
   check_starts(scenario, world::start_overlaps(description));
   world_ = world::make_fcl_world(description, options.seed);
+  make_network();
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
-    robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, map, *world_, world::BodyId(i), options.seed));
+    robots_.push_back(
+        std::make_unique<Robot>(scenario.robots[i], types, map, *world_, world::BodyId(i), *network_, options.seed));
   check_step();
 
   simulation_.spawn(
@@ -43,6 +43,18 @@ Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleTy
       {.name = "world", .stack = kernel::StackSize::large, .phase = kernel::Phase::world, .service = true},
       [this] { run_world(); });
   for (const auto& robot : robots_) robot->spawn(simulation_);
+}
+
+// Distances are those of the true positions at the last step of the world.
+void Experiment::make_network() {
+  network_.emplace(simulation_);
+  if (scenario_.medium) network_->declare(*scenario_.medium);
+  network_->set_distance([this](const std::string& from, const std::string& to) {
+    const world::BodyState* const a = body_of(from);
+    const world::BodyState* const b = body_of(to);
+    // The environment's tasks are nowhere.
+    return a != nullptr && b != nullptr ? length(b->pose.position() - a->pose.position()) : 0;
+  });
 }
 
 // A coarse step is a legitimate choice, but rarely meant.
@@ -53,6 +65,12 @@ void Experiment::check_step() {
     warnings_.push_back("the world's step of " + to_string(scenario_.step) + " s exceeds the least period of " +
                         robot->name() + "'s software, " + to_string(*least) + " s");
   }
+}
+
+const world::BodyState* Experiment::body_of(const std::string& robot) const {
+  for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
+    if (scenario_.robots[i].name == robot) return &world_->body(world::BodyId(i));
+  return nullptr;
 }
 
 void Experiment::run_world() {

@@ -8,10 +8,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/occupancy_grid.hpp"
+#include "fibers/io/network.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "modules/bridge/robot.hpp"
 #include "modules/bridge/run_result.hpp"
@@ -36,6 +38,7 @@ class Experiment {
 
   Simulation& simulation() { return simulation_; }
   const world::World& world() const { return *world_; }
+  io::Network& network() { return *network_; }
   const std::vector<std::unique_ptr<Robot>>& robots() const { return robots_; }
   /// Goals reached so far, and all there are.
   std::size_t goals_reached() const;
@@ -46,12 +49,15 @@ class Experiment {
 
  private:
   void check_step();
+  void make_network();
+  const world::BodyState* body_of(const std::string& robot) const;
   void run_world();
 
   const Scenario& scenario_;
   ExperimentOptions options_;
   std::vector<std::string> warnings_;
   std::unique_ptr<world::World> world_;
+  std::optional<io::Network> network_;  // before the robots, whose modules have sockets
   std::vector<std::unique_ptr<Robot>> robots_;
   Simulation simulation_;  // after what its tasks use: it goes first
   RunEnd end_ = RunEnd::time_reached;

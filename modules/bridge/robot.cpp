@@ -36,14 +36,14 @@ std::string report_text(const executive::GoalRecord& record) {
 }  // namespace
 
 Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
-             world::World& world, world::BodyId body, std::uint64_t seed)
+             world::World& world, world::BodyId body, io::Network& network, std::uint64_t seed)
     : scenario_(scenario), world_(world), body_(body), bridge_(scenario, world, body, names_) {
-  make_modules(types);
+  make_modules(types, network);
   if (!scenario.goals.empty()) make_executive(map, seed);
   connect();
 }
 
-void Robot::make_modules(std::span<const genom::ModuleType> types) {
+void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network& network) {
   for (const ModuleScenario& module : scenario_.modules) {
     if (!module.enabled) continue;
     const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == module.type; });
@@ -52,7 +52,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types) {
       for (const genom::ModuleType& t : types) known.push_back(t.name);
       throw module.written.bad("unknown module type '" + module.type + "'" + did_you_mean(module.type, known));
     }
-    genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings)};
+    genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), &network};
     std::unique_ptr<genom::Module> made;
     // Errors of settings know their own line; others are about the module as a whole.
     try {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/occupancy_grid.hpp"
+#include "fibers/io/network.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "modules/bridge/evaluation.hpp"
 #include "modules/bridge/robot_bridge.hpp"
@@ -21,10 +22,10 @@ namespace waitpoint::bridge {
 
 class Robot {
  public:
-  /// Makes and connects everything. What does not fit together is BadInput, naming the scenario's line. The scenario
-  /// and the world must outlive the robot.
+  /// Makes and connects everything. What does not fit together is BadInput, naming the scenario's line. The scenario,
+  /// the world and the network must outlive the robot.
   Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
-        world::World& world, world::BodyId body, std::uint64_t seed);
+        world::World& world, world::BodyId body, io::Network& network, std::uint64_t seed);
 
   /// Adds the robot's tasks to a run that has not begun. A robot with goals is alive until its executive ends; one
   /// without does not keep the run alive.
@@ -42,7 +43,7 @@ class Robot {
   RobotResult result() const;
 
  private:
-  void make_modules(std::span<const genom::ModuleType> types);
+  void make_modules(std::span<const genom::ModuleType> types, io::Network& network);
   void make_executive(const OccupancyGrid& map, std::uint64_t seed);
   void connect();
 

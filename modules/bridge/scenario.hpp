@@ -14,6 +14,7 @@
 #include "core/pose.hpp"
 #include "core/setting.hpp"
 #include "core/time.hpp"
+#include "fibers/io/medium.hpp"
 #include "modules/bridge/location.hpp"
 #include "world/description.hpp"
 
@@ -71,6 +72,7 @@ struct Scenario {
   Duration until = std::chrono::hours(1);
   Duration step = std::chrono::milliseconds(10);
   std::optional<MapFile> map;
+  std::optional<io::Medium> medium;      ///< between robots; none: they cannot send to each other
   std::vector<world::Obstacle> shapes;   ///< without the map's
   std::vector<Location> shapes_written;  ///< of each shape
   std::vector<RobotScenario> robots;     ///< in the order of the file; their names differ

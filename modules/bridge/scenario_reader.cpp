@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "modules/bridge/medium_reader.hpp"
 #include "modules/bridge/robot_reader.hpp"
 #include "modules/bridge/scenario_document.hpp"
 #include "modules/bridge/shape_reader.hpp"
@@ -90,7 +91,7 @@ world::WorldDescription Scenario::world_without_map() const {
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments) {
   const YamlNode document = scenario_document(file, assignments);
   const YamlMap map(document, "the scenario",
-                    {"format", "name", "description", "expect", "until_s", "world", "robot_types", "robots"});
+                    {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots"});
   Scenario scenario;
   scenario.file = file.string();
   scenario.name = map.text("name", file.stem().string());
@@ -98,6 +99,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);
   scenario.until = map.duration("until_s", 1s, scenario.until);
   if (const YamlNode* world = map.find("world")) read_world(*world, scenario);
+  if (const YamlNode* medium = map.find("medium")) scenario.medium = read_medium(*medium);
   const YamlNode* types = map.find("robot_types");
   if (types != nullptr) {
     if (types->kind != YamlNode::Kind::map) {

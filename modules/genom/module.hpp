@@ -28,6 +28,10 @@
 #include "modules/genom/request.hpp"
 #include "modules/genom/settings.hpp"
 
+namespace waitpoint::io {
+class Network;
+}
+
 namespace waitpoint::genom {
 
 /// What a module is made from.
@@ -35,6 +39,8 @@ struct ModuleSetup {
   NameSpace& names;   ///< of its robot
   std::string name;   ///< of the module on this robot
   Settings settings;  ///< what the scenario says of it
+  /// For sockets to other robots, and mailboxes with names (fibers/io); null outside any scenario.
+  io::Network* network = nullptr;
 };
 
 /// Input of the request "Abort", which every module has.

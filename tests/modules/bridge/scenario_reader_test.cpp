@@ -131,6 +131,29 @@ TEST_F(ScenarioReader, paths_are_relative_to_the_file_that_names_them) {
   EXPECT_EQ(scenario.map->written.line, 6);
 }
 
+TEST_F(ScenarioReader, a_medium_has_its_values_and_defaults) {
+  EXPECT_FALSE(read(valid_scenario).medium.has_value());
+  const auto with = [&](std::string_view medium) {
+    return *read(changed("until_s: 30", "medium: {" + std::string(medium) + "}")).medium;
+  };
+  const io::Medium plain = with("latency_ms: 2.5");
+  EXPECT_EQ(plain.latency_least, Duration(2500us));
+  EXPECT_EQ(plain.latency_most, Duration(2500us));
+  EXPECT_EQ(plain.bandwidth_bit_s, 0u);
+  EXPECT_EQ(plain.loss, 0);
+  const io::Medium full = with(
+      "latency_ms: [1, 5], latency_us_per_m: 0.5, bandwidth_bit_s: 250000, queue_bytes: 0, range_m: 30, "
+      "range_check_ms: 50, loss: 0.25");
+  EXPECT_EQ(full.latency_least, Duration(1ms));
+  EXPECT_EQ(full.latency_most, Duration(5ms));
+  EXPECT_EQ(full.latency_per_metre, Duration(500ns));
+  EXPECT_EQ(full.bandwidth_bit_s, 250000u);
+  EXPECT_EQ(full.queue_bytes, 0u);
+  EXPECT_EQ(full.range_m, 30);
+  EXPECT_EQ(full.range_check, Duration(50ms));
+  EXPECT_EQ(full.loss, 0.25);
+}
+
 // --- options -----------------------------------------------------------------------------------------------------
 
 TEST_F(ScenarioReader, set_replaces_values_by_keys_numbers_and_names) {
@@ -256,6 +279,23 @@ const BadCase bad_cases[] = {
     {"a_floor_that_is_not_there", "  step_ms: 5", "  include: f.yaml", 6,
      "there is no file 'FOLDER/f.yaml' to include"},
     {"a_map_without_a_file", "  step_ms: 5", "  map: {height_m: 2}", 6, "expected key 'file' in the map"},
+    {"a_medium_without_latency", "until_s: 30", "medium: {loss: 0.1}", 4, "expected key 'latency_ms' in the medium"},
+    {"a_medium_of_latency_zero", "until_s: 30", "medium: {latency_ms: 0}", 4,
+     "expected latency_ms to be a positive number of at most 3600000, found '0'"},
+    {"a_latency_from_zero", "until_s: 30", "medium: {latency_ms: [0, 5]}", 4,
+     "expected latency_ms to be a positive number of at most 3600000, found '0'"},
+    {"a_latency_upside_down", "until_s: 30", "medium: {latency_ms: [5, 1]}", 4,
+     "expected latency_ms to be the least latency and then the greatest"},
+    {"a_latency_of_three", "until_s: 30", "medium: {latency_ms: [1, 2, 3]}", 4,
+     "expected latency_ms to be a list of 2 numbers, found a list"},
+    {"a_loss_above_one", "until_s: 30", "medium: {latency_ms: 1, loss: 1.5}", 4,
+     "expected loss to be a probability from 0 to 1, found '1.5'"},
+    {"a_negative_range", "until_s: 30", "medium: {latency_ms: 1, range_m: -5}", 4,
+     "expected range_m to be a positive number, found '-5'"},
+    {"a_bandwidth_of_zero", "until_s: 30", "medium: {latency_ms: 1, bandwidth_bit_s: 0}", 4,
+     "expected bandwidth_bit_s to be a whole number from 1 to 1000000000000, found '0'"},
+    {"an_unknown_key_of_the_medium", "until_s: 30", "medium: {latency_ms: 1, los: 0}", 4,
+     "unknown key 'los' in the medium, did you mean 'loss'?"},
     {"a_type_without_a_shape", "    shape: {radius_m: 0.26, height_m: 1.2}\n", "", 13,
      "expected key 'shape' in robot type 'scout'"},
     {"a_kind_of_base_that_is_none", "kind: differential", "kind: car", 15,
