@@ -155,9 +155,11 @@ inline void Scheduler::resume(Task& task) {
   WAITPOINT_CHECK(StackArena::intact(task.fiber.stack), "a task ran over the end of its stack");
   task.state = TaskState::running;
   running = &task;
-  lane_ = task.robot->ended ? &unheard_ : &task.robot->digest;
+  hash_events_of(*task.robot);
   let_pass(task);
 }
+
+inline void Scheduler::hash_events_of(Robot& robot) { lane_ = robot.ended ? &unheard_ : &robot.digest; }
 
 // What is left to the running task of its waitpoints at the present instant, it may pass without a look at the event
 // list: they count as passed until something comes between.
@@ -287,7 +289,10 @@ bool Scheduler::waitpoint(Operation operation, Object* object) {
 bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
   if (unwinding_) return refuse();
   end_free_passes(task);
-  if (needs_attention(task)) end_segment(task);
+  if (needs_attention(task)) {
+    if ((task.attention & attention::timer) != 0) return act_for_timer(task, operation, object);
+    end_segment(task);
+  }
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
@@ -305,7 +310,10 @@ bool Scheduler::yield() {
   if (unwinding_) return refuse();
   Task& task = *running;
   end_free_passes(task);
-  if (needs_attention(task)) end_segment(task);
+  if (needs_attention(task)) {
+    WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
+    end_segment(task);
+  }
   task.operation = Operation::yield;
   task.at = nullptr;
   if (task.local_time != now_) task.turns = 0;
@@ -326,6 +334,17 @@ bool Scheduler::sleep_until(Time time) {
   if (needs_attention(task)) end_segment(task);
   if (time > task.local_time) task.local_time = time;
   return waitpoint(Operation::sleep, nullptr);
+}
+
+// Whatever a timer does, it does in its turn: its event is the one now executing.
+bool Scheduler::act_for_timer(Task& task, Operation operation, Object* object) {
+  WAITPOINT_CHECK(operation != Operation::sleep, "a timer's callback waits");
+  task.operation = operation;
+  task.at = object;
+  if (object != nullptr) enter(*object);
+  hash_events_of(*task.robot);
+  execute(task, operation, object);
+  return true;
 }
 
 inline void Scheduler::execute(Task& task, Operation operation, const Object* object) {
@@ -400,6 +419,7 @@ Wake Scheduler::block(Object& object, Time deadline) {
     return Wake::unwinding;
   }
   Task& task = *running;
+  WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
   leave(task.fiber, park(task, object, deadline));
   if (interrupted_ && !rest()) return Wake::unwinding;
   const Wake wake = task.wake;

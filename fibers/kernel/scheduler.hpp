@@ -140,6 +140,9 @@ class Scheduler {
   /// The least latency of all links: what a robot does is noticed by no other sooner. Duration::max() without links.
   Duration lookahead() const { return lookahead_; }
 
+  /// Events in the list: those of tasks that can go on or wait with a finite timeout, and those of timers.
+  std::uint32_t pending_events() const { return events_.size(); }
+
   Time global_time() const { return now_; }
   Chooser& chooser() { return chooser_; }
   Task* first_task() const { return first_task_; }
@@ -178,6 +181,7 @@ class Scheduler {
   bool arrive_after_signal(Task& task);
   void end_segment(Task& task);
   bool begin_segment(Task& task, Operation operation, Object* object);
+  bool act_for_timer(Task& task, Operation operation, Object* object);
   void execute(Task& task, Operation operation, const Object* object);
   void show(const EventRecord& record);
   bool give_turn(Task& task);
@@ -191,6 +195,7 @@ class Scheduler {
   Task* due(EventNode& node, Time time);
   void prepare_coming() const;
   void resume(Task& task);
+  void hash_events_of(Robot& robot);
   void let_pass(Task& task);
   void end_free_passes(Task& task);
   void set_local_time(Task& task, Time time);

@@ -36,6 +36,7 @@ struct Robot {
   std::uint32_t live_tasks = 0;  ///< that are no services
   bool ended = false;            ///< its last such task ended: the digest is frozen
   Time end_time;
+  void* client = nullptr;  ///< what the layer above hangs on the robot
 };
 
 /// What tasks wait for and meet at: part of every primitive.
@@ -78,6 +79,7 @@ enum class Wake : std::uint8_t {
 namespace attention {
 inline constexpr std::uint8_t clock = 1;   ///< it has a local clock: what its segments cost is not declared alone
 inline constexpr std::uint8_t signal = 2;  ///< a signal is to be delivered
+inline constexpr std::uint8_t timer = 4;   ///< it is no task: timers act in its name, between tasks, and cannot wait
 }  // namespace attention
 
 /// A task's place in the search for a cycle of tasks that wait for each other: see wait_graph.cpp.
