@@ -15,7 +15,7 @@ Simulation::Simulation(SimulationOptions options)
     : options_(std::move(options)), scheduler_(options_.order, options_.seed) {
   scheduler_.set_client(this);
   scheduler_.set_replay(options_.replay.c_str());
-  scheduler_.add(environment_, "environment");
+  add(environment_, "environment");
 }
 
 Simulation::~Simulation() { unwind(); }
@@ -24,8 +24,13 @@ kernel::Robot& Simulation::add_robot(const std::string& name) {
   WAITPOINT_CHECK(name.size() < kernel::name_size, "a robot's name is too long");
   for (const kernel::Robot& robot : robots_) WAITPOINT_CHECK(name != robot.name, "two robots of one name");
   kernel::Robot& robot = robots_.emplace_back();
-  scheduler_.add(robot, name.c_str());
+  add(robot, name.c_str());
   return robot;
+}
+
+void Simulation::add(kernel::Robot& robot, const char* name) {
+  scheduler_.add(robot, name);
+  robot.client = &robot_states_.emplace_back();
 }
 
 void Simulation::spawn(kernel::Robot& robot, const kernel::SpawnOptions& options, std::function<void()> body) {

@@ -17,6 +17,7 @@
 #include "core/digest.hpp"
 #include "core/time.hpp"
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/sync/robot_state.hpp"
 
 namespace waitpoint {
 
@@ -84,7 +85,9 @@ class Simulation {
   kernel::Scheduler scheduler_;
   kernel::Robot environment_;
   std::deque<kernel::Robot> robots_;
+  std::deque<sync::RobotStates> robot_states_;  // of the environment, then of the robots
   static void terminate_task();
+  void add(kernel::Robot& robot, const char* name);
 
   std::exception_ptr failure_;
   std::string trouble_;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/sync/timer_event.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/digest.hpp"
+#include "fibers/sync/robot_state.hpp"
+
+namespace waitpoint::sync {
+namespace {
+
+// Of the whole run: hangs on its first robot, the environment.
+struct RunTimers : RobotState {
+  explicit RunTimers(kernel::Robot&) {}
+  std::uint32_t pending = 0;
+  std::uint32_t barren = 0;  // timers that fired on end while only timers were left
+};
+
+struct RobotTimers : RobotState {
+  explicit RobotTimers(kernel::Robot& robot) : run(state_of<RunTimers>(*robot.scheduler->first_robot())) {
+    task.scheduler = robot.scheduler;
+    task.robot = &robot;
+    task.id = Digest::mix(~robot.id);
+    task.phase = kernel::Phase::deliveries;
+    task.state = kernel::TaskState::running;
+    task.attention = kernel::attention::timer;
+    task.service = true;
+    std::strcpy(task.name, "timers");
+  }
+  RunTimers& run;
+  kernel::Task task;
+};
+
+}  // namespace
+
+void TimerEvent::schedule(Time time, kernel::Object& timer) {
+  cancel();
+  timer_ = &timer;
+  kernel::Scheduler& scheduler = *timer.robot->scheduler;
+  due_ = std::max(time, scheduler.global_time());
+  scheduler.schedule(event_, due_, timer);
+  ++state_of<RobotTimers>(*timer.robot).run.pending;
+}
+
+void TimerEvent::cancel() {
+  if (!event_.in_list()) return;
+  timer_->robot->scheduler->cancel(event_);
+  --state_of<RobotTimers>(*timer_->robot).run.pending;
+}
+
+void TimerEvent::fire(kernel::EventNode& node) {
+  TimerEvent& self = *static_cast<Event&>(node).self;
+  RobotTimers& timers = state_of<RobotTimers>(*self.timer_->robot);
+  kernel::Scheduler& scheduler = *timers.task.scheduler;
+  RunTimers& run = timers.run;
+  --run.pending;
+  run.barren = scheduler.pending_events() == run.pending ? run.barren + 1 : 0;
+  if (run.barren > barren_max) return;
+
+  kernel::Task* const interrupted = kernel::running;
+  kernel::running = &timers.task;
+  timers.task.local_time = self.due_;
+  // What happens is part of the robot's digest, like what a task does.
+  scheduler.waitpoint(kernel::Operation::timer_tick, self.timer_);
+  try {
+    self.function_(self.of_);
+  } catch (...) {
+    WAITPOINT_CHECK(false, "an exception escapes from a timer's callback");
+  }
+  kernel::running = interrupted;
+}
+
+}  // namespace waitpoint::sync
