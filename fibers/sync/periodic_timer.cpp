@@ -7,44 +7,79 @@ periodic_timer::~periodic_timer() {
   if (event_.in_list()) scheduler_->cancel(event_);
 }
 
+void periodic_timer::enter() {
+  scheduler_ = sync::running_task().scheduler;
+  if (!scheduler_->enter(object_)) return;
+  running_ = true;
+  next_ = -1;  // not started: it does so at the first waitpoint
+  missed_ = pending_ = 0;
+}
+
 void periodic_timer::start() {
-  const Time now = kernel::running->local_time;
-  const Duration since = now.since_start() - phase_;
+  const Duration since = kernel::running->local_time.since_start() - phase_;
   next_ = since < Duration() ? 0 : period_.first_tick_at_or_after(since + Duration::from_ns(1));
-  pending_ = 0;
 }
 
 void periodic_timer::tick(kernel::EventNode& node) {
   periodic_timer& self = *static_cast<Event&>(node).timer;
   ++self.pending_;
-  ++self.next_;
+  self.last_ = self.time_of(self.next_++);
   self.scheduler_->wake_first(self.object_);
   if (self.object_.first_waiter != nullptr) self.scheduler_->schedule(node, self.time_of(self.next_), self.object_);
 }
 
 // The ticks that came while nobody waited.
 void periodic_timer::catch_up() {
+  if (!running_) return;
   const Duration since = kernel::running->local_time.since_start() - phase_;
   if (since < period_.tick(next_)) return;
   const std::int64_t coming = period_.first_tick_at_or_after(since + Duration::from_ns(1));
   pending_ += coming - next_;
   next_ = coming;
+  last_ = time_of(next_ - 1);
 }
 
-std::int64_t periodic_timer::wait() {
-  scheduler_ = sync::running_task().scheduler;
-  const bool fresh = scheduler_->enter(object_);
+std::int64_t periodic_timer::wait_before(Time deadline) {
+  enter();
   if (!sync::before_blocking(kernel::Operation::timer_wait, object_)) return 0;
-  if (fresh) start();
+  if (next_ < 0) start();
   catch_up();
-  if (pending_ == 0) {
+  // Another may have come between a tick and who was woken by it.
+  while (pending_ == 0 && running_ && deadline > kernel::running->local_time) {
     if (!event_.in_list()) scheduler_->schedule(event_, time_of(next_), object_);
-    sync::block(object_);
+    // With nobody who waits, it need not stand in the list.
+    if (!sync::block(object_, deadline) && object_.first_waiter == nullptr && event_.in_list())
+      scheduler_->cancel(event_);
   }
   const std::int64_t ticks = pending_;
   pending_ = 0;
-  due_ = time_of(next_ - 1);
+  if (ticks > 0) {
+    due_ = last_;
+    missed_ += ticks - 1;
+  }
   return ticks;
+}
+
+void periodic_timer::set_period(Period period, Duration phase) {
+  enter();
+  if (!sync::before_releasing(kernel::Operation::timer_start, object_)) return;
+  if (next_ >= 0) catch_up();
+  period_ = period;
+  phase_ = phase;
+  running_ = true;
+  start();
+  if (event_.in_list()) scheduler_->cancel(event_);
+  if (object_.first_waiter != nullptr) scheduler_->schedule(event_, time_of(next_), object_);
+}
+
+void periodic_timer::stop() {
+  enter();
+  if (!sync::before_releasing(kernel::Operation::timer_stop, object_)) return;
+  if (next_ < 0) start();
+  catch_up();
+  running_ = false;
+  if (event_.in_list()) scheduler_->cancel(event_);
+  scheduler_->wake_all(object_);
 }
 
 }  // namespace waitpoint

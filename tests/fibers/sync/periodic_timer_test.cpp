@@ -115,6 +115,70 @@ TEST(PeriodicTimer, ServesItsWaitersInTurn) {
   }
 }
 
+TEST(PeriodicTimer, TimedWaitsEndAtTheDeadlineOrWithATick) {
+  in_every_order([] {
+    periodic_timer timer(Period::every(10ms));
+    EXPECT_EQ(timer.wait_for(4ms), 0);
+    EXPECT_EQ(now(), at(4ms));
+    EXPECT_EQ(timer.try_wait(), 0);
+    EXPECT_EQ(timer.wait_for(20ms), 1);
+    EXPECT_EQ(now(), at(10ms));
+    EXPECT_EQ(timer.wait_for(10ms), 1);  // a tick at the instant of the deadline comes before it
+    EXPECT_EQ(now(), at(20ms));
+    EXPECT_EQ(timer.wait_until(steady_clock::time_point(30ms - 1ns)), 0);
+    EXPECT_EQ(timer.wait_for(0s), 0);
+    sleep_until(at(55ms));
+    EXPECT_EQ(timer.try_wait(), 3);
+    EXPECT_EQ(timer.due(), at(50ms));
+    EXPECT_EQ(timer.missed(), 2);
+    EXPECT_EQ(timer.wait_for(std::chrono::hours::max()), 1);
+    EXPECT_EQ(now(), at(60ms));
+  });
+}
+
+TEST(PeriodicTimer, ChangesItsPeriodWhileTasksWait) {
+  in_every_order([] {
+    periodic_timer timer(Period::every(10ms));
+    std::vector<Time> ticks;
+    thread other([&] {
+      for (int i = 0; i < 4; ++i) {
+        timer.wait();
+        ticks.push_back(now());
+      }
+    });
+    sleep_until(at(15ms));
+    timer.set_period(Period::every(7ms), 1ms);
+    other.join();
+    EXPECT_EQ(ticks, (std::vector{at(10ms), at(22ms), at(29ms), at(36ms)}));
+    sleep_until(at(45ms));
+    timer.set_period(Period::every(100ms));
+    EXPECT_EQ(timer.wait(), 1);  // of 43 ms: what has come is kept
+    EXPECT_EQ(timer.due(), at(43ms));
+    EXPECT_EQ(timer.wait(), 1);
+    EXPECT_EQ(now(), at(100ms));
+  });
+}
+
+TEST(PeriodicTimer, AStoppedOneLetsGoWhoWaitsAndMayStartAgain) {
+  in_every_order([] {
+    periodic_timer timer(Period::every(10ms));
+    thread other([&] {
+      EXPECT_EQ(timer.wait(), 1);
+      EXPECT_EQ(timer.wait(), 0);
+      EXPECT_EQ(now(), at(15ms));
+      EXPECT_EQ(timer.wait(), 0);
+    });
+    sleep_until(at(15ms));
+    timer.stop();
+    other.join();
+    sleep_until(at(100ms));
+    EXPECT_EQ(timer.try_wait(), 0);
+    timer.set_period(Period::every(10ms));
+    EXPECT_EQ(timer.wait(), 1);
+    EXPECT_EQ(now(), at(110ms));
+  });
+}
+
 // Its ticks are no tasks: a run in which nothing but timers goes on can never go on.
 TEST(PeriodicTimer, ATimerNobodyWaitsForKeepsNoRunAlive) {
   const Report report = simulate([] {
