@@ -7,6 +7,7 @@
 
 #include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/blocking.hpp"
+#include "fibers/sync/signals.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint {
@@ -15,6 +16,7 @@ Simulation::Simulation(SimulationOptions options)
     : options_(std::move(options)), scheduler_(options_.order, options_.seed) {
   scheduler_.set_client(this);
   scheduler_.set_replay(options_.replay.c_str());
+  scheduler_.set_delivery(sync::deliver_signals);
   add(environment_, "environment");
 }
 

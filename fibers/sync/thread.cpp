@@ -29,10 +29,16 @@ void run_thread(void* argument) {
     scheduler.wake_all(state.ended);
   }
   state.task = nullptr;
+  kernel::running->argument = nullptr;
   state.run_over = scheduler.unwinding();
 }
 
 }  // namespace
+
+ThreadState* thread_of(const kernel::Task& task) {
+  if (task.entry != run_thread || task.argument == nullptr) return nullptr;
+  return static_cast<std::shared_ptr<ThreadState>*>(task.argument)->get();
+}
 
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
                                           const kernel::SpawnOptions& options, std::function<void()> body) {

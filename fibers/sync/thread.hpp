@@ -21,7 +21,11 @@ struct thread_attributes {
   bool service = false;  ///< does not keep the run alive
 };
 
+enum class signal_sent : std::uint8_t;
+
 namespace sync {
+
+struct TaskSignals;
 
 /// What a thread's handle and its task share; it lives until both are gone.
 struct ThreadState {
@@ -30,11 +34,15 @@ struct ThreadState {
   kernel::Task* task = nullptr;  ///< null once it ended
   bool run_over = false;         ///< ended with its run: there is nothing to join
   std::uint64_t id = 0;
+  std::shared_ptr<TaskSignals> signals;  ///< null until it has to do with one
 };
 
 /// Makes a task of `robot` that runs `body`; more tasks than the simulation holds are a bug.
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
                                           const kernel::SpawnOptions& options, std::function<void()> body);
+
+/// The state of the thread that `task` is; null once its function has returned, and for a task that is no thread.
+ThreadState* thread_of(const kernel::Task& task);
 
 }  // namespace sync
 
@@ -76,6 +84,7 @@ class thread {
   void swap(thread& other) noexcept { state_.swap(other.state_); }
 
  private:
+  friend signal_sent send_signal(const thread& to, int signal);
   static std::shared_ptr<sync::ThreadState> start(const thread_attributes& attributes, std::function<void()> body);
 
   std::shared_ptr<sync::ThreadState> state_;
