@@ -34,7 +34,7 @@ class Fleet {
   void run() {
     ASSERT_EQ(simulation.run_before(Time() + Duration(std::chrono::hours(1))), RunEnd::ended) << simulation.trouble();
   }
-  std::string digest(const std::string& robot) const { return to_string(robots_.at(robot)->digest); }
+  std::string digest(const std::string& robot) const { return to_string(robots_.at(robot)->digest.digest()); }
 
   Simulation simulation;
   Network network;

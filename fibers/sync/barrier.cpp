@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/sync/barrier.hpp"
+
+namespace waitpoint::sync {
+
+void BarrierCore::refresh() {
+  if (!running_task().scheduler->enter(object_)) return;
+  expected_ = missing_ = initial_;
+  phase_ = 0;
+}
+
+BarrierCore::Arrival BarrierCore::arrive(std::ptrdiff_t count, std::ptrdiff_t dropped) {
+  refresh();
+  if (!before_releasing(kernel::Operation::arrive, object_)) return {phase_, false};
+  WAITPOINT_CHECK(count > 0 && count <= missing_, about(object_, "more arrive at a barrier than it expects"));
+  expected_ -= dropped;
+  missing_ -= count;
+  return {phase_, missing_ == 0};
+}
+
+void BarrierCore::end_phase() {
+  // The completion function may have met the end of the run.
+  if (kernel::running->scheduler->unwinding()) return;
+  missing_ = expected_;
+  ++phase_;
+  kernel::running->scheduler->wake_all(object_);
+}
+
+bool BarrierCore::wait_before(std::uint64_t phase, Time deadline) {
+  refresh();
+  const auto operation = deadline <= running_task().local_time ? kernel::Operation::try_wait : kernel::Operation::wait;
+  if (!before_blocking(operation, object_)) return true;
+  WAITPOINT_CHECK(phase == phase_ || phase + 1 == phase_,
+                  about(object_, "a task waits for a phase of a barrier that is long over"));
+  if (phase != phase_) return true;
+  if (deadline <= kernel::running->local_time) return false;
+  return block(object_, deadline);
+}
+
+}  // namespace waitpoint::sync

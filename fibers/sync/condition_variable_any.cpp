@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/sync/condition_variable_any.hpp"
+
+#include "fibers/sync/misuse.hpp"
+
+namespace waitpoint {
+
+condition_variable_any::~condition_variable_any() {
+  sync::let_notified_leave(object_);
+  sync::check_destroyed(object_);
+}
+
+void condition_variable_any::notify_one() {
+  if (!sync::before_releasing(kernel::Operation::notify_one, object_) || object_.users == 0) return;
+  std::uint32_t count = 0;
+  for (const Waiter* waiter = first_; waiter != nullptr; waiter = waiter->next) ++count;
+  if (count == 0) return;
+  Waiter* chosen = first_;
+  for (std::uint32_t i = kernel::running->scheduler->chooser().waiter(*kernel::running, count); i > 0; --i)
+    chosen = chosen->next;
+  notify(*chosen);
+}
+
+void condition_variable_any::notify_all() {
+  if (!sync::before_releasing(kernel::Operation::notify_all, object_) || object_.users == 0) return;
+  while (first_ != nullptr) notify(*first_);
+}
+
+void condition_variable_any::notify(Waiter& waiter) {
+  strike_off(waiter);
+  waiter.notified = true;
+  if (waiter.blocked) kernel::running->scheduler->wake(*waiter.task);
+}
+
+// `users` counts who is in the list or was woken from it. Where it is 0, as in a new run, the list is nobody's.
+bool condition_variable_any::enlist(Waiter& waiter) {
+  if (!sync::before_blocking(kernel::Operation::wait, object_)) return false;
+  waiter.task = kernel::running;
+  if (object_.users++ == 0) first_ = last_ = nullptr;
+  (first_ == nullptr ? first_ : last_->next) = &waiter;
+  last_ = &waiter;
+  return true;
+}
+
+void condition_variable_any::strike_off(Waiter& waiter) {
+  Waiter* before = nullptr;
+  for (Waiter* at = first_; at != &waiter; at = at->next) before = at;
+  (before == nullptr ? first_ : before->next) = waiter.next;
+  if (last_ == &waiter) last_ = before;
+}
+
+void condition_variable_any::leave(Waiter& waiter) {
+  // Once the run is over, the list may be gone.
+  if (kernel::running->scheduler->unwinding()) return;
+  if (!waiter.notified) strike_off(waiter);
+  --object_.users;
+}
+
+bool condition_variable_any::sleep(Waiter& waiter, Time deadline) {
+  if (!waiter.notified) {
+    waiter.blocked = true;
+    sync::block(object_, deadline);
+  }
+  leave(waiter);
+  return waiter.notified;
+}
+
+}  // namespace waitpoint

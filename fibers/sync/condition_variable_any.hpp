@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Condition variable over any lock with lock() and unlock(), in the names and semantics of std::condition_variable_any.
+//
+// Who waits stands in its list before it unlocks, so that a notification between its unlock and its sleep is not lost.
+// Different tasks may wait with different locks.
+#pragma once
+
+#include <condition_variable>
+
+#include "fibers/sync/clock.hpp"
+
+namespace waitpoint {
+
+using std::cv_status;
+
+class condition_variable_any {
+ public:
+  constexpr condition_variable_any() = default;
+  explicit constexpr condition_variable_any(const char* label) : object_("condition variable", label) {}
+  ~condition_variable_any();
+  condition_variable_any(const condition_variable_any&) = delete;
+  condition_variable_any& operator=(const condition_variable_any&) = delete;
+
+  void notify_one();
+  void notify_all();
+
+  template <class Lock>
+  void wait(Lock& lock) {
+    wait_before(lock, Time::max());
+  }
+  template <class Lock, class Predicate>
+  void wait(Lock& lock, Predicate ready) {
+    while (!ready()) wait(lock);
+  }
+
+  template <class Lock, class Clock, class Span>
+  cv_status wait_until(Lock& lock, const std::chrono::time_point<Clock, Span>& deadline) {
+    return wait_before(lock, sync::until(deadline)) ? cv_status::no_timeout : cv_status::timeout;
+  }
+  template <class Lock, class Clock, class Span, class Predicate>
+  bool wait_until(Lock& lock, const std::chrono::time_point<Clock, Span>& deadline, Predicate ready) {
+    return wait_before(lock, sync::until(deadline), ready);
+  }
+
+  template <class Lock, class Rep, class Ratio>
+  cv_status wait_for(Lock& lock, const std::chrono::duration<Rep, Ratio>& span) {
+    return wait_before(lock, sync::after(span)) ? cv_status::no_timeout : cv_status::timeout;
+  }
+  template <class Lock, class Rep, class Ratio, class Predicate>
+  bool wait_for(Lock& lock, const std::chrono::duration<Rep, Ratio>& span, Predicate ready) {
+    return wait_before(lock, sync::after(span), ready);
+  }
+
+ private:
+  // One wait, in the frame of who waits.
+  struct Waiter {
+    kernel::Task* task = nullptr;
+    Waiter* next = nullptr;
+    bool blocked = false;   // else still on its way to sleep
+    bool notified = false;  // and no longer in the list
+  };
+  // Locks again whatever ends the wait. Lets Unwind through, as lock() throws it only where no exception is under way.
+  template <class Lock>
+  struct Relock {
+    ~Relock() noexcept(false) { lock.lock(); }
+    Lock& lock;
+  };
+
+  // False if the deadline came first. The lock is held again in both cases.
+  template <class Lock>
+  bool wait_before(Lock& lock, Time deadline) {
+    Waiter self;
+    if (!enlist(self)) return false;
+    try {
+      lock.unlock();
+    } catch (...) {
+      leave(self);
+      throw;
+    }
+    const Relock<Lock> relock{lock};
+    return sleep(self, deadline);
+  }
+  template <class Lock, class Predicate>
+  bool wait_before(Lock& lock, Time deadline, Predicate ready) {
+    while (!ready())
+      if (!wait_before(lock, deadline)) return ready();
+    return true;
+  }
+
+  bool enlist(Waiter& waiter);
+  bool sleep(Waiter& waiter, Time deadline);
+  void leave(Waiter& waiter);
+  void strike_off(Waiter& waiter);
+  void notify(Waiter& waiter);
+
+  kernel::Object object_{"condition variable"};
+  Waiter* first_ = nullptr;
+  Waiter* last_ = nullptr;
+};
+
+}  // namespace waitpoint

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A count that goes down to zero once and lets all through then, in the names and semantics of std::latch. The timed
+// waits are ours: the standard has none.
+//
+// A latch that a run leaves behind reads as fresh, with its initial count, in the next run.
+#pragma once
+
+#include <cstddef>
+
+#include "fibers/sync/clock.hpp"
+#include "fibers/sync/misuse.hpp"
+
+namespace waitpoint {
+
+class latch {
+ public:
+  /// A negative count is a bug. `label` is shown in reports; it must outlive the latch.
+  constexpr explicit latch(std::ptrdiff_t expected, const char* label = "")
+      : object_("latch", label), expected_(expected) {
+    WAITPOINT_CHECK(expected >= 0, "a latch expects a negative count");
+  }
+  ~latch() { sync::check_destroyed(object_); }
+  latch(const latch&) = delete;
+  latch& operator=(const latch&) = delete;
+
+  static constexpr std::ptrdiff_t max() noexcept { return PTRDIFF_MAX; }
+
+  /// Below zero, or by a negative number, is a bug.
+  void count_down(std::ptrdiff_t by = 1);
+  bool try_wait();
+  void wait() { wait_before(Time::max()); }
+  void arrive_and_wait(std::ptrdiff_t by = 1) {
+    count_down(by);
+    wait();
+  }
+
+  /// False if the count is not zero in time.
+  template <class Rep, class Ratio>
+  bool try_wait_for(const std::chrono::duration<Rep, Ratio>& span) {
+    return wait_before(sync::after(span));
+  }
+  template <class Clock, class Span>
+  bool try_wait_until(const std::chrono::time_point<Clock, Span>& deadline) {
+    return wait_before(sync::until(deadline));
+  }
+
+ private:
+  void refresh();
+  bool wait_before(Time deadline);
+
+  kernel::Object object_;
+  std::ptrdiff_t expected_;
+  std::ptrdiff_t count_ = 0;
+};
+
+}  // namespace waitpoint

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mutual exclusion with as many locks by its owner as it likes, in the names and semantics of std::recursive_mutex and
+// std::recursive_timed_mutex. The last of as many unlocks hands it on, as a mutex.
+#pragma once
+
+#include "fibers/sync/clock.hpp"
+#include "fibers/sync/mutex_core.hpp"
+
+namespace waitpoint {
+
+class recursive_mutex {
+ public:
+  constexpr recursive_mutex() = default;
+  /// `label` is shown in reports; it must outlive the mutex.
+  explicit constexpr recursive_mutex(const char* label) : core_("recursive mutex", label) {}
+  recursive_mutex(const recursive_mutex&) = delete;
+  recursive_mutex& operator=(const recursive_mutex&) = delete;
+
+  void lock() { lock_before(Time::max()); }
+  bool try_lock() { return lock_before(sync::long_past); }
+  void unlock();
+
+ protected:
+  bool lock_before(Time deadline);
+
+ private:
+  sync::MutexCore core_{"recursive mutex", ""};
+  std::uint64_t depth_ = 0;  // of the owner's locks
+};
+
+class recursive_timed_mutex : public recursive_mutex {
+ public:
+  using recursive_mutex::recursive_mutex;
+
+  template <class Rep, class Ratio>
+  bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
+    return lock_before(sync::after(span));
+  }
+  template <class Clock, class Span>
+  bool try_lock_until(const std::chrono::time_point<Clock, Span>& deadline) {
+    return lock_before(sync::until(deadline));
+  }
+};
+
+}  // namespace waitpoint

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A lock that one writer holds or any number of readers, in the names and semantics of std::shared_mutex and
+// std::shared_timed_mutex.
+//
+// Readers and writers take turns, so that neither starves (phase-fair: Brandenburg, Anderson: Spin-based reader-writer
+// synchronization for multiprocessor real-time systems, 2010). In the default order:
+//
+//   a reader comes in at once where no writer holds the lock or waits for it; else it waits
+//   when the last reader leaves, the first writer that waits comes in
+//   when a writer leaves, all readers that wait come in together; without any, the first writer
+//
+// In other orders, who comes in at an unlock is the chooser's choice: one of the writers, or all readers together.
+//
+// Waiting for what one holds oneself is a deadlock of one, and reported as such: lock() by a reader or by the writer,
+// lock_shared() by the writer. What else the standard leaves undefined is a bug: trying to, a second lock_shared() by a
+// reader, unlocking what one does not hold, ending while one holds it, destroying it while it is held or waited for.
+#pragma once
+
+#include <vector>
+
+#include "fibers/sync/clock.hpp"
+
+namespace waitpoint {
+
+class shared_mutex {
+ public:
+  shared_mutex() = default;
+  /// `label` is shown in reports; it must outlive the mutex.
+  explicit shared_mutex(const char* label) : object_("shared mutex", label) {}
+  ~shared_mutex();
+  shared_mutex(const shared_mutex&) = delete;
+  shared_mutex& operator=(const shared_mutex&) = delete;
+
+  void lock();
+  bool try_lock() { return lock_before(sync::long_past); }
+  void unlock();
+
+  void lock_shared();
+  bool try_lock_shared() { return lock_shared_before(sync::long_past); }
+  void unlock_shared();
+
+ protected:
+  bool lock_before(Time deadline);
+  bool lock_shared_before(Time deadline);
+
+ private:
+  void refresh();
+  bool is_reader(const kernel::Task& task) const;
+  bool acquire(Time deadline);
+  bool acquire_shared(Time deadline);
+  void add_reader(kernel::Task& task);
+  void remove_reader(kernel::Task& task);
+  void admit_readers();
+  void hand_over(bool readers_first);
+
+  kernel::Object object_{"shared mutex"};
+  std::vector<kernel::Task*> readers_;  // those who hold it
+};
+
+class shared_timed_mutex : public shared_mutex {
+ public:
+  using shared_mutex::shared_mutex;
+
+  template <class Rep, class Ratio>
+  bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
+    return lock_before(sync::after(span));
+  }
+  template <class Clock, class Span>
+  bool try_lock_until(const std::chrono::time_point<Clock, Span>& deadline) {
+    return lock_before(sync::until(deadline));
+  }
+  template <class Rep, class Ratio>
+  bool try_lock_shared_for(const std::chrono::duration<Rep, Ratio>& span) {
+    return lock_shared_before(sync::after(span));
+  }
+  template <class Clock, class Span>
+  bool try_lock_shared_until(const std::chrono::time_point<Clock, Span>& deadline) {
+    return lock_shared_before(sync::until(deadline));
+  }
+};
+
+}  // namespace waitpoint
