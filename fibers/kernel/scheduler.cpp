@@ -461,7 +461,7 @@ inline void Scheduler::remove_waiter(Task& task) {
 }
 
 // Algorithm 2: who was woken takes the global time as its local one.
-inline void Scheduler::wake(Task& task) {
+inline void Scheduler::make_ready(Task& task) {
   if (__builtin_expect(sanitizer::present, 0)) sanitizer::release(task.blocked_on);
   remove_waiter(task);
   if (task.event.in_list()) events_.remove(task.event);
@@ -471,6 +471,8 @@ inline void Scheduler::wake(Task& task) {
   put(task.event, key(task, now_));
 }
 
+void Scheduler::wake(Task& task) { make_ready(task); }
+
 Task* Scheduler::wake_one(Object& object) {
   Task* chosen = object.first_waiter;
   if (chosen == nullptr || unwinding_ || object.epoch != epoch_) return nullptr;
@@ -479,20 +481,20 @@ Task* Scheduler::wake_one(Object& object) {
     for (Task* t = chosen; t != nullptr; t = t->next_waiter) ++count;
     for (std::uint32_t i = chooser_.waiter(*running, count); i > 0; --i) chosen = chosen->next_waiter;
   }
-  wake(*chosen);
+  make_ready(*chosen);
   return chosen;
 }
 
 Task* Scheduler::wake_first(Object& object) {
   if (unwinding_ || object.epoch != epoch_ || object.first_waiter == nullptr) return nullptr;
   Task* first = object.first_waiter;
-  wake(*first);
+  make_ready(*first);
   return first;
 }
 
 void Scheduler::wake_all(Object& object) {
   if (unwinding_ || object.epoch != epoch_) return;
-  while (object.first_waiter != nullptr) wake(*object.first_waiter);
+  while (object.first_waiter != nullptr) make_ready(*object.first_waiter);
 }
 
 void Scheduler::schedule(EventNode& node, Time time, const Object& timer) {

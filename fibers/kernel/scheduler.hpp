@@ -199,6 +199,7 @@ class Scheduler {
   void let_pass(Task& task);
   void end_free_passes(Task& task);
   void set_local_time(Task& task, Time time);
+  void make_ready(Task& task);
   void put(EventNode& node, const EventKey& key);
   void leave(Fiber& from, Fiber& to);
   void switch_to(Task& task);
