@@ -77,6 +77,10 @@ class Channel {
   /// Wakes all who wait at `side`, to look again, and the pollers.
   void wake_all(kernel::Object& side);
 
+  /// Whether a task stands at one of the sides, or polls.
+  bool is_waited_for() const {
+    return receiving_.first_waiter != nullptr || sending_.first_waiter != nullptr || !pollers_.empty();
+  }
   /// Names the channel in reports.
   void set_label(std::string label) {
     label_ = std::move(label);

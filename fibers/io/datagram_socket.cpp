@@ -8,17 +8,17 @@ namespace waitpoint::io {
 DatagramCore::DatagramCore(Network& network, const DatagramOptions& options)
     : Channel("datagram socket", ""), network_(network), node_(network.own_node()), options_(options) {
   WAITPOINT_CHECK(options.queue_max > 0, "a datagram socket's queue holds nothing");
-  node_.take_socket();
+  node_->take_socket();
 }
 
-DatagramCore::~DatagramCore() { node_.give_socket(); }
+DatagramCore::~DatagramCore() { node_->give_socket(); }
 
 Status DatagramCore::bind(const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
   WAITPOINT_CHECK(port_.empty(), "a datagram socket is bound a second time");
-  if (!node_.bind(Protocol::datagram, port, *this)) return Status::address_in_use;
+  if (!node_->bind(Protocol::datagram, port, *this)) return Status::address_in_use;
   port_ = port;
-  set_label(node_.name() + ":" + port);
+  set_label(node_->name() + ":" + port);
   return Status::ok;
 }
 
@@ -26,14 +26,14 @@ Status DatagramCore::send_to(const Address& address, std::span<const std::byte> 
   if (!begin(kernel::Operation::send, sending_)) return Status::closed;
   if (closed_) return Status::closed;
   if (data.size() > options_.message_bytes_max) return Status::message_too_long;
-  Link* const link = node_.link_to(address.robot);
+  Link* const link = node_->link_to(address.robot);
   if (link == nullptr) return Status::no_route;
   Digest sent;
   sent.add(std::string_view(reinterpret_cast<const char*>(data.data()), data.size()));
   record_sent(to_string(address), sent.value());
   Node& target = *network_.node(link->to());
   link->send_datagram(data.size(), [&target, link, port = address.port,
-                                    message = Message{{data.begin(), data.end()}, {node_.name(), port_}}] {
+                                    message = Message{{data.begin(), data.end()}, {node_->name(), port_}}] {
     auto* const socket = static_cast<DatagramCore*>(target.find(Protocol::datagram, port));
     if (socket != nullptr)
       socket->arrive(message);
@@ -66,7 +66,7 @@ Result<Datagram> DatagramCore::receive(std::span<std::byte> buffer, const Deadli
 
 void DatagramCore::close() {
   const bool tell = begin_release(kernel::Operation::close, receiving_);
-  if (!port_.empty()) node_.release(Protocol::datagram, port_);
+  if (!port_.empty()) node_->release(Protocol::datagram, port_);
   closed_ = true;
   if (tell) wake_all(receiving_);
 }

@@ -48,7 +48,7 @@ class DatagramCore : public Channel {
   void arrive(Message message);
 
   Network& network_;
-  Node& node_;
+  std::shared_ptr<Node> node_;
   DatagramOptions options_;
   std::string port_;
   std::deque<Message> queue_;

@@ -22,8 +22,8 @@ std::size_t wire_bytes(const T& value) {
     for_each_field(value, [&](std::string_view, const auto& member) { sum += wire_bytes(member); });
     return sum;
   } else if constexpr (requires { value.begin(); }) {
-    std::size_t sum = requires { value.push_back(*value.begin()); }
-    ? 4 : 0;
+    constexpr bool is_bounded = requires { T::capacity(); };
+    std::size_t sum = is_bounded ? 4 : 0;
     for (const auto& item : value) sum += wire_bytes(item);
     return sum;
   } else {

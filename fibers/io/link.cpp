@@ -25,10 +25,15 @@ Link::Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, st
   range_check_.fire = look_again;
 }
 
-Link::~Link() {
+void Link::stop() {
+  stopped_ = true;
   if (range_check_.in_list()) scheduler_.cancel(range_check_);
   for (Flight& flight : flights_)
     if (flight.in_list()) scheduler_.cancel(flight);
+  // Their arrivals may own sockets.
+  flights_.clear();
+  landed_.clear();
+  waiting_.clear();
 }
 
 double Link::distance_m() const {
@@ -47,8 +52,13 @@ Time Link::put_on_air(std::size_t bytes, double distance_m) {
          Duration::from_seconds(medium_->latency_per_metre.seconds() * distance_m);
 }
 
-void Link::send_datagram(std::size_t bytes, Arrival arrival) {
+void Link::begin_sending() {
+  WAITPOINT_CHECK(!stopped_, "something is sent on a network that is gone");
   ++statistics.sent;
+}
+
+void Link::send_datagram(std::size_t bytes, Arrival arrival) {
+  begin_sending();
   if (!medium_) return arrival();
   const Duration queued = std::max(free_at_, scheduler_.global_time()) - scheduler_.global_time();
   if (queued > time_on_air(*medium_, medium_->queue_bytes)) {
@@ -68,7 +78,7 @@ void Link::send_datagram(std::size_t bytes, Arrival arrival) {
 }
 
 void Link::send_in_order(std::size_t bytes, Arrival arrival) {
-  ++statistics.sent;
+  begin_sending();
   if (!medium_) return arrival();
   const double away_m = distance_m();
   if (waiting_.empty() && away_m <= medium_->range_m) return transmit_in_order(bytes, away_m, std::move(arrival));

@@ -38,7 +38,6 @@ class Link {
   /// `medium` none: within one robot.
   Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, std::optional<Medium> medium,
        const Distance& distance, std::size_t in_flight_max);
-  ~Link();
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
@@ -46,6 +45,9 @@ class Link {
   void send_datagram(std::size_t bytes, Arrival arrival);
   /// Arrives after all that was sent in order before; beyond the range it waits.
   void send_in_order(std::size_t bytes, Arrival arrival);
+
+  /// The network is gone: nothing arrives any more, and to send is a bug.
+  void stop();
 
   /// Between robots, what is under way takes room that the receiver cannot give back at once.
   bool crosses() const { return medium_.has_value(); }
@@ -67,6 +69,7 @@ class Link {
 
   static void land(kernel::EventNode& node);
   static void look_again(kernel::EventNode& node);
+  void begin_sending();
   double distance_m() const;
   Time put_on_air(std::size_t bytes, double distance_m);
   void transmit_in_order(std::size_t bytes, double distance_m, Arrival arrival);
@@ -80,6 +83,7 @@ class Link {
   const Distance& distance_;
   std::size_t in_flight_max_;
   RandomStream random_;
+  bool stopped_ = false;
   std::uint64_t number_ = 0;  // of the last message that went on the air
   Time free_at_;              // when the last bit of all so far is on the air
   Time in_order_until_;       // when the last message in order arrives

@@ -35,7 +35,12 @@ class mailbox : public Channel {
       : Channel("mailbox", std::move(label)), capacity_(capacity) {
     WAITPOINT_CHECK(capacity > 0, "a mailbox holds at least one letter");
   }
-  ~mailbox() override { shut(begin_release(kernel::Operation::close, receiving_)); }
+  /// One at which a task waits is destroyed by a bug.
+  ~mailbox() override {
+    const bool tell = begin_release(kernel::Operation::close, receiving_);
+    WAITPOINT_CHECK(!tell || !is_waited_for(), "a mailbox is destroyed while a task waits at it");
+    shut(tell);
+  }
 
   /// Gives it a name on this robot: ok or address_in_use. A second name is a bug.
   Status bind(Network& network, const std::string& port);
@@ -92,7 +97,7 @@ class mailbox : public Channel {
   std::size_t capacity_;
   std::deque<Entry> letters_;
   bool closed_ = false;
-  Node* node_ = nullptr;  // where it has a name
+  std::shared_ptr<Node> node_;  // where it has a name
   std::string port_;
 };
 
@@ -101,11 +106,11 @@ Status mailbox<T>::bind(Network& network, const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
   WAITPOINT_CHECK(node_ == nullptr, "a mailbox is bound a second time");
   WAITPOINT_CHECK(!closed_, "a mailbox is bound after its close");
-  Node& node = network.own_node();
-  if (!node.bind(Protocol::mailbox, port, *this)) return Status::address_in_use;
-  node_ = &node;
+  std::shared_ptr<Node> node = network.own_node();
+  if (!node->bind(Protocol::mailbox, port, *this)) return Status::address_in_use;
+  node_ = std::move(node);
   port_ = port;
-  set_label(node.name() + ":" + port);
+  set_label(node_->name() + ":" + port);
   return Status::ok;
 }
 

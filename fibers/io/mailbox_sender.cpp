@@ -8,10 +8,10 @@ SenderCore::SenderCore(Network& network, const Address& address, std::size_t win
       network_(network),
       node_(network.own_node()),
       address_(address),
-      link_(node_.link_to(address.robot)),
+      link_(node_->link_to(address.robot)),
       room_(window) {
   WAITPOINT_CHECK(window > 0, "a mailbox sender's window holds at least one letter");
-  node_.take_socket();
+  node_->take_socket();
 }
 
 Status SenderCore::begin_letter(const Deadline& deadline) {
@@ -25,7 +25,7 @@ void SenderCore::send(std::size_t bytes, std::uint64_t hash, std::function<void(
   --room_;
   record_sent(to_string(address_), hash);
   Node& target = *network_.node(link_->to());
-  link_->send_in_order(bytes, [&target, port = address_.port, own = node_.name(), sender = weak_from_this(),
+  link_->send_in_order(bytes, [&target, port = address_.port, own = node_->name(), sender = weak_from_this(),
                                arrive = std::move(arrive)] {
     // Word for the sender goes back the same way.
     const Receipt receipt = [&target, own, sender](Status status) {

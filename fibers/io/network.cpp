@@ -33,11 +33,16 @@ Link* Node::link_to(const std::string& robot) {
     const Medium* declared = network_.medium(robot_.name, to);
     if (declared == nullptr || network_.node(to) == nullptr) return nullptr;
     medium = *declared;
+    network_.crossed_ = true;
   }
   return &links_
               .try_emplace(to, network_.scheduler_, robot_, to, medium, network_.distance_,
                            network_.limits_.in_flight_max)
               .first->second;
+}
+
+void Node::stop() {
+  for (auto& [to, link] : links_) link.stop();
 }
 
 Channel* Node::find(Protocol protocol, const std::string& port) const {
@@ -62,23 +67,28 @@ Network::Network(Simulation& simulation, NetworkLimits limits) : scheduler_(simu
 Network::Network() : scheduler_(*sync::running_task().scheduler) {}
 
 Network::~Network() {
-  // Once a run is over, tasks that could not be unwound may have left sockets behind.
+  for (const auto& [name, node] : nodes_) node->stop();
+  // Outside tasks the run that uses the sockets may not be unwound yet; and what cannot be unwound leaves some behind.
   if (kernel::running == nullptr || scheduler_.unwinding()) return;
-  for (const auto& [name, node] : nodes_) WAITPOINT_CHECK(node.sockets() == 0, "a network goes before its sockets");
+  for (const auto& [name, node] : nodes_) WAITPOINT_CHECK(node->sockets() == 0, "a network goes before its sockets");
+}
+
+void Network::begin_declaring(const Medium& medium) {
+  WAITPOINT_CHECK(!crossed_, "a medium is declared after robots have sent to each other");
+  check(medium);
+  scheduler_.declare_latency(medium.latency_least);
 }
 
 void Network::declare(const Medium& medium) {
-  check(medium);
-  scheduler_.declare_latency(medium.latency_least);
+  begin_declaring(medium);
   between_all_ = medium;
 }
 
 void Network::declare(const std::string& a, const std::string& b, const Medium& medium) {
-  check(medium);
   for (const std::string& name : {a, b})
     if (robot_named(scheduler_, name) == nullptr) throw BadInput("medium", "there is no robot '" + name + "'");
   if (a == b) throw BadInput("medium", "within robot '" + a + "' there is no medium");
-  scheduler_.declare_latency(medium.latency_least);
+  begin_declaring(medium);
   between_[in_order(a, b)] = medium;
 }
 
@@ -89,22 +99,23 @@ const Medium* Network::medium(const std::string& from, const std::string& to) co
 }
 
 LinkStatistics Network::statistics(const std::string& from, const std::string& to) {
-  Node* const sender = node(from);
+  const std::shared_ptr<Node> sender = node(from);
   const Link* const link = sender != nullptr ? sender->link_to(to) : nullptr;
   return link != nullptr ? link->statistics : LinkStatistics();
 }
 
-Node& Network::own_node() {
+std::shared_ptr<Node> Network::own_node() {
   const kernel::Robot& robot = *sync::running_task().robot;
   WAITPOINT_CHECK(robot.scheduler == &scheduler_, "a network of another run is used");
-  return *node(robot.name);
+  return node(robot.name);
 }
 
-Node* Network::node(const std::string& name) {
+std::shared_ptr<Node> Network::node(const std::string& name) {
   const auto known = nodes_.find(name);
-  if (known != nodes_.end()) return &known->second;
+  if (known != nodes_.end()) return known->second;
   kernel::Robot* const robot = robot_named(scheduler_, name);
-  return robot != nullptr ? &nodes_.try_emplace(name, *this, *robot).first->second : nullptr;
+  if (robot == nullptr) return nullptr;
+  return nodes_[name] = std::make_shared<Node>(*this, *robot);
 }
 
 }  // namespace waitpoint::io

@@ -6,7 +6,7 @@
 //   network.declare("ada", "bob", {.latency_least = 40ms, .latency_most = 40ms});   // but between these
 //
 // Within a robot no medium is asked. Between robots without a declared medium there is no route. A network belongs to
-// one run and outlives the sockets in it.
+// one run; nothing is sent once it is gone.
 #pragma once
 
 #include <map>
@@ -49,10 +49,13 @@ enum class Protocol : std::uint8_t { datagram, stream, mailbox };
 
 class Network;
 
-/// One robot's share of the network.
+/// One robot's share of the network. Its sockets keep it: they may be closed after the network is gone.
 class Node {
  public:
   Node(Network& network, kernel::Robot& robot) : network_(network), robot_(robot) {}
+
+  /// The network is gone: what is under way never arrives.
+  void stop();
 
   std::string name() const { return robot_.name; }
   /// The link to a robot, which may be this one; null if there is no route.
@@ -97,20 +100,22 @@ class Network {
   LinkStatistics statistics(const std::string& from, const std::string& to);
 
   /// For sockets: the running task's robot.
-  Node& own_node();
+  std::shared_ptr<Node> own_node();
   /// Null if there is no robot of that name.
-  Node* node(const std::string& robot);
+  std::shared_ptr<Node> node(const std::string& robot);
 
  private:
   friend class Node;
+  void begin_declaring(const Medium& medium);
   const Medium* medium(const std::string& from, const std::string& to) const;
 
   kernel::Scheduler& scheduler_;
   NetworkLimits limits_;
   Distance distance_;
+  bool crossed_ = false;  // robots have sent to each other
   std::optional<Medium> between_all_;
   std::map<std::pair<std::string, std::string>, Medium> between_;  // names in order
-  std::map<std::string, Node> nodes_;
+  std::map<std::string, std::shared_ptr<Node>> nodes_;
 };
 
 }  // namespace waitpoint::io

@@ -6,23 +6,23 @@ namespace waitpoint::io {
 Listener::Listener(Network& network, const ListenOptions& options)
     : Channel("stream listener", ""), node_(network.own_node()), options_(options) {
   WAITPOINT_CHECK(options.backlog > 0, "a listener's backlog holds nothing");
-  node_.take_socket();
+  node_->take_socket();
 }
 
-Listener::~Listener() { node_.give_socket(); }
+Listener::~Listener() { node_->give_socket(); }
 
 Status Listener::listen(const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
   WAITPOINT_CHECK(port_.empty(), "a stream listener listens a second time");
-  if (!node_.bind(Protocol::stream, port, *this)) return Status::address_in_use;
+  if (!node_->bind(Protocol::stream, port, *this)) return Status::address_in_use;
   port_ = port;
-  set_label(node_.name() + ":" + port);
+  set_label(node_->name() + ":" + port);
   return Status::ok;
 }
 
 std::shared_ptr<Stream> Listener::take_in(Link& back) {
-  if (backlog_.size() == options_.backlog || !node_.has_room()) return nullptr;
-  backlog_.push_back(std::make_shared<Stream>(node_, back, options_.stream, node_.name() + ":" + port_));
+  if (backlog_.size() == options_.backlog || !node_->has_room()) return nullptr;
+  backlog_.push_back(std::make_shared<Stream>(node_, back, options_.stream, node_->name() + ":" + port_));
   wake_first(receiving_);
   return backlog_.back();
 }
@@ -40,7 +40,7 @@ Result<std::shared_ptr<Stream>> Listener::accept(const Deadline& deadline) {
 
 void Listener::close() {
   const bool tell = begin_release(kernel::Operation::close, receiving_);
-  if (!port_.empty()) node_.release(Protocol::stream, port_);
+  if (!port_.empty()) node_->release(Protocol::stream, port_);
   closed_ = true;
   if (tell) wake_all(receiving_);
   for (; !backlog_.empty(); backlog_.pop_front()) backlog_.front()->close();

@@ -29,7 +29,7 @@ class Listener : public Channel {
   Events ready() const override;
 
  private:
-  Node& node_;
+  std::shared_ptr<Node> node_;
   ListenOptions options_;
   std::string port_;
   std::deque<std::shared_ptr<Stream>> backlog_;

@@ -5,14 +5,14 @@
 
 namespace waitpoint::io {
 
-Stream::Stream(Node& node, Link& link, const StreamOptions& options, const std::string& label)
-    : Channel("stream socket", label), node_(node), link_(link), received_(options.buffer_bytes) {
+Stream::Stream(std::shared_ptr<Node> node, Link& link, const StreamOptions& options, const std::string& label)
+    : Channel("stream socket", label), node_(std::move(node)), link_(link), received_(options.buffer_bytes) {
   WAITPOINT_CHECK(options.buffer_bytes > 0 && options.buffer_bytes <= buffer_max,
                   "a stream's buffer holds at least one byte and at most 64 MiB");
-  node_.take_socket();
+  node_->take_socket();
 }
 
-Stream::~Stream() { node_.give_socket(); }
+Stream::~Stream() { node_->give_socket(); }
 
 // Sends a message that does something at the peer, if it is still there then.
 template <class Message>
@@ -26,7 +26,7 @@ void Stream::tell_peer(std::size_t bytes, Message message) {
 
 Status Stream::connect(Node& target, const std::string& port, const Deadline& deadline) {
   if (!begin(kernel::Operation::connect, sending_)) return Status::closed;
-  link_.send_in_order(0, [&target, port, client = weak_from_this(), own = node_.name(), credit = received_.capacity(),
+  link_.send_in_order(0, [&target, port, client = weak_from_this(), own = node_->name(), credit = received_.capacity(),
                           &question = link_] {
     auto* const listener = static_cast<Listener*>(target.find(Protocol::stream, port));
     Link& back = *target.link_to(own);
@@ -179,8 +179,8 @@ void stream_socket::close() {
 
 Result<stream_socket> connect(Network& network, const Address& address, const Deadline& deadline,
                               const StreamOptions& options) {
-  Node& node = network.own_node();
-  Link* const link = node.link_to(address.robot);
+  const std::shared_ptr<Node> node = network.own_node();
+  Link* const link = node->link_to(address.robot);
   if (link == nullptr) return Status::no_route;
   const auto stream = std::make_shared<Stream>(node, *link, options, "to " + to_string(address));
   stream_socket socket(stream);  // closes the stream whatever comes

@@ -37,7 +37,7 @@ struct StreamOptions {
 /// One end of a connection.
 class Stream : public Channel, public std::enable_shared_from_this<Stream> {
  public:
-  Stream(Node& node, Link& link, const StreamOptions& options, const std::string& label);
+  Stream(std::shared_ptr<Node> node, Link& link, const StreamOptions& options, const std::string& label);
   ~Stream() override;
 
   /// The client's side of the beginning: asks for the connection, and waits for the answer.
@@ -65,7 +65,7 @@ class Stream : public Channel, public std::enable_shared_from_this<Stream> {
   template <class Message>
   void tell_peer(std::size_t bytes, Message message);
 
-  Node& node_;
+  std::shared_ptr<Node> node_;
   Link& link_;  // to the peer's robot
   std::weak_ptr<Stream> peer_;
   State state_ = State::asking;

@@ -213,6 +213,14 @@ TEST(Mailbox, WaitingForNothingIsReportedAsADeadlock) {
 TEST(MailboxDeathTest, MisuseIsABug) {
   EXPECT_DEATH(mailbox<int>(0), "at least one letter");
   EXPECT_DEATH((void)mailbox<int>(1).receive(), "outside a simulated task");
+  EXPECT_DEATH(simulate([] {
+                 auto box = std::make_unique<mailbox<int>>(1);
+                 thread waiting([&] { (void)box->receive(); });
+                 sleep_for(1ms);
+                 box.reset();
+                 waiting.join();
+               }),
+               "a mailbox is destroyed while a task waits at it");
   EXPECT_DEATH(
       {
         Simulation simulation;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fibers/io/datagram_socket.hpp"
+#include "fibers/io/mailbox.hpp"
 #include "fibers/io/stream_listener.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/io/bytes.hpp"
@@ -129,7 +130,7 @@ TEST(Medium, EachDirectionOfEachPairHasABandwidthOfItsOwn) {
   Fleet fleet({"ada", "bob", "eve"}, {.latency_least = 1ms, .latency_most = 1ms, .bandwidth_bit_s = 8'000});
   std::vector<Time> times;
   for (const char* to : {"ada", "eve"}) {
-    fleet.spawn(to, [&, to] {
+    fleet.spawn(to, [&] {
       datagram_socket s(fleet.network);
       EXPECT_EQ(s.bind("in"), Status::ok);
       EXPECT_EQ(s.send_to("bob:in", bytes_of("x")), Status::ok);
@@ -260,6 +261,25 @@ TEST(Medium, OneThatMakesNoSenseIsBadInput) {
   EXPECT_EQ(message({.loss = std::nan("")}), "medium: expected a loss from 0 to 1");
   EXPECT_THROW(network.declare("ada", "nobody", {}), BadInput);
   EXPECT_THROW(network.declare("ada", "ada", {}), BadInput);
+}
+
+TEST(Network, MayGoBeforeARunThatIsBrokenOff) {
+  Simulation simulation;
+  Network network(simulation);
+  network.declare(two_ms);
+  simulation.add_robot("bob");
+  simulation.spawn(simulation.add_robot("ada"), {}, [&] {
+    mailbox<int> box(1);
+    EXPECT_EQ(box.bind(network, "box"), Status::ok);
+    stream_listener door(network);
+    EXPECT_EQ(door.listen("door"), Status::ok);
+    Result<stream_socket> a = io::connect(network, "door"), b = door.accept();
+    datagram_socket socket(network);
+    for (int i = 0; i < 5; ++i, sleep_for(1ms)) EXPECT_EQ(socket.send_to("bob:in", bytes_of("x")), Status::ok);
+    (void)io::connect(network, "bob:door");
+    ADD_FAILURE();
+  });
+  EXPECT_EQ(simulation.run_before(at(8ms)), RunEnd::time_reached);
 }
 
 TEST(MediumDeathTest, MessagesUnderWayAreBounded) {
