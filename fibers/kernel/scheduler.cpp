@@ -174,6 +174,11 @@ inline void Scheduler::end_free_passes(Task& task) {
   free_passes_ = 0;
 }
 
+void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
+  task.attention = static_cast<std::uint8_t>(needed ? task.attention | reason : task.attention & ~reason);
+  if (&task == running) end_free_passes(task);
+}
+
 // A new instant for the task: it may pass as many waitpoints again.
 inline void Scheduler::set_local_time(Task& task, Time time) {
   if (task.local_time == time) return;

@@ -158,6 +158,8 @@ class Scheduler {
   /// What waitpoint_describe_run() prints as the way to repeat this run; must outlive the run.
   void set_replay(const char* text) { replay_ = text; }
   const char* replay() const { return replay_; }
+  /// Sets or clears a bit of a task's attention.
+  void attend(Task& task, std::uint8_t reason, bool needed);
   /// What delivers a task's signals, at its next waitpoint after attention::signal is set; called in the task, it may
   /// compute and pass waitpoints itself.
   void set_delivery(void (*deliver)(Task&)) { deliver_ = deliver; }

@@ -42,8 +42,7 @@ ThreadState& running_thread() {
 
 void set_attention(kernel::Task& task, const TaskSignals& signals) {
   const bool deliverable = !(signals.pending - signals.blocked).empty();
-  task.attention = static_cast<std::uint8_t>(deliverable ? task.attention | kernel::attention::signal
-                                                         : task.attention & ~kernel::attention::signal);
+  task.scheduler->attend(task, kernel::attention::signal, deliverable);
 }
 
 signal_sent post(ThreadState& to, int signal) {
