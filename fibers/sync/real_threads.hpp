@@ -15,6 +15,9 @@ namespace waitpoint::threads {
 
 using std::chrono::steady_clock;
 
+struct real {};
+using kind = real;
+
 /// Wall-clock time since the process first asked.
 inline Time now() {
   static const steady_clock::time_point start = steady_clock::now();
@@ -28,6 +31,7 @@ struct mutex : std::mutex {
   mutex() = default;
   explicit mutex(const char*) {}
 };
+using observer_lock = std::lock_guard<mutex>;
 struct timed_mutex : std::timed_mutex {
   timed_mutex() = default;
   explicit timed_mutex(const char*) {}

@@ -34,6 +34,16 @@ using waitpoint::thread_attributes;
 using waitpoint::timed_mutex;
 namespace this_thread = waitpoint::this_thread;
 
+/// Which threads these are: a parameter of this type keeps code that was compiled for others from being linked.
+struct simulated {};
+using kind = simulated;
+
+/// What an observer outside the run holds while it looks at what tasks share under `mutex`: here nothing, for no task
+/// runs meanwhile and looking makes no event; in reality the mutex.
+struct observer_lock {
+  explicit observer_lock(mutex&) {}
+};
+
 /// Adds a value that the caller gives to others (a poster, a message) to its robot's digest, by the value's declared
 /// fields.
 template <class T>

@@ -25,8 +25,8 @@ void Evaluation::observe(Time now, const world::BodyState& truth) {
   const auto error_m = [this](const posters::PositionEstimate& estimate) {
     return length(estimate.pose.position() - truth_.at(estimate.date).position());
   };
-  if (const posters::FusedPosition* fused = fused_ != nullptr ? fused_->look() : nullptr;
-      fused != nullptr && fused->position.date != fused_date_ && fused->position.date <= now) {
+  if (const auto fused = fused_ != nullptr ? fused_->look() : std::nullopt;
+      fused && fused->position.date != fused_date_ && fused->position.date <= now) {
     fused_date_ = fused->position.date;
     const double error = error_m(fused->position);
     ++fused_count_;
@@ -35,8 +35,8 @@ void Evaluation::observe(Time now, const world::BodyState& truth) {
     sample(fused_path_, fused_date_, fused->position.pose);
   }
   // Until the robot knows where it is, its odometry is in no frame.
-  if (const posters::Odometry* odometry = odometry_ != nullptr ? odometry_->look() : nullptr;
-      odometry != nullptr && fused_count_ > 0 && odometry->position.date != odometry_date_) {
+  if (const auto odometry = odometry_ != nullptr ? odometry_->look() : std::nullopt;
+      odometry && fused_count_ > 0 && odometry->position.date != odometry_date_) {
     odometry_date_ = odometry->position.date;
     odometry_error_m_ = error_m(odometry->position);
     odometry_error_max_m_ = std::max(odometry_error_max_m_, odometry_error_m_);

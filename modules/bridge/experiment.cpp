@@ -1,54 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/experiment.hpp"
 
-#include "modules/bridge/known_map.hpp"
-#include "modules/bridge/scenario_checks.hpp"
-#include "world/fcl/fcl_world.hpp"
-#include "world/formats/map_server.hpp"
-#include "world/formats/merged_cells.hpp"
-
 namespace waitpoint::bridge {
-namespace {
-
-GoalPlace place_on(const OccupancyGrid& map, Point goal) {
-  const std::optional<CellIndex> cell = map.cell_at(goal);
-  if (!cell || map[*cell] == Cell::unknown) return GoalPlace::outside_map;
-  return map[*cell] == Cell::occupied ? GoalPlace::inside_obstacle : GoalPlace::free;
-}
-
-}  // namespace
 
 Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
                        const ExperimentOptions& options)
-    : scenario_(scenario), options_(options), simulation_({options.order, options.seed, options.replay}) {
-  world::WorldDescription description = scenario.world_without_map();
-  std::optional<OccupancyGrid> map_file;
-  if (scenario.map) {
-    map_file = world::read_map_server_map(scenario.map->file.string());
-    for (world::Obstacle& obstacle : world::obstacles_of(*map_file, "map", 0, scenario.map->height_m))
-      description.obstacles.push_back(std::move(obstacle));
-  }
-  const OccupancyGrid map = known_map(scenario, map_file ? &*map_file : nullptr);
-  check_goals(scenario, [&](const RobotScenario&, Point goal) { return place_on(map, goal); });
-  check_starts(scenario, world::start_overlaps(description));
-  world_ = world::make_fcl_world(description, options.seed);
-  make_network();
-  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
-    robots_.push_back(
-        std::make_unique<Robot>(scenario.robots[i], types, map, *world_, world::BodyId(i), *network_, options.seed));
-  check_step();
-
+    : options_(options), simulation_({options.order, options.seed, options.replay}) {
+  make_network(scenario);
+  assembly_.emplace(scenario, types, &*network_, options.seed);
   simulation_.spawn(
       simulation_.environment(),
       {.name = "world", .stack = kernel::StackSize::large, .phase = kernel::Phase::world, .service = true},
       [this] { run_world(); });
-  for (const auto& robot : robots_) robot->spawn(simulation_);
+  for (const auto& robot : robots()) spawn(*robot);
 }
 
 // Distances are those of the true positions at the last step of the world.
-void Experiment::make_network() {
+void Experiment::make_network(const Scenario& scenario) {
   network_.emplace(simulation_);
-  if (scenario_.medium) network_->declare(*scenario_.medium);
+  if (scenario.medium) network_->declare(*scenario.medium);
   network_->set_distance([this](const std::string& from, const std::string& to) {
     const world::BodyState* const a = body_of(from);
     const world::BodyState* const b = body_of(to);
@@ -57,27 +27,30 @@ void Experiment::make_network() {
   });
 }
 
-// A coarse step is a legitimate choice, but rarely meant.
-void Experiment::check_step() {
-  for (const auto& robot : robots_) {
-    const std::optional<Duration> least = robot->least_period();
-    if (!least || scenario_.step <= *least) continue;
-    warnings_.push_back("the world's step of " + to_string(scenario_.step) + " s exceeds the least period of " +
-                        robot->name() + "'s software, " + to_string(*least) + " s");
-  }
+const world::BodyState* Experiment::body_of(const std::string& robot) const {
+  for (std::size_t i = 0; i < robots().size(); ++i)
+    if (robots()[i]->name() == robot) return &world().body(world::BodyId(i));
+  return nullptr;
 }
 
-const world::BodyState* Experiment::body_of(const std::string& robot) const {
-  for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
-    if (scenario_.robots[i].name == robot) return &world_->body(world::BodyId(i));
-  return nullptr;
+// A robot with goals is alive until its executive ends; one without does not keep the run alive.
+void Experiment::spawn(Robot& robot) {
+  kernel::Robot& lane = simulation_.add_robot(robot.name());
+  lanes_.push_back(&lane);
+  simulation_.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true},
+                    [&robot] { robot.bridge().run(); });
+  simulation_.spawn(lane, {.name = "executive", .stack = kernel::StackSize::large, .service = robot.goals() == 0},
+                    [&robot] { robot.run(); });
 }
 
 void Experiment::run_world() {
   for (std::int64_t k = 1;; ++k) {
-    this_thread::sleep_until(Time() + scenario_.step * k);
-    world_->step();
-    for (const auto& robot : robots_) robot->stepped(now());
+    this_thread::sleep_until(Time() + assembly_->scenario().step * k);
+    assembly_->world().step();
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      if (!lanes_[i]->ended) robots()[i]->observe(now());
+      robots()[i]->bridge().stepped();
+    }
   }
 }
 
@@ -86,26 +59,12 @@ RunEnd Experiment::run_before(Time until) {
   return end_;
 }
 
-std::size_t Experiment::goals_reached() const {
-  std::size_t count = 0;
-  for (const auto& robot : robots_) count += robot->goals_reached();
-  return count;
-}
-
-std::size_t Experiment::goals() const {
-  std::size_t count = 0;
-  for (const auto& robot : robots_) count += robot->goals();
-  return count;
-}
-
 RunResult Experiment::result() const {
-  RunResult result;
-  result.scenario = scenario_.name;
+  RunResult result = assembly_->result();
   result.seed = options_.seed;
   result.digest = simulation_.digest();
   result.environment_digest = simulation_.environment().digest.digest();
-  for (const auto& robot : robots_) result.robots.push_back(robot->result());
-  result.warnings = warnings_;
+  for (std::size_t i = 0; i < lanes_.size(); ++i) result.robots[i].digest = lanes_[i]->digest.digest();
   result.events = simulation_.scheduler().events();
   result.deadlock = simulation_.trouble();
   result.outcome = end_ == RunEnd::ended          ? Outcome::finished

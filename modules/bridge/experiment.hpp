@@ -12,13 +12,9 @@
 #include <span>
 #include <vector>
 
-#include "core/occupancy_grid.hpp"
 #include "fibers/io/network.hpp"
 #include "fibers/sync/simulation.hpp"
-#include "modules/bridge/robot.hpp"
-#include "modules/bridge/run_result.hpp"
-#include "modules/bridge/scenario.hpp"
-#include "world/world.hpp"
+#include "modules/bridge/assembly.hpp"
 
 namespace waitpoint::bridge {
 
@@ -37,29 +33,27 @@ class Experiment {
   RunEnd run_before(Time until);
 
   Simulation& simulation() { return simulation_; }
-  const world::World& world() const { return *world_; }
   io::Network& network() { return *network_; }
-  const std::vector<std::unique_ptr<Robot>>& robots() const { return robots_; }
+  const world::World& world() const { return assembly_->world(); }
+  const std::vector<std::unique_ptr<Robot>>& robots() const { return assembly_->robots(); }
   /// Goals reached so far, and all there are.
-  std::size_t goals_reached() const;
-  std::size_t goals() const;
+  std::size_t goals_reached() const { return assembly_->goals_reached(); }
+  std::size_t goals() const { return assembly_->goals(); }
 
   /// What has come out so far.
   RunResult result() const;
 
  private:
-  void check_step();
-  void make_network();
+  void make_network(const Scenario& scenario);
   const world::BodyState* body_of(const std::string& robot) const;
+  void spawn(Robot& robot);
   void run_world();
 
-  const Scenario& scenario_;
   ExperimentOptions options_;
-  std::vector<std::string> warnings_;
-  std::unique_ptr<world::World> world_;
   std::optional<io::Network> network_;  // before the robots, whose modules have sockets
-  std::vector<std::unique_ptr<Robot>> robots_;
-  Simulation simulation_;  // after what its tasks use: it goes first
+  std::optional<Assembly> assembly_;
+  std::vector<const kernel::Robot*> lanes_;  // of each robot
+  Simulation simulation_;                    // after what its tasks use: it goes first
   RunEnd end_ = RunEnd::time_reached;
 };
 

@@ -36,14 +36,14 @@ std::string report_text(const executive::GoalRecord& record) {
 }  // namespace
 
 Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
-             world::World& world, world::BodyId body, io::Network& network, std::uint64_t seed)
+             world::World& world, world::BodyId body, io::Network* network, std::uint64_t seed)
     : scenario_(scenario), world_(world), body_(body), bridge_(scenario, world, body, names_) {
   make_modules(types, network);
   if (!scenario.goals.empty()) make_executive(map, seed);
   connect();
 }
 
-void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network& network) {
+void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* network) {
   for (const ModuleScenario& module : scenario_.modules) {
     if (!module.enabled) continue;
     const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == module.type; });
@@ -52,7 +52,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network& 
       for (const genom::ModuleType& t : types) known.push_back(t.name);
       throw module.written.bad("unknown module type '" + module.type + "'" + did_you_mean(module.type, known));
     }
-    genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), &network};
+    genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), network};
     std::unique_ptr<genom::Module> made;
     // Errors of settings know their own line; others are about the module as a whole.
     try {
@@ -87,21 +87,22 @@ void Robot::connect() {
   evaluation_.connect(names_);
 }
 
-void Robot::spawn(Simulation& simulation) {
-  kernel::Robot& lane = simulation.add_robot(scenario_.name);
-  lane_ = &lane;
-  simulation.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true}, [this] { bridge_.run(); });
-  const bool has_goals = executive_.has_value();
-  simulation.spawn(lane, {.name = "executive", .stack = kernel::StackSize::large, .service = !has_goals},
-                   [this, has_goals] {
-                     for (const auto& module : modules_) module->start();
-                     if (has_goals) executive_->run();
-                   });
+void Robot::run() {
+  for (const auto& module : modules_) module->start();
+  if (executive_) executive_->run();
 }
 
-void Robot::stepped(Time now) {
-  if (!lane_->ended) evaluation_.observe(now, world_.body(body_));
-  bridge_.stepped();
+void Robot::stop() {
+  if (executive_) executive_->stop();
+}
+
+void Robot::end_modules() {
+  genom::Client client(names_, "end of " + scenario_.name);
+  for (const auto& module : modules_) {
+    const bool ended = client.end_module(module->name());
+    WAITPOINT_CHECK(ended, "an activity of a module does not end although it is interrupted");
+    module->join();
+  }
 }
 
 std::size_t Robot::goals_reached() const {
@@ -122,7 +123,6 @@ std::optional<Duration> Robot::least_period() const {
 RobotResult Robot::result() const {
   RobotResult result;
   result.name = scenario_.name;
-  result.digest = lane_->digest.digest();
   result.shape = scenario_.body.shape;
   for (std::size_t i = 0; i < scenario_.goals.size(); ++i) {
     const executive::GoalRecord& record = executive_->goals()[i];
@@ -134,7 +134,7 @@ RobotResult Robot::result() const {
   result.distance_m = body.travelled_m;
   evaluation_.write(result);
   const auto* map = dynamic_cast<const genom::Poster<posters::SegmentMap>*>(names_.find_poster("segloc.map"));
-  if (const posters::SegmentMap* segments = map != nullptr ? map->look() : nullptr; segments != nullptr)
+  if (const auto segments = map != nullptr ? map->look() : std::nullopt)
     for (const posters::MapSegment& segment : segments->items) result.segments.push_back({segment.start, segment.end});
   return result;
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One simulated robot: its modules, its bridge to the world and its executive, in a name space of its own.
+// One robot: its modules, its bridge to the world and its executive, in a name space of its own.
+//
+// Which tasks do its parts is for whoever carries out the run to say: an Experiment, or a
+// ThreadedExperiment.
 #pragma once
 
 #include <memory>
@@ -8,8 +11,6 @@
 #include <vector>
 
 #include "core/occupancy_grid.hpp"
-#include "fibers/io/network.hpp"
-#include "fibers/sync/simulation.hpp"
 #include "modules/bridge/evaluation.hpp"
 #include "modules/bridge/robot_bridge.hpp"
 #include "modules/bridge/run_result.hpp"
@@ -23,27 +24,33 @@ namespace waitpoint::bridge {
 class Robot {
  public:
   /// Makes and connects everything. What does not fit together is BadInput, naming the scenario's line. The scenario,
-  /// the world and the network must outlive the robot.
+  /// the world and the network, null where there is none, must outlive the robot.
   Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
-        world::World& world, world::BodyId body, io::Network& network, std::uint64_t seed);
+        world::World& world, world::BodyId body, io::Network* network, std::uint64_t seed);
 
-  /// Adds the robot's tasks to a run that has not begun. A robot with goals is alive until its executive ends; one
-  /// without does not keep the run alive.
-  void spawn(Simulation& simulation);
+  /// The task of the robot's software: starts the modules, then carries out the round of goals, if there is any.
+  void run();
+  /// From another task: the round is left and the robot stopped.
+  void stop();
+  /// After run(): ends the modules, from a task; a module that does not end is a bug.
+  void end_modules();
 
-  /// After a step of the world, from the world's task.
-  void stepped(Time now);
+  RobotBridge& bridge() { return bridge_; }
+  /// Compares what the robot believes with the truth, after a step of the world.
+  void observe(Time now) { evaluation_.observe(now, world_.body(body_)); }
 
   const std::string& name() const { return scenario_.name; }
   genom::NameSpace& names() { return names_; }
+  const genom::NameSpace& names() const { return names_; }
   std::size_t goals() const { return scenario_.goals.size(); }
   std::size_t goals_reached() const;
   /// The least period of all execution tasks; nothing if none is periodic.
   std::optional<Duration> least_period() const;
+  /// Without its digest, which is the run's to know.
   RobotResult result() const;
 
  private:
-  void make_modules(std::span<const genom::ModuleType> types, io::Network& network);
+  void make_modules(std::span<const genom::ModuleType> types, io::Network* network);
   void make_executive(const OccupancyGrid& map, std::uint64_t seed);
   void connect();
 
@@ -56,7 +63,6 @@ class Robot {
   RobotBridge bridge_;
   std::optional<executive::Executive> executive_;
   Evaluation evaluation_;
-  const kernel::Robot* lane_ = nullptr;
 };
 
 }  // namespace waitpoint::bridge

@@ -51,7 +51,7 @@ void RobotBridge::read_command(Row& row, std::function<void(const T&)> take) {
     if (poster == nullptr)
       throw row.scenario.written.bad("poster '" + base.name() + "' is not what device '" + row.scenario.device +
                                      "' takes");
-    row.exchange = [poster, take] {
+    row.exchange = [poster, take](Time) {
       T command;
       if (poster->read(command) == genom::PosterStatus::ok) take(command);
     };
@@ -66,11 +66,11 @@ void RobotBridge::add_base_row(Row& row, const std::string& value) {
     });
   }
   auto& poster = names_.create_poster<posters::BaseReading>(row.scenario.poster, "the bridge");
-  row.exchange = [this, &poster] {
+  row.exchange = [this, &poster](Time date) {
     if (!due(base_report_period)) return;
     const world::OdometerReading& odometer = world_.odometer(body_);
     posters::BaseReading reading;
-    reading.date = threads::now();
+    reading.date = date;
     reading.travel_units = odometer.travel_units;
     reading.turn_units = odometer.turn_units;
     reading.v_m_s = odometer.velocity.v_m_s;
@@ -91,12 +91,12 @@ void RobotBridge::add_laser_row(Row& row, Laser& laser, const std::string& value
         row, [&laser](const posters::LaserCommand& command) { laser.on = command.on; });
   }
   auto& poster = names_.create_poster<posters::LaserReading>(row.scenario.poster, "the bridge");
-  row.exchange = [this, &laser, &poster] {
+  row.exchange = [this, &laser, &poster](Time date) {
     if (!laser.on || !due(laser.description.period)) return;
     posters::LaserReading& reading = laser.reading;
     ++reading.number;
     world_.scan(body_, laser.number, reading.number, laser.scan);
-    reading.date = threads::now();
+    reading.date = date;
     reading.first_angle_rad = laser.scan.first_angle_rad;
     reading.angle_step_rad = laser.scan.angle_step_rad;
     reading.range_max_m = laser.scan.range_max_m;
@@ -127,12 +127,17 @@ bool RobotBridge::due(Duration period) const {
   return step_ == 0 || now / period > (now - step) / period;
 }
 
-void RobotBridge::run() {
+void RobotBridge::exchange(Time date) {
   static constexpr std::uint64_t body_state = 0x626F6479;  // "body"
-  for (;; ++step_) {
-    threads::record(body_state, world_.body(body_));
-    for (const Row& row : rows_)
-      if (row.exchange != nullptr) row.exchange();
+  threads::record(body_state, world_.body(body_));
+  for (const Row& row : rows_)
+    if (row.exchange != nullptr) row.exchange(date);
+  ++step_;
+}
+
+void RobotBridge::run() {
+  for (;;) {
+    exchange(threads::now());
     stepped_.acquire();
   }
 }

@@ -7,9 +7,9 @@
 //   <laser's name>.command  LaserCommand      poster -> world
 //   <laser's name>.reading  LaserReading      world -> poster
 //
-// Another world, or another device, is another row here: no module knows. The bridge is a task of its robot in the
-// world's phase: after each step it records the body's state, gives the readings that are due, and takes the commands
-// for the next step.
+// Another world, or another device, is another row here: no module knows. After each step of the world the bridge
+// records the body's state, gives the readings that are due, and takes the commands for the next step. In simulation it
+// is a task of its robot in the world's phase; on real threads the world's own thread does it.
 #pragma once
 
 #include <functional>
@@ -36,10 +36,11 @@ class RobotBridge {
   /// Finds the posters of the commands, once the modules are made. One that no module writes is BadInput.
   void connect();
 
-  /// The bridge's task; never returns.
-  void run();
+  /// What is exchanged after a step of the world, and once before the first; the readings bear `date`.
+  void exchange(Time date);
 
-  /// Tells the bridge that the world has made a step.
+  /// The bridge as a task: an exchange at once and after each stepped(); never returns.
+  void run();
   void stepped() { stepped_.release(); }
 
  private:
@@ -50,7 +51,7 @@ class RobotBridge {
     world::LaserScan scan;
     posters::LaserReading reading;
   };
-  using Exchange = std::function<void()>;
+  using Exchange = std::function<void(Time date)>;
   struct Row {
     BridgeRow scenario;
     std::function<void(genom::PosterBase&)> connect;  // of commands
@@ -72,7 +73,7 @@ class RobotBridge {
   std::vector<Row> rows_;
   bool sonars_on_ = false;
   std::vector<double> sonar_m_;
-  std::uint64_t step_ = 0;
+  std::uint64_t step_ = 0;  // exchanges made
   threads::counting_semaphore<> stepped_{0, "world step"};
 };
 

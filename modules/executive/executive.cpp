@@ -41,18 +41,18 @@ void Executive::run() {
   // Not within one call: compilers differ in the order of arguments, and reading the position may take time.
   Point here = position();
   const Order* order = &mission_.start(threads::now(), here);
-  while (order->kind != Order::Kind::finished) {
+  while (order->kind != Order::Kind::finished && !stopping_) {
     if (order->kind == Order::Kind::wait) {
       threads::this_thread::sleep_until(order->until);
       here = position();
       order = &mission_.waited(threads::now(), here);
-    } else if (drive(order->via_points) == genom::ok) {
-      here = position();
-      order = &mission_.arrived(threads::now(), here);
-    } else {
-      here = position();
-      order = &mission_.blocked(threads::now(), here, seen());
+      continue;
     }
+    const std::optional<genom::Report> report = drive(order->via_points);
+    if (!report) break;
+    here = position();
+    order = *report == genom::ok ? &mission_.arrived(threads::now(), here)
+                                 : &mission_.blocked(threads::now(), here, seen());
   }
   stop_modules();
 }
@@ -69,7 +69,7 @@ void Executive::start_modules() {
 void Executive::wait_for_position() {
   posters::FusedPosition position;
   posters::Echoes echoes;
-  while (position_.read(position) == PosterStatus::empty || echoes_.read(echoes) == PosterStatus::empty)
+  while ((position_.read(position) == PosterStatus::empty || echoes_.read(echoes) == PosterStatus::empty) && !stopping_)
     threads::this_thread::sleep_for(50ms);
 }
 
@@ -85,9 +85,9 @@ Point Executive::position() const {
   return position.position.pose.position();
 }
 
-// Sends the via points and waits for the final report, looking about meanwhile. What one request cannot hold follows in
-// the next.
-genom::Report Executive::drive(std::span<const Point> via_points) {
+// Sends the via points and waits for the final report, looking about meanwhile; nothing if told to stop. What one
+// request cannot hold follows in the next.
+std::optional<genom::Report> Executive::drive(std::span<const Point> via_points) {
   looks_.clear();
   while (!via_points.empty()) {
     GoToInput input;
@@ -97,6 +97,7 @@ genom::Report Executive::drive(std::span<const Point> via_points) {
     while (!(request = client_.send("ndd", "GoTo", input))) threads::this_thread::sleep_for(look_period);
     std::optional<genom::Reply> reply;
     while (!reply || reply->send_id != *request || !reply->final) {
+      if (stopping_) return std::nullopt;
       reply = client_.receive(look_period);
       if (!reply) look();
     }

@@ -6,7 +6,9 @@
 // leaves no way, for it may have been somebody passing. A goal that stays out of reach ends in a report that says why.
 #pragma once
 
+#include <atomic>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,15 +42,17 @@ class Executive {
   void connect();
   /// The task's own code: starts the modules' activities, visits the goals, stops the robot.
   void run();
+  /// From another task: run() ends soon, with the robot stopped, whatever goals are left.
+  void stop() { stopping_ = true; }
 
-  /// What has become of each goal.
+  /// What has become of each goal. While run() goes on, only for who cannot meet its task.
   const std::vector<GoalRecord>& goals() const { return mission_.goals(); }
 
  private:
   void start_modules();
   void wait_for_position();
   void stop_modules();
-  genom::Report drive(std::span<const Point> via_points);
+  std::optional<genom::Report> drive(std::span<const Point> via_points);
   Point position() const;
   void look();
   std::vector<Point> seen() const;
@@ -59,6 +63,7 @@ class Executive {
   RoutePlanner planner_;
   Mission mission_;
   posters::KnownPose start_;
+  std::atomic<bool> stopping_ = false;
   std::deque<std::vector<Point>> looks_;  // near echoes in the map frame, of the last seconds
   genom::PosterLink<posters::FusedPosition> position_{"pom.position"};
   genom::PosterLink<posters::Echoes> echoes_{"sick.echoes"};

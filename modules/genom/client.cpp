@@ -37,4 +37,19 @@ Reply Client::call(const std::string& module, const std::string& request, const 
   }
 }
 
+bool Client::end_module(const std::string& module, Duration patience) {
+  const auto* poster = dynamic_cast<Poster<ModuleStatus>*>(names_.find_poster(module + ".control"));
+  WAITPOINT_CHECK(poster != nullptr, "a module is ended that does not exist");
+  const Time begin = threads::now();
+  while (call(module, "Abort", AbortInput{AbortInput::end_module}).report != ok) {
+    if (threads::now() - begin > patience) return false;
+    call(module, "Abort", AbortInput{AbortInput::resume_tasks});
+    ModuleStatus status;
+    poster->read(status);
+    for (const ActivityStatus& activity : status.activities) call(module, "Abort", AbortInput{activity.number});
+    threads::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return true;
+}
+
 }  // namespace waitpoint::genom

@@ -40,6 +40,11 @@ class Client {
     return call(module, request, Payload(input));
   }
 
+  /// Ends a module, whatever it does: aborts its activities, resumes its tasks where they are suspended, and ends it as
+  /// soon as it can be; Module::join() then waits for its tasks. False if an activity goes on for longer than
+  /// `patience`: the module then runs on.
+  bool end_module(const std::string& module, Duration patience = std::chrono::seconds(10));
+
  private:
   std::optional<std::uint32_t> send(const std::string& module, const std::string& request, const Payload& input);
   Reply call(const std::string& module, const std::string& request, const Payload& input);

@@ -3,7 +3,7 @@
 
 namespace waitpoint::genom {
 
-Module::Module(ModuleSetup& setup, std::uint16_t number)
+Module::Module(ModuleSetup& setup, std::uint16_t number, threads::kind)
     : names_(setup.names),
       name_(setup.name),
       number_(number),

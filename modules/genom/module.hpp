@@ -73,8 +73,9 @@ class Module {
   void join();
 
  protected:
-  /// `number` distinguishes the module's reports from others'.
-  Module(ModuleSetup& setup, std::uint16_t number);
+  /// `number` distinguishes the module's reports from others'. The frame and its modules must be compiled for the same
+  /// kind of threads.
+  Module(ModuleSetup& setup, std::uint16_t number, threads::kind = {});
 
   /// The scenario may overwrite `options` under `tasks.<name>`.
   ExecutionTask& add_task(const std::string& name, TaskOptions options);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <typeinfo>
 
@@ -62,9 +63,12 @@ class Poster : public PosterBase {
     return PosterStatus::ok;
   }
 
-  /// The value for an observer outside the run, null if there is none yet: no event, no lock. Only while no task runs,
-  /// or from one that is no part of the robot's software.
-  const T* look() const { return writes_ > 0 ? &value_ : nullptr; }
+  /// The value for an observer who is no part of the robot's software, nothing if there is none yet: in simulation no
+  /// event.
+  std::optional<T> look() const {
+    const threads::observer_lock guard(mutex_);
+    return writes_ > 0 ? std::optional(value_) : std::nullopt;
+  }
 
  private:
   T value_{};

@@ -123,8 +123,8 @@ bool Interactions::hears(const Body& body, std::size_t number, const Body& other
   if (description.sonars.empty()) return false;
   const auto* poster = dynamic_cast<const genom::Poster<posters::BaseCommand>*>(
       experiment_.robots().at(number)->names().find_poster("rflex.command"));
-  const posters::BaseCommand* command = poster != nullptr ? poster->look() : nullptr;
-  if (command == nullptr || !command->sonars_on) return false;
+  const auto command = poster != nullptr ? poster->look() : std::nullopt;
+  if (!command || !command->sonars_on) return false;
   double reach_m = 0;
   for (const world::SonarRingDescription& ring : description.sonars)
     reach_m = std::max(reach_m, ring.ring_radius_m + ring.range_max_m);

@@ -34,8 +34,8 @@ TEST(Sonars, ReachTheirPosterWhenSwitchedOnAndSeeTheWallAhead) {
   const auto* poster =
       dynamic_cast<genom::Poster<posters::Sonars>*>(experiment.robots()[0]->names().find_poster("rflex.sonars"));
   ASSERT_NE(poster, nullptr);
-  ASSERT_NE(poster->look(), nullptr);
-  const posters::Sonars& sonars = *poster->look();
+  ASSERT_TRUE(poster->look().has_value());
+  const posters::Sonars sonars = *poster->look();
   ASSERT_EQ(sonars.echoes.size(), 24u);
   EXPECT_NEAR(sonars.echoes[0].range_m, 1.15 - 0.25, 0.1);  // from the ring, 25 cm ahead of the centre
   EXPECT_GT(sonars.date, Time() + Duration(std::chrono::milliseconds(900)));

@@ -105,20 +105,6 @@ TEST(Client, ACallWaitsForItsOwnFinalReply) {
   });
 }
 
-TEST(Client, RepliesGoToWhoAsked) {
-  EchoRobot robot;
-  robot.run([&] {
-    const auto first = robot.client.send("m", "Echo", Number{1});
-    EXPECT_TRUE(robot.other.send("m", "Echo", Number{2}));
-    EXPECT_TRUE(robot.other.send("m", "Echo", Number{3}));
-    const Reply reply = robot.next();
-    EXPECT_EQ(reply.send_id, first);
-    EXPECT_EQ(reply.output.as<Number>().value, 1);
-    EXPECT_EQ(robot.other.receive()->output.as<Number>().value, 2);
-    EXPECT_EQ(robot.other.receive()->output.as<Number>().value, 3);
-  });
-}
-
 TEST(Letters, EveryPartOfThemIsPartOfTheDigest) {
   const auto digest = [](const std::function<void(Letter&)>& change) {
     const waitpoint::Report report = simulate([&] {

@@ -48,17 +48,6 @@ TEST(ControlRequest, CostsItsTimeBeforeTheReply) {
   });
 }
 
-TEST(ControlRequest, ReportsWhatItsCodelSays) {
-  TestRobot robot;
-  robot.module.add_control<Number>("Refuse", [&](const Number&, Nothing&) { return robot.module.own_report(101); });
-  robot.run([&] {
-    const Reply reply = robot.begin("Refuse");
-    EXPECT_EQ(module_of(reply.report), ScriptedModule::number);
-    EXPECT_EQ(code_of(reply.report), 101);
-    EXPECT_STREQ(name(reply.report), "own report");
-  });
-}
-
 TEST(ExecutionRequest, HasAnIntermediateReplyWithItsActivityAndAFinalOne) {
   RobotWithTask robot;
   robot.module.add_activity<Number, Number>("Count", robot.task, {.exec = [](Act& a) {
@@ -80,28 +69,6 @@ TEST(ExecutionRequest, HasAnIntermediateReplyWithItsActivityAndAFinalOne) {
     EXPECT_EQ(ended.output.as<Number>().value, 15);
     EXPECT_EQ(now(), at(30ms));  // one codel at each wake-up
     EXPECT_FALSE(robot.client.receive(1s));
-  });
-}
-
-TEST(ExecutionRequest, ItsControlCodelMayRefuseItBeforeAnythingHappens) {
-  RobotWithTask robot;
-  int started = 0;
-  robot.module.add_activity<Number, Number>("Running", robot.task, {.exec = for_ever});
-  robot.module.add_activity<Number, Number>(
-      "Positive", robot.task,
-      {.control = [&](const Number& in) { return in.value > 0 ? ok : robot.module.own_report(100); },
-       .start = [&](Act&) { return ++started, State::ether; }},
-      {"Running"});
-  robot.run([&] {
-    const std::int32_t running = robot.begin("Running").activity;
-    const Reply refused = robot.begin("Positive", -1);
-    EXPECT_TRUE(refused.final);
-    EXPECT_EQ(code_of(refused.report), 100);
-    EXPECT_EQ(refused.activity, -1);
-    sleep_for(100ms);
-    EXPECT_EQ(started, 0);
-    EXPECT_FALSE(robot.client.receive(Duration()));  // nothing was interrupted
-    EXPECT_EQ(robot.abort(running), ok);
   });
 }
 
@@ -173,90 +140,6 @@ TEST(ExecutionRequest, ActivitiesThatDoNotInterruptEachOtherRunTogether) {
   });
 }
 
-TEST(ControlRequest, MayInterruptActivities) {
-  RobotWithTask robot;
-  bool refuse = true;
-  robot.module.add_activity<Number, Number>("Go", robot.task, {.exec = for_ever});
-  robot.module.add_control<Number>(
-      "Stop", [&](const Number&, Nothing&) { return refuse ? robot.module.own_report(100) : ok; }, {"Go"});
-  robot.run([&] {
-    robot.begin("Go");
-    robot.begin("Stop");
-    EXPECT_FALSE(robot.client.receive(50ms));  // refused: nothing happens
-    refuse = false;
-    EXPECT_EQ(robot.begin("Stop").report, ok);
-    EXPECT_TRUE(is(robot.next().report, StandardReport::activity_interrupted));
-  });
-}
-
-TEST(InitRequest, MustHaveSucceededBeforeExecutionRequestsAreTaken) {
-  RobotWithTask robot;
-  robot.module.add_init<Number, Number>("Init", robot.task, {.start = [&](Act& a) {
-                                          if (a.input.value == 0) a.report = robot.module.own_report(100);
-                                          return State::ether;
-                                        }});
-  robot.module.add_activity<Number, Number>("Go", robot.task, {});
-  robot.module.add_control<Number>("Set", [](const Number&, Nothing&) { return ok; });
-  robot.run([&] {
-    const auto init = [&](std::int32_t value) {
-      EXPECT_FALSE(robot.begin("Init", value).final);
-      return robot.next().report;
-    };
-    EXPECT_TRUE(is(robot.begin("Go").report, StandardReport::wait_init_request));
-    EXPECT_EQ(robot.begin("Set").report, ok);
-    EXPECT_EQ(code_of(init(0)), 100);
-    EXPECT_TRUE(is(robot.begin("Go").report, StandardReport::wait_init_request));
-    EXPECT_EQ(init(1), ok);
-    EXPECT_FALSE(robot.begin("Go").final);
-    EXPECT_EQ(robot.next().report, ok);
-  });
-}
-
-TEST(ActivityTable, TakesNineteenAndRefusesTheTwentieth) {
-  RobotWithTask robot;
-  robot.module.add_activity<Number, Number>("Go", robot.task, {.exec = for_ever});
-  robot.run([&] {
-    std::set<std::int32_t> numbers;
-    for (int i = 0; i < 19; ++i) {
-      const Reply reply = robot.begin("Go");
-      EXPECT_FALSE(reply.final);
-      numbers.insert(reply.activity);
-    }
-    EXPECT_EQ(numbers.size(), 19u);
-    const Reply refused = robot.begin("Go");
-    EXPECT_TRUE(refused.final);
-    EXPECT_TRUE(is(refused.report, StandardReport::too_many_activities));
-    EXPECT_EQ(robot.abort(7), ok);
-    EXPECT_EQ(robot.next().activity, 7);
-    EXPECT_EQ(robot.begin("Go").activity, 7);
-  });
-}
-
-TEST(ActivityTable, NumbersGoRound) {
-  RobotWithTask robot;
-  robot.module.add_activity<Number, Number>("Go", robot.task, {});
-  robot.run([&] {
-    for (int i = 0; i < 45; ++i) {
-      EXPECT_EQ(robot.begin("Go").activity, i % 19);
-      robot.next();
-    }
-  });
-}
-
-TEST(Abort, EndsAnActivityAndKnowsWhichThereAre) {
-  RobotWithTask robot;
-  robot.module.add_activity<Number, Number>("Go", robot.task, {.exec = for_ever});
-  robot.run([&] {
-    const Reply go = robot.begin("Go");
-    for (const std::int32_t unknown : {19, 1000, -1, -100})
-      EXPECT_TRUE(is(robot.abort(unknown), StandardReport::unknown_activity)) << unknown;
-    EXPECT_TRUE(is(robot.abort(go.activity + 1), StandardReport::activity_already_ended));
-    EXPECT_EQ(robot.abort(go.activity), ok);
-    EXPECT_TRUE(is(robot.next().report, StandardReport::activity_interrupted));
-    EXPECT_TRUE(is(robot.abort(go.activity), StandardReport::activity_already_ended));
-  });
-}
-
 TEST(Abort, EndsTheModuleWhenNoActivityRuns) {
   RobotWithTask robot;
   ExecutionTask& aperiodic = robot.module.add_task("aperiodic", {});
@@ -273,17 +156,6 @@ TEST(Abort, EndsTheModuleWhenNoActivityRuns) {
     robot.module.join();
     EXPECT_EQ(ends, "aperiodic main ");
     EXPECT_LE(now(), at(20ms));
-  });
-}
-
-TEST(Requests, WithAnInputOfAnotherTypeAreASystemError) {
-  RobotWithTask robot;
-  robot.module.add_activity<Number, Number>("Go", robot.task, {});
-  robot.module.add_control<Number>("Set", [](const Number&, Nothing&) { return ok; });
-  robot.run([&] {
-    EXPECT_TRUE(is(robot.client.call("m", "Go", Nothing()).report, StandardReport::system_error));
-    EXPECT_TRUE(is(robot.client.call("m", "Set", AbortInput()).report, StandardReport::system_error));
-    EXPECT_EQ(robot.client.call("m", "Set", Number()).report, ok);
   });
 }
 

@@ -1,44 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A module whose requests, codels and posters a test declares, and a robot that has just that module and a client.
+// The frame's robot in virtual time: for tests of what comes when.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "fibers/sync/simulation.hpp"
-#include "modules/genom/client.hpp"
-#include "modules/genom/module.hpp"
+#include "tests/modules/genom/frame_robot.hpp"
 
 namespace waitpoint::genom {
 
-struct Number {
-  std::int32_t value = 0;
-  static constexpr auto fields() { return std::tuple(field("value", &Number::value)); }
-};
-
-class ScriptedModule : public Module {
+/// The robot of one test, in a run of its own.
+class TestRobot : public FrameRobot {
  public:
-  static constexpr std::uint16_t number = 42;
-
-  explicit ScriptedModule(ModuleSetup& setup) : Module(setup, number) {}
-  using Module::add_activity;
-  using Module::add_control;
-  using Module::add_init;
-  using Module::add_poster;
-  using Module::add_task;
-  using Module::own_report;
-  using Module::read_poster;
-  using Module::set_interrupt_end;
-};
-
-/// The robot of one test: its module is called "m".
-class TestRobot {
- public:
-  explicit TestRobot(std::vector<Setting> settings = {})
-      : setup{names, "m", Settings(std::move(settings))}, module(setup) {}
+  using FrameRobot::FrameRobot;
 
   /// Runs `drive` as the robot's only task that is no service, beside the module's.
   waitpoint::Report run(const std::function<void()>& drive, SimulationOptions options = {}) {
@@ -52,30 +24,6 @@ class TestRobot {
     EXPECT_TRUE(report.passed) << report;
     return report;
   }
-
-  /// Ends the running activity `number`, or what AbortInput's codes say; the report.
-  Report abort(std::int32_t number) { return other.call("m", "Abort", AbortInput{number}).report; }
-
-  /// The next reply, which must come within `timeout`.
-  Reply next(Duration timeout = std::chrono::hours(1)) {
-    const std::optional<Reply> reply = client.receive(timeout);
-    EXPECT_TRUE(reply.has_value());
-    return reply.value_or(Reply());
-  }
-  /// Sends and returns what comes next: the intermediate reply, or the refusal.
-  Reply begin(const std::string& request, std::int32_t value = 0) {
-    const std::optional<std::uint32_t> id = client.send("m", request, Number{value});
-    EXPECT_TRUE(id.has_value());
-    const Reply reply = next();
-    EXPECT_EQ(reply.send_id, id);
-    return reply;
-  }
-
-  NameSpace names;
-  ModuleSetup setup;
-  ScriptedModule module;
-  Client client{names, "client"};
-  Client other{names, "other client"};
 };
 
 inline Time at(Duration d) { return Time() + d; }

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/bridge/assembly.hpp"
+
+#include <optional>
+
+#include "modules/bridge/known_map.hpp"
+#include "modules/bridge/scenario_checks.hpp"
+#include "world/fcl/fcl_world.hpp"
+#include "world/formats/map_server.hpp"
+#include "world/formats/merged_cells.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+GoalPlace place_on(const OccupancyGrid& map, Point goal) {
+  const std::optional<CellIndex> cell = map.cell_at(goal);
+  if (!cell || map[*cell] == Cell::unknown) return GoalPlace::outside_map;
+  return map[*cell] == Cell::occupied ? GoalPlace::inside_obstacle : GoalPlace::free;
+}
+
+}  // namespace
+
+Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
+                   std::uint64_t seed)
+    : scenario_(scenario) {
+  world::WorldDescription description = scenario.world_without_map();
+  std::optional<OccupancyGrid> map_file;
+  if (scenario.map) {
+    map_file = world::read_map_server_map(scenario.map->file.string());
+    for (world::Obstacle& obstacle : world::obstacles_of(*map_file, "map", 0, scenario.map->height_m))
+      description.obstacles.push_back(std::move(obstacle));
+  }
+  const OccupancyGrid map = known_map(scenario, map_file ? &*map_file : nullptr);
+  check_goals(scenario, [&](const RobotScenario&, Point goal) { return place_on(map, goal); });
+  check_starts(scenario, world::start_overlaps(description));
+  world_ = world::make_fcl_world(description, seed);
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+    robots_.push_back(
+        std::make_unique<Robot>(scenario.robots[i], types, map, *world_, world::BodyId(i), network, seed));
+  check_step();
+}
+
+// A coarse step is a legitimate choice, but rarely meant.
+void Assembly::check_step() {
+  for (const auto& robot : robots_) {
+    const std::optional<Duration> least = robot->least_period();
+    if (!least || scenario_.step <= *least) continue;
+    warnings_.push_back("the world's step of " + to_string(scenario_.step) + " s exceeds the least period of " +
+                        robot->name() + "'s software, " + to_string(*least) + " s");
+  }
+}
+
+std::size_t Assembly::goals_reached() const {
+  std::size_t count = 0;
+  for (const auto& robot : robots_) count += robot->goals_reached();
+  return count;
+}
+
+std::size_t Assembly::goals() const {
+  std::size_t count = 0;
+  for (const auto& robot : robots_) count += robot->goals();
+  return count;
+}
+
+RunResult Assembly::result() const {
+  RunResult result;
+  result.scenario = scenario_.name;
+  result.warnings = warnings_;
+  for (const auto& robot : robots_) result.robots.push_back(robot->result());
+  return result;
+}
+
+}  // namespace waitpoint::bridge
