@@ -4,6 +4,9 @@
 //   int main(int argc, char** argv) {
 //     return waitpoint::main(argc, argv, {waitpoint::genom::module_type<Blinker>("blinker")});
 //   }
+//
+// Linked with waitpoint-robots it simulates; with waitpoint-robots-native, and WAITPOINT_REAL_THREADS defined, the same
+// program runs its modules on the threads of the system: `run` with --set, --seed and --until.
 #pragma once
 
 #include <vector>

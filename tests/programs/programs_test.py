@@ -44,9 +44,9 @@ class Installed(unittest.TestCase):
         run("meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", cls.folder / "root")
         Installed.prefix = next((cls.folder / "root").rglob("include/waitpoint")).parents[1]
 
-    def compile(self, name, *more):
+    def compile(self, name, *more, program=None):
         """Compiles NAME/NAME.cpp with the given flags, in a folder outside the tree; returns the program."""
-        program = self.folder / name
+        program = self.folder / (program or name)
         if not program.exists():
             compiler = os.environ.get("CXX", "g++").split()
             run(*compiler, "-std=c++20", "-O1", "-g", HERE / name / f"{name}.cpp", "-o", program, *more, cwd=self.folder)
@@ -110,6 +110,20 @@ robots:
   - {{name: rackham, type: rackham, start: [20, 4, 90], goals: [[22.4, 6.6]], modules: [{{name: blinker}}, {{name: watchman}}]}}
 """)
         self.assertEqual(run(program, "run", mixed, "--until", "3").count("the lamp is on"), 3)
+
+    def test_the_same_source_runs_on_the_threads_of_the_system(self):
+        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots-native")
+        program = self.compile("blinker", *needed, program="blinker_native")
+        output = run(program, "run", HERE / "blinker/blinker.yaml", timeout=60)
+        seen = [line.split(": ")[1] for line in output.splitlines() if "the lamp is" in line]
+        self.assertEqual(seen[:2], ["the lamp is on", "the lamp is off"])
+        self.assertIn("on real threads", output)
+
+    def test_code_for_one_kind_of_threads_is_not_linked_with_the_other(self):
+        mixed = [flag for flag in flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots-native")
+                 if flag != "-DWAITPOINT_REAL_THREADS"]
+        with self.assertRaisesRegex(AssertionError, "threads::simulated"):
+            self.compile("blinker", *mixed, program="blinker_mixed")
 
 
 class LostLetter(Installed):

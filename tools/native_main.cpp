@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// waitpoint::main() of the build on real threads: the same scenarios and modules, at the wall clock's speed.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+
+#include "modules/bridge/expectation.hpp"
+#include "modules/bridge/scenario_reader.hpp"
+#include "modules/bridge/threaded_experiment.hpp"
+#include "tools/main.hpp"
+#include "tools/papers_modules.hpp"
+
+namespace waitpoint {
+namespace {
+
+struct Arguments {
+  std::string scenario;
+  std::vector<std::string> assignments;
+  std::uint64_t seed = 1;
+  double until_s = 0;
+};
+
+volatile std::sig_atomic_t signalled = 0;
+
+void note_signal(int) { signalled = 1; }
+
+// The first signal stops the robots in good order, a second one the program.
+void heed_signals() {
+  struct sigaction action {};
+  action.sa_handler = note_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void print(const bridge::RunResult& result) {
+  const bridge::RunTotals sum = totals(result);
+  std::printf("%s: %s after %.1f s on real threads\n\n", result.scenario.c_str(),
+              std::string(to_string(result.outcome)).c_str(), result.simulated.seconds());
+  std::printf("  goals reached     %zu of %zu\n", sum.goals_reached, sum.goals);
+  std::printf("  distance driven   %.1f m\n", sum.distance_m);
+  std::printf("  collisions        %llu\n", static_cast<unsigned long long>(sum.collisions));
+  std::printf("  position error    mean %.3f m, greatest %.3f m\n", sum.position_error_mean_m,
+              sum.position_error_max_m);
+  for (const bridge::RobotResult& robot : result.robots)
+    for (const bridge::GoalResult& goal : robot.goals)
+      if (!goal.reached)
+        std::printf("  %s: goal at (%.2f, %.2f): %s\n", robot.name.c_str(), goal.position.x, goal.position.y,
+                    goal.report.empty() ? "not reached" : goal.report.c_str());
+  for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
+}
+
+int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
+  const bridge::Scenario scenario = bridge::read_scenario(arguments.scenario, arguments.assignments);
+  bridge::ThreadedExperiment experiment(scenario, types, arguments.seed);
+  heed_signals();
+  experiment.run_for(arguments.until_s > 0 ? Duration::from_seconds(arguments.until_s) : scenario.until,
+                     [] { return signalled != 0; });
+  const bridge::RunResult result = experiment.result();
+  print(result);
+  if (result.outcome == bridge::Outcome::interrupted) return 130;
+  const std::vector<std::string> unmet = bridge::unmet(scenario.expect, result);
+  std::fflush(stdout);
+  for (const std::string& line : unmet) std::fprintf(stderr, "waitpoint: not as expected: %s\n", line.c_str());
+  return unmet.empty() ? 0 : 1;
+}
+
+int read_and_run(int argc, const char* const* argv, std::span<const genom::ModuleType> types) {
+  CLI::App app("Runs the software of robots on the threads of the system, against a simulated world.", "waitpoint");
+  Arguments arguments;
+  CLI::App* command = app.add_subcommand("run", "Runs a scenario at the wall clock's speed.");
+  command->add_option("SCENARIO", arguments.scenario, "the scenario file")->required()->type_name(" ");
+  command->add_option("--seed", arguments.seed, "seed of the world's noise (default: 1)")->type_name("N");
+  command->add_option("--until", arguments.until_s, "end after so many seconds (default: the scenario's until_s)")
+      ->type_name("S")
+      ->check(CLI::Range(0.001, 1e9));
+  command->add_option("--set", arguments.assignments, "set a value of the scenario, as often as needed")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.require_subcommand(1, 1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    throw BadInput("command line", error.what());
+  }
+  return run(arguments, types);
+}
+
+}  // namespace
+
+int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
+  // The first of a name counts.
+  std::vector<genom::ModuleType> types = std::move(own);
+  for (genom::ModuleType& type : tools::papers_modules()) types.push_back(std::move(type));
+  try {
+    return read_and_run(argc, argv, types);
+  } catch (const BadInput& error) {
+    std::fprintf(stderr, "waitpoint: %s\n", error.what());
+    return 2;
+  }
+}
+
+}  // namespace waitpoint
