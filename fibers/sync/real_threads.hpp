@@ -4,8 +4,8 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
-#include <semaphore>
 #include <thread>
 
 #include "core/time.hpp"
@@ -40,9 +40,43 @@ struct condition_variable : std::condition_variable_any {
   condition_variable() = default;
   explicit condition_variable(const char*) {}
 };
-template <std::ptrdiff_t LeastMax = std::counting_semaphore<>::max()>
-struct counting_semaphore : std::counting_semaphore<LeastMax> {
-  explicit counting_semaphore(std::ptrdiff_t initial, const char* = "") : std::counting_semaphore<LeastMax>(initial) {}
+/// Not the standard library's: libstdc++ 12's loses wake-ups where several threads acquire.
+template <std::ptrdiff_t LeastMax = PTRDIFF_MAX>
+class counting_semaphore {
+ public:
+  explicit counting_semaphore(std::ptrdiff_t initial, const char* = "") : count_(initial) {}
+  static constexpr std::ptrdiff_t max() noexcept { return LeastMax; }
+
+  // Notifies under the lock: who acquires may destroy the semaphore then.
+  void release(std::ptrdiff_t units = 1) {
+    const std::lock_guard guard(mutex_);
+    count_ += units;
+    units == 1 ? released_.notify_one() : released_.notify_all();
+  }
+  void acquire() {
+    std::unique_lock lock(mutex_);
+    released_.wait(lock, [this] { return count_ > 0; });
+    --count_;
+  }
+  bool try_acquire() {
+    const std::lock_guard guard(mutex_);
+    return count_ > 0 && count_-- > 0;
+  }
+  template <class Rep, class Ratio>
+  bool try_acquire_for(const std::chrono::duration<Rep, Ratio>& span) {
+    return try_acquire_until(steady_clock::now() + std::chrono::ceil<std::chrono::nanoseconds>(span));
+  }
+  bool try_acquire_until(steady_clock::time_point deadline) {
+    std::unique_lock lock(mutex_);
+    if (!released_.wait_until(lock, deadline, [this] { return count_ > 0; })) return false;
+    --count_;
+    return true;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable released_;
+  std::ptrdiff_t count_;
 };
 using binary_semaphore = counting_semaphore<1>;
 
