@@ -59,7 +59,7 @@ Rflex::Rflex(genom::ModuleSetup& setup)
                                             return battery_.low ? State::ether : State::exec;
                                           }});
   add_control<posters::KnownPose>("SetPos", [this](const posters::KnownPose& input, Nothing&) {
-    dead_reckoning_.set(input.pose);
+    set_position(input.pose);
     return genom::ok;
   });
   const auto switch_sonars = [this](bool on) {
@@ -72,11 +72,21 @@ Rflex::Rflex(genom::ModuleSetup& setup)
   add_control<Nothing>("SonarOff", switch_sonars(false));
 }
 
+// Who is told next where the robot is must not find odometry of the frame before.
+void Rflex::set_position(const Pose& pose) {
+  dead_reckoning_.set(pose);
+  if (!shown_) return;
+  shown_->position = dead_reckoning_.position();
+  odometry_.write(*shown_);
+  odometry_.give();
+}
+
 void Rflex::take_report() {
   posters::BaseReading report;
   if (reading_.read(report) == genom::PosterStatus::empty) return;
   dead_reckoning_.advance(report.date, report.travel_units, report.turn_units);
-  odometry_.write({dead_reckoning_.position(), report.v_m_s, report.w_rad_s, report.stalled});
+  shown_ = {dead_reckoning_.position(), report.v_m_s, report.w_rad_s, report.stalled};
+  odometry_.write(*shown_);
   battery_ = {report.date, report.battery_volts, report.battery_volts < parameters_.battery_low_v};
   battery_poster_.write(battery_);
   if (!report.sonar_m.empty()) {

@@ -8,6 +8,8 @@
 // While tracking, a reference that stops being renewed stops the robot: its writer may have died.
 #pragma once
 
+#include <optional>
+
 #include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/posters/navigation.hpp"
@@ -49,6 +51,7 @@ class Rflex : public genom::Module {
 
  private:
   static Parameters read(genom::Settings& settings);
+  void set_position(const Pose& pose);
   void take_report();
   void track_reference();
 
@@ -62,6 +65,7 @@ class Rflex : public genom::Module {
   genom::OutputPoster<posters::Odometry>& odometry_;
   genom::OutputPoster<posters::Battery>& battery_poster_;
   genom::OutputPoster<posters::Sonars>& sonars_;
+  std::optional<posters::Odometry> shown_;  // by the odometry poster
   posters::Battery battery_;
   std::uint32_t reference_number_ = 0;
   Time reference_renewed_;

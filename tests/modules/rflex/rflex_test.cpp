@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/rflex/rflex.hpp"
+
+#include <gtest/gtest.h>
+
+#include "modules/genom/client.hpp"
+#include "tests/modules/on_threads.hpp"
+
+namespace waitpoint::rflex {
+namespace {
+
+// Another module that is told the position next would take the step from frame to frame for a motion.
+TEST(SetPos, IsSeenInTheOdometryWhenItsReplyComes) {
+  on_threads([] {
+    genom::NameSpace names;
+    genom::ModuleSetup setup{names, "rflex", genom::Settings()};
+    Rflex rflex(setup);
+    auto& controller = names.create_poster<posters::BaseReading>("rflex.reading", "the test");
+    const auto& poster = dynamic_cast<genom::Poster<posters::Odometry>&>(*names.find_poster("rflex.odometry"));
+    rflex.connect();
+    rflex.start();
+    posters::BaseReading reading;
+    reading.date = threads::now();
+    controller.write(reading);
+    posters::Odometry odometry;
+    while (poster.read(odometry) == genom::PosterStatus::empty)
+      threads::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(odometry.position.pose, Pose());
+    genom::Client client(names, "client");
+    for (const Pose pose : {Pose{20, 4, 1.5}, Pose{1, 2, -1}}) {
+      posters::KnownPose known;
+      known.pose = pose;
+      EXPECT_EQ(client.call("rflex", "SetPos", known).report, genom::ok);
+      poster.read(odometry);
+      EXPECT_EQ(odometry.position.pose, pose);
+    }
+    EXPECT_TRUE(client.end_module("rflex"));
+    rflex.join();
+  });
+}
+
+}  // namespace
+}  // namespace waitpoint::rflex
