@@ -2,20 +2,14 @@
 #include "tools/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdlib>
 #include <string_view>
 
 #include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-template <class Number>
-bool parse(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
 
 [[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& found) {
   throw BadInput(where, "expected " + expected + ", found '" + found + "'");
@@ -23,15 +17,15 @@ bool parse(std::string_view text, Number& number) {
 
 std::uint64_t seed_of(const std::string& where, const std::string& text) {
   std::uint64_t seed = 0;
-  if (!parse(text, seed)) refuse(where, "a whole number from 0 to 2^64 - 1", text);
+  if (!parse_number(text, seed)) refuse(where, "a whole number from 0 to 2^64 - 1", text);
   return seed;
 }
 
 SeedRange range_of(const std::string& text) {
   SeedRange range;
   const std::size_t dots = text.find("..");
-  const bool good = dots != std::string::npos && parse(std::string_view(text).substr(0, dots), range.first) &&
-                    parse(std::string_view(text).substr(dots + 2), range.last) && range.first <= range.last;
+  const bool good = dots != std::string::npos && parse_number(std::string_view(text).substr(0, dots), range.first) &&
+                    parse_number(std::string_view(text).substr(dots + 2), range.last) && range.first <= range.last;
   if (!good) refuse("--seeds", "FIRST..LAST", text);
   return range;
 }
@@ -116,13 +110,13 @@ RunOptions run_options(const Arguments& arguments) {
   }
   if (!arguments.until.empty()) {
     double until_s = 0;
-    if (!parse(arguments.until, until_s) || !(until_s >= 1e-9 && until_s <= 1e9)) {
+    if (!parse_number(arguments.until, until_s) || !(until_s >= 1e-9 && until_s <= 1e9)) {
       refuse("--until", "a positive number of seconds", arguments.until);
     }
     options.until = Duration::from_seconds(until_s);
   }
   if (!arguments.speed.empty() &&
-      (!parse(arguments.speed, options.speed) || !(options.speed >= 0 && options.speed <= 1e9))) {
+      (!parse_number(arguments.speed, options.speed) || !(options.speed >= 0 && options.speed <= 1e9))) {
     refuse("--speed", "a number that is not negative", arguments.speed);
   }
   const auto file = [](const std::string& name) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/yaml_reader.hpp"
 
-#include <charconv>
 #include <span>
 
 #include "core/exact_math.hpp"
 #include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -16,10 +16,7 @@ namespace {
 
 template <class Number>
 bool parse(const YamlNode& node, Number& number) {
-  if (node.kind != YamlNode::Kind::scalar || node.quoted) return false;
-  const char* const end = node.text.data() + node.text.size();
-  const auto [stop, error] = std::from_chars(node.text.data(), end, number);
-  return error == std::errc() && stop == end;
+  return node.kind == YamlNode::Kind::scalar && !node.quoted && parse_number(node.text, number);
 }
 
 std::string joined(std::span<const std::string_view> words) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/genom/settings.hpp"
 
-#include <charconv>
-#include <cmath>
-
 #include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
 
 namespace waitpoint::genom {
 namespace {
@@ -16,9 +14,7 @@ namespace {
 
 double parse_double(const Setting& setting, const char* expected) {
   double value = 0;
-  const char* end = setting.text.data() + setting.text.size();
-  const auto [at, error] = std::from_chars(setting.text.data(), end, value);
-  if (error != std::errc() || at != end || !std::isfinite(value)) reject(setting, expected);
+  if (!parse_number(setting.text, value)) reject(setting, expected);
   return value;
 }
 
@@ -61,10 +57,8 @@ void Settings::read_one(const std::string& key, Duration& value) {
 void Settings::read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most) {
   const Setting* s = take(key);
   if (s == nullptr) return;
-  const char* end = s->text.data() + s->text.size();
   std::int64_t read = 0;
-  const auto [at, error] = std::from_chars(s->text.data(), end, read);
-  if (error != std::errc() || at != end || read < least || read > most)
+  if (!parse_number(s->text, read) || read < least || read > most)
     reject(*s, "an integer between " + std::to_string(least) + " and " + std::to_string(most));
   value = read;
 }

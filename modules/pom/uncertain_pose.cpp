@@ -21,7 +21,7 @@ std::array<double, 3> difference(const Pose& from, const Pose& to) {
   return {to.x - from.x, to.y - from.y, exact::wrap_angle(to.heading - from.heading)};
 }
 
-std::array<double, 3> apply(const Matrix3& m, const std::array<double, 3>& v) {
+std::array<double, 3> transformed(const Matrix3& m, const std::array<double, 3>& v) {
   std::array<double, 3> r{};
   for (std::size_t i = 0; i < 3; ++i) r[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1] + m[3 * i + 2] * v[2];
   return r;
@@ -95,7 +95,7 @@ double disagreement(const UncertainPose& a, const UncertainPose& b) {
   Matrix3 inverse{};
   if (!invert(a.covariance + b.covariance, inverse)) return std::numeric_limits<double>::infinity();
   const std::array<double, 3> d = difference(a.pose, b.pose);
-  const std::array<double, 3> weighted = apply(inverse, d);
+  const std::array<double, 3> weighted = transformed(inverse, d);
   return d[0] * weighted[0] + d[1] * weighted[1] + d[2] * weighted[2];
 }
 
@@ -103,7 +103,7 @@ UncertainPose fuse(const UncertainPose& prior, const UncertainPose& measured) {
   Matrix3 inverse{};
   if (!invert(prior.covariance + measured.covariance, inverse)) return prior;
   const Matrix3 gain = prior.covariance * inverse;
-  const std::array<double, 3> shift = apply(gain, difference(prior.pose, measured.pose));
+  const std::array<double, 3> shift = transformed(gain, difference(prior.pose, measured.pose));
   // Joseph's form: stays positive whatever the rounding.
   const Matrix3 kept = identity - gain;
   return {{prior.pose.x + shift[0], prior.pose.y + shift[1], exact::wrap_angle(prior.pose.heading + shift[2])},
