@@ -57,7 +57,7 @@ TEST(AddressSanitizerDeathTest, OverflowOnATasksStackIsFound) {
                  volatile int numbers[4] = {};
                  volatile int place = 4;
                  this_thread::sleep_for(1us);
-                 numbers[place] = 1;
+                 numbers[place] = 1 + numbers[0];
                }),
                "stack-buffer-overflow");
 }
