@@ -85,7 +85,7 @@ int* error_number = nullptr;
 }  // namespace
 
 void bind_to_thread() {
-  globals = reinterpret_cast<Globals*>(abi::__cxa_get_globals());
+  globals = reinterpret_cast<Globals*>(__cxxabiv1::__cxa_get_globals());
   error_number = &errno;
 }
 
