@@ -3,14 +3,15 @@
 //
 //   fifo    Events of one instant run in the order in which they were put into the list; the first waiter is served
 //           first. A task that is running goes on at the present instant although others tie with it, so a debugger
-//           stays where it is.
-//   seeded  The order of ties and who is served are hashes of (seed, task, its sequence number), never drawn from a
-//           shared stream: what one robot does cannot shift another's choices.
+//           stays where it is. A computation of uncertain cost takes the longest.
+//   seeded  The order of ties, who is served and what computations cost are hashes of (seed, task, its sequence
+//           number), never drawn from a shared stream: what one robot does cannot shift another's choices.
 #pragma once
 
 #include <cstdint>
 
 #include "core/digest.hpp"
+#include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::kernel {
@@ -43,6 +44,16 @@ class Chooser {
     if (order_ == Order::fifo || count == 1) return 0;
     const std::uint64_t draw = Digest::mix(~seed_ ^ Digest::mix(waker.id + waker.sequence * 0x9E3779B97F4A7C15u));
     return static_cast<std::uint32_t>((draw >> 32) * count >> 32);
+  }
+
+  /// What a computation of `task` costs, from `least` to `greatest`; each has a number of its own.
+  Duration computing(Task& task, Duration least, Duration greatest) const {
+    if (order_ == Order::fifo) return greatest;
+    constexpr std::uint64_t computations = 0x636F6D7075746573u;  // "computes": no other choice has these numbers
+    const std::uint64_t draw =
+        Digest::mix((seed_ + computations) ^ Digest::mix(task.id + ++task.choices * 0x9E3779B97F4A7C15u));
+    const auto count = static_cast<std::uint64_t>((greatest - least).ns()) + 1;
+    return least + Duration::from_ns(static_cast<std::int64_t>(static_cast<unsigned __int128>(draw) * count >> 64));
   }
 
  private:

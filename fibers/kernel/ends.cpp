@@ -2,6 +2,7 @@
 //
 // The ends of tasks: their own, and that of a run which is over before them.
 #include "core/error.hpp"
+#include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::kernel {
@@ -24,6 +25,7 @@ void Scheduler::unlink(Task& task) {
 }
 
 void Scheduler::end_task(Task& task) {
+  if (task.seat != nullptr) vacate(task);
   unlink(task);
   ended_ = &task;
   task.fiber.ended = true;

@@ -9,7 +9,7 @@
 namespace waitpoint::kernel {
 
 /// At one instant, what runs before what.
-enum class Phase : std::uint8_t { deliveries = 0, world = 1, tasks = 2 };
+enum class Phase : std::uint8_t { deliveries = 0, world = 1, tasks = 2, processors = 3 };
 
 inline constexpr std::uint64_t tie_mask = (std::uint64_t{1} << 60) - 1;
 

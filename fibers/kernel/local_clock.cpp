@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/kernel/local_clock.hpp"
 
+#include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::kernel {
 
 void set_clock(Task& task, LocalClock* clock) {
-  WAITPOINT_CHECK(&task != running, "a task's local clock is changed while it runs");
   task.clock = clock;
   task.attention = static_cast<std::uint8_t>(clock != nullptr ? task.attention | attention::clock
                                                               : task.attention & ~attention::clock);
 }
 
 Time local_time_by_clock(Task& task) {
+  if (task.scheduler->unwinding()) return task.local_time;
   LocalClock* clock = task.clock;
   if (clock != nullptr && clock->end != nullptr) {
     clock->end(*clock, task);
@@ -21,30 +22,69 @@ Time local_time_by_clock(Task& task) {
   return task.local_time;
 }
 
+void consume(Task& task, Duration cost) {
+  if (task.seat != nullptr)
+    use_processor(task, cost);
+  else
+    task.local_time += cost;
+}
+
+void access_hardware(Task& task, Duration latency) {
+  WAITPOINT_CHECK(latency >= Duration(), "an access to hardware has a negative latency");
+  if (latency == Duration() || task.scheduler->unwinding()) return;
+  const Time after = local_time(task) + latency;
+  if (task.seat != nullptr)
+    task.scheduler->sleep_until(after);  // others use the processor meanwhile
+  else
+    task.local_time = after;
+}
+
 void compute(Task& task, Duration least, Duration greatest) {
   WAITPOINT_CHECK(least >= Duration(), "computing takes no negative time");
   WAITPOINT_CHECK(least <= greatest, "the ends of an interval of computing times are swapped");
-  if (task.clock != nullptr) {
-    if (task.clock->compute != nullptr) task.clock->compute(*task.clock, task, least, greatest);
-  } else {
-    task.local_time += greatest;
-  }
+  if (task.scheduler->unwinding()) return;
+  if (task.clock == nullptr)
+    consume(task, task.scheduler->choose(task, least, greatest));
+  else if (task.clock->compute != nullptr)
+    task.clock->compute(*task.clock, task, least, greatest);
 }
 
-void Scheduler::end_segment(Task& task) {
+Duration Scheduler::choose(Task& task, Duration least, Duration greatest) {
+  if (least == greatest) return least;
+  return pass(task, chooser_.computing(task, least, greatest));
+}
+
+Duration Scheduler::pass(const Task& task, Duration cost) {
+  return durations_ != nullptr ? durations_->pass(*durations_, task, cost) : cost;
+}
+
+// False when the run is over: it may end while the task shares its processor with others, or with a record of
+// durations.
+bool Scheduler::end_segment(Task& task) {
   if (task.clock != nullptr && task.clock->end != nullptr) task.clock->end(*task.clock, task);
+  return !unwinding_;
+}
+
+void Scheduler::start_waiting(Task& task, Object& object) {
+  if (task.seat == nullptr) return;
+  leave_processor(task);
+  reconsider_priority(object.owner);
+}
+
+void Scheduler::stop_waiting(Task& task, Object& object) {
+  if (task.seat != nullptr) reconsider_priority(object.owner);
 }
 
 // The task goes on with `operation`, unless a signal comes first: what its handler does takes time, and the operation
 // has its place in the order of time after that.
 bool Scheduler::begin_segment(Task& task, Operation operation, Object* object) {
+  if (task.seat != nullptr && !take_processor(task)) return false;
   while ((task.attention & attention::signal) != 0) {
     task.attention = static_cast<std::uint8_t>(task.attention & ~attention::signal);
     if (task.clock != nullptr && task.clock->begin != nullptr) task.clock->begin(*task.clock, task);
     WAITPOINT_CHECK(deliver_ != nullptr, "a signal is pending, and nobody delivers it");
     deliver_(task);
-    if (unwinding_) return false;
-    end_segment(task);
+    if (unwinding_ || !end_segment(task)) return false;
     task.operation = operation;
     task.at = object;
     if (!arrive_after_signal(task)) return false;

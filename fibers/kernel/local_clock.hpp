@@ -24,11 +24,17 @@ struct LocalClock {
   /// The segment is over: the task's local time takes in what it consumed. Nothing more is consumed until the next
   /// begin; to be called twice must not count twice.
   void (*end)(LocalClock&, Task&) = nullptr;
-  /// The task declares that what it computed costs at least `least` and at most `greatest`.
+  /// The task declares that what it computed costs at least `least` and at most `greatest`. Null: that does not count.
   void (*compute)(LocalClock&, Task&, Duration least, Duration greatest) = nullptr;
 };
 
-/// Gives `task`, which is not running, a clock that outlives it; null: the fixed one.
+/// Where durations go that do not follow from the run itself, before they count: to be written down, or replaced by
+/// what was written down.
+struct Durations {
+  Duration (*pass)(Durations&, const Task&, Duration) = nullptr;
+};
+
+/// Gives `task` a clock; null: the fixed one. It must live until the task ends or has another.
 void set_clock(Task& task, LocalClock* clock);
 
 /// Out of line: local_time() of a task that needs attention.
@@ -39,7 +45,15 @@ inline Time local_time(Task& task) {
   return __builtin_expect(task.attention != 0, 0) ? local_time_by_clock(task) : task.local_time;
 }
 
+/// Moves the local time of the running task on by what it consumed.
+void consume(Task& task, Duration cost);
+
+/// The running task waits for a device: its local time moves on by `latency`, which no clock scales, and without use of
+/// a processor. The paper, II-B: "offsetting the logical time of the thread doing the access".
+void access_hardware(Task& task, Duration latency);
+
 /// The running task declares that what it computed costs something from `least` to `greatest`, neither negative.
+/// Without a clock the chooser decides: in the default order it is the greatest.
 void compute(Task& task, Duration least, Duration greatest);
 
 /// As above, with a cost that is known.

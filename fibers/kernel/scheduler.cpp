@@ -8,6 +8,7 @@
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/fetch.hpp"
 #include "fibers/kernel/local_clock.hpp"
+#include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/sanitizer.hpp"
 
 namespace waitpoint::kernel {
@@ -57,6 +58,7 @@ void Scheduler::add(Robot& robot, const char* name) {
 }
 
 Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument) {
+  const Time start = running != nullptr ? kernel::local_time(*running) : now_;
   if (unwinding_ || tasks_ == tasks_max) return nullptr;
   Stack stack;
   if (!arena_.take(options.stack, stack)) return nullptr;
@@ -66,12 +68,13 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   task.scheduler = this;
   task.robot = &robot;
   task.id = running != nullptr ? child_id(running->id, running->children++) : child_id(robot.id, robot.children++);
-  task.local_time = running != nullptr ? kernel::local_time(*running) : now_;
+  task.local_time = start;
   task.entry = entry;
   task.argument = argument;
   task.phase = options.phase;
   task.service = options.service;
   set_clock(task, options.clock);
+  if (options.seat != nullptr) set_seat(task, *options.seat);
   copy_name(task.name, options.name);
   prepare(task.fiber, stack, top, task_main, &task);
   if (sanitizer::present) sanitizer::name(task.fiber, task.name);
@@ -130,9 +133,11 @@ inline Task* Scheduler::due(EventNode& node, Time time) {
   prepare_coming();
   Task& task = reinterpret_cast<Task&>(node);  // the node is its first member
   if (task.state == TaskState::blocked) {
+    Object& object = *task.blocked_on;
     remove_waiter(task);
     task.wake = Wake::timed_out;
     set_local_time(task, time);
+    if (needs_attention(task)) stop_waiting(task, object);
   }
   resume(task);
   return &task;
@@ -296,7 +301,7 @@ bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* o
   end_free_passes(task);
   if (needs_attention(task)) {
     if ((task.attention & attention::timer) != 0) return act_for_timer(task, operation, object);
-    end_segment(task);
+    if (!end_segment(task)) return false;
   }
   task.operation = operation;
   task.at = object;
@@ -317,7 +322,8 @@ bool Scheduler::yield() {
   end_free_passes(task);
   if (needs_attention(task)) {
     WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
-    end_segment(task);
+    if (!end_segment(task)) return false;
+    if (task.seat != nullptr) leave_processor(task);
   }
   task.operation = Operation::yield;
   task.at = nullptr;
@@ -336,7 +342,10 @@ bool Scheduler::yield() {
 bool Scheduler::sleep_until(Time time) {
   if (unwinding_) return refuse();
   Task& task = *running;
-  if (needs_attention(task)) end_segment(task);
+  if (needs_attention(task)) {
+    if (!end_segment(task)) return false;
+    if (task.seat != nullptr && time > task.local_time) leave_processor(task);
+  }
   if (time > task.local_time) task.local_time = time;
   return waitpoint(Operation::sleep, nullptr);
 }
@@ -434,11 +443,23 @@ Wake Scheduler::block(Object& object, Time deadline) {
   return wake;
 }
 
+bool Scheduler::suspend(Object& object) {
+  if (unwinding_) return false;
+  Task& task = *running;
+  end_free_passes(task);
+  append_waiter(object, task);
+  task.state = TaskState::blocked;
+  task.finite_wait = false;
+  leave(task.fiber, next_fiber());
+  return !interrupted_ || rest();
+}
+
 // The task waits from now on: the fiber to leave for.
 Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
   end_free_passes(task);
   if (sanitizer::present) sanitizer::release(&object);
   append_waiter(object, task);
+  if (needs_attention(task)) start_waiting(task, object);
   task.state = TaskState::blocked;
   task.finite_wait = deadline != Time::max();
   if (task.finite_wait) {
@@ -502,8 +523,8 @@ void Scheduler::wake_all(Object& object) {
   while (object.first_waiter != nullptr) make_ready(*object.first_waiter);
 }
 
-void Scheduler::schedule(EventNode& node, Time time, const Object& timer) {
-  put(node, {time, make_order(Phase::deliveries, Chooser::tie(timer))});
+void Scheduler::schedule(EventNode& node, Time time, const Object& timer, Phase phase) {
+  put(node, {time, make_order(phase, Chooser::tie(timer))});
 }
 
 void Scheduler::deliver(EventNode& node, Time time, Robot& sender) {

@@ -56,6 +56,7 @@ struct SpawnOptions {
   Phase phase = Phase::tasks;
   bool service = false;
   LocalClock* clock = nullptr;  ///< must outlive the task; null: only what it declares moves its local time
+  Seat* seat = nullptr;         ///< on the processor that it shares; null: it has one of its own
 };
 
 inline constexpr std::uint32_t tasks_max = 1u << 20;
@@ -124,10 +125,20 @@ class Scheduler {
   /// Adds words to the digest of the running task's robot.
   void record_output(std::uint64_t name, std::uint64_t value);
 
+  // --- what local clocks are made of ---
+
+  /// A cost from `least` to `greatest` of the running task's computation, by the chooser, or the one recorded.
+  Duration choose(Task& task, Duration least, Duration greatest);
+  /// What is to count of a cost that does not follow from the run itself.
+  Duration pass(const Task& task, Duration cost);
+  /// The running task waits among those of `object` until it is woken, without an event of its own; false when the run
+  /// is over.
+  bool suspend(Object& object);
+
   // --- timers ---
 
-  /// Puts a timer's event into the list, ahead of the tasks of that instant; `timer` has entered the run.
-  void schedule(EventNode& node, Time time, const Object& timer);
+  /// Puts a timer's event into the list, by default ahead of the tasks of that instant; `timer` has entered the run.
+  void schedule(EventNode& node, Time time, const Object& timer, Phase phase = Phase::deliveries);
   void cancel(EventNode& node) { events_.remove(node); }
 
   // --- messages between robots ---
@@ -155,6 +166,8 @@ class Scheduler {
   /// A task of the cycle in a deadlock, whose `search.to` leads around it; null without a cycle.
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch);
+  /// Null: durations that do not follow from the run count as they are.
+  void set_durations(Durations* durations) { durations_ = durations; }
   /// What waitpoint_describe_run() prints as the way to repeat this run; must outlive the run.
   void set_replay(const char* text) { replay_ = text; }
   const char* replay() const { return replay_; }
@@ -181,7 +194,9 @@ class Scheduler {
   bool waitpoint_in_the_list(Task& task, Operation operation, Object* object);
   bool arrive(Task& task);
   bool arrive_after_signal(Task& task);
-  void end_segment(Task& task);
+  bool end_segment(Task& task);
+  void start_waiting(Task& task, Object& object);
+  void stop_waiting(Task& task, Object& object);
   bool begin_segment(Task& task, Operation operation, Object* object);
   bool act_for_timer(Task& task, Operation operation, Object* object);
   void execute(Task& task, Operation operation, const Object* object);
@@ -230,6 +245,7 @@ class Scheduler {
   Task* first_abandoned_ = nullptr;
   Watch* watch_ = nullptr;
   bool watched_ = false;  // by a watch or a sanitizer
+  Durations* durations_ = nullptr;
   const char* replay_ = "";
   void* client_ = nullptr;
   void (*deliver_)(Task&) = nullptr;

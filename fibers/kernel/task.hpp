@@ -18,7 +18,9 @@
 namespace waitpoint::kernel {
 
 class Scheduler;
+struct Durations;
 struct LocalClock;
+struct Seat;
 struct Task;
 
 inline constexpr std::size_t name_size = 48;
@@ -77,9 +79,10 @@ enum class Wake : std::uint8_t {
 
 /// Why the waitpoints of a task take the slow way: the bits of Task::attention. Without any they do not.
 namespace attention {
-inline constexpr std::uint8_t clock = 1;   ///< it has a local clock: what its segments cost is not declared alone
-inline constexpr std::uint8_t signal = 2;  ///< a signal is to be delivered
-inline constexpr std::uint8_t timer = 4;   ///< it is no task: timers act in its name, between tasks, and cannot wait
+inline constexpr std::uint8_t clock = 1;      ///< it has a local clock: what its segments cost is not declared alone
+inline constexpr std::uint8_t signal = 2;     ///< a signal is to be delivered
+inline constexpr std::uint8_t timer = 4;      ///< it is no task: timers act in its name, between tasks, and cannot wait
+inline constexpr std::uint8_t processor = 8;  ///< it shares a processor
 }  // namespace attention
 
 /// A task's place in the search for a cycle of tasks that wait for each other: see wait_graph.cpp.
@@ -121,6 +124,8 @@ struct Task {
   void (*entry)(void*) = nullptr;
   void* argument = nullptr;
   LocalClock* clock = nullptr;  ///< null: only what it declares moves its local time
+  Seat* seat = nullptr;         ///< null: it has a processor of its own
+  std::uint64_t choices = 0;    ///< its computing times that were chosen so far
   std::uint32_t children = 0;
   std::uint32_t held_shared = 0;  ///< how often it stands among the holders of something
   std::uint32_t refusals = 0;     ///< calls made since the run is over

@@ -128,8 +128,12 @@ Time until(const std::chrono::time_point<Clock, Span>& deadline) {
 
 /// Tells the local clock that what the caller computed costs something from `least` to `greatest`: its local virtual
 /// time moves on, and what it does next is seen by others that much later. Nothing happens in between: this is no
-/// waitpoint. Costs that are negative or swapped are a bug.
+/// waitpoint, unless the caller shares a processor, for which it waits. Which cost it is, the chooser says: the
+/// greatest in the default order. Costs that are negative or swapped are a bug.
 inline void compute(Duration least, Duration greatest) { kernel::compute(sync::running_task(), least, greatest); }
 inline void compute(Duration cost) { kernel::compute(sync::running_task(), cost); }
+
+/// The caller waits for a device: its local virtual time moves on by `latency`, which no local clock scales.
+inline void access_hardware(Duration latency) { kernel::access_hardware(sync::running_task(), latency); }
 
 }  // namespace waitpoint

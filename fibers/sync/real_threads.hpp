@@ -9,10 +9,13 @@
 #include <thread>
 
 #include "core/time.hpp"
+#include "fibers/kernel/clock_options.hpp"
 #include "fibers/kernel/stack_arena.hpp"
 
 namespace waitpoint::threads {
 
+using kernel::ClockKind;
+using kernel::ClockOptions;
 using std::chrono::steady_clock;
 
 struct real {};
@@ -24,6 +27,8 @@ inline Time now() {
   return Time() + Duration(std::chrono::nanoseconds(steady_clock::now() - start));
 }
 inline void compute(Duration) {}
+inline void compute(Duration, Duration) {}
+inline void access_hardware(Duration) {}
 template <class T>
 void record(std::uint64_t, const T&) {}
 
@@ -80,10 +85,17 @@ class counting_semaphore {
 };
 using binary_semaphore = counting_semaphore<1>;
 
+struct processor {
+  explicit processor(const char* = "") {}
+};
+
 struct thread_attributes {
   const char* name = "thread";
   kernel::StackSize stack = kernel::StackSize::medium;
   bool service = false;
+  ClockOptions clock = {};  ///< not heeded, like the rest: the system has its own
+  processor* on = nullptr;
+  int priority = 0;
 };
 
 class thread : public std::thread {

@@ -28,6 +28,9 @@ void run_thread(void* argument) {
     state.ended.owner = nullptr;
     scheduler.wake_all(state.ended);
   }
+  // These go with the state.
+  kernel::vacate(*kernel::running);
+  kernel::set_clock(*kernel::running, nullptr);
   state.task = nullptr;
   kernel::running->argument = nullptr;
   state.run_over = scheduler.unwinding();
@@ -41,9 +44,12 @@ ThreadState* thread_of(const kernel::Task& task) {
 }
 
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
-                                          const kernel::SpawnOptions& options, std::function<void()> body) {
+                                          kernel::SpawnOptions options, std::function<void()> body,
+                                          const Computing& computing) {
   auto state = std::make_shared<ThreadState>();
   state->body = std::move(body);
+  if (!computing.clock.plain()) options.clock = &state->clock.emplace(computing.clock);
+  if (computing.on != nullptr) options.seat = &state->seat.emplace(computing.on->core(), computing.priority);
   auto share = std::make_unique<std::shared_ptr<ThreadState>>(state);
   state->task = scheduler.spawn(robot, options, run_thread, share.get());
   WAITPOINT_CHECK(state->task != nullptr || scheduler.unwinding(), "more threads than a simulation holds");
@@ -58,7 +64,8 @@ std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::
 std::shared_ptr<sync::ThreadState> thread::start(const thread_attributes& attributes, std::function<void()> body) {
   kernel::Task& parent = sync::running_task();
   const kernel::SpawnOptions options{attributes.name, attributes.stack, parent.phase, attributes.service};
-  return sync::start_thread(*parent.scheduler, *parent.robot, options, std::move(body));
+  const sync::Computing computing{attributes.clock, attributes.on, attributes.priority};
+  return sync::start_thread(*parent.scheduler, *parent.robot, options, std::move(body), computing);
 }
 
 thread& thread::operator=(thread&& other) noexcept {

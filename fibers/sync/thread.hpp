@@ -7,10 +7,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 
+#include "fibers/kernel/task_clock.hpp"
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/processor.hpp"
 
 namespace waitpoint {
 
@@ -19,6 +22,12 @@ struct thread_attributes {
   const char* name = "thread";
   kernel::StackSize stack = kernel::StackSize::medium;
   bool service = false;  ///< does not keep the run alive
+  /// How its local virtual time moves while it computes; its children do not inherit it.
+  kernel::ClockOptions clock = {};
+  /// The processor that it shares with others, null for one of its own; and its priority there, the greater the more
+  /// urgent.
+  processor* on = nullptr;
+  int priority = 0;
 };
 
 enum class signal_sent : std::uint8_t;
@@ -32,14 +41,24 @@ struct ThreadState {
   std::function<void()> body;
   kernel::Object ended{"end of thread"};
   kernel::Task* task = nullptr;  ///< null once it ended
-  bool run_over = false;         ///< ended with its run: there is nothing to join
+  std::optional<kernel::TaskClock> clock;
+  std::optional<kernel::Seat> seat;
+  bool run_over = false;  ///< ended with its run: there is nothing to join
   std::uint64_t id = 0;
   std::shared_ptr<TaskSignals> signals;  ///< null until it has to do with one
 };
 
+/// How a thread computes, beside what every task has.
+struct Computing {
+  kernel::ClockOptions clock;
+  processor* on = nullptr;
+  int priority = 0;
+};
+
 /// Makes a task of `robot` that runs `body`; more tasks than the simulation holds are a bug.
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
-                                          const kernel::SpawnOptions& options, std::function<void()> body);
+                                          kernel::SpawnOptions options, std::function<void()> body,
+                                          const Computing& computing = {});
 
 /// The state of the thread that `task` is; null once its function has returned, and for a task that is no thread.
 ThreadState* thread_of(const kernel::Task& task);

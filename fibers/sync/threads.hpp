@@ -21,6 +21,9 @@
 
 namespace waitpoint::threads {
 
+using kernel::ClockKind;
+using kernel::ClockOptions;
+using waitpoint::access_hardware;
 using waitpoint::binary_semaphore;
 using waitpoint::compute;
 using waitpoint::condition_variable;
@@ -28,6 +31,7 @@ using waitpoint::counting_semaphore;
 using waitpoint::mutex;
 using waitpoint::now;
 using waitpoint::periodic_timer;
+using waitpoint::processor;
 using waitpoint::steady_clock;
 using waitpoint::thread;
 using waitpoint::thread_attributes;

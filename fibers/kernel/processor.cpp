@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/kernel/processor.hpp"
+
+#include "core/error.hpp"
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::kernel {
+namespace {
+
+bool is_before(const Seat& a, const Seat& b) {
+  return a.priority > b.priority || (a.priority == b.priority && a.arrival < b.arrival);
+}
+
+// At the end of this instant.
+void decide_later(Processor& processor) {
+  if (processor.decision.in_list()) return;
+  Scheduler& scheduler = *processor.scheduler;
+  scheduler.schedule(processor.decision, scheduler.global_time(), processor.object, Phase::processors);
+}
+
+void go_on_computing(Seat& seat) {
+  Scheduler& scheduler = *seat.processor->scheduler;
+  seat.resumed = scheduler.global_time();
+  scheduler.schedule(seat.completion, seat.resumed + seat.remaining, seat.processor->object);
+}
+
+void complete(EventNode& node) {
+  Seat& seat = reinterpret_cast<Seat&>(node);
+  seat.computing = false;
+  seat.processor->scheduler->wake(*seat.task);
+}
+
+void decide(EventNode& node) {
+  Processor& processor = reinterpret_cast<Processor&>(node);
+  Scheduler& scheduler = *processor.scheduler;
+  Seat* best = nullptr;
+  for (Seat* seat = processor.first_seat; seat != nullptr; seat = seat->next)
+    if (seat->ready && (best == nullptr || is_before(*seat, *best))) best = seat;
+  Seat* user = processor.user;
+  if (best == nullptr || best == user) return;
+  if (user != nullptr) {
+    WAITPOINT_CHECK(user->computing, "a task is preempted that does not compute");
+    scheduler.cancel(user->completion);
+    user->remaining -= scheduler.global_time() - user->resumed;
+  }
+  processor.user = best;
+  if (best->computing)
+    go_on_computing(*best);
+  else
+    scheduler.wake(*best->task);
+}
+
+// What the task is, and what it inherits of those who wait for its locks.
+int due_priority(const Seat& seat) {
+  int priority = seat.own_priority;
+  const auto raise_to = [&priority](int other) { priority = other > priority ? other : priority; };
+  for (const PriorityLock* lock = seat.held; lock != nullptr; lock = lock->next) {
+    if (lock->protocol == LockProtocol::ceiling) {
+      raise_to(lock->ceiling);
+      continue;
+    }
+    for (const Task* waiter = lock->object.first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
+      if (waiter->seat != nullptr) raise_to(waiter->seat->priority);
+  }
+  return priority;
+}
+
+}  // namespace
+
+void set_seat(Task& task, Seat& seat) {
+  seat.task = &task;
+  seat.completion.fire = complete;
+  task.seat = &seat;
+  task.attention |= attention::processor;
+}
+
+void vacate(Task& task) {
+  if (task.seat == nullptr) return;
+  Processor& processor = *task.seat->processor;
+  if (!task.scheduler->unwinding()) {
+    leave_processor(task);
+    for (Seat** at = &processor.first_seat; *at != nullptr; at = &(*at)->next)
+      if (*at == task.seat) {
+        *at = task.seat->next;
+        break;
+      }
+  }
+  task.seat = nullptr;
+  task.attention = static_cast<std::uint8_t>(task.attention & ~attention::processor);
+}
+
+bool take_processor(Task& task) {
+  Seat& seat = *task.seat;
+  Processor& processor = *seat.processor;
+  if (task.scheduler->enter(processor.object)) {
+    processor.scheduler = task.scheduler;
+    processor.first_seat = processor.user = nullptr;
+    processor.arrivals = 0;
+    processor.decision.fire = decide;
+  }
+  if (processor.user == &seat) return true;
+  if (seat.arrival == 0) {
+    seat.next = processor.first_seat;
+    processor.first_seat = &seat;
+  }
+  seat.ready = true;
+  seat.arrival = ++processor.arrivals;
+  decide_later(processor);
+  return task.scheduler->suspend(processor.object);
+}
+
+void leave_processor(Task& task) {
+  Seat& seat = *task.seat;
+  seat.ready = false;
+  if (seat.processor->user != &seat) return;
+  seat.processor->user = nullptr;
+  decide_later(*seat.processor);
+}
+
+bool use_processor(Task& task, Duration cost) {
+  Seat& seat = *task.seat;
+  WAITPOINT_CHECK(seat.processor->user == &seat, "a task computes on a processor that is not its own");
+  if (cost == Duration()) return true;
+  seat.computing = true;
+  seat.remaining = cost;
+  go_on_computing(seat);
+  return task.scheduler->suspend(seat.processor->object);
+}
+
+void hold(Task& task, PriorityLock& lock) {
+  if (task.seat == nullptr) return;
+  WAITPOINT_CHECK(lock.protocol != LockProtocol::ceiling || task.seat->own_priority <= lock.ceiling,
+                  "a task holds a mutex whose priority ceiling is below its own priority");
+  lock.next = task.seat->held;
+  task.seat->held = &lock;
+  reconsider_priority(&task);
+}
+
+void let_go(Task& task, PriorityLock& lock) {
+  if (task.seat == nullptr) return;
+  for (PriorityLock** at = &task.seat->held; *at != nullptr; at = &(*at)->next)
+    if (*at == &lock) {
+      *at = lock.next;
+      break;
+    }
+  reconsider_priority(&task);
+}
+
+// Along the chain of those who wait for each other's locks. It ends: each step but the last changes a priority.
+void reconsider_priority(Task* task) {
+  while (task != nullptr && task->seat != nullptr) {
+    Seat& seat = *task->seat;
+    const int priority = due_priority(seat);
+    if (priority == seat.priority) return;
+    seat.priority = priority;
+    if (seat.ready) decide_later(*seat.processor);
+    task = task->blocked_on != nullptr ? task->blocked_on->owner : nullptr;
+  }
+}
+
+Task* wake_most_urgent(Scheduler& scheduler, Object& object) {
+  if (scheduler.unwinding()) return nullptr;
+  Task* best = nullptr;
+  for (Task* waiter = object.first_waiter; waiter != nullptr; waiter = waiter->next_waiter) {
+    if (best == nullptr ||
+        (waiter->seat != nullptr && (best->seat == nullptr || waiter->seat->priority > best->seat->priority)))
+      best = waiter;
+  }
+  if (best != nullptr) scheduler.wake(*best);
+  return best;
+}
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mutex for threads that share processors, in the shape of std::timed_mutex and with the protocols of POSIX
+// (pthread_mutexattr_setprotocol), which bound how long a more urgent thread waits for a less urgent one:
+//
+//   inherit   its holder is as urgent as the most urgent thread that waits for it, also along a chain of such mutexes,
+//             until that one gives up waiting (PTHREAD_PRIO_INHERIT)
+//   ceiling   its holder is as urgent as the declared ceiling, as soon as it holds it (PTHREAD_PRIO_PROTECT)
+//
+// An unlock hands it to the most urgent waiter, of these to the first, in every order: there is no choice.
+#pragma once
+
+#include "fibers/kernel/processor.hpp"
+#include "fibers/sync/clock.hpp"
+
+namespace waitpoint {
+
+struct mutex_attributes {
+  kernel::LockProtocol protocol = kernel::LockProtocol::inherit;
+  int ceiling = 0;         ///< of `ceiling`: not below the priority of any thread that locks it, which is a bug
+  const char* label = "";  ///< shown in reports; must outlive the mutex
+};
+
+class priority_mutex {
+ public:
+  explicit priority_mutex(const mutex_attributes& attributes = {})
+      : object_("mutex", attributes.label), lock_{object_, attributes.protocol, attributes.ceiling} {}
+  priority_mutex(const priority_mutex&) = delete;
+  priority_mutex& operator=(const priority_mutex&) = delete;
+
+  void lock() { lock_before(Time::max()); }
+  bool try_lock();
+  template <class Rep, class Ratio>
+  bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
+    return lock_before(sync::after(span));
+  }
+  bool try_lock_until(steady_clock::time_point deadline) { return lock_before(to_time(deadline)); }
+  /// By its holder only.
+  void unlock();
+
+ private:
+  bool lock_before(Time deadline);
+  bool take();
+
+  kernel::Object object_;
+  kernel::PriorityLock lock_;
+};
+
+}  // namespace waitpoint

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A processor that threads share by fixed priority, preemptively, first in first out within a priority: name it in
+// their thread_attributes. Their computing times delay each other; one that wakes must also get its processor before it
+// goes on. Threads that name none have one each.
+#pragma once
+
+#include "fibers/kernel/processor.hpp"
+
+namespace waitpoint {
+
+class processor {
+ public:
+  /// `label` is shown in reports; it must outlive the processor, and that the threads that share it.
+  explicit constexpr processor(const char* label = "") : core_(label) {}
+  processor(const processor&) = delete;
+  processor& operator=(const processor&) = delete;
+
+  kernel::Processor& core() { return core_; }
+
+ private:
+  kernel::Processor core_;
+};
+
+}  // namespace waitpoint
