@@ -33,6 +33,7 @@ SeedRange range_of(const std::string& text) {
 /// As the arguments are written, before their values are understood.
 struct Arguments {
   std::string scenario, seed, seeds, order, until, speed, summary, picture, trajectory, digests, events;
+  std::string record_durations, replay_durations;
   std::vector<std::string> assignments;
 };
 
@@ -73,6 +74,10 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
       "FILE.estimated.tum and FILE.odometry.tum; with the robots' names if several");
   add("--digests", arguments.digests, "FILE", "write a digest per robot and simulated second");
   add("--events", arguments.events, "FILE", "write every event as a line of text");
+  add("--record-durations", arguments.record_durations, "FILE",
+      "write what local clocks measured, counted or chose (docs/clocks.md)");
+  add("--replay-durations", arguments.replay_durations, "FILE",
+      "take these durations from a record of the same scenario and seed:\nthe same run again, with the same digest");
   add_set(*run, arguments);
   return run;
 }
@@ -83,7 +88,9 @@ void check_alone(const Arguments& arguments) {
                                                                {"--picture", arguments.picture},
                                                                {"--trajectory", arguments.trajectory},
                                                                {"--digests", arguments.digests},
-                                                               {"--events", arguments.events}};
+                                                               {"--events", arguments.events},
+                                                               {"--record-durations", arguments.record_durations},
+                                                               {"--replay-durations", arguments.replay_durations}};
   for (const auto& [name, value] : others) {
     if (!value.empty()) throw BadInput("--seeds", std::string("cannot be used together with ") + name);
   }
@@ -127,6 +134,10 @@ RunOptions run_options(const Arguments& arguments) {
   options.trajectory = file(arguments.trajectory);
   options.digests = file(arguments.digests);
   options.events = file(arguments.events);
+  options.record_durations = file(arguments.record_durations);
+  options.replay_durations = file(arguments.replay_durations);
+  if (options.record_durations && options.replay_durations)
+    throw BadInput("--record-durations", "cannot be used together with --replay-durations");
   return options;
 }
 

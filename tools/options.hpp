@@ -28,6 +28,7 @@ struct RunOptions {
   kernel::Order order = kernel::Order::fifo;
   double speed = 0;  ///< simulated seconds a second; 0: as fast as it goes
   std::optional<std::filesystem::path> summary, picture, trajectory, digests, events;
+  std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
 };
 
 /// `waitpoint check SCENARIO ...`

@@ -11,6 +11,7 @@
 #include "modules/bridge/expectation.hpp"
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/scenario_reader.hpp"
+#include "tools/duration_files.hpp"
 #include "tools/output_file.hpp"
 #include "tools/pacing.hpp"
 #include "tools/picture.hpp"
@@ -86,6 +87,7 @@ void flush_stdout() {
 std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   std::string line = "waitpoint run " + options.scenario.string() + " --seed " + std::to_string(seed);
   if (options.order == kernel::Order::seeded) line += " --order seeded";
+  if (options.replay_durations) line += " --replay-durations " + options.replay_durations->string();
   for (const std::string& assignment : options.assignments) line += " --set '" + assignment + "'";
   return line;
 }
@@ -160,7 +162,9 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   if (options.seeds) return run_seeds(options, scenario, types);
   bridge::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
   Outputs outputs(options, scenario);
+  DurationFiles durations(options, scenario, experiment);
   const bridge::RunResult result = carry_out(options, scenario, options.seed, experiment, outputs);
+  durations.finish(result.outcome == bridge::Outcome::finished);
   std::fputs(summary_text(result).c_str(), stdout);
   outputs.write(experiment, result);
   flush_stdout();

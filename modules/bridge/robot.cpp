@@ -38,6 +38,7 @@ std::string report_text(const executive::GoalRecord& record) {
 Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
              world::World& world, world::BodyId body, io::Network* network, std::uint64_t seed)
     : scenario_(scenario), world_(world), body_(body), bridge_(scenario, world, body, names_) {
+  for (const std::string& name : scenario.processors) names_.add_processor(name);
   make_modules(types, network);
   if (!scenario.goals.empty()) make_executive(map, seed);
   connect();

@@ -66,6 +66,7 @@ void RobotBridge::add_base_row(Row& row, const std::string& value) {
     });
   }
   auto& poster = names_.create_poster<posters::BaseReading>(row.scenario.poster, "the bridge");
+  poster.set_latency(row.scenario.latency);
   row.exchange = [this, &poster](Time date) {
     if (!due(base_report_period)) return;
     const world::OdometerReading& odometer = world_.odometer(body_);
@@ -91,6 +92,7 @@ void RobotBridge::add_laser_row(Row& row, Laser& laser, const std::string& value
         row, [&laser](const posters::LaserCommand& command) { laser.on = command.on; });
   }
   auto& poster = names_.create_poster<posters::LaserReading>(row.scenario.poster, "the bridge");
+  poster.set_latency(row.scenario.latency);
   row.exchange = [this, &laser, &poster](Time date) {
     if (!laser.on || !due(laser.description.period)) return;
     posters::LaserReading& reading = laser.reading;
@@ -117,6 +119,7 @@ void RobotBridge::connect() {
                                      did_you_mean(row.scenario.poster, known));
     }
     row.connect(*poster);
+    poster->set_latency(row.scenario.latency);
   }
 }
 

@@ -70,8 +70,9 @@ std::string read_dotted(const YamlMap& row, std::string_view key) {
 std::vector<BridgeRow> read_bridge(const YamlNode& node) {
   std::vector<BridgeRow> rows;
   for (const YamlNode& item : read_list(node, "bridge")) {
-    const YamlMap map(item, "a row of the bridge", {"poster", "device"});
-    BridgeRow row{read_dotted(map, "poster"), read_dotted(map, "device"), item.written};
+    const YamlMap map(item, "a row of the bridge", {"poster", "device", "latency_us"});
+    BridgeRow row{read_dotted(map, "poster"), read_dotted(map, "device"), Duration(), item.written};
+    if (map.has("latency_us")) row.latency = Duration::from_seconds(map.number("latency_us", number_from_zero) * 1e-6);
     for (const BridgeRow& other : rows) {
       const bool twice = other.poster == row.poster || other.device == row.device;
       if (!twice) continue;
@@ -81,6 +82,16 @@ std::vector<BridgeRow> read_bridge(const YamlNode& node) {
     rows.push_back(std::move(row));
   }
   return rows;
+}
+
+std::vector<std::string> read_processors(const YamlNode& node) {
+  std::vector<std::string> names;
+  for (const YamlNode& item : read_list(node, "processors")) {
+    names.push_back(read_name(item, "the name of a processor"));
+    if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
+      throw item.written.bad("there are two processors called '" + names.back() + "'");
+  }
+  return names;
 }
 
 std::vector<Goal> read_goals(const YamlNode& node) {
@@ -109,6 +120,7 @@ RobotScenario read_equipment(const YamlMap& map) {
   robot.laser_names = std::move(reading.laser_names);
   if (const YamlNode* modules = map.find("modules")) robot.modules = read_modules(*modules);
   if (const YamlNode* bridge = map.find("bridge")) robot.bridge = read_bridge(*bridge);
+  if (const YamlNode* processors = map.find("processors")) robot.processors = read_processors(*processors);
   if (const YamlNode* executive = map.find("executive")) {
     if (executive->kind != YamlNode::Kind::map) {
       throw executive->written.bad("expected executive to be a map of keys, found " + described(*executive));
@@ -133,10 +145,10 @@ const YamlNode& type_of(const YamlMap& robot, const YamlNode* types) {
 
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   const std::string title = name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'";
-  const auto keys = {std::string_view("name"),   std::string_view("type"),     std::string_view("start"),
-                     std::string_view("goals"),  std::string_view("shape"),    std::string_view("base"),
-                     std::string_view("lasers"), std::string_view("sonars"),   std::string_view("modules"),
-                     std::string_view("bridge"), std::string_view("executive")};
+  const auto keys = {std::string_view("name"),   std::string_view("type"),      std::string_view("start"),
+                     std::string_view("goals"),  std::string_view("shape"),     std::string_view("base"),
+                     std::string_view("lasers"), std::string_view("sonars"),    std::string_view("modules"),
+                     std::string_view("bridge"), std::string_view("executive"), std::string_view("processors")};
   const YamlMap own(node, title, keys);
   const std::string name = read_name(own.require("name"), "the name of a robot");
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
@@ -153,7 +165,7 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
 
 void check_robot_type(const YamlEntry& type) {
   read_equipment(YamlMap(type.value, "robot type '" + type.key + "'",
-                         {"shape", "base", "lasers", "sonars", "modules", "bridge", "executive"}));
+                         {"shape", "base", "lasers", "sonars", "modules", "bridge", "executive", "processors"}));
 }
 
 std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix) {

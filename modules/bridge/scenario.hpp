@@ -52,6 +52,7 @@ struct ModuleScenario {
 struct BridgeRow {
   std::string poster;  ///< "rflex.command": module.poster
   std::string device;  ///< "base.command": device.value; a laser is named by its name
+  Duration latency;    ///< of the module's accesses to the poster
   Location written;
 };
 
@@ -62,12 +63,14 @@ struct RobotScenario {
   std::vector<Goal> goals;               ///< in the order of the round
   std::vector<ModuleScenario> modules;   ///< in the order in which they start, those switched off included
   std::vector<BridgeRow> bridge;
+  std::vector<std::string> processors;  ///< that its modules' tasks can share
   std::vector<Setting> executive;
   Location written, start_written;
 };
 
 struct Scenario {
   std::string file, name, description;
+  std::uint64_t fingerprint = 0;  ///< of all that the files and options say, wherever they say it
   Expectation expect;
   Duration until = std::chrono::hours(1);
   Duration step = std::chrono::milliseconds(10);

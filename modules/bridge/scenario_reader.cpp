@@ -94,6 +94,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                     {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots"});
   Scenario scenario;
   scenario.file = file.string();
+  scenario.fingerprint = fingerprint(document);
   scenario.name = map.text("name", file.stem().string());
   scenario.description = map.text("description", "");
   if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);

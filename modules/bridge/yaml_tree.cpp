@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/digest.hpp"
+
 namespace waitpoint::bridge {
 namespace {
 
@@ -92,6 +94,18 @@ YamlEntry* YamlNode::entry(std::string_view key) {
 std::string_view name_of(const YamlNode& node) {
   const YamlNode* name = node.find("name");
   return name != nullptr && name->kind == YamlNode::Kind::scalar ? std::string_view(name->text) : std::string_view();
+}
+
+std::uint64_t fingerprint(const YamlNode& node) {
+  Digest digest;
+  digest.add(static_cast<std::uint64_t>(node.kind));
+  digest.add(std::string_view(node.text));
+  for (const YamlNode& item : node.items) digest.add(fingerprint(item));
+  for (const YamlEntry& entry : node.entries) {
+    digest.add(std::string_view(entry.key));
+    digest.add(fingerprint(entry.value));
+  }
+  return digest.value();
 }
 
 std::string described(const YamlNode& node) {

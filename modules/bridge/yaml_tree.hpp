@@ -6,6 +6,7 @@
 // bounded, so that no document of a few lines can expand without end.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -47,6 +48,9 @@ struct YamlEntry {
 
 /// The element's value of `name`, if this is a map that has one in plain text; else "".
 std::string_view name_of(const YamlNode& node);
+
+/// A hash of what is written, wherever it is: kinds, texts, keys in their order.
+std::uint64_t fingerprint(const YamlNode& node);
 
 /// What the node is, for "expected ..., found ...": "a list", "'fast'".
 std::string described(const YamlNode& node);

@@ -5,8 +5,8 @@
 
 namespace waitpoint::genom {
 
-ExecutionTask::ExecutionTask(Module& module, std::string name, TaskOptions options)
-    : module_(module), name_(std::move(name)), options_(options) {}
+ExecutionTask::ExecutionTask(Module& module, std::string name, TaskOptions options, TaskComputing computing)
+    : module_(module), name_(std::move(name)), options_(options), computing_(computing) {}
 
 void ExecutionTask::signal() {
   if (periodic() || signalled_) return;

@@ -19,6 +19,7 @@
 #include "modules/genom/output_poster.hpp"
 #include "modules/genom/request.hpp"
 #include "modules/genom/settings.hpp"
+#include "modules/genom/task_computing.hpp"
 
 namespace waitpoint::genom {
 
@@ -38,10 +39,11 @@ struct TaskOptions {
 
 class ExecutionTask {
  public:
-  ExecutionTask(Module& module, std::string name, TaskOptions options);
+  ExecutionTask(Module& module, std::string name, TaskOptions options, TaskComputing computing = {});
 
   const std::string& name() const { return name_; }
   const TaskOptions& options() const { return options_; }
+  const TaskComputing& computing() const { return computing_; }
 
   /// Called at every wake-up, before and after the activities' codels.
   void set_permanent(std::function<void()> codel) { permanent_ = std::move(codel); }
@@ -75,6 +77,7 @@ class ExecutionTask {
   Module& module_;
   std::string name_;
   TaskOptions options_;
+  TaskComputing computing_;
   std::function<void()> permanent_, second_permanent_, start_, end_;
   std::vector<OutputPosterBase*> posters_;
   std::optional<threads::periodic_timer> timer_;

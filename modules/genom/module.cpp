@@ -8,6 +8,8 @@ Module::Module(ModuleSetup& setup, std::uint16_t number, threads::kind)
       name_(setup.name),
       number_(number),
       settings_(setup.settings),
+      of_all_tasks_(read_processor(settings_, "", names_)),
+      of_control_task_(read_computing(settings_, "tasks.control.", names_, of_all_tasks_)),
       mailbox_(setup.name),
       control_(*this, names_.create_poster<ModuleStatus>(setup.name + ".control", setup.name)) {
   names_.add(*this);
@@ -19,7 +21,8 @@ Module::~Module() = default;
 
 ExecutionTask& Module::add_task(const std::string& name, TaskOptions options) {
   settings_.read(options, "tasks." + name + ".");
-  return tasks_.emplace_back(*this, name, options);
+  const TaskComputing computing = read_computing(settings_, "tasks." + name + ".", names_, of_all_tasks_);
+  return tasks_.emplace_back(*this, name, options, computing);
 }
 
 RequestType& Module::add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts) {
@@ -53,12 +56,16 @@ void Module::connect() {
 }
 
 void Module::start() {
-  const auto start_task = [this](const std::string& label, auto run) {
-    const threads::thread_attributes attributes{.name = label.c_str(), .service = true};
+  const auto start_task = [this](const std::string& label, const TaskComputing& computing, auto run) {
+    const threads::thread_attributes attributes{.name = label.c_str(),
+                                                .service = true,
+                                                .clock = computing.clock,
+                                                .on = computing.on,
+                                                .priority = computing.priority};
     threads_.emplace_back(attributes, run);
   };
-  start_task(name_ + ".control", [this] { control_.run(); });
-  for (ExecutionTask& task : tasks_) start_task(name_ + "." + task.name(), [&task] { task.run(); });
+  start_task(name_ + ".control", of_control_task_, [this] { control_.run(); });
+  for (ExecutionTask& task : tasks_) start_task(name_ + "." + task.name(), task.computing(), [&task] { task.run(); });
 }
 
 void Module::join() {

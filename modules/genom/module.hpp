@@ -77,7 +77,7 @@ class Module {
   /// kind of threads.
   Module(ModuleSetup& setup, std::uint16_t number, threads::kind = {});
 
-  /// The scenario may overwrite `options` under `tasks.<name>`.
+  /// The scenario may overwrite `options` under `tasks.<name>`, and say there how the task computes.
   ExecutionTask& add_task(const std::string& name, TaskOptions options);
 
   /// A control request: `codel` does it at once, from the control task.
@@ -138,6 +138,7 @@ class Module {
   std::string name_;
   std::uint16_t number_;
   Settings& settings_;  // of the setup: only while the module is being made
+  TaskComputing of_all_tasks_, of_control_task_;
   Mailbox mailbox_;
   threads::mutex control_data_{"control data"};
   threads::mutex functional_data_{"functional data"};

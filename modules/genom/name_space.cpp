@@ -27,6 +27,18 @@ Module* NameSpace::find_module(const std::string& name) const {
   return found != modules_.end() ? found->second : nullptr;
 }
 
+threads::processor& NameSpace::add_processor(const std::string& name) {
+  const auto [at, added] = processors_.try_emplace(name);
+  WAITPOINT_CHECK(added, "a robot has two processors of one name");
+  at->second = std::make_unique<threads::processor>(at->first.c_str());
+  return *at->second;
+}
+
+threads::processor* NameSpace::find_processor(const std::string& name) const {
+  const auto found = processors_.find(name);
+  return found != processors_.end() ? found->second.get() : nullptr;
+}
+
 void NameSpace::add(std::unique_ptr<PosterBase> poster) {
   const std::string name = poster->name();
   const auto [place, added] = posters_.emplace(name, std::move(poster));

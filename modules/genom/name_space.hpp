@@ -26,6 +26,9 @@ class NameSpace {
   /// Null if there is none.
   PosterBase* find_poster(const std::string& name) const;
   Module* find_module(const std::string& name) const;
+  /// A processor that tasks of this robot can share; its name must be new.
+  threads::processor& add_processor(const std::string& name);
+  threads::processor* find_processor(const std::string& name) const;
   /// A second module of the same name is BadInput.
   void add(Module& module);
 
@@ -36,6 +39,7 @@ class NameSpace {
 
   std::map<std::string, std::unique_ptr<PosterBase>> posters_;
   std::map<std::string, Module*> modules_;
+  std::map<std::string, std::unique_ptr<threads::processor>> processors_;
 };
 
 }  // namespace waitpoint::genom

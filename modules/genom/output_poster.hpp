@@ -32,6 +32,7 @@ class OutputPoster : public OutputPosterBase {
   void give() override {
     if (!written_) return;
     written_ = false;
+    threads::access_hardware(poster_.latency());
     poster_.write(staged_);
   }
 

@@ -26,6 +26,11 @@ class PosterBase {
   const std::string& writer() const { return writer_; }
   virtual const std::type_info& type() const = 0;
 
+  /// How long a module's access to it takes, as one to hardware: the local time of the task that reads or writes it
+  /// moves on by so much. What it reads is so old then, what it writes comes so late.
+  Duration latency() const { return latency_; }
+  void set_latency(Duration latency) { latency_ = latency; }
+
  protected:
   PosterBase(std::string name, std::string writer);
 
@@ -35,6 +40,7 @@ class PosterBase {
   mutable threads::mutex mutex_{"poster"};
   std::uint64_t writes_ = 0;
   Time date_;
+  Duration latency_;
 };
 
 enum class PosterStatus : std::uint8_t { ok, empty };
@@ -101,7 +107,10 @@ class PosterLink : public PosterLinkBase {
 
   /// As Poster::read; a link that may be absent and is not connected reads as empty.
   PosterStatus read(T& value, Time* date = nullptr) const {
-    return poster_ != nullptr ? poster_->read(value, date) : PosterStatus::empty;
+    if (poster_ == nullptr) return PosterStatus::empty;
+    const PosterStatus status = poster_->read(value, date);
+    threads::access_hardware(poster_->latency());
+    return status;
   }
 
  private:

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/genom/settings.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 
 namespace waitpoint::genom {
 namespace {
 
-[[noreturn]] void reject(const Setting& setting, const std::string& expected) {
+[[noreturn]] void refuse(const Setting& setting, const std::string& expected) {
   throw BadInput(setting.file, setting.line,
                  "'" + setting.key + "' should be " + expected + ", but is '" + setting.text + "'");
 }
 
 double parse_double(const Setting& setting, const char* expected) {
   double value = 0;
-  if (!parse_number(setting.text, value)) reject(setting, expected);
+  if (!parse_number(setting.text, value) || !std::isfinite(value)) refuse(setting, expected);
   return value;
 }
 
@@ -30,6 +33,16 @@ const Setting* Settings::take(const std::string& key) {
   return nullptr;
 }
 
+bool Settings::has(const std::string& key) const {
+  return std::any_of(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+}
+
+void Settings::reject(const std::string& key, const std::string& expected) const {
+  const auto at = std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+  WAITPOINT_CHECK(at != settings_.end(), "a setting is rejected that is not there");
+  refuse(*at, expected);
+}
+
 void Settings::read_one(const std::string& key, double& value) {
   if (const Setting* s = take(key)) value = parse_double(*s, "a number");
 }
@@ -37,7 +50,7 @@ void Settings::read_one(const std::string& key, double& value) {
 void Settings::read_one(const std::string& key, bool& value) {
   const Setting* s = take(key);
   if (s == nullptr) return;
-  if (s->text != "true" && s->text != "false") reject(*s, "true or false");
+  if (s->text != "true" && s->text != "false") refuse(*s, "true or false");
   value = s->text == "true";
 }
 
@@ -50,7 +63,7 @@ void Settings::read_one(const std::string& key, Duration& value) {
   if (s == nullptr) return;
   const double unit_s = key.ends_with("_us") ? 1e-6 : key.ends_with("_ms") ? 1e-3 : 1.0;
   const double seconds = parse_double(*s, "a duration as a number") * unit_s;
-  if (seconds < 0 || seconds > 1e9) reject(*s, "a duration that is not negative, at most 1e9 s");
+  if (seconds < 0 || seconds > 1e9) refuse(*s, "a duration that is not negative, at most 1e9 s");
   value = Duration::from_seconds(seconds);
 }
 
@@ -59,7 +72,7 @@ void Settings::read_integer(const std::string& key, std::int64_t& value, std::in
   if (s == nullptr) return;
   std::int64_t read = 0;
   if (!parse_number(s->text, read) || read < least || read > most)
-    reject(*s, "an integer between " + std::to_string(least) + " and " + std::to_string(most));
+    refuse(*s, "an integer between " + std::to_string(least) + " and " + std::to_string(most));
   value = read;
 }
 

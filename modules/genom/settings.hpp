@@ -24,6 +24,10 @@ class Settings {
     for_each_field(values, [&](std::string_view name, auto& member) { read_one(prefix + std::string(name), member); });
   }
 
+  bool has(const std::string& key) const;
+  /// Throws BadInput, which names the place of a setting that is there: it should be `expected`.
+  [[noreturn]] void reject(const std::string& key, const std::string& expected) const;
+
   /// Throws BadInput for the first setting that nothing has read.
   void check_all_used() const;
 

@@ -37,6 +37,25 @@ TEST_F(ScenarioReader, every_value_arrives) {
   EXPECT_TRUE(scenario.shapes[0].known);
 }
 
+TEST_F(ScenarioReader, processors_and_latency_of_hardware_arrive) {
+  std::string text = changed("device: base.command}", "device: base.command, latency_us: 1500}");
+  const std::string last = "    executive: {patience_s: 3}\n";
+  text.replace(text.find(last), last.size(), last + "    processors: [cpu, io]\n");
+  const RobotScenario robot = read(text).robots.at(0);
+  EXPECT_EQ(robot.processors, (std::vector<std::string>{"cpu", "io"}));
+  EXPECT_EQ(robot.bridge.at(0).latency, Duration(1500us));
+  EXPECT_EQ(robot.bridge.at(1).latency, Duration());
+}
+
+TEST_F(ScenarioReader, the_fingerprint_is_of_what_is_written_and_not_of_where) {
+  const std::uint64_t whole = read(valid_scenario).fingerprint;
+  EXPECT_EQ(read("# a comment\n\n" + std::string(valid_scenario)).fingerprint, whole);
+  EXPECT_EQ(read(changed("step_ms: 5", "step_ms: 7"), {"world.step_ms=5"}).fingerprint, whole);
+  EXPECT_NE(read(changed("step_ms: 5", "step_ms: 7")).fingerprint, whole);
+  EXPECT_NE(read(changed("name: shelf", "name: shelv")).fingerprint, whole);
+  EXPECT_NE(read(changed("cost_us: 300", "cost_us: 301")).fingerprint, whole);
+}
+
 TEST_F(ScenarioReader, a_robot_has_its_type_with_its_own_keys_laid_over) {
   const Scenario scenario = read(valid_scenario);
   ASSERT_EQ(scenario.robots.size(), 2u);
@@ -242,6 +261,10 @@ TEST_P(BadScenario, is_one_line_that_names_file_line_and_what_was_expected) {
 }
 
 const BadCase bad_cases[] = {
+    {"a_processor_twice", "    executive: {patience_s: 3}", "    processors: [cpu, io, cpu]", 29,
+     "there are two processors called 'cpu'"},
+    {"a_negative_latency", "device: base.command}", "device: base.command, latency_us: -1}", 27,
+     "expected latency_us to be a number that is not negative, found '-1'"},
     {"yaml_that_does_not_parse", "until_s: 30", "until_s: [30", 5,
      "this is not valid YAML: end of sequence flow not found"},
     {"no_format", "format: 1\n", "\n", 2, "expected key 'format: 1'"},
