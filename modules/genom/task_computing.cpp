@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/genom/task_computing.hpp"
 
-#include <charconv>
+#include "core/number_text.hpp"
+
 
 namespace waitpoint::genom {
 namespace {
@@ -25,8 +26,8 @@ std::int64_t read_scale(Settings& settings, const std::string& key) {
   settings.read_one(key, text);
   const std::string_view digits = std::string_view(text).substr(text.starts_with('x') ? 1 : 0);
   double scale = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), scale);
-  const bool good = error == std::errc() && end == digits.data() + digits.size() && scale >= 0 && scale <= scale_max;
+
+  const bool good = parse_number(digits, scale) && scale >= 0 && scale <= scale_max;
   if (!good) settings.reject(key, "a factor from 0 to a million, such as x0.5");
   return static_cast<std::int64_t>(scale * 1e6 + 0.5);
 }

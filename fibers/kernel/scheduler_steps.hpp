@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps that the scheduler's files take inline: for them alone.
+#pragma once
+
+#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::kernel {
+
+inline bool needs_attention(const Task& task) { return __builtin_expect(task.attention != 0, 0); }
+
+inline std::uint64_t child_id(std::uint64_t parent, std::uint32_t number) {
+  return Digest::mix(parent + (std::uint64_t{number} + 1) * 0x9E3779B97F4A7C15u);
+}
+
+inline void Scheduler::hash_events_of(Robot& robot) { lane_ = robot.ended ? &unheard_ : &robot.digest; }
+
+// What is left to the running task of its waitpoints at the present instant, it may pass without a look at the event
+// list: they count as passed until something comes between.
+inline void Scheduler::let_pass(Task& task) {
+  if (!may_stay_ || task.attention != 0 || task.turns >= turns_max) return;
+  free_passes_ = turns_max - task.turns;
+  task.turns = turns_max;
+}
+
+inline void Scheduler::end_free_passes(Task& task) {
+  task.turns -= free_passes_;
+  free_passes_ = 0;
+}
+
+// A new instant for the task: it may pass as many waitpoints again.
+inline void Scheduler::set_local_time(Task& task, Time time) {
+  if (task.local_time == time) return;
+  task.local_time = time;
+  task.turns = 0;
+}
+
+inline void Scheduler::put(EventNode& node, const EventKey& key) {
+  events_.insert(node, key);
+  if (key.time <= now_ && running != nullptr && key.order < make_order(running->phase, 0)) end_free_passes(*running);
+}
+
+// The one place where fibers are switched. What is decided before is decided in functions that have returned: a parked
+// stack is to keep few cache lines.
+inline void Scheduler::leave(Fiber& from, Fiber& to) {
+  if (&from == &to) return;
+  if (&from == &main_) bind_to_thread();
+  switch_fiber(from, to);
+  if (ended_ != nullptr) reclaim_ended();
+}
+
+// Whether the task's event, were it in the list, would come before `other`.
+inline bool Scheduler::precedes(const Task& task, const EventKey& other) {
+  if (task.local_time != other.time) return task.local_time < other.time;
+  // First-in-first-out: at the present instant a task goes on although others tie with it. One whose time has moved on
+  // comes behind them, as through the list: else it would depend on unrelated events in between.
+  const std::uint64_t tie = chooser_.order() == Order::seeded ? chooser_.tie(task)
+                            : task.local_time == now_         ? 0
+                                                              : tie_mask;
+  return make_order(task.phase, tie) <= other.order;
+}
+
+inline void Scheduler::append_waiter(Object& object, Task& task) {
+  task.blocked_on = &object;
+  task.next_waiter = nullptr;
+  task.previous_waiter = object.last_waiter;
+  (object.last_waiter == nullptr ? object.first_waiter : object.last_waiter->next_waiter) = &task;
+  object.last_waiter = &task;
+}
+
+inline void Scheduler::remove_waiter(Task& task) {
+  Object& object = *task.blocked_on;
+  (task.previous_waiter == nullptr ? object.first_waiter : task.previous_waiter->next_waiter) = task.next_waiter;
+  (task.next_waiter == nullptr ? object.last_waiter : task.next_waiter->previous_waiter) = task.previous_waiter;
+  task.blocked_on = nullptr;
+}
+
+// Algorithm 2: who was woken takes the global time as its local one.
+inline void Scheduler::make_ready(Task& task) {
+  if (__builtin_expect(sanitizer::present, 0)) sanitizer::release(task.blocked_on);
+  remove_waiter(task);
+  if (task.event.in_list()) events_.remove(task.event);
+  task.wake = Wake::woken;
+  task.state = TaskState::ready;
+  set_local_time(task, now_);
+  put(task.event, key(task, now_));
+}
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Waiting on objects and being woken (the paper's Algorithm 2), and the events of timers and messages.
+#include "core/error.hpp"
+#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/scheduler_steps.hpp"
+
+namespace waitpoint::kernel {
+
+void Scheduler::adopt(Object& object) {
+  object.epoch = epoch_;
+  object.robot = running->robot;
+  object.number = ++object.robot->objects;
+  object.identity = child_id(object.robot->id, object.number);
+  object.owner = nullptr;
+  object.holder_count = object.users = 0;
+  object.first_waiter = object.last_waiter = nullptr;
+}
+
+// The task waits from now on: the fiber to leave for.
+Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
+  end_free_passes(task);
+  if (sanitizer::present) sanitizer::release(&object);
+  append_waiter(object, task);
+  if (needs_attention(task)) start_waiting(task, object);
+  task.state = TaskState::blocked;
+  task.finite_wait = deadline != Time::max();
+  if (task.finite_wait) {
+    events_.insert(task.event, key(task, deadline < now_ ? now_ : deadline));
+  } else if ((object.owner != nullptr || object.holder_count != 0) && closes_a_cycle(task)) {
+    cause_ = StopCause::deadlock;
+    return outside(RunState::stopped);
+  }
+  return next_fiber();
+}
+
+void Scheduler::wake(Task& task) { make_ready(task); }
+
+Task* Scheduler::wake_one(Object& object) {
+  Task* chosen = object.first_waiter;
+  if (chosen == nullptr || unwinding_ || object.epoch != epoch_) return nullptr;
+  if (chooser_.order() != Order::fifo) {
+    std::uint32_t count = 0;
+    for (Task* t = chosen; t != nullptr; t = t->next_waiter) ++count;
+    for (std::uint32_t i = chooser_.waiter(*running, count); i > 0; --i) chosen = chosen->next_waiter;
+  }
+  make_ready(*chosen);
+  return chosen;
+}
+
+Task* Scheduler::wake_first(Object& object) {
+  if (unwinding_ || object.epoch != epoch_ || object.first_waiter == nullptr) return nullptr;
+  Task* first = object.first_waiter;
+  make_ready(*first);
+  return first;
+}
+
+void Scheduler::wake_all(Object& object) {
+  if (unwinding_ || object.epoch != epoch_) return;
+  while (object.first_waiter != nullptr) make_ready(*object.first_waiter);
+}
+
+void Scheduler::schedule(EventNode& node, Time time, const Object& timer, Phase phase) {
+  put(node, {time, make_order(phase, Chooser::tie(timer))});
+}
+
+void Scheduler::deliver(EventNode& node, Time time, Robot& sender) {
+  put(node, {time, make_order(Phase::deliveries, Chooser::tie(sender, ++sender.messages))});
+}
+
+void Scheduler::declare_latency(Duration least) {
+  WAITPOINT_CHECK(least > Duration(), "a link between robots has no latency");
+  if (least < lookahead_) lookahead_ = least;
+}
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The waitpoint: how a task's events find their place in the order of virtual time, and are executed.
+#include "fibers/kernel/processor.hpp"
+#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/scheduler_steps.hpp"
+
+namespace waitpoint::kernel {
+
+// Goes on when the task's event is the least; false when the run is over.
+inline bool Scheduler::arrive(Task& task) {
+  if (task.local_time >= until_ || !precedes(task, events_.least().key)) {
+    leave(task.fiber, give_way(task));
+    if (interrupted_ && !rest()) return false;
+  }
+  now_ = task.local_time;
+  let_pass(task);
+  return true;
+}
+
+bool Scheduler::arrive_after_signal(Task& task) { return arrive(task); }
+
+bool Scheduler::waitpoint(Operation operation, Object* object) {
+  // The case that must be quick: nothing can come between.
+  Task& task = *running;
+  if (__builtin_expect(free_passes_ == 0 || task.local_time != now_, 0))
+    return waitpoint_in_the_list(task, operation, object);
+  --free_passes_;
+  task.operation = operation;
+  task.at = object;
+  if (object != nullptr) enter(*object);
+  execute(task, operation, object);
+  return true;
+}
+
+bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
+  if (unwinding_) return refuse();
+  end_free_passes(task);
+  if (needs_attention(task)) {
+    if ((task.attention & attention::timer) != 0) return act_for_timer(task, operation, object);
+    if (!end_segment(task)) return false;
+  }
+  task.operation = operation;
+  task.at = object;
+  if (object != nullptr) enter(*object);
+  if (task.local_time != now_)
+    task.turns = 1;
+  else if (++task.turns > turns_max && !give_turn(task))
+    return false;
+  if (!arrive(task)) return false;
+  if (needs_attention(task) && !begin_segment(task, operation, object)) return false;
+  execute(task, operation, object);
+  return true;
+}
+
+bool Scheduler::yield() {
+  if (unwinding_) return refuse();
+  Task& task = *running;
+  end_free_passes(task);
+  if (needs_attention(task)) {
+    WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
+    if (!end_segment(task)) return false;
+    if (task.seat != nullptr) leave_processor(task);
+  }
+  task.operation = Operation::yield;
+  task.at = nullptr;
+  if (task.local_time != now_) task.turns = 0;
+  check_progress(task);
+  if (unwinding_) return false;
+  events_.insert(task.event, key(task, task.local_time));
+  task.state = TaskState::ready;
+  leave(task.fiber, next_fiber());
+  if (interrupted_ && !rest()) return false;
+  if (needs_attention(task) && !begin_segment(task, Operation::yield, nullptr)) return false;
+  execute(task, Operation::yield, nullptr);
+  return true;
+}
+
+bool Scheduler::sleep_until(Time time) {
+  if (unwinding_) return refuse();
+  Task& task = *running;
+  if (needs_attention(task)) {
+    if (!end_segment(task)) return false;
+    if (task.seat != nullptr && time > task.local_time) leave_processor(task);
+  }
+  if (time > task.local_time) task.local_time = time;
+  return waitpoint(Operation::sleep, nullptr);
+}
+
+// Whatever a timer does, it does in its turn: its event is the one now executing.
+bool Scheduler::act_for_timer(Task& task, Operation operation, Object* object) {
+  WAITPOINT_CHECK(operation != Operation::sleep, "a timer's callback waits");
+  task.operation = operation;
+  task.at = object;
+  if (object != nullptr) enter(*object);
+  hash_events_of(*task.robot);
+  execute(task, operation, object);
+  return true;
+}
+
+inline void Scheduler::execute(Task& task, Operation operation, const Object* object) {
+  ++executed_;
+  ++task.sequence;
+  std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
+  if (object != nullptr) what ^= object->identity;
+  lane_->add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
+  if (__builtin_expect(watched_, 0)) show({now_, &task, operation, object});
+}
+
+void Scheduler::set_watch(Watch* watch) {
+  watch_ = watch;
+  watched_ = watch != nullptr || sanitizer::present;
+}
+
+void Scheduler::show(const EventRecord& record) {
+  // Every use of an object comes after all earlier ones.
+  if (sanitizer::present && record.object != nullptr) {
+    sanitizer::acquire(record.object);
+    sanitizer::release(record.object);
+  }
+  if (watch_ != nullptr) watch_->event(*watch_, record);
+}
+
+void Scheduler::begin(Task& task) {
+  if (needs_attention(task) && !begin_segment(task, Operation::start, nullptr)) return;
+  execute(task, Operation::start, nullptr);
+}
+
+// A task that passes many waitpoints at one instant gives its ties a turn; false when the run is over.
+bool Scheduler::give_turn(Task& task) {
+  task.turns = 1;
+  const Operation operation = task.operation;
+  const Object* at = task.at;
+  if (!yield()) return false;
+  task.operation = operation;
+  task.at = at;
+  return true;
+}
+
+// If all tasks of an instant do nothing but give each other turns, the run is stuck.
+void Scheduler::check_progress(Task& task) {
+  if (turns_given_at_ != now_) {
+    turns_given_at_ = now_;
+    turns_given_ = 0;
+  }
+  if (++turns_given_ <= idle_turns_max + std::uint64_t{turns_max} * tasks_) return;
+  culprit_ = &task;
+  stop(StopCause::no_progress);
+}
+
+void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
+  if (!unwinding_) lane_->add(name, value);
+}
+
+Wake Scheduler::block(Object& object, Time deadline) {
+  if (unwinding_) {
+    refuse();
+    return Wake::unwinding;
+  }
+  Task& task = *running;
+  WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
+  leave(task.fiber, park(task, object, deadline));
+  if (interrupted_ && !rest()) return Wake::unwinding;
+  const Wake wake = task.wake;
+  const Operation operation = wake == Wake::woken ? Operation::resume : Operation::timeout;
+  if (needs_attention(task) && !begin_segment(task, operation, &object)) return Wake::unwinding;
+  execute(task, operation, &object);
+  return wake;
+}
+
+bool Scheduler::suspend(Object& object) {
+  if (unwinding_) return false;
+  Task& task = *running;
+  end_free_passes(task);
+  append_waiter(object, task);
+  task.state = TaskState::blocked;
+  task.finite_wait = false;
+  leave(task.fiber, next_fiber());
+  return !interrupted_ || rest();
+}
+
+}  // namespace waitpoint::kernel
