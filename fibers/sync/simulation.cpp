@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <ostream>
 
+#include "core/number_text.hpp"
 #include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/signals.hpp"
@@ -109,10 +110,21 @@ std::ostream& operator<<(std::ostream& out, const Report& report) {
   return out;
 }
 
+namespace {
+
+std::uint64_t seed_from(const std::string& text) {
+  std::uint64_t seed = 0;
+  if (!parse_number(text, seed))
+    throw BadInput("WAITPOINT_SEED", "expected a whole number from 0 to 2^64 - 1, found '" + text + "'");
+  return seed;
+}
+
+}  // namespace
+
 Report simulate(std::function<void()> body, SimulationOptions options) {
   if (const char* seed = std::getenv("WAITPOINT_SEED"); seed != nullptr && *seed != '\0') {
     options.order = kernel::Order::seeded;
-    options.seed = std::strtoull(seed, nullptr, 10);
+    options.seed = seed_from(seed);
   }
   if (options.replay.empty() && options.order == kernel::Order::seeded)
     options.replay = "WAITPOINT_SEED=" + std::to_string(options.seed) + " and the same test again";

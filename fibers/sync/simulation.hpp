@@ -29,6 +29,7 @@ struct SimulationOptions {
   std::string replay;  ///< the line that repeats this run, for reports
   /// What system_clock shows at virtual time 0: a declared constant, never the date of the machine.
   std::chrono::sys_time<std::chrono::nanoseconds> start_date = default_start_date;
+  unsigned hardware_concurrency = 4;  ///< what threads are told; each has a processor of its own nevertheless
 };
 
 /// How a run ended, or that it did not.
@@ -109,7 +110,7 @@ std::ostream& operator<<(std::ostream& out, const Report& report);
 
 /// Runs `body` as the first task of a run of its own, until no task remains but services. An exception that escapes
 /// from a task is a failure of the report. WAITPOINT_SEED in the environment asks for that seed's order in place of
-/// `options`.
+/// `options`; BadInput where that is no number.
 Report simulate(std::function<void()> body, SimulationOptions options = {});
 
 }  // namespace waitpoint

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/thread.hpp"
 
+#include <cstdio>
+#include <ostream>
+
 #include "fibers/sync/misuse.hpp"
 #include "fibers/sync/simulation.hpp"
 
@@ -8,12 +11,20 @@ namespace waitpoint {
 namespace sync {
 namespace {
 
+// What is local to a thread goes when its function is done, whether that has returned or was left by an exception: then
+// while it is under way, so that destructors need not wait.
+struct LocalsEnd {
+  ~LocalsEnd() { state.locals.clear(); }
+  ThreadState& state;
+};
+
 void run_thread(void* argument) {
   // The task's own share of the state; the handle may be gone before.
   const std::unique_ptr<std::shared_ptr<ThreadState>> share(static_cast<std::shared_ptr<ThreadState>*>(argument));
   ThreadState& state = **share;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   try {
+    const LocalsEnd locals_end{state};
     const std::function<void()> body = std::move(state.body);
     // What the function owns is let go while an exception is under way, so that its destructors need not wait.
     if (scheduler.unwinding()) throw Unwind();
@@ -24,6 +35,7 @@ void run_thread(void* argument) {
     // While unwinding, this is what a task made of Unwind.
     if (!scheduler.unwinding()) Simulation::of(scheduler).fail(std::current_exception());
   }
+  for (const std::function<void()>& make_ready : std::exchange(state.at_end, {})) make_ready();
   if (before_releasing(kernel::Operation::release, state.ended)) {
     state.ended.owner = nullptr;
     scheduler.wake_all(state.ended);
@@ -41,6 +53,12 @@ void run_thread(void* argument) {
 ThreadState* thread_of(const kernel::Task& task) {
   if (task.entry != run_thread || task.argument == nullptr) return nullptr;
   return static_cast<std::shared_ptr<ThreadState>*>(task.argument)->get();
+}
+
+LocalValues& values_of_running_task() {
+  ThreadState* thread = thread_of(running_task());
+  WAITPOINT_CHECK(thread != nullptr, "a task that is no thread has no values of its own");
+  return thread->locals;
 }
 
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
@@ -90,9 +108,43 @@ void thread::join() {
   state_ = nullptr;
 }
 
+bool thread::join_before(Time deadline) {
+  WAITPOINT_CHECK(joinable(), "a thread that is not joinable is joined");
+  if (!sync::before_blocking(kernel::Operation::join, state_->ended)) return false;
+  if (state_->task != nullptr) {
+    if (deadline <= now()) return false;
+    state_->ended.owner = state_->task;
+    if (!sync::block(state_->ended, deadline)) return false;
+  }
+  state_ = nullptr;
+  return true;
+}
+
+void thread::await_end() noexcept {
+  if (!joinable() || kernel::running == nullptr) return;
+  sync::ThreadState& state = *state_;
+  if (sync::before_releasing(kernel::Operation::join, state.ended) && state.task != nullptr) {
+    state.ended.owner = state.task;
+    kernel::running->scheduler->block(state.ended, Time::max());
+  }
+  state_ = nullptr;
+}
+
 void thread::detach() {
   WAITPOINT_CHECK(joinable(), "a thread that is not joinable is detached");
   state_ = nullptr;
+}
+
+unsigned thread::hardware_concurrency() noexcept {
+  if (kernel::running == nullptr) return 0;
+  return Simulation::of(*kernel::running->scheduler).options().hardware_concurrency;
+}
+
+std::ostream& operator<<(std::ostream& out, thread::id of) {
+  if (of == thread::id()) return out << "no thread";
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(of.value_));
+  return out << text;
 }
 
 }  // namespace waitpoint

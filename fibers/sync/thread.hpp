@@ -2,17 +2,21 @@
 // Threads, in the names and semantics of std::thread, as fibers of the running simulation.
 //
 // A thread belongs to the robot of the task that makes it. An exception that escapes its function ends the run and is
-// rethrown by the call that runs it.
+// rethrown by the call that runs it. Joining oneself is a deadlock of one, and reported as such; joining or detaching
+// what is not joinable is a bug.
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "fibers/kernel/task_clock.hpp"
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/local_values.hpp"
 #include "fibers/sync/processor.hpp"
 
 namespace waitpoint {
@@ -45,7 +49,9 @@ struct ThreadState {
   std::optional<kernel::Seat> seat;
   bool run_over = false;  ///< ended with its run: there is nothing to join
   std::uint64_t id = 0;
-  std::shared_ptr<TaskSignals> signals;  ///< null until it has to do with one
+  std::shared_ptr<TaskSignals> signals;       ///< null until it has to do with one
+  LocalValues locals;                         ///< see fiber_local.hpp
+  std::vector<std::function<void()>> at_end;  ///< what is made ready when the thread has ended
 };
 
 /// How a thread computes, beside what every task has.
@@ -62,6 +68,8 @@ std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::
 
 /// The state of the thread that `task` is; null once its function has returned, and for a task that is no thread.
 ThreadState* thread_of(const kernel::Task& task);
+/// The values of the running task; not to be within a thread is a bug.
+LocalValues& values_of_running_task();
 
 }  // namespace sync
 
@@ -72,10 +80,15 @@ class thread {
     constexpr id() = default;
     explicit constexpr id(std::uint64_t value) : value_(value) {}
     friend constexpr auto operator<=>(id, id) = default;
+    /// Sixteen hexadecimal digits: the same in every run.
+    friend std::ostream& operator<<(std::ostream& out, id of);
 
    private:
+    friend struct std::hash<id>;
     std::uint64_t value_ = 0;
   };
+
+  using native_handle_type = kernel::Task*;
 
   thread() = default;
   template <class Function, class... Arguments>
@@ -98,12 +111,31 @@ class thread {
 
   bool joinable() const noexcept { return state_ != nullptr && !state_->run_over; }
   void join();
+  /// False if the thread has not ended when the time has come; it is joinable still. The standard has no timed join.
+  template <class Rep, class Ratio>
+  bool try_join_for(const std::chrono::duration<Rep, Ratio>& span) {
+    return join_before(sync::after(span));
+  }
+  template <class Clock, class Span>
+  bool try_join_until(const std::chrono::time_point<Clock, Span>& deadline) {
+    return join_before(sync::until(deadline));
+  }
   void detach();
   id get_id() const noexcept { return state_ ? id(state_->id) : id(); }
+  /// The kernel's record; null once the thread has ended.
+  native_handle_type native_handle() const noexcept { return state_ ? state_->task : nullptr; }
+  /// A declared number, SimulationOptions::hardware_concurrency, never that of the machine; 0 outside any task.
+  static unsigned hardware_concurrency() noexcept;
   void swap(thread& other) noexcept { state_.swap(other.state_); }
+  friend void swap(thread& a, thread& b) noexcept { a.swap(b); }
+
+  /// For destructors: waits for the end if there is something to join, and when the run is over lets go without a
+  /// throw.
+  void await_end() noexcept;
 
  private:
   friend signal_sent send_signal(const thread& to, int signal);
+  bool join_before(Time deadline);
   static std::shared_ptr<sync::ThreadState> start(const thread_attributes& attributes, std::function<void()> body);
 
   std::shared_ptr<sync::ThreadState> state_;
@@ -133,3 +165,8 @@ inline void sleep_for(Duration span) { sleep_for(std::chrono::nanoseconds(span.n
 
 }  // namespace this_thread
 }  // namespace waitpoint
+
+template <>
+struct std::hash<waitpoint::thread::id> {
+  std::size_t operator()(waitpoint::thread::id id) const noexcept { return id.value_; }
+};

@@ -166,5 +166,21 @@ TEST(Simulate, TakesTheSeedFromTheEnvironmentAndSaysHowToRepeatAFailure) {
   EXPECT_NE(failed.text.find("replay: WAITPOINT_SEED=12"), std::string::npos) << failed;
 }
 
+TEST(Simulate, ASeedInTheEnvironmentThatIsNoNumberIsBadInput) {
+  for (const char* text : {"many", "12x", "-1", " 7", "1.5", "0x10", "18446744073709551616"}) {
+    ASSERT_EQ(setenv("WAITPOINT_SEED", text, 1), 0);
+    std::string message;
+    bool ran = false;
+    try {
+      simulate([&] { ran = true; });
+    } catch (const BadInput& error) {
+      message = error.what();
+    }
+    ASSERT_EQ(unsetenv("WAITPOINT_SEED"), 0);
+    EXPECT_EQ(message, "WAITPOINT_SEED: expected a whole number from 0 to 2^64 - 1, found '" + std::string(text) + "'");
+    EXPECT_FALSE(ran);
+  }
+}
+
 }  // namespace
 }  // namespace waitpoint
