@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/laas/semaphore.hpp"
+
+#include <cerrno>
+#include <limits>
+
+namespace waitpoint::laas {
+
+using kernel::Operation;
+
+void Semaphore::create(Kind kind, int initial) {
+  robot_.scheduler->enter(object_);
+  kind_ = kind;
+  if (kind == Kind::mutex) object_.kind = "mutex semaphore";
+  if (kind == Kind::count) object_.kind = "semaphore";
+  count = initial;
+  object_.owner = nullptr;
+}
+
+void Semaphore::destroy() {
+  ++generation_;
+  kind_ = Kind::none;
+  object_.owner = nullptr;
+  robot_.scheduler->wake_all(object_);
+}
+
+Taken Semaphore::take(int ticks) {
+  const std::uint32_t generation = generation_;
+  if (!sync::before_blocking(ticks == NO_WAIT ? Operation::try_acquire : Operation::acquire, object_))
+    return Taken::timed_out;
+  if (generation != generation_) return Taken::deleted;
+  if (kind_ == Kind::mutex && object_.owner == nullptr) {
+    object_.owner = kernel::running;
+    return Taken::taken;
+  }
+  if (kind_ == Kind::count && count > 0) {
+    --count;
+    return Taken::taken;
+  }
+  if (ticks == NO_WAIT) return Taken::timed_out;
+  return wait(sync::state_of<Ticks>(robot_).deadline(ticks));
+}
+
+Taken Semaphore::wait(Time deadline) {
+  const std::uint32_t generation = generation_;
+  const bool woken = sync::block(object_, deadline);
+  if (generation != generation_) return Taken::deleted;
+  return woken ? Taken::taken : Taken::timed_out;
+}
+
+int Semaphore::give() {
+  if (!sync::before_releasing(Operation::release, object_)) return 0;
+  if (kind_ == Kind::mutex && object_.owner != kernel::running) return EPERM;
+  if (kind_ == Kind::count && count == std::numeric_limits<int>::max()) return EOVERFLOW;
+  hand_over();
+  return 0;
+}
+
+void Semaphore::hand_over() {
+  kernel::Scheduler& scheduler = *robot_.scheduler;
+  if (kind_ == Kind::mutex)
+    object_.owner = scheduler.wake_first(object_);
+  else if (scheduler.wake_one(object_) == nullptr)
+    ++count;
+}
+
+void Semaphore::flush() {
+  if (sync::before_releasing(Operation::notify_all, object_)) robot_.scheduler->wake_all(object_);
+}
+
+void Semaphore::set(int units) {
+  if (!sync::before_releasing(Operation::release, object_)) return;
+  for (count = units; count > 0; --count)
+    if (robot_.scheduler->wake_one(object_) == nullptr) break;
+}
+
+}  // namespace waitpoint::laas
