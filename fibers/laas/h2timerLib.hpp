@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// comLib's timers: a table of 20 per robot, by which its periodic tasks share the time out among them.
+//
+// A timer first fires at the next tick whose number modulo 20 is its delay, then every period; so timers started with
+// the same delay fire together, whenever they were started. pocolibs says that the period should be a multiple or a
+// divisor of 20 and does not ask for it; nor is it here.
+//
+// Who waits is woken by the tick; what nobody waited for is counted and costs no event. A timer that is started begins
+// with an empty count, so that its phase holds from the first h2timerPause on (pocolibs may have left-overs there).
+//
+// STATUS calls return ERROR with an error code of the list below.
+#pragma once
+
+#include "fibers/laas/portLib.hpp"
+
+namespace waitpoint::laas {
+
+inline constexpr int S_h2timerLib_TIMER_NOT_INIT = H2_ENCODE_ERR(504, 0);
+inline constexpr int S_h2timerLib_BAD_DELAY = H2_ENCODE_ERR(504, 1);
+inline constexpr int S_h2timerLib_TOO_MUCH_TIMERS = H2_ENCODE_ERR(504, 2);
+inline constexpr int S_h2timerLib_STOPPED_TIMER = H2_ENCODE_ERR(504, 3);
+inline constexpr int S_h2timerLib_NOT_STOPPED_TIMER = H2_ENCODE_ERR(504, 4);
+inline constexpr int S_h2timerLib_BAD_PERIOD = H2_ENCODE_ERR(504, 5);
+
+inline constexpr int NMAX_TIMERS = 20;
+inline constexpr int MAX_DELAY = 20;
+
+struct H2TIMER;
+using H2TIMER_ID = H2TIMER*;
+
+/// A timer that is stopped; null if there is no clock (TIMER_NOT_INIT) or all are taken (TOO_MUCH_TIMERS).
+H2TIMER_ID h2timerAlloc();
+/// Starts a stopped timer, in ticks: a period of at least 1, a delay from 0 to 19.
+STATUS h2timerStart(H2TIMER_ID timerId, int period, int delay);
+/// Waits for the timer to fire, or returns at once if it has since the last return; all that were missed count as one.
+/// Without any, on a stopped timer, it waits until the timer is started again and fires.
+STATUS h2timerPause(H2TIMER_ID timerId);
+/// As h2timerPause, but takes one firing of what was missed, and begins a new period from there.
+STATUS h2timerPauseReset(H2TIMER_ID timerId);
+/// What has fired stays to be waited for.
+STATUS h2timerStop(H2TIMER_ID timerId);
+/// Of a timer that is not stopped; what has passed of the old period counts, modulo the new one.
+STATUS h2timerChangePeriod(H2TIMER_ID timerId, int period);
+/// Gives the timer back; who waits for it gets TIMER_NOT_INIT.
+STATUS h2timerFree(H2TIMER_ID timerId);
+
+}  // namespace waitpoint::laas
