@@ -183,7 +183,10 @@ void Scheduler::leave_to_main(RunState state) {
   leave(from, outside(state));
 }
 
-void Scheduler::leave_for_next(Task& task) { leave(task.fiber, next_fiber()); }
+void Scheduler::leave_for_next(Task& task) {
+  end_free_passes(task);
+  leave(task.fiber, next_fiber());
+}
 
 void Scheduler::stop(StopCause cause) {
   cause_ = cause;
