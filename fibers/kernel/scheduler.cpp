@@ -194,6 +194,11 @@ void Scheduler::stop(StopCause cause) {
   if (interrupted_) rest();
 }
 
+void Scheduler::pause() {
+  until_ = Time();  // no event is before it
+  if (running != nullptr) end_free_passes(*running);
+}
+
 void Scheduler::reclaim_ended() {
   const Stack stack = ended_->fiber.stack;
   ended_ = nullptr;

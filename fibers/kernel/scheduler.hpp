@@ -87,6 +87,9 @@ class Scheduler {
   StopCause stop_cause() const { return cause_; }
   /// Stops the run from within a task; run_before() returns at once.
   void stop(StopCause cause);
+  /// From a task or a watch: run_before() returns before another event is executed, as if its window ended here. The
+  /// next call goes on as if there had been no pause.
+  void pause();
 
   /// Takes every task that is left off its stack: blocking calls report Wake::unwinding. The run is over then. The
   /// youngest task goes first: what a task borrows from its maker's frames is still there.
@@ -168,6 +171,7 @@ class Scheduler {
   void set_watch(Watch* watch);
   /// Null: durations that do not follow from the run count as they are.
   void set_durations(Durations* durations) { durations_ = durations; }
+  Watch* watch() const { return watch_; }
   /// What waitpoint_describe_run() prints as the way to repeat this run; must outlive the run.
   void set_replay(const char* text) { replay_ = text; }
   const char* replay() const { return replay_; }
