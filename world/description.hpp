@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a world is made of, as values: read from a scenario or written by hand, immutable while it runs.
+// What a world is made of, as values: read from a scenario or written by hand. While it runs, only a person's hand
+// changes it.
 #pragma once
 
 #include <cstdint>

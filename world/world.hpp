@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/pose.hpp"
@@ -76,6 +77,7 @@ class World {
  public:
   virtual ~World() = default;
 
+  /// Bodies as at the start; obstacles as they are now.
   virtual const WorldDescription& description() const = 0;
 
   /// Sets the velocity that the body tries to reach and hold, from the next step on. Velocities beyond the base's
@@ -85,8 +87,17 @@ class World {
   virtual void step() = 0;
   /// Steps done since the start: the world is at steps() times description().step.
   virtual std::uint64_t steps() const = 0;
-  /// Back to the start, with the random streams of another seed (or the same).
+  /// Back to the start, obstacles too, with the random streams of another seed (or the same).
   virtual void reset(std::uint64_t seed) = 0;
+
+  // What a person does, between two steps. Each says what stands in the way, and then has changed nothing.
+
+  /// Lifts the body and puts it down there, at rest: its odometer does not notice, its command holds.
+  virtual std::optional<std::string> move_body(BodyId id, const Pose& pose) = 0;
+  /// Adds an obstacle, or puts it in place of the first one of its name.
+  virtual std::optional<std::string> put_obstacle(const Obstacle& obstacle) = 0;
+  /// Takes away the first obstacle of that name; false if there is none.
+  virtual bool remove_obstacle(const std::string& name) = 0;
 
   virtual const BodyState& body(BodyId id) const = 0;
   virtual const OdometerReading& odometer(BodyId id) const = 0;

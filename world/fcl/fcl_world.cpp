@@ -70,6 +70,10 @@ class FclWorld final : public World {
   std::uint64_t steps() const override { return steps_; }
   void reset(std::uint64_t seed) override;
 
+  std::optional<std::string> move_body(BodyId id, const Pose& pose) override;
+  std::optional<std::string> put_obstacle(const Obstacle& obstacle) override;
+  bool remove_obstacle(const std::string& name) override;
+
   const BodyState& body(BodyId id) const override { return bodies_.at(index(id)).state; }
   const OdometerReading& odometer(BodyId id) const override { return bodies_.at(index(id)).odometer.reading(); }
   double battery_volts(BodyId id) const override;
@@ -84,11 +88,15 @@ class FclWorld final : public World {
   void find_meetings(std::uint32_t body, double path_max_m);
   void publish();
 
+  std::vector<Obstacle>::iterator find_obstacle(const std::string& name);
+  void change_obstacles(std::vector<Obstacle> obstacles);
+  std::optional<std::string> body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const;
   void find_corners();
   void collect_surroundings(const Body& body, std::uint32_t own, const SonarRingDescription& ring) const;
   double nearest_echo(const SonarCone& cone, Point origin, double height_m, std::uint32_t own) const;
 
-  const WorldDescription description_;
+  WorldDescription description_;
+  std::optional<std::vector<Obstacle>> first_obstacles_;  // of the start, once they have been changed
   const double step_s_;
   std::uint64_t steps_ = 0;
   std::vector<Body> bodies_;
@@ -112,14 +120,16 @@ FclWorld::FclWorld(const WorldDescription& description, std::uint64_t seed)
       body_scene_(shapes_of(description.bodies), roam_m) {
   WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
   WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
-  const bool sonars = std::any_of(description_.bodies.begin(), description_.bodies.end(),
-                                  [](const BodyDescription& body) { return !body.sonars.empty(); });
-  if (sonars) find_corners();
+  find_corners();
   reset(seed);
 }
 
 void FclWorld::reset(std::uint64_t seed) {
   steps_ = 0;
+  if (first_obstacles_) {
+    change_obstacles(*first_obstacles_);
+    first_obstacles_.reset();
+  }
   bodies_.clear();
   for (const BodyDescription& body : description_.bodies) bodies_.emplace_back(body, seed);
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) body_scene_.place(i, bodies_[i].outline);
@@ -197,6 +207,71 @@ void FclWorld::publish() {
   }
 }
 
+std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
+  const std::uint32_t own = static_cast<std::uint32_t>(id);
+  Body& body = bodies_.at(index(id));
+  const Shape& shape = body.description->shape;
+  const Outline outline = outline_of(shape, pose);
+  obstacle_scene_.near(bounds_of(outline).grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, near_);
+  for (const std::uint32_t obstacle : near_) {
+    if (separation(outline, obstacle_scene_.outline(obstacle)).distance_m <= contact_gap_m)
+      return description_.obstacles[obstacle].name;
+  }
+  if (auto other = body_met(shape, outline, own)) return other;
+  body.state.pose = pose;
+  body.state.arc = {pose, 0, 0};
+  body.state.velocity = {};
+  body.state.stalled = false;
+  body.outline = outline;
+  // To the others' sensors it stands there already, as if it had been published so at the last step but one.
+  body_scene_.place(own, outline);
+  return std::nullopt;
+}
+
+std::optional<std::string> FclWorld::body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const {
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    const Body& other = bodies_[i];
+    if (i != except && heights_overlap(shape, other.description->shape) &&
+        separation(outline, other.outline).distance_m <= contact_gap_m)
+      return other.description->name;
+  }
+  return std::nullopt;
+}
+
+std::vector<Obstacle>::iterator FclWorld::find_obstacle(const std::string& name) {
+  std::vector<Obstacle>& all = description_.obstacles;
+  return std::find_if(all.begin(), all.end(), [&](const Obstacle& obstacle) { return obstacle.name == name; });
+}
+
+std::optional<std::string> FclWorld::put_obstacle(const Obstacle& obstacle) {
+  if (auto body = body_met(obstacle.shape, outline_of(obstacle.shape), Scene::none)) return body;
+  std::vector<Obstacle> obstacles = description_.obstacles;
+  const auto place = find_obstacle(obstacle.name) - description_.obstacles.begin();
+  if (static_cast<std::size_t>(place) < obstacles.size())
+    obstacles[static_cast<std::size_t>(place)] = obstacle;
+  else
+    obstacles.push_back(obstacle);
+  change_obstacles(std::move(obstacles));
+  return std::nullopt;
+}
+
+bool FclWorld::remove_obstacle(const std::string& name) {
+  const auto place = find_obstacle(name);
+  if (place == description_.obstacles.end()) return false;
+  std::vector<Obstacle> obstacles = description_.obstacles;
+  obstacles.erase(obstacles.begin() + (place - description_.obstacles.begin()));
+  change_obstacles(std::move(obstacles));
+  return true;
+}
+
+// All anew: a person's hand is slow.
+void FclWorld::change_obstacles(std::vector<Obstacle> obstacles) {
+  if (!first_obstacles_) first_obstacles_ = description_.obstacles;
+  description_.obstacles = std::move(obstacles);
+  obstacle_scene_ = Scene(shapes_of(description_.obstacles));
+  find_corners();
+}
+
 double FclWorld::battery_volts(BodyId id) const {
   const Body& body = bodies_.at(index(id));
   return world::battery_volts(body.description->base, static_cast<double>(steps_) * step_s_, body.state.travelled_m);
@@ -230,6 +305,10 @@ double FclWorld::cast(const Beam& beam, double range_max_m, std::optional<BodyId
 }
 
 void FclWorld::find_corners() {
+  corners_.clear();
+  const bool sonars = std::any_of(description_.bodies.begin(), description_.bodies.end(),
+                                  [](const BodyDescription& body) { return !body.sonars.empty(); });
+  if (!sonars) return;
   corners_.resize(obstacle_scene_.size());
   std::vector<ConcaveCorner> found;
   for (std::uint32_t i = 0; i < obstacle_scene_.size(); ++i) {
