@@ -45,10 +45,11 @@ class Client {
   /// `patience`: the module then runs on.
   bool end_module(const std::string& module, Duration patience = std::chrono::seconds(10));
 
- private:
+  /// The same with an input made before.
   std::optional<std::uint32_t> send(const std::string& module, const std::string& request, const Payload& input);
   Reply call(const std::string& module, const std::string& request, const Payload& input);
 
+ private:
   NameSpace& names_;
   Mailbox mailbox_;
   std::uint32_t sent_ = 0;

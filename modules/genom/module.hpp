@@ -60,6 +60,7 @@ class Module {
 
   const std::string& name() const { return name_; }
   Mailbox& mailbox() { return mailbox_; }
+  const std::deque<RequestType>& requests() const { return requests_; }
   /// Null if the module has no request of that name.
   const RequestType* find_request(const std::string& name) const;
   Report report(StandardReport code) const { return make_report(number_, code); }
@@ -159,6 +160,7 @@ RequestType& Module::add_control(const std::string& name,
                                  std::vector<std::string> interrupts) {
   RequestType& type = add_request(name, RequestKind::control, std::move(interrupts));
   type.accepts = [](const Payload& input) { return input.holds<In>(); };
+  type.read_input = internal::read_input<In>;
   type.control = [codel = std::move(codel)](const Payload& input, Payload& output) {
     Out out{};
     const Report report = codel(input.as<In>(), out);
@@ -174,6 +176,7 @@ RequestType& Module::add_activity(const std::string& name, ExecutionTask& task,
   RequestType& type = add_request(name, RequestKind::execution, std::move(interrupts));
   type.task = &task;
   type.accepts = [](const Payload& input) { return input.holds<In>(); };
+  type.read_input = internal::read_input<In>;
   type.control = [control = codels.control](const Payload& input, Payload&) {
     return control ? control(input.as<In>()) : ok;
   };

@@ -33,6 +33,7 @@ class NameSpace {
   void add(Module& module);
 
   const std::map<std::string, std::unique_ptr<PosterBase>>& posters() const { return posters_; }
+  const std::map<std::string, Module*>& modules() const { return modules_; }
 
  private:
   void add(std::unique_ptr<PosterBase> poster);

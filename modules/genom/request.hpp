@@ -12,6 +12,7 @@
 
 #include "core/time.hpp"
 #include "modules/genom/activity.hpp"
+#include "modules/genom/settings.hpp"
 
 namespace waitpoint::genom {
 
@@ -28,6 +29,8 @@ struct RequestType {
   std::vector<std::string> interrupts;  ///< request types whose activities a new one of this type ends
   Duration cost;                        ///< of one call of a codel of this request
   std::function<bool(const Payload& input)> accepts;
+  /// The input from text, by its declared fields; what is not set keeps its default. BadInput for what does not fit.
+  Payload (*read_input)(Settings& arguments) = nullptr;
   std::function<Report(const Payload& input, Payload& output)> control;
   /// Calls the codel of that state; nothing if none is given.
   std::function<std::optional<State>(State state, Activity& activity)> codel;
@@ -51,6 +54,14 @@ struct Codels {
 };
 
 namespace internal {
+
+template <class In>
+Payload read_input(Settings& arguments) {
+  In input{};
+  arguments.read(input);
+  arguments.check_all_used();
+  return Payload(input);
+}
 
 template <class In, class Out>
 std::optional<State> call_codel(const Codels<In, Out>& codels, State state, Activity& activity) {

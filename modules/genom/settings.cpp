@@ -34,7 +34,9 @@ const Setting* Settings::take(const std::string& key) {
 }
 
 bool Settings::has(const std::string& key) const {
-  return std::any_of(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+  return std::any_of(settings_.begin(), settings_.end(),
+                     [&](const Setting& s) { return s.key == key || s.key.starts_with(key + "."); });
+});
 }
 
 void Settings::reject(const std::string& key, const std::string& expected) const {
@@ -65,6 +67,23 @@ void Settings::read_one(const std::string& key, Duration& value) {
   const double seconds = parse_double(*s, "a duration as a number") * unit_s;
   if (seconds < 0 || seconds > 1e9) refuse(*s, "a duration that is not negative, at most 1e9 s");
   value = Duration::from_seconds(seconds);
+}
+
+void Settings::read_one(const std::string& key, Time& value) {
+  Duration since_start = value.since_start();
+  read_one(key, since_start);
+  value = Time() + since_start;
+}
+
+void Settings::read_one(const std::string& key, Point& value) {
+  read_one(key + ".x", value.x);
+  read_one(key + ".y", value.y);
+}
+
+void Settings::read_one(const std::string& key, Pose& value) {
+  read_one(key + ".x", value.x);
+  read_one(key + ".y", value.y);
+  read_one(key + ".heading", value.heading);
 }
 
 void Settings::read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The settings that a scenario gives to one module, read into structs with declared fields.
 //
-// A field's name is its key and bears its unit: "gain", "v_max_m_s"; a Duration's ends in _s, _ms or _us. Keys that
-// nobody asked for are bad input, with the nearest known one.
+// A field's name is its key and bears its unit: "gain", "v_max_m_s"; a Duration's ends in _s, _ms or _us. Elements of
+// arrays, points and poses are keys of their own: "gains.0", "via.2.x", "pose.heading" (in radians). Keys that nobody
+// asked for are bad input, with the nearest known one.
 #pragma once
 
 #include <string>
@@ -39,6 +40,29 @@ class Settings {
   void read_one(const std::string& key, bool& value);
   void read_one(const std::string& key, std::string& value);
   void read_one(const std::string& key, Duration& value);
+  void read_one(const std::string& key, Time& value);
+  void read_one(const std::string& key, Point& value);
+  void read_one(const std::string& key, Pose& value);
+  template <class T, std::size_t N>
+  void read_one(const std::string& key, std::array<T, N>& values) {
+    for (std::size_t i = 0; i < N; ++i) read_one(element(key, i), values[i]);
+  }
+  /// As many elements as are set without a gap, if any is; else as many as there were.
+  template <class T, std::size_t N>
+  void read_one(const std::string& key, Bounded<T, N>& values) {
+    if (has(element(key, 0))) values.clear();
+    for (std::size_t i = 0; i < N && has(element(key, i)); ++i) {
+      values.push_back(T{});
+      read_one(element(key, i), values[i]);
+    }
+  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void read_one(const std::string& key, Enum& value) {
+    auto number = static_cast<std::underlying_type_t<Enum>>(value);
+    read_one(key, number);
+    value = static_cast<Enum>(number);
+  }
   template <class Integer>
   requires std::is_integral_v<Integer>
   void read_one(const std::string& key, Integer& value) {
@@ -50,6 +74,9 @@ class Settings {
   }
 
  private:
+  static std::string element(const std::string& key, std::size_t i) { return key + "." + std::to_string(i); }
+  /// Whether the key, or one below it, is set.
+  bool has(const std::string& key) const;
   const Setting* take(const std::string& key);
   void read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most);
 

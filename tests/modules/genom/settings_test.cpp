@@ -97,6 +97,48 @@ TEST(Settings, AnUnknownKeyIsBadInputWithTheNearestKnownOne) {
   EXPECT_EQ(complaint("colour", "5"), "robot.yaml:12: unknown key 'colour'");
 }
 
+struct Places {
+  Pose start;
+  Bounded<Point, 3> via;
+  std::array<double, 2> gains{1, 2};
+  enum class Kind : std::uint8_t { slow, fast } kind = Kind::slow;
+
+  static constexpr auto fields() {
+    return std::tuple(field("start", &Places::start), field("via", &Places::via), field("gains", &Places::gains),
+                      field("kind", &Places::kind));
+  }
+};
+
+TEST(Settings, ElementsPointsAndPosesAreKeysOfTheirOwn) {
+  std::vector<Setting> set;
+  for (const auto& [key, text] :
+       {std::pair("start.x", "1"), std::pair("start.heading", "0.5"), std::pair("via.1.y", "4"),
+        std::pair("via.0.x", "3"), std::pair("gains.1", "7"), std::pair("kind", "1")})
+    set.push_back({key, text, "robot.yaml", 12});
+  Settings settings(set);
+  Places places;
+  settings.read(places);
+  settings.check_all_used();
+  EXPECT_EQ(places.start, (Pose{1, 0, 0.5}));
+  ASSERT_EQ(places.via.size(), 2u);
+  EXPECT_EQ(places.via[0], (Point{3, 0}));
+  EXPECT_EQ(places.via[1], (Point{0, 4}));
+  EXPECT_EQ(places.gains, (std::array<double, 2>{1, 7}));
+  EXPECT_EQ(places.kind, Places::Kind::fast);
+}
+
+TEST(Settings, MoreElementsThanThereIsRoomForOrAGapAreUnknownKeys) {
+  for (const char* key : {"via.3.x", "via.1.x"}) {
+    std::vector<Setting> set = {{key, "1", "robot.yaml", 12}};
+    if (key == std::string("via.3.x"))
+      for (const char* other : {"via.0.x", "via.1.x", "via.2.x"}) set.push_back({other, "1", "robot.yaml", 12});
+    Settings settings(set);
+    Places places;
+    settings.read(places);
+    EXPECT_THROW(settings.check_all_used(), BadInput) << key;
+  }
+}
+
 TEST(Settings, KeysMayHaveAPrefix) {
   Settings settings({{"motion.gain", "2", "f", 1}, {"gain", "3", "f", 2}});
   Parameters parameters;
