@@ -34,9 +34,12 @@ const Setting* Settings::take(const std::string& key) {
 }
 
 bool Settings::has(const std::string& key) const {
+  return std::any_of(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+}
+
+bool Settings::has_any(const std::string& key) const {
   return std::any_of(settings_.begin(), settings_.end(),
                      [&](const Setting& s) { return s.key == key || s.key.starts_with(key + "."); });
-});
 }
 
 void Settings::reject(const std::string& key, const std::string& expected) const {

@@ -50,8 +50,8 @@ class Settings {
   /// As many elements as are set without a gap, if any is; else as many as there were.
   template <class T, std::size_t N>
   void read_one(const std::string& key, Bounded<T, N>& values) {
-    if (has(element(key, 0))) values.clear();
-    for (std::size_t i = 0; i < N && has(element(key, i)); ++i) {
+    if (has_any(element(key, 0))) values.clear();
+    for (std::size_t i = 0; i < N && has_any(element(key, i)); ++i) {
       values.push_back(T{});
       read_one(element(key, i), values[i]);
     }
@@ -76,7 +76,7 @@ class Settings {
  private:
   static std::string element(const std::string& key, std::size_t i) { return key + "." + std::to_string(i); }
   /// Whether the key, or one below it, is set.
-  bool has(const std::string& key) const;
+  bool has_any(const std::string& key) const;
   const Setting* take(const std::string& key);
   void read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most);
 
