@@ -2,21 +2,55 @@
 // The names of threads.hpp on the standard library's threads and the wall clock: for the robot itself.
 #pragma once
 
+#include <atomic>
+#include <barrier>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
+#include <future>
+#include <latch>
 #include <mutex>
+#include <shared_mutex>
+#include <stop_token>
 #include <thread>
+#include <utility>
 
 #include "core/time.hpp"
 #include "fibers/kernel/clock_options.hpp"
 #include "fibers/kernel/stack_arena.hpp"
+#include "fibers/sync/local_values.hpp"
 
 namespace waitpoint::threads {
 
 using kernel::ClockKind;
 using kernel::ClockOptions;
+using std::async;
+using std::atomic_signal_fence;
+using std::atomic_thread_fence;
+using std::call_once;
+using std::future;
+using std::launch;
+using std::nostopstate;
+using std::nostopstate_t;
+using std::packaged_task;
+using std::promise;
+using std::shared_future;
+using std::stop_callback;
+using std::stop_source;
+using std::stop_token;
 using std::chrono::steady_clock;
+
+struct system_clock : std::chrono::system_clock {
+  template <class Span>
+  static std::chrono::sys_time<Span> to_sys(const std::chrono::sys_time<Span>& t) {
+    return t;
+  }
+  template <class Span>
+  static std::chrono::sys_time<Span> from_sys(const std::chrono::sys_time<Span>& t) {
+    return t;
+  }
+};
 
 struct real {};
 using kind = real;
@@ -40,6 +74,26 @@ using observer_lock = std::lock_guard<mutex>;
 struct timed_mutex : std::timed_mutex {
   timed_mutex() = default;
   explicit timed_mutex(const char*) {}
+};
+struct recursive_mutex : std::recursive_mutex {
+  recursive_mutex() = default;
+  explicit recursive_mutex(const char*) {}
+};
+struct recursive_timed_mutex : std::recursive_timed_mutex {
+  recursive_timed_mutex() = default;
+  explicit recursive_timed_mutex(const char*) {}
+};
+struct shared_mutex : std::shared_mutex {
+  shared_mutex() = default;
+  explicit shared_mutex(const char*) {}
+};
+struct shared_timed_mutex : std::shared_timed_mutex {
+  shared_timed_mutex() = default;
+  explicit shared_timed_mutex(const char*) {}
+};
+struct condition_variable_any : std::condition_variable_any {
+  condition_variable_any() = default;
+  explicit condition_variable_any(const char*) {}
 };
 struct condition_variable : std::condition_variable_any {
   condition_variable() = default;
@@ -85,8 +139,56 @@ class counting_semaphore {
 };
 using binary_semaphore = counting_semaphore<1>;
 
+struct latch : std::latch {
+  explicit latch(std::ptrdiff_t expected, const char* = "") : std::latch(expected) {}
+};
+struct no_completion {
+  void operator()() noexcept {}
+};
+template <class Completion = no_completion>
+struct barrier : std::barrier<Completion> {
+  explicit barrier(std::ptrdiff_t expected, Completion completion = Completion(), const char* = "")
+      : std::barrier<Completion>(expected, std::move(completion)) {}
+};
+
 struct processor {
   explicit processor(const char* = "") {}
+};
+
+template <class T>
+struct atomic : std::atomic<T> {
+  atomic() = default;
+  constexpr atomic(T value, const char* = "") noexcept : std::atomic<T>(value) {}
+  using std::atomic<T>::operator=;
+};
+struct atomic_flag : std::atomic_flag {
+  constexpr atomic_flag() = default;
+  explicit constexpr atomic_flag(const char*) {}
+};
+struct once_flag : std::once_flag {
+  constexpr once_flag() = default;
+  explicit constexpr once_flag(const char*) {}
+};
+
+inline thread_local sync::LocalValues local_values;
+
+/// What thread_local itself cannot be: a member.
+template <class T>
+class fiber_local {
+ public:
+  fiber_local() requires std::is_default_constructible_v<T>
+  = default;
+  explicit fiber_local(std::function<T()> initial) : initial_(std::move(initial)) {}
+  fiber_local(const fiber_local&) = delete;
+  fiber_local& operator=(const fiber_local&) = delete;
+
+  T& operator*() const { return get(); }
+  T* operator->() const { return &get(); }
+  T& get() const { return local_values.get<T>(key_, initial_); }
+
+ private:
+  std::uint64_t key_ = sync::next_local_key();
+  std::function<T()> initial_;
 };
 
 struct thread_attributes {
@@ -109,6 +211,19 @@ class thread : public std::thread {
   template <class Function, class... Arguments>
   thread(const thread_attributes&, Function&& function, Arguments&&... arguments)
       : std::thread(std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
+};
+
+class jthread : public std::jthread {
+ public:
+  jthread() = default;
+  template <class Function, class... Arguments>
+  requires(!std::is_same_v<std::remove_cvref_t<Function>, jthread> &&
+           !std::is_same_v<std::remove_cvref_t<Function>, thread_attributes>) explicit jthread(Function&& function,
+                                                                                               Arguments&&... arguments)
+      : std::jthread(std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
+  template <class Function, class... Arguments>
+  jthread(const thread_attributes&, Function&& function, Arguments&&... arguments)
+      : std::jthread(std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
 };
 
 namespace this_thread {
