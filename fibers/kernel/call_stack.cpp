@@ -3,10 +3,9 @@
 
 #include <unwind.h>
 
-#include <cstdio>
-
 #include "core/error.hpp"
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/signal_safe_text.hpp"
 
 namespace waitpoint::kernel {
 namespace {
@@ -63,12 +62,12 @@ std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
 }
 
 void describe_run(const Task& task) {
-  const long long ns = task.local_time.ns();
-  std::fprintf(stderr, "  at virtual time %lld.%09lld s, in task %s of %s, at its event %llu (%s), seed %llu\n",
-               ns / 1'000'000'000, ns % 1'000'000'000, task.name, task.robot->name,
-               static_cast<unsigned long long>(task.sequence), name(task.operation),
-               static_cast<unsigned long long>(task.scheduler->chooser().seed()));
-  if (task.scheduler->replay()[0] != '\0') std::fprintf(stderr, "  replay: %s\n", task.scheduler->replay());
+  SignalSafeText text;
+  text.add("  at virtual time ").add(task.local_time).add(" s, in task ").add(task.name).add(" of ");
+  text.add(task.robot->name).add(", at its event ").add(task.sequence).add(" (").add(name(task.operation));
+  text.add("), seed ").add(task.scheduler->chooser().seed()).add("\n").write();
+  SignalSafeText replay;
+  if (task.scheduler->replay()[0] != '\0') replay.add("  replay: ").add(task.scheduler->replay()).add("\n").write();
 }
 
 }  // namespace waitpoint::kernel

@@ -11,7 +11,7 @@ namespace waitpoint::kernel {
 /// The caller's own call stack: writes at most `room` return addresses to `frames`, innermost first; returns how many.
 std::size_t capture_call_stack(void** frames, std::size_t room);
 
-/// Prints virtual time, task, seed and replay line to the error stream.
+/// Writes virtual time, task, seed and replay line to the error stream; signal handlers may call it.
 void describe_run(const Task& task);
 
 }  // namespace waitpoint::kernel

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/fetch.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
@@ -152,7 +153,7 @@ inline void Scheduler::prepare_coming() const {
 }
 
 inline void Scheduler::resume(Task& task) {
-  WAITPOINT_CHECK(StackArena::intact(task.fiber.stack), "a task ran over the end of its stack");
+  if (__builtin_expect(!StackArena::intact(task.fiber.stack), 0)) report_overflow(task);
   task.state = TaskState::running;
   running = &task;
   hash_events_of(*task.robot);
@@ -201,6 +202,7 @@ void Scheduler::pause() {
 
 void Scheduler::reclaim_ended() {
   const Stack stack = ended_->fiber.stack;
+  if (!StackArena::intact(stack)) report_overflow(*ended_);
   ended_ = nullptr;
   arena_.give_back(stack);
 }

@@ -83,3 +83,7 @@ void StackArena::give_back(const Stack& stack) {
 }
 
 }  // namespace waitpoint::kernel
+bool StackArena::guards(const Stack& stack, const char* address) {
+  return stack.guard == Guard::page && address < stack.low && address >= stack.low - page;
+}
+

@@ -48,6 +48,8 @@ class StackArena {
 
   /// True while nothing has run over the low end; only stacks under a canary can tell.
   static bool intact(const Stack& stack) { return stack.guard == Guard::page || canary(stack) == canary_word; }
+  /// Whether `address` lies in the guard page below `stack`.
+  static bool guards(const Stack& stack, const char* address);
 
  private:
   static constexpr std::uint64_t canary_word = 0x57A1707E57ACC0DEu;

@@ -7,6 +7,7 @@
 
 #include "core/number_text.hpp"
 #include "fibers/sync/blocked_report.hpp"
+#include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/signals.hpp"
 #include "fibers/sync/thread.hpp"
@@ -56,6 +57,7 @@ RunEnd Simulation::run_before(Time until) {
 
 void Simulation::unwind() {
   terminate_ = std::set_terminate(terminate_task);
+  const kernel::FaultReports reports(scheduler_);
   scheduler_.unwind();
   std::set_terminate(terminate_);
 }
@@ -70,6 +72,7 @@ void Simulation::terminate_task() {
     } catch (...) {
     }
     of(*kernel::running->scheduler).terminate_();
+  const kernel::FaultReports reports(scheduler_);
   }
   std::abort();
 }

@@ -110,5 +110,25 @@ TEST(Ends, ManyTasksComeAndGoOnFewStacks) {
   EXPECT_EQ(run.scheduler.events(), 300'002u);
 }
 
+// Where the guard is a canary, what a task did to it is seen when it is next entered, or when its stack is reused.
+TEST(EndsDeathTest, ATaskThatOverwroteItsCanaryIsNamed) {
+  const auto overwrite_canary = [](bool and_go_on) {
+    TaskRun run;
+    run.spawn(
+        [&] {
+          run.sleep(5);
+          running->fiber.stack.guard = Guard::canary;
+          *reinterpret_cast<std::uint64_t*>(running->fiber.stack.low) = 1;
+          if (and_go_on) run.sleep(7);
+        },
+        {.name = "deep", .stack = StackSize::small});
+    run.spawn([&] { run.sleep(9); }, {.name = "other"});
+    run.scheduler.run_before(Time::max());
+  };
+  const char* report = "ran over the end of its stack\n.*in task deep of robot.*its stack has 16 KiB";
+  EXPECT_DEATH(overwrite_canary(true), report);
+  EXPECT_DEATH(overwrite_canary(false), report);
+}
+
 }  // namespace
 }  // namespace waitpoint::kernel

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A task that runs over the end of its stack is named, and so is one that uses a bad address; whoever handled such
+// faults before still does.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/sync/simulation.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint {
+namespace {
+
+using namespace std::chrono_literals;
+using kernel::StackSize;
+
+// What can be had of a fault is the kernel's own report: sanitizers and valgrind have theirs.
+class StackOverflowDeathTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const kernel::StackArena looks;
+    if (kernel::sanitizer::present) GTEST_SKIP() << "a sanitizer reports faults itself";
+  }
+};
+
+[[gnu::noinline]] int descend(int depth) {
+  volatile char frame[400];
+  frame[0] = static_cast<char>(depth);
+  return depth < 0 ? 0 : descend(depth + 1) + frame[0];
+}
+
+void overflow(StackSize size) {
+  SimulationOptions options;
+  options.seed = 7;
+  options.replay = "the same test again";
+  Simulation simulation(options);
+  kernel::Robot& robot = simulation.add_robot("rackham");
+  simulation.spawn(robot, {.name = "other"}, [] { this_thread::sleep_for(5ms); });
+  simulation.spawn(robot, {.name = "deep", .stack = size}, [] {
+    this_thread::sleep_for(2ms);
+    descend(0);
+  });
+  simulation.run_before();
+}
+
+TEST_F(StackOverflowDeathTest, NamesTheTaskAndSaysHowToRepeatTheRun) {
+  EXPECT_EXIT(overflow(StackSize::small), testing::KilledBySignal(SIGABRT),
+              "bug: a task ran over the end of its stack\n"
+              "  at virtual time 0.002000000 s, in task deep of rackham, at its event [0-9]+ .sleep., seed 7\n"
+              "  replay: the same test again\n"
+              "  its stack has 16 KiB; a larger one: StackSize::medium .64 KiB. or StackSize::large .256 KiB.");
+}
+
+TEST_F(StackOverflowDeathTest, SaysWhichStacksAreLarger) {
+  EXPECT_DEATH(overflow(StackSize::medium), "its stack has 64 KiB; a larger one: StackSize::large");
+  EXPECT_DEATH(overflow(StackSize::large), "its stack has 256 KiB; there is none larger");
+}
+
+TEST_F(StackOverflowDeathTest, IsFoundWhileTheRunIsUnwound) {
+  struct Deep {
+    ~Deep() { descend(0); }
+  };
+  EXPECT_DEATH(
+      {
+        Simulation simulation;
+        simulation.spawn(simulation.environment(), {.name = "late"}, [] {
+          const Deep deep;
+          this_thread::sleep_for(1h);
+        });
+        simulation.run_before(Time() + Duration(1s));
+      },
+      "ran over the end of its stack\n.*in task late of environment");
+}
+
+int* volatile nowhere = nullptr;
+
+void write_nowhere() {
+  simulate([] {
+    thread({.name = "wild"}, [] {
+      this_thread::sleep_for(3ms);
+      *nowhere = 1;
+    }).join();
+  });
+}
+
+TEST_F(StackOverflowDeathTest, AnotherFaultIsPassedOnWithTheTasksName) {
+  EXPECT_EXIT(write_nowhere(), testing::KilledBySignal(SIGSEGV),
+              "a bad address is used at virtual time 0.003000000 s, in task wild of environment");
+}
+
+TEST_F(StackOverflowDeathTest, AnotherFaultGoesToTheProgramsOwnHandler) {
+  EXPECT_EXIT(
+      {
+        std::signal(SIGSEGV, [](int) { _exit(42); });
+        write_nowhere();
+      },
+      testing::ExitedWithCode(42), "in task wild");
+  EXPECT_EXIT(
+      {
+        struct sigaction own {};
+        own.sa_flags = static_cast<int>(SA_SIGINFO);
+        own.sa_sigaction = [](int, siginfo_t* info, void*) { _exit(info->si_addr == nullptr ? 43 : 44); };
+        sigaction(SIGSEGV, &own, nullptr);
+        write_nowhere();
+      },
+      testing::ExitedWithCode(43), "in task wild");
+}
+
+TEST_F(StackOverflowDeathTest, ASignalThatAProcessSentIsNoFault) {
+  EXPECT_EXIT(simulate([] { kill(getpid(), SIGSEGV); }), testing::KilledBySignal(SIGSEGV), "^$");
+}
+
+TEST_F(StackOverflowDeathTest, AfterARunTheHandlersAreThoseOfBefore) {
+  struct sigaction own {
+  }, found{};
+  own.sa_handler = [](int) { _exit(1); };
+  struct sigaction before {};
+  sigaction(SIGSEGV, &own, &before);
+  stack_t stack_before{}, stack_after{};
+  sigaltstack(nullptr, &stack_before);
+  EXPECT_TRUE(simulate([] { this_thread::sleep_for(1ms); }).passed);
+  sigaction(SIGSEGV, &before, &found);
+  sigaltstack(nullptr, &stack_after);
+  EXPECT_EQ(found.sa_handler, own.sa_handler);
+  EXPECT_EQ(stack_after.ss_sp, stack_before.ss_sp);
+  EXPECT_EQ(stack_after.ss_flags, stack_before.ss_flags);
+}
+
+TEST_F(StackOverflowDeathTest, AHandlerThatATaskInstalledStays) {
+  struct sigaction before {
+  }, found{};
+  sigaction(SIGSEGV, nullptr, &before);
+  void (*const own)(int) = [](int) { _exit(1); };
+  EXPECT_TRUE(simulate([own] { std::signal(SIGSEGV, own); }).passed);
+  sigaction(SIGSEGV, &before, &found);
+  EXPECT_EQ(found.sa_handler, own);
+}
+
+}  // namespace
+}  // namespace waitpoint
