@@ -36,14 +36,13 @@ Calendar::~Calendar() {
 }
 
 void Calendar::reserve() {
-  const std::size_t slots = (std::size_t{capacity_} + 1) * sizeof(Slot);
-  const std::size_t heads = (buckets_max + 64) * sizeof *heads_;
-  reserved_ = slots + heads + buckets_max / 8;
+  const std::size_t slots = slots_bytes(capacity_);
+  reserved_ = bytes(capacity_);
   void* memory = mmap(nullptr, reserved_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   WAITPOINT_CHECK(memory != MAP_FAILED, "no address space for the event list");
   slots_ = static_cast<Slot*>(memory);
   heads_ = reinterpret_cast<std::uint32_t*>(static_cast<char*>(memory) + slots);
-  occupied_ = reinterpret_cast<std::uint64_t*>(static_cast<char*>(memory) + slots + heads);
+  occupied_ = reinterpret_cast<std::uint64_t*>(static_cast<char*>(memory) + slots + heads_bytes);
 }
 
 void Calendar::unlink(std::uint32_t slot) {

@@ -20,6 +20,10 @@ namespace waitpoint::kernel {
 
 class Calendar {
  public:
+  /// The address space that one for `capacity` events takes once it is open.
+  static constexpr std::size_t bytes(std::uint32_t capacity) {
+    return slots_bytes(capacity) + heads_bytes + buckets_max / 8;
+  }
   /// For at most `capacity` events. Takes no memory before open().
   explicit Calendar(std::uint32_t capacity) : capacity_(capacity) {}
   ~Calendar();
@@ -73,6 +77,10 @@ class Calendar {
     std::uint32_t next;
     std::uint32_t previous;  // or, of the first of a list, first_of() its bucket
   };
+  static constexpr std::size_t heads_bytes = (std::size_t{buckets_max} + 64) * sizeof(std::uint32_t);
+  static constexpr std::size_t slots_bytes(std::uint32_t capacity) {
+    return (std::size_t{capacity} + 1) * sizeof(Slot);
+  }
   static constexpr std::uint32_t first_tag = 1u << 31;
   static constexpr std::uint32_t far_bucket = buckets_max;
   static constexpr std::uint32_t first_of(std::uint32_t bucket) { return first_tag | bucket; }

@@ -32,6 +32,14 @@ EventList::EventList(std::uint32_t capacity)
   run_[0].key = EventKey::never();
 }
 
+bool EventList::has_address_space(std::uint32_t capacity) {
+  const std::size_t size = entries(capacity) * sizeof(EventEntry) + Calendar::bytes(capacity);
+  void* memory = mmap(nullptr, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) return false;
+  munmap(memory, size);
+  return true;
+}
+
 EventList::~EventList() { munmap(memory_, entries(capacity_) * sizeof(EventEntry)); }
 
 void EventList::remove(EventNode& node) {

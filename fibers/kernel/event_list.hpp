@@ -27,6 +27,8 @@ class EventList {
   /// Room for `capacity` events, at most 2^29, is reserved, and committed only as it is used.
   explicit EventList(std::uint32_t capacity);
   ~EventList();
+  /// Whether there is the address space for a list of this capacity, whatever is put into it.
+  static bool has_address_space(std::uint32_t capacity);
   EventList(const EventList&) = delete;
   EventList& operator=(const EventList&) = delete;
 
@@ -87,7 +89,8 @@ class EventList {
 
   void check_insertion(const EventNode& node) const {
     WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
-    WAITPOINT_CHECK(size_ < capacity_, "more events than the event list holds");
+    WAITPOINT_CHECK(size_ < capacity_,
+                    "more events than a run may have pending: tasks, timers, and messages under way");
   }
   [[gnu::always_inline]] void put(EventNode& node, const EventKey& key) {
     // Who is woken at the present instant: in their order, as a rule.

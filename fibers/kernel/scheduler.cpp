@@ -33,7 +33,7 @@ constexpr int stack_lines_fetched = 6;
 }  // namespace
 
 Scheduler::Scheduler(Order order, std::uint64_t seed)
-    : events_(2 * tasks_max), chooser_(order, seed), epoch_(++runs), may_stay_(order == Order::fifo) {
+    : events_(events_max), chooser_(order, seed), epoch_(++runs), may_stay_(order == Order::fifo) {
   set_watch(nullptr);
 }
 
@@ -55,7 +55,7 @@ void Scheduler::add(Robot& robot, const char* name) {
 
 Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument) {
   const Time start = running != nullptr ? kernel::local_time(*running) : now_;
-  if (unwinding_ || tasks_ == tasks_max) return nullptr;
+  if (unwinding_ || tasks_ >= most_tasks_) return nullptr;
   Stack stack;
   if (!arena_.take(options.stack, stack)) return nullptr;
   // The record lies at the high end of the task's own stack: one page for both.

@@ -60,6 +60,8 @@ struct SpawnOptions {
 };
 
 inline constexpr std::uint32_t tasks_max = 1u << 20;
+/// Of tasks and timers, and messages under way.
+inline constexpr std::uint32_t events_max = 2 * tasks_max;
 /// Waitpoints that a task may pass at one instant before its ties get a turn.
 inline constexpr std::uint32_t turns_max = 1000;
 /// Turns at one instant, and turns_max more a task, after which a run makes no progress: some tens of millions of
@@ -75,11 +77,14 @@ class Scheduler {
   Scheduler(const Scheduler&) = delete;
   Scheduler& operator=(const Scheduler&) = delete;
 
+  /// Whether a scheduler can be made: the process may have little address space (ulimit -v).
+  static bool has_address_space() { return EventList::has_address_space(events_max); }
+
   /// Adds a robot; the record must outlive the run.
   void add(Robot& robot, const char* name);
 
   /// A new task of `robot`, starting at the local time of the caller (at the start of the run from outside). Null when
-  /// no stack is left.
+  /// there are most_tasks() already, or no stack is left.
   Task* spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument);
 
   /// Executes all events before `until`.
@@ -164,6 +169,10 @@ class Scheduler {
   /// Events executed so far, by tasks of all robots.
   std::uint64_t events() const { return executed_; }
   bool unwinding() const { return unwinding_; }
+  /// Tasks that are left, and how many there may be at once: at most tasks_max.
+  std::uint32_t tasks() const { return tasks_; }
+  std::uint32_t most_tasks() const { return most_tasks_; }
+  void set_most_tasks(std::uint32_t most) { most_tasks_ = most; }
   /// Tasks that are left and are no services.
   std::uint32_t live_tasks() const { return live_tasks_; }
   /// A task of the cycle in a deadlock, whose `search.to` leads around it; null without a cycle.
@@ -258,6 +267,7 @@ class Scheduler {
   std::uint64_t executed_ = 0;
   std::uint32_t live_tasks_ = 0;
   std::uint32_t tasks_ = 0;
+  std::uint32_t most_tasks_ = tasks_max;
   std::uint64_t turns_given_ = 0;  // since virtual time last moved
   Time turns_given_at_;
   RunState state_ = RunState::idle;

@@ -2,6 +2,7 @@
 #include "fibers/kernel/stack_arena.hpp"
 
 #include <sys/mman.h>
+#include <sys/resource.h>
 
 #include "core/error.hpp"
 #include "fibers/kernel/sanitizer.hpp"
@@ -18,16 +19,26 @@ constexpr std::uint32_t slots_max[3] = {1u << 20, 1u << 17, 1u << 14};
 // The free list's link lies at the high end, in the page that is touched anyway.
 std::uint32_t& link(const Stack& stack) { return reinterpret_cast<std::uint32_t*>(stack.high)[-1]; }
 
+// Of the stacks of one size: the heap and the run's other tables are to find some too where address space is limited.
+std::size_t bytes_max() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return ~std::size_t{0};
+  return limit.rlim_cur / 8;
+}
+
 }  // namespace
 
 StackArena::StackArena() {
   sanitizer::look();
+  const std::size_t most = bytes_max();
   for (int i = 0; i < 3; ++i) {
     Range& range = ranges_[i];
     // A machine with little address space to give (limits, strict overcommit) gets fewer slots, not a failure.
     for (range.slots = slots_max[i]; range.slots > 0; range.slots /= 2) {
-      void* base = mmap(nullptr, range.slots * bytes(static_cast<StackSize>(i)), PROT_READ | PROT_WRITE,
-                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+      const std::size_t size = range.slots * bytes(static_cast<StackSize>(i));
+      if (size > most) continue;
+      void* base =
+          mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
       if (base == MAP_FAILED) continue;
       range.base = static_cast<char*>(base);
       break;
@@ -74,6 +85,10 @@ bool StackArena::take(StackSize size, Stack& stack) {
   return true;
 }
 
+bool StackArena::guards(const Stack& stack, const char* address) {
+  return stack.guard == Guard::page && address < stack.low && address >= stack.low - page;
+}
+
 void StackArena::give_back(const Stack& stack) {
   WAITPOINT_CHECK(intact(stack), "a task ran over the end of its stack");
   if (sanitizer::present) sanitizer::close_stack(stack);
@@ -83,7 +98,3 @@ void StackArena::give_back(const Stack& stack) {
 }
 
 }  // namespace waitpoint::kernel
-bool StackArena::guards(const Stack& stack, const char* address) {
-  return stack.guard == Guard::page && address < stack.low && address >= stack.low - page;
-}
-

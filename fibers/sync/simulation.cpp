@@ -4,19 +4,34 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ostream>
+#include <system_error>
 
 #include "core/number_text.hpp"
-#include "fibers/sync/blocked_report.hpp"
 #include "fibers/kernel/fault_reports.hpp"
+#include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/signals.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint {
+namespace {
+
+// Before the scheduler takes it, who could not say so but by a bug's report.
+SimulationOptions checked(SimulationOptions options) {
+  WAITPOINT_CHECK(options.most_tasks >= 1 && options.most_tasks <= kernel::tasks_max,
+                  "a run may have from 1 to 2^20 tasks at once");
+  if (!kernel::Scheduler::has_address_space())
+    throw std::system_error(std::make_error_code(std::errc::not_enough_memory),
+                            "no address space for the run's tables (a limit such as ulimit -v)");
+  return options;
+}
+
+}  // namespace
 
 Simulation::Simulation(SimulationOptions options)
-    : options_(std::move(options)), scheduler_(options_.order, options_.seed) {
+    : options_(checked(std::move(options))), scheduler_(options_.order, options_.seed) {
   scheduler_.set_client(this);
+  scheduler_.set_most_tasks(options_.most_tasks);
   scheduler_.set_replay(options_.replay.c_str());
   scheduler_.set_delivery(sync::deliver_signals);
   add(environment_, "environment");
@@ -42,6 +57,7 @@ void Simulation::spawn(kernel::Robot& robot, const kernel::SpawnOptions& options
 }
 
 RunEnd Simulation::run_before(Time until) {
+  const kernel::FaultReports reports(scheduler_);
   const kernel::RunState state = scheduler_.run_before(until);
   if (failure_ != nullptr) std::rethrow_exception(failure_);
   if (state == kernel::RunState::reached) return RunEnd::time_reached;
@@ -56,8 +72,8 @@ RunEnd Simulation::run_before(Time until) {
 }
 
 void Simulation::unwind() {
-  terminate_ = std::set_terminate(terminate_task);
   const kernel::FaultReports reports(scheduler_);
+  terminate_ = std::set_terminate(terminate_task);
   scheduler_.unwind();
   std::set_terminate(terminate_);
 }
@@ -72,7 +88,6 @@ void Simulation::terminate_task() {
     } catch (...) {
     }
     of(*kernel::running->scheduler).terminate_();
-  const kernel::FaultReports reports(scheduler_);
   }
   std::abort();
 }

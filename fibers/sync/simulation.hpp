@@ -30,6 +30,8 @@ struct SimulationOptions {
   /// What system_clock shows at virtual time 0: a declared constant, never the date of the machine.
   std::chrono::sys_time<std::chrono::nanoseconds> start_date = default_start_date;
   unsigned hardware_concurrency = 4;  ///< what threads are told; each has a processor of its own nevertheless
+  /// Threads at once, from 1 to kernel::tasks_max: one more is a std::system_error.
+  std::uint32_t most_tasks = kernel::tasks_max;
 };
 
 /// How a run ended, or that it did not.
@@ -42,6 +44,7 @@ enum class RunEnd : std::uint8_t {
 
 class Simulation {
  public:
+  /// Throws std::system_error where the process may not have the address space that a run takes.
   explicit Simulation(SimulationOptions options = {});
   /// Unwinds what is left.
   ~Simulation();
@@ -54,7 +57,8 @@ class Simulation {
   /// `name` must be new.
   kernel::Robot& add_robot(const std::string& name);
 
-  /// A task that starts at virtual time 0, or now if the run has begun. To be called from outside tasks.
+  /// A task that starts at virtual time 0, or now if the run has begun. To be called from outside tasks. Throws
+  /// std::system_error where no more can be had.
   void spawn(kernel::Robot& robot, const kernel::SpawnOptions& options, std::function<void()> body);
 
   /// Executes all events before `until`; may be called again with a later time. An exception that escaped from a task

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <ostream>
+#include <system_error>
 
 #include "fibers/sync/misuse.hpp"
 #include "fibers/sync/simulation.hpp"
@@ -48,6 +49,18 @@ void run_thread(void* argument) {
   state.run_over = scheduler.unwinding();
 }
 
+// As std::thread's.
+[[noreturn]] void refuse(const kernel::Scheduler& scheduler, const kernel::Robot& robot,
+                         const kernel::SpawnOptions& options) {
+  const bool all_made = scheduler.tasks() >= scheduler.most_tasks();
+  throw std::system_error(
+      std::make_error_code(std::errc::resource_unavailable_try_again),
+      std::string("thread ") + options.name + " of " + robot.name + " cannot be made: " +
+          (all_made ? "the run has " + std::to_string(scheduler.tasks()) + " tasks, the most it may have at once"
+                    : "of the stacks of " + std::to_string(kernel::bytes(options.stack) / 1024) +
+                          " KiB none is left, all the address space that there is for them is in use"));
+}
+
 }  // namespace
 
 ThreadState* thread_of(const kernel::Task& task) {
@@ -70,8 +83,10 @@ std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::
   if (computing.on != nullptr) options.seat = &state->seat.emplace(computing.on->core(), computing.priority);
   auto share = std::make_unique<std::shared_ptr<ThreadState>>(state);
   state->task = scheduler.spawn(robot, options, run_thread, share.get());
-  WAITPOINT_CHECK(state->task != nullptr || scheduler.unwinding(), "more threads than a simulation holds");
-  if (state->task == nullptr) return state;
+  if (state->task == nullptr) {
+    if (!scheduler.unwinding()) refuse(scheduler, robot, options);
+    return state;
+  }
   (void)share.release();  // run_thread has it now
   state->id = state->task->id;
   return state;

@@ -61,7 +61,7 @@ struct Computing {
   int priority = 0;
 };
 
-/// Makes a task of `robot` that runs `body`; more tasks than the simulation holds are a bug.
+/// Makes a task of `robot` that runs `body`; std::system_error where no more can be had.
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
                                           kernel::SpawnOptions options, std::function<void()> body,
                                           const Computing& computing = {});

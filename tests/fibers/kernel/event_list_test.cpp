@@ -22,7 +22,7 @@ TEST(EventListDeathTest, MisuseIsABug) {
   EventNode a, b;
   list.insert(a, {});
   EXPECT_DEATH(list.insert(a, {}), "put into the list twice");
-  EXPECT_DEATH(list.insert(b, {}), "more events than the event list holds");
+  EXPECT_DEATH(list.insert(b, {}), "more events than a run may have pending");
   EXPECT_DEATH(list.remove(b), "not in the list");
   EXPECT_DEATH(list.pop_and_insert(a, {}), "put into the list twice");
   list.pop();
