@@ -96,7 +96,8 @@ Json json_of(const RunResult& result) {
   json["real_time_factor"] = result.real_time_factor;
   json["environment_digest"] = to_string(result.environment_digest);
   json["warnings"] = result.warnings;
-  if (!result.deadlock.empty()) json["deadlock"] = result.deadlock;
+  if (!result.trouble.empty())
+    json[result.outcome == bridge::Outcome::no_progress ? "no_progress" : "deadlock"] = result.trouble;
   json["robots"] = Json::array();
   for (const RobotResult& robot : result.robots) json["robots"].push_back(json_of(robot));
   return json;
@@ -127,7 +128,7 @@ std::string summary_text(const RunResult& result) {
   if (!unreached.empty()) text += "\n" + unreached;
   for (const std::string& warning : result.warnings) text += "\nwarning: " + warning;
   if (!result.warnings.empty()) text += "\n";
-  if (!result.deadlock.empty()) text += "\n" + result.deadlock + (result.deadlock.back() == '\n' ? "" : "\n");
+  if (!result.trouble.empty()) text += "\n" + result.trouble + (result.trouble.back() == '\n' ? "" : "\n");
   return text + "\n  digest            " + to_string(result.digest) + "\n";
 }
 

@@ -10,7 +10,8 @@
 namespace waitpoint::tools {
 
 /// The text shown at the end of a run: figures of all robots, a table of the robots if there are several, goals that
-/// were not reached, warnings, the deadlock report if any, and last the digest. Ends with a newline.
+/// were not reached, periodic tasks that missed deadlines, warnings, the report of a deadlock or of no progress if any,
+/// and last the digest. Ends with a newline.
 std::string summary_text(const bridge::RunResult& result);
 
 /// One JSON object, figures by the names of the fields with their units; `robots` has the same figures for each, and

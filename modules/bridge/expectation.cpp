@@ -8,6 +8,7 @@ std::vector<std::string> unmet(const Expectation& expect, const RunResult& resul
   const RunTotals sum = totals(result);
   const std::string reached = std::to_string(sum.goals_reached) + " of " + std::to_string(sum.goals) + " goals reached";
   if (result.outcome == Outcome::deadlock) lines.push_back("the run ended in a deadlock");
+  if (result.outcome == Outcome::no_progress) lines.push_back("the run made no progress");
   if (expect.all_goals_reached && sum.goals_reached != sum.goals) lines.push_back(reached + ", expected all");
   if (expect.goals_reached && *expect.goals_reached != sum.goals_reached) {
     lines.push_back(reached + ", expected " + std::to_string(*expect.goals_reached));

@@ -2,6 +2,19 @@
 #include "modules/bridge/experiment.hpp"
 
 namespace waitpoint::bridge {
+namespace {
+
+Outcome outcome_of(RunEnd end) {
+  switch (end) {
+    case RunEnd::time_reached: return Outcome::time_limit;
+    case RunEnd::ended: return Outcome::finished;
+    case RunEnd::deadlock: return Outcome::deadlock;
+    case RunEnd::no_progress: return Outcome::no_progress;
+  }
+  return Outcome::time_limit;
+}
+
+}  // namespace
 
 Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
                        const ExperimentOptions& options)
@@ -66,10 +79,8 @@ RunResult Experiment::result() const {
   result.environment_digest = simulation_.environment().digest.digest();
   for (std::size_t i = 0; i < lanes_.size(); ++i) result.robots[i].digest = lanes_[i]->digest.digest();
   result.events = simulation_.scheduler().events();
-  result.deadlock = simulation_.trouble();
-  result.outcome = end_ == RunEnd::ended          ? Outcome::finished
-                   : end_ == RunEnd::time_reached ? Outcome::time_limit
-                                                  : Outcome::deadlock;
+  result.trouble = simulation_.trouble();
+  result.outcome = outcome_of(end_);
   return result;
 }
 

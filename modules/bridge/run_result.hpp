@@ -22,11 +22,12 @@ enum class Outcome : std::uint8_t {
   finished,     ///< every executive ended its round
   time_limit,   ///< the virtual time given to the run was used up
   deadlock,     ///< tasks wait for each other, or nothing can ever run again
+  no_progress,  ///< tasks spin while virtual time stands still
   interrupted,  ///< a signal, after the step that it came in
 };
 
 constexpr std::string_view to_string(Outcome outcome) {
-  constexpr std::string_view names[] = {"finished", "time limit", "deadlock", "interrupted"};
+  constexpr std::string_view names[] = {"finished", "time limit", "deadlock", "no progress", "interrupted"};
   return names[static_cast<std::size_t>(outcome)];
 }
 
@@ -76,7 +77,7 @@ struct RunResult {
   Digest digest, environment_digest;
   std::vector<RobotResult> robots;  ///< in the order of the scenario
   Outcome outcome = Outcome::finished;
-  std::string deadlock;               ///< the report, some lines; empty without
+  std::string trouble;                ///< the report of a deadlock or of no progress, some lines; empty without
   std::vector<std::string> warnings;  ///< one line each
   std::uint64_t events = 0;
   Duration simulated;

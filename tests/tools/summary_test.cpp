@@ -77,10 +77,25 @@ TEST(SummaryText, has_a_row_for_each_of_several_robots) {
 TEST(SummaryText, tells_warnings_and_the_deadlock) {
   bridge::RunResult result = sample_result(1);
   result.warnings = {"the step is coarse"};
-  result.deadlock = "a waits for b";
+  result.trouble = "a waits for b";
   const std::string text = summary_text(result);
   EXPECT_NE(text.find("\nwarning: the step is coarse\n"), std::string::npos);
   EXPECT_NE(text.find("\na waits for b\n"), std::string::npos);
+}
+
+TEST(Summary, a_run_without_progress_is_no_deadlock) {
+  bridge::RunResult result = sample_result(1);
+  result.outcome = bridge::Outcome::no_progress;
+  result.trouble = "no progress: a spins";
+  const std::string text = summary_text(result);
+  EXPECT_NE(text.find("seed 7: no progress after 40.0 s"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nno progress: a spins\n"), std::string::npos) << text;
+  const Json json = Json::parse(summary_json(result));
+  EXPECT_EQ(json.at("outcome"), "no progress");
+  EXPECT_EQ(json.at("no_progress"), "no progress: a spins");
+  EXPECT_FALSE(json.contains("deadlock"));
+  result.outcome = bridge::Outcome::deadlock;
+  EXPECT_EQ(Json::parse(summary_json(result)).at("deadlock"), "no progress: a spins");
 }
 
 TEST(SeedsTable, head_and_rows_have_the_same_columns) {

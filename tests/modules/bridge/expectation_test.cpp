@@ -33,6 +33,12 @@ TEST(Expectation, a_number_of_goals_is_exact) {
   EXPECT_EQ(unmet(expect, result_with(3, 3, 5)), Lines{"3 of 3 goals reached, expected 2"});
 }
 
+TEST(Expectation, a_run_without_progress_is_never_expected) {
+  RunResult result = result_with(0, 0, 0);
+  result.outcome = Outcome::no_progress;
+  EXPECT_EQ(unmet({}, result), Lines{"the run made no progress"});
+}
+
 TEST(Expectation, a_deadlock_is_never_expected) {
   RunResult result = result_with(0, 0, 0);
   result.outcome = Outcome::deadlock;
