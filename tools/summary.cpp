@@ -32,6 +32,15 @@ std::string unreached_goals(const RobotResult& robot) {
   return text;
 }
 
+std::string late_tasks(const RobotResult& robot) {
+  std::string text;
+  for (const bridge::LateTask& task : robot.late_tasks)
+    text += fmt::format("  {}: task {} missed {} deadlines, and so {} periods of {} ms; at most {} ms late\n",
+                        robot.name, task.name, task.missed_deadlines, task.missed_periods, task.period.seconds() * 1e3,
+                        task.greatest_lateness.seconds() * 1e3);
+  return text;
+}
+
 std::string robot_table(const RunResult& result) {
   std::size_t width = 5;
   for (const RobotResult& robot : result.robots) width = std::max(width, robot.name.size());
@@ -80,6 +89,16 @@ Json json_of(const RobotResult& robot) {
     if (!goal.report.empty()) entry["time_s"] = goal.date.seconds();
     json["goal_reports"].push_back(std::move(entry));
   }
+  if (!robot.late_tasks.empty()) json["late_tasks"] = Json::array();
+  for (const bridge::LateTask& task : robot.late_tasks) {
+    Json entry;
+    entry["name"] = task.name;
+    entry["period_ms"] = task.period.seconds() * 1e3;
+    entry["missed_deadlines"] = task.missed_deadlines;
+    entry["missed_periods"] = task.missed_periods;
+    entry["greatest_lateness_ms"] = task.greatest_lateness.seconds() * 1e3;
+    json["late_tasks"].push_back(std::move(entry));
+  }
   return json;
 }
 
@@ -126,6 +145,9 @@ std::string summary_text(const RunResult& result) {
   std::string unreached;
   for (const RobotResult& robot : result.robots) unreached += unreached_goals(robot);
   if (!unreached.empty()) text += "\n" + unreached;
+  std::string late;
+  for (const RobotResult& robot : result.robots) late += late_tasks(robot);
+  if (!late.empty()) text += "\n" + late;
   for (const std::string& warning : result.warnings) text += "\nwarning: " + warning;
   if (!result.warnings.empty()) text += "\n";
   if (!result.trouble.empty()) text += "\n" + result.trouble + (result.trouble.back() == '\n' ? "" : "\n");

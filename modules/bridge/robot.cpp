@@ -59,6 +59,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
     try {
       made = type->make(setup);
       setup.settings.check_all_used();
+      made->check_costs(setup.settings);
     } catch (const BadInput& error) {
       if (error.line() > 0 || error.file().starts_with("--set")) throw;
       throw module.written.bad(error.what());
@@ -134,6 +135,11 @@ RobotResult Robot::result() const {
   result.collisions = body.collisions;
   result.distance_m = body.travelled_m;
   evaluation_.write(result);
+  for (const auto& module : modules_)
+    for (const genom::ExecutionTask& task : module->tasks())
+      if (task.missed_deadlines() > 0)
+        result.late_tasks.push_back({module->name() + "." + task.name(), task.options().period_ms,
+                                     task.missed_deadlines(), task.missed_periods(), task.greatest_lateness()});
   const auto* map = dynamic_cast<const genom::Poster<posters::SegmentMap>*>(names_.find_poster("segloc.map"));
   if (const auto segments = map != nullptr ? map->look() : std::nullopt)
     for (const posters::MapSegment& segment : segments->items) result.segments.push_back({segment.start, segment.end});

@@ -49,6 +49,15 @@ struct Line {
   Point start, end;
 };
 
+/// A periodic task whose work was not always done in time.
+struct LateTask {
+  std::string name;  ///< "module.task"
+  Duration period;
+  std::int64_t missed_deadlines = 0;  ///< wake-ups whose work was not done when the next was due
+  std::int64_t missed_periods = 0;    ///< wake-ups that never came because of that
+  Duration greatest_lateness;         ///< after its deadline
+};
+
 struct RobotResult {
   std::string name;
   Digest digest;
@@ -62,7 +71,8 @@ struct RobotResult {
   double odometry_error_max_m = 0;   ///< of the odometry alone
   double odometry_error_end_m = 0;   ///< of the odometry alone, at the end
   std::vector<DatedPose> true_path, estimated_path, odometry_path;
-  std::vector<Line> segments;  ///< that localisation built
+  std::vector<LateTask> late_tasks;  ///< in the order of the modules
+  std::vector<Line> segments;        ///< that localisation built
 
   std::size_t goals_reached() const {
     std::size_t count = 0;

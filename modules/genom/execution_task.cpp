@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/genom/execution_task.hpp"
 
+#include <algorithm>
+
 #include "modules/genom/module.hpp"
 
 namespace waitpoint::genom {
@@ -32,9 +34,19 @@ void ExecutionTask::run() {
 
 // The number of periods that passed meanwhile.
 std::int64_t ExecutionTask::wait() {
-  if (periodic()) return timer_->wait();
-  event_.acquire();
-  return 1;
+  if (!periodic()) {
+    event_.acquire();
+    return 1;
+  }
+  const Time done = threads::now();
+  const std::int64_t periods = timer_->wait();
+  // The deadline of one wake-up's work is the next tick, the first of those that came meanwhile.
+  const Time deadline = timer_->due() - (periods - 1) * options_.period_ms;
+  if (periods > 0 && deadline < done) {
+    ++missed_deadlines_;
+    greatest_lateness_ = std::max(greatest_lateness_, done - deadline);
+  }
+  return periods;
 }
 
 // False when the module is being ended.

@@ -25,7 +25,8 @@ namespace waitpoint::genom {
 
 class Module;
 
-/// How a task is woken and what it costs; a scenario may overwrite these under `tasks.<task>`.
+/// How a task is woken and what it costs; a scenario may overwrite these under `tasks.<task>`, the cost only of a task
+/// that has permanent codels.
 struct TaskOptions {
   Duration period_ms = {};  ///< 0: aperiodic, woken by events
   Duration delay_ms = {};   ///< phase of a periodic task's ticks
@@ -48,6 +49,8 @@ class ExecutionTask {
   /// Called at every wake-up, before and after the activities' codels.
   void set_permanent(std::function<void()> codel) { permanent_ = std::move(codel); }
   void set_second_permanent(std::function<void()> codel) { second_permanent_ = std::move(codel); }
+  /// Whether there is anything that `cost_us` is the cost of.
+  bool has_permanent() const { return permanent_ || second_permanent_ || start_ || end_; }
   /// Called once when the task starts and when it ends.
   void set_start(std::function<void()> codel) { start_ = std::move(codel); }
   void set_end(std::function<void()> codel) { end_ = std::move(codel); }
@@ -62,6 +65,9 @@ class ExecutionTask {
   void resume() { suspended_ = false; }
   /// Periods that passed while the task was still busy.
   std::int64_t missed_periods() const { return missed_periods_; }
+  /// Wake-ups whose work was not done when the task was to wake again, and by how much the worst of them was late.
+  std::int64_t missed_deadlines() const { return missed_deadlines_; }
+  Duration greatest_lateness() const { return greatest_lateness_; }
   bool ended() const { return ended_; }
 
   /// The task's own code; returns when the module is ended.
@@ -84,6 +90,8 @@ class ExecutionTask {
   threads::counting_semaphore<> event_{0, "task event"};
   bool signalled_ = false;  // and not yet awake
   std::int64_t missed_periods_ = 0;
+  std::int64_t missed_deadlines_ = 0;
+  Duration greatest_lateness_;
   bool suspended_ = false;
   bool ended_ = false;
 };

@@ -25,6 +25,14 @@ ExecutionTask& Module::add_task(const std::string& name, TaskOptions options) {
   return tasks_.emplace_back(*this, name, options, computing);
 }
 
+void Module::check_costs(const Settings& settings) const {
+  for (const ExecutionTask& task : tasks_) {
+    const std::string key = "tasks." + task.name() + ".cost_us";
+    if (!task.has_permanent() && settings.has(key))
+      settings.reject(key, "left out: the task has no permanent codel that it could be the cost of");
+  }
+}
+
 RequestType& Module::add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts) {
   WAITPOINT_CHECK(find_request(name) == nullptr, "a module declares two requests of one name");
   RequestType& type = requests_.emplace_back();

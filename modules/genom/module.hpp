@@ -66,6 +66,8 @@ class Module {
   Report report(StandardReport code) const { return make_report(number_, code); }
   const std::deque<ExecutionTask>& tasks() const { return tasks_; }
 
+  /// Throws BadInput for a cost in `settings`, those it was made from, that no codel of the module has.
+  void check_costs(const Settings& settings) const;
   /// Finds the posters that the module reads. One that nobody writes, or of another type, is BadInput.
   void connect();
   /// Starts the tasks; from a task of the module's robot, once all its modules are connected.

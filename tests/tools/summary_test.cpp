@@ -98,6 +98,23 @@ TEST(Summary, a_run_without_progress_is_no_deadlock) {
   EXPECT_EQ(Json::parse(summary_json(result)).at("deadlock"), "no progress: a spins");
 }
 
+TEST(Summary, tells_the_tasks_that_missed_deadlines_and_only_them) {
+  bridge::RunResult result = sample_result(2);
+  EXPECT_EQ(summary_text(result).find("deadline"), std::string::npos);
+  EXPECT_FALSE(Json::parse(summary_json(result)).at("robots").at(0).contains("late_tasks"));
+  result.robots[1].late_tasks = {{"segloc.slam", std::chrono::milliseconds(20), 12, 3, Duration::from_ns(1'500'000)}};
+  const std::string text = summary_text(result);
+  EXPECT_NE(text.find("second: task segloc.slam missed 12 deadlines, and so 3 periods of 20 ms; at most 1.5 ms late\n"),
+            std::string::npos)
+      << text;
+  const Json task = Json::parse(summary_json(result)).at("robots").at(1).at("late_tasks").at(0);
+  EXPECT_EQ(task.at("name"), "segloc.slam");
+  EXPECT_EQ(task.at("period_ms"), 20);
+  EXPECT_EQ(task.at("missed_deadlines"), 12);
+  EXPECT_EQ(task.at("missed_periods"), 3);
+  EXPECT_EQ(task.at("greatest_lateness_ms"), 1.5);
+}
+
 TEST(SeedsTable, head_and_rows_have_the_same_columns) {
   const std::string head = seeds_head(), row = seeds_row(sample_result(1));
   EXPECT_EQ(head.find("outcome") + 7, row.find("time limit") + 10);

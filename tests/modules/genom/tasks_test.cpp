@@ -110,6 +110,52 @@ TEST(ExecutionTask, MissedPeriodsAreCountedAndNotMadeUpFor) {
   });
 }
 
+// At 25 ms that of 10 ms is done, late by 5 ms; that of 20 ms at 40 ms, where the ticks of 30 and 40 ms have come: it
+// is late by 10 ms, and the work of 30 and 40 ms is one.
+TEST(ExecutionTask, MissedDeadlinesAreCountedWithTheGreatestLateness) {
+  TestRobot robot;
+  ExecutionTask& late = robot.module.add_task("late", {.period_ms = 10ms, .cost_us = 15ms});
+  late.set_permanent([] {});
+  robot.run([&] {
+    sleep_for(26ms);
+    EXPECT_EQ(late.missed_deadlines(), 1);
+    EXPECT_EQ(late.missed_periods(), 0);
+    EXPECT_EQ(late.greatest_lateness(), Duration(5ms));
+    sleep_for(15ms);
+    EXPECT_EQ(late.missed_deadlines(), 2);
+    EXPECT_EQ(late.missed_periods(), 1);
+    EXPECT_EQ(late.greatest_lateness(), Duration(10ms));
+  });
+}
+
+TEST(ExecutionTask, WorkThatIsDoneAtTheNextTickIsInTime) {
+  TestRobot robot;
+  ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms, .delay_ms = 3ms, .cost_us = 10ms});
+  task.set_permanent([] {});
+  robot.run([&] {
+    sleep_for(100ms);
+    EXPECT_EQ(task.missed_deadlines(), 0);
+    EXPECT_EQ(task.greatest_lateness(), Duration());
+  });
+}
+
+TEST(Module, ACostThatNoCodelHasIsRefused) {
+  TestRobot robot({{"tasks.main.cost_us", "300", "robot.yaml", 7}});
+  ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms});
+  std::string complaint;
+  try {
+    robot.module.check_costs(robot.setup.settings);
+  } catch (const BadInput& error) {
+    complaint = error.what();
+  }
+  EXPECT_EQ(
+      complaint,
+      "robot.yaml:7: 'tasks.main.cost_us' should be left out: the task has no permanent codel that it could be the "
+      "cost of, but is '300'");
+  task.set_second_permanent([] {});
+  EXPECT_NO_THROW(robot.module.check_costs(robot.setup.settings));
+}
+
 // Both locks are held during all codels: in virtual time too, one begins where the other ended.
 TEST(ExecutionTask, CodelsOfOneModuleNeverOverlapInAnyOrder) {
   for (std::uint64_t seed = 0; seed <= 10; ++seed) {
