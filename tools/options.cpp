@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <map>
 #include <string_view>
 
 #include "core/nearest_name.hpp"
@@ -96,6 +97,30 @@ void check_alone(const Arguments& arguments) {
   }
 }
 
+/// What a name stands for, links followed as far as there is something. Empty for what is no regular file, such as
+/// /dev/null: it can be written more than once.
+std::filesystem::path meant_by(const std::string& name) {
+  std::error_code error;
+  if (std::filesystem::exists(name, error) && !std::filesystem::is_regular_file(name, error)) return {};
+  const std::filesystem::path path = std::filesystem::weakly_canonical(std::filesystem::absolute(name, error), error);
+  return error ? std::filesystem::path(name) : path;
+}
+
+/// Each file takes its name when it is complete: of two with one name, the first would be lost.
+void check_distinct(const Arguments& arguments) {
+  const std::pair<const char*, const std::string&> files[] = {
+      {"--summary", arguments.summary},       {"--picture", arguments.picture},
+      {"--trajectory", arguments.trajectory}, {"--digests", arguments.digests},
+      {"--events", arguments.events},         {"--record-durations", arguments.record_durations}};
+  std::map<std::filesystem::path, const char*> options;
+  for (const auto& [option, name] : files) {
+    const std::filesystem::path path = name.empty() ? std::filesystem::path() : meant_by(name);
+    if (path.empty()) continue;
+    const auto [other, is_new] = options.emplace(path, option);
+    if (!is_new) throw BadInput(option, "'" + name + "' is the file that " + other->second + " writes");
+  }
+}
+
 RunOptions run_options(const Arguments& arguments) {
   RunOptions options;
   options.scenario = arguments.scenario;
@@ -126,6 +151,7 @@ RunOptions run_options(const Arguments& arguments) {
       (!parse_number(arguments.speed, options.speed) || !(options.speed >= 0 && options.speed <= 1e9))) {
     refuse("--speed", "a number that is not negative", arguments.speed);
   }
+  check_distinct(arguments);
   const auto file = [](const std::string& name) {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
   };

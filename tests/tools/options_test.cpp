@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "core/error.hpp"
+#include "tests/tools/folder.hpp"
 #include "tools/version.hpp"
 
 namespace waitpoint::tools {
@@ -110,6 +112,21 @@ TEST(Version, tells_compiler_flags_and_math) {
   for (const char* part : {"waitpoint ", "\ncompiler  ", "\nflags     ", "\nmath      "}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
+}
+
+TEST_F(CommandLine, two_files_of_one_name_are_refused) {
+  EXPECT_EQ(message({"run", "a", "--summary", "out", "--events", "out"}),
+            "--events: 'out' is the file that --summary writes");
+  EXPECT_EQ(message({"run", "a", "--digests", "out", "--picture", "no/../out"}),
+            "--digests: 'out' is the file that --picture writes");
+  const Folder folder;
+  std::ofstream(folder / "file") << "text";
+  std::filesystem::create_symlink(folder / "file", folder / "link");
+  const std::string link = folder / "link", file = folder / "file";
+  EXPECT_EQ(message({"run", "a", "--trajectory", link.c_str(), "--record-durations", file.c_str()}),
+            "--record-durations: '" + file + "' is the file that --trajectory writes");
+  EXPECT_EQ(message({"run", "a", "--summary", "/dev/null", "--events", "/dev/null"}), "");
+  EXPECT_EQ(message({"run", "a", "--summary", "out", "--events", "out.events"}), "");
 }
 
 }  // namespace
