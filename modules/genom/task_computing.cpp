@@ -3,7 +3,6 @@
 
 #include "core/number_text.hpp"
 
-
 namespace waitpoint::genom {
 namespace {
 
