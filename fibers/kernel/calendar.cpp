@@ -117,10 +117,9 @@ std::uint32_t Calendar::take_next(EventEntry* to) {
   const std::uint32_t bucket = static_cast<std::uint32_t>(cursor_) & mask_;
   std::uint32_t count = 0;
   for (std::uint32_t slot = heads_[bucket]; slot != none; ++count) {
-    const std::uint32_t next = slots_[slot].next;
     to[count] = {slots_[slot].key, slots_[slot].node};
-    release(slot);
-    slot = next;
+    slots_[slot].previous = taken;
+    slot = slots_[slot].next;
   }
   heads_[bucket] = none;
   clear(bucket);

@@ -62,9 +62,14 @@ class Calendar {
     release(slot);
   }
 
-  /// Moves the events of the first bucket that has some to `to`, in their order, and the horizon behind it. Returns how
-  /// many; 0 only if there is none at all.
+  /// Copies the events of the first bucket that has some to `to`, in their order, and moves the horizon behind it.
+  /// Returns how many; 0 only if there is none at all. They keep their places until they are released: their nodes,
+  /// which lie in as many pages, are not touched.
   std::uint32_t take_next(EventEntry* to);
+  bool was_taken(const EventNode& node) const { return slots_[node.index()].previous == taken; }
+  const EventKey& key(const EventNode& node) const { return slots_[node.index()].key; }
+  /// Ends an event that was taken.
+  void release(const EventNode& node) { release(node.index()); }
 
  private:
   static constexpr std::uint64_t closed = ~std::uint64_t{0};
@@ -75,7 +80,7 @@ class Calendar {
     EventKey key;
     EventNode* node;
     std::uint32_t next;
-    std::uint32_t previous;  // or, of the first of a list, first_of() its bucket
+    std::uint32_t previous;  // or, of the first of a list, first_of() its bucket; or `taken`
   };
   static constexpr std::size_t heads_bytes = (std::size_t{buckets_max} + 64) * sizeof(std::uint32_t);
   static constexpr std::size_t slots_bytes(std::uint32_t capacity) {
@@ -84,6 +89,7 @@ class Calendar {
   static constexpr std::uint32_t first_tag = 1u << 31;
   static constexpr std::uint32_t far_bucket = buckets_max;
   static constexpr std::uint32_t first_of(std::uint32_t bucket) { return first_tag | bucket; }
+  static constexpr std::uint32_t taken = 0xFFFFFFFF;
 
   std::uint64_t bucket_of(const EventKey& key) const { return key.due_ns() >> shift_; }
   void mark(std::uint32_t bucket) { occupied_[bucket / 64] |= std::uint64_t{1} << bucket % 64; }

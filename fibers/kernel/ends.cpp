@@ -32,6 +32,7 @@ void Scheduler::end_task(Task& task) {
   if (!task.service && !unwinding_) {
     if (--task.robot->live_tasks == 0) {
       task.robot->ended = true;
+      task.robot->lane = &unheard_;
       task.robot->end_time = now_;
     }
     if (--live_tasks_ == 0) {

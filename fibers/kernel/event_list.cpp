@@ -3,8 +3,8 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "core/error.hpp"
 
@@ -46,15 +46,32 @@ void EventList::remove(EventNode& node) {
   WAITPOINT_CHECK(node.in_list(), "an event to remove is not in the list");
   switch (node.part()) {
     case EventNode::Part::heap: heap_.remove(node.index()); break;
-    case EventNode::Part::run:
-      run_[node.index()].node = nullptr;
-      if (node.index() == run_head_) pass_gaps();
+    case EventNode::Part::run: remove_from_run(node.index()); break;
+    case EventNode::Part::calendar:
+      if (!calendar_.was_taken(node)) {
+        calendar_.remove(node);
+        break;
+      }
+      remove_from_run(find_in_run(node));
+      calendar_.release(node);
       break;
-    case EventNode::Part::calendar: calendar_.remove(node); break;
   }
   node.place = EventNode::absent;
   --size_;
   if (run_end_ - run_head_ < lookahead_) refill();
+}
+
+void EventList::remove_from_run(std::uint32_t index) {
+  run_[index].node = nullptr;
+  if (index == run_head_) pass_gaps();
+}
+
+std::uint32_t EventList::find_in_run(const EventNode& node) const {
+  const EventEntry* entry =
+      std::lower_bound(run_ + run_head_, run_ + run_end_, calendar_.key(node),
+                       [](const EventEntry& entry, const EventKey& key) { return entry.key < key; });
+  while (entry->node != &node) ++entry;
+  return static_cast<std::uint32_t>(entry - run_);
 }
 
 void EventList::put_later(EventNode& node, const EventKey& key) {
@@ -63,11 +80,16 @@ void EventList::put_later(EventNode& node, const EventKey& key) {
   if (run_end_ - run_head_ < lookahead_) refill();
 }
 
+void EventList::pass_gaps() {
+  while (run_head_ < run_end_ && run_[run_head_].node == nullptr) ++run_head_;
+  if (run_head_ == run_end_) empty_run();
+}
+
 void EventList::move_run_down() {
   std::uint32_t end = 0;
   for (std::uint32_t i = run_head_; i < run_end_; ++i) {
     if (run_[i].node == nullptr) continue;
-    run_[i].node->place = EventNode::in_run(end);
+    if (run_[i].node->part() == EventNode::Part::run) run_[i].node->place = EventNode::in_run(end);
     run_[end++] = run_[i];
   }
   run_head_ = 0;
@@ -79,10 +101,9 @@ void EventList::refill() {
   if (size_ < few) return close_calendar();
   do {
     // What is left is little, and would wander through the memory.
-    if (run_head_ >= 64) move_run_down();
+    if (run_head_ >= run_wander_max) move_run_down();
     const std::uint32_t count = calendar_.take_next(run_ + run_end_);
     if (count == 0) return;
-    for (std::uint32_t i = run_end_; i < run_end_ + count; ++i) run_[i].node->place = EventNode::in_run(i);
     run_end_ += count;
     passed_ += count;
     run_[run_end_].key = EventKey::never();

@@ -63,8 +63,10 @@ class EventList {
     const EventEntry& least = of_heap ? heap_.least() : run_[run_head_];
     return least.key.time < until ? &take_least(of_heap) : nullptr;
   }
-  /// When the event that was taken last was due.
+  /// The present instant: that of the event that was taken last, or to which advance() came.
   Time present() const { return Time::from_ns(static_cast<std::int64_t>(present_ns_)); }
+  /// Time has come to `time` without an event out of the list; none in it is due before.
+  void advance(Time time) { present_ns_ = static_cast<std::uint64_t>(time.ns()); }
   /// Takes the least event out and puts `node` in, which must not be there: one pass instead of two.
   EventNode& pop_and_insert(EventNode& node, const EventKey& key) {
     WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
@@ -85,6 +87,7 @@ class EventList {
   static constexpr std::uint32_t few = 12;   // events below which a calendar is given up
   static constexpr std::uint32_t many = 32;  // from which on one is taken
   static constexpr std::uint32_t lookahead = 4;
+  static constexpr std::uint32_t run_wander_max = 64;  // entries that were passed, before the run begins anew
   static constexpr std::uint32_t calibration_period_min = 512;
 
   void check_insertion(const EventNode& node) const {
@@ -108,31 +111,45 @@ class EventList {
     end[1].key = EventKey::never();
   }
   void put_later(EventNode& node, const EventKey& key);
-  EventNode& take_least(bool of_heap) {
+  [[gnu::always_inline]] EventNode& take_least(bool of_heap) {
+    if (of_heap) return take_from_heap();
+    const EventEntry& least = run_[run_head_];
+    EventNode* node = least.node;
+    present_ns_ = least.key.due_ns();
+    ++run_head_;
+    return taken(*node);
+  }
+  [[gnu::noinline]] EventNode& take_from_heap() {
+    EventNode& node = *heap_.least().node;
+    present_ns_ = heap_.least().key.due_ns();
+    heap_.remove(0);
     --size_;
-    const EventEntry& run = run_[run_head_];
-    EventNode* node = run.node;
-    if (of_heap) {
-      node = heap_.least().node;
-      present_ns_ = heap_.least().key.due_ns();
-      heap_.remove(0);
-    } else {
-      present_ns_ = run.key.due_ns();
-      ++run_head_;
+    node.place = EventNode::absent;
+    if (--until_upkeep_ == 0) keep_up();
+    return node;
+  }
+  // What is left to do when the run's head was taken.
+  [[gnu::always_inline]] EventNode& taken(EventNode& node) {
+    --size_;
+    if (node.place >= EventNode::in_calendar(0)) calendar_.release(node);
+    node.place = EventNode::absent;
+    if (run_head_ == run_end_) {
+      if (run_head_ >= run_wander_max) empty_run();
+    } else if (run_[run_head_].node == nullptr) {
       pass_gaps();
     }
-    node->place = EventNode::absent;
     if (__builtin_expect(--until_upkeep_ == 0 || run_end_ - run_head_ < lookahead_, 0)) keep_up();
-    return *node;
+    return node;
   }
-  // The head of the run is an event that was not removed; an empty run begins at the beginning.
-  void pass_gaps() {
-    for (; run_head_ < run_end_; ++run_head_)
-      if (run_[run_head_].node != nullptr) return;
+  void empty_run() {
     run_head_ = run_end_ = 0;
     run_[0].key = EventKey::never();
   }
+  // The head of the run is an event that was not removed; an empty run begins at the beginning.
+  void pass_gaps();
   void move_run_down();
+  void remove_from_run(std::uint32_t index);
+  std::uint32_t find_in_run(const EventNode& node) const;
   void refill();
   void keep_up();
   void calibrate();
@@ -149,7 +166,7 @@ class EventList {
   std::uint32_t lookahead_ = 0;                                // the run is kept so long, while there is a calendar
   std::uint32_t calibration_period_ = calibration_period_min;  // in events taken
   std::uint32_t until_upkeep_ = calibration_period_min;
-  std::uint64_t present_ns_ = 0;  // when the event that was taken last was due
+  std::uint64_t present_ns_ = 0;
   std::uint64_t calibrated_at_ns_ = 0;
   std::uint32_t passed_ = 0;  // events since then: all, or while there is a calendar, those that came from there
   Calendar calendar_;

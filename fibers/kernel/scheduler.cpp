@@ -46,6 +46,7 @@ void Scheduler::add(Robot& robot, const char* name) {
   robot = Robot();
   copy_name(robot.name, name);
   robot.scheduler = this;
+  robot.lane = &robot.digest;
   Digest id;
   for (const char* c = name; *c != '\0'; ++c) id.add(static_cast<std::uint64_t>(static_cast<unsigned char>(*c)));
   robot.id = id.value();
@@ -105,7 +106,7 @@ RunState Scheduler::run_before(Time until) {
     paused_ = nullptr;
     events_.insert(task.event, key(task, task.local_time));
   }
-  leave(main_, next_fiber());
+  enter_run(next_fiber());
   return state_;
 }
 
@@ -173,7 +174,7 @@ Fiber& Scheduler::outside(RunState state) {
 
 void Scheduler::switch_to(Task& task) {
   resume(task);
-  leave(main_, task.fiber);
+  enter_run(task.fiber);
 }
 
 void Scheduler::leave_to_main(RunState state) {

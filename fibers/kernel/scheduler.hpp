@@ -107,7 +107,18 @@ class Scheduler {
   // --- what primitives are made of; only within a task ---
 
   /// The task's event stands at its local time; returns when it is the least. False while unwinding.
-  bool waitpoint(Operation operation, Object* object);
+  bool waitpoint(Operation operation, Object* object) {
+    Task& task = *running;
+    if (__builtin_expect(free_passes_ == 0 || task.local_time != now_, 0))
+      return waitpoint_in_the_list(task, operation, object);
+    // The case that must be quick: nothing can come between.
+    --free_passes_;
+    task.operation = operation;
+    task.at = object;
+    if (object != nullptr) enter(*object);
+    execute(task, operation, object);
+    return true;
+  }
   /// As waitpoint, but behind all tasks of this instant; in the seeded order anywhere among them.
   bool yield();
   /// Moves the task to `time` (not before its local time) and waits there.
@@ -116,7 +127,7 @@ class Scheduler {
   Wake block(Object& object, Time deadline);
   /// Wakes one waiter of `object`, of the chooser's choice; null if there is none. The waiter's local time becomes the
   /// global.
-  Task* wake_one(Object& object);
+  Task* wake_one(Object& object) { return object.first_waiter == nullptr ? nullptr : wake_a_waiter(object); }
   void wake_all(Object& object);
   /// Wakes `task`, which must be blocked: for primitives that choose among their waiters themselves.
   void wake(Task& task);
@@ -211,9 +222,19 @@ class Scheduler {
   void start_waiting(Task& task, Object& object);
   void stop_waiting(Task& task, Object& object);
   bool begin_segment(Task& task, Operation operation, Object* object);
+  Wake go_on(Task& task, Object& object);
   bool act_for_timer(Task& task, Operation operation, Object* object);
-  void execute(Task& task, Operation operation, const Object* object);
-  void show(const EventRecord& record);
+  Task* wake_a_waiter(Object& object);
+  // The task's event is executed: counted, and hashed.
+  [[gnu::always_inline]] void execute(Task& task, Operation operation, const Object* object) {
+    ++executed_;
+    ++task.sequence;
+    std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
+    if (object != nullptr) what ^= object->identity;
+    lane_->add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
+    if (__builtin_expect(watched_, 0)) show(operation, object);
+  }
+  void show(Operation operation, const Object* object);
   bool give_turn(Task& task);
   void check_progress(Task& task);
   EventKey key(const Task& task, Time time) { return {time, make_order(task.phase, chooser_.tie(task))}; }
@@ -232,6 +253,7 @@ class Scheduler {
   void make_ready(Task& task);
   void put(EventNode& node, const EventKey& key);
   void leave(Fiber& from, Fiber& to);
+  void enter_run(Fiber& to);
   void switch_to(Task& task);
   void leave_to_main(RunState state);
   void leave_for_next(Task& task);

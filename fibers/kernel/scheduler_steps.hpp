@@ -13,7 +13,7 @@ inline std::uint64_t child_id(std::uint64_t parent, std::uint32_t number) {
   return Digest::mix(parent + (std::uint64_t{number} + 1) * 0x9E3779B97F4A7C15u);
 }
 
-inline void Scheduler::hash_events_of(Robot& robot) { lane_ = robot.ended ? &unheard_ : &robot.digest; }
+inline void Scheduler::hash_events_of(Robot& robot) { lane_ = robot.lane; }
 
 // What is left to the running task of its waitpoints at the present instant, it may pass without a look at the event
 // list: they count as passed until something comes between.
@@ -44,9 +44,13 @@ inline void Scheduler::put(EventNode& node, const EventKey& key) {
 // stack is to keep few cache lines.
 inline void Scheduler::leave(Fiber& from, Fiber& to) {
   if (&from == &to) return;
-  if (&from == &main_) bind_to_thread();
   switch_fiber(from, to);
   if (ended_ != nullptr) reclaim_ended();
+}
+
+inline void Scheduler::enter_run(Fiber& to) {
+  bind_to_thread();
+  leave(main_, to);
 }
 
 // Whether the task's event, were it in the list, would come before `other`.
@@ -79,11 +83,12 @@ inline void Scheduler::remove_waiter(Task& task) {
 inline void Scheduler::make_ready(Task& task) {
   if (__builtin_expect(sanitizer::present, 0)) sanitizer::release(task.blocked_on);
   remove_waiter(task);
-  if (task.event.in_list()) events_.remove(task.event);
+  if (task.finite_wait) events_.remove(task.event);
   task.wake = Wake::woken;
   task.state = TaskState::ready;
   set_local_time(task, now_);
-  put(task.event, key(task, now_));
+  events_.insert(task.event, key(task, now_));
+  if (running != nullptr && task.phase < running->phase) end_free_passes(*running);
 }
 
 }  // namespace waitpoint::kernel

@@ -31,6 +31,7 @@ struct Robot {
   Robot* next = nullptr;
   Scheduler* scheduler = nullptr;
   PairDigest digest;             ///< of its own events and outputs, until it ended
+  PairDigest* lane = nullptr;    ///< where its tasks' events are hashed: `digest`, until it ended
   std::uint64_t id = 0;          ///< from its name
   std::uint64_t messages = 0;    ///< sent to other robots
   std::uint32_t objects = 0;     ///< numbers given to objects

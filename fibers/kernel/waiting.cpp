@@ -36,9 +36,9 @@ Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
 
 void Scheduler::wake(Task& task) { make_ready(task); }
 
-Task* Scheduler::wake_one(Object& object) {
+Task* Scheduler::wake_a_waiter(Object& object) {
   Task* chosen = object.first_waiter;
-  if (chosen == nullptr || unwinding_ || object.epoch != epoch_) return nullptr;
+  if (unwinding_ || object.epoch != epoch_) return nullptr;
   if (chooser_.order() != Order::fifo) {
     std::uint32_t count = 0;
     for (Task* t = chosen; t != nullptr; t = t->next_waiter) ++count;

@@ -15,24 +15,12 @@ inline bool Scheduler::arrive(Task& task) {
     if (interrupted_ && !rest()) return false;
   }
   now_ = task.local_time;
+  events_.advance(now_);
   let_pass(task);
   return true;
 }
 
 bool Scheduler::arrive_after_signal(Task& task) { return arrive(task); }
-
-bool Scheduler::waitpoint(Operation operation, Object* object) {
-  // The case that must be quick: nothing can come between.
-  Task& task = *running;
-  if (__builtin_expect(free_passes_ == 0 || task.local_time != now_, 0))
-    return waitpoint_in_the_list(task, operation, object);
-  --free_passes_;
-  task.operation = operation;
-  task.at = object;
-  if (object != nullptr) enter(*object);
-  execute(task, operation, object);
-  return true;
-}
 
 bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
   if (unwinding_) return refuse();
@@ -99,27 +87,18 @@ bool Scheduler::act_for_timer(Task& task, Operation operation, Object* object) {
   return true;
 }
 
-inline void Scheduler::execute(Task& task, Operation operation, const Object* object) {
-  ++executed_;
-  ++task.sequence;
-  std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
-  if (object != nullptr) what ^= object->identity;
-  lane_->add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
-  if (__builtin_expect(watched_, 0)) show({now_, &task, operation, object});
-}
-
 void Scheduler::set_watch(Watch* watch) {
   watch_ = watch;
   watched_ = watch != nullptr || sanitizer::present;
 }
 
-void Scheduler::show(const EventRecord& record) {
+void Scheduler::show(Operation operation, const Object* object) {
   // Every use of an object comes after all earlier ones.
-  if (sanitizer::present && record.object != nullptr) {
-    sanitizer::acquire(record.object);
-    sanitizer::release(record.object);
+  if (sanitizer::present && object != nullptr) {
+    sanitizer::acquire(object);
+    sanitizer::release(object);
   }
-  if (watch_ != nullptr) watch_->event(*watch_, record);
+  if (watch_ != nullptr) watch_->event(*watch_, {now_, running, operation, object});
 }
 
 void Scheduler::begin(Task& task) {
@@ -161,8 +140,13 @@ Wake Scheduler::block(Object& object, Time deadline) {
   Task& task = *running;
   WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
   leave(task.fiber, park(task, object, deadline));
+  // Whoever comes back is running: it kept no register for that.
+  return go_on(*running, object);
+}
+
+inline Wake Scheduler::go_on(Task& task, Object& object) {
   if (interrupted_ && !rest()) return Wake::unwinding;
-  const Wake wake = task.wake;
+  const Wake wake = task.wake;  // it may wait for its processor too, before it goes on
   const Operation operation = wake == Wake::woken ? Operation::resume : Operation::timeout;
   if (needs_attention(task) && !begin_segment(task, operation, &object)) return Wake::unwinding;
   execute(task, operation, &object);

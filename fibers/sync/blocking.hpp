@@ -43,7 +43,7 @@ inline bool before_releasing(kernel::Operation operation, kernel::Object& object
 /// Blocks the running task on `object`; false if the deadline came first. Throws Unwind when the run is over.
 inline bool block(kernel::Object& object, Time deadline = Time::max()) {
   ++object.users;
-  const kernel::Wake wake = running_task().scheduler->block(object, deadline);
+  const kernel::Wake wake = kernel::running->scheduler->block(object, deadline);
   // A run that is over leaves its objects as they are: this one may be gone.
   if (wake == kernel::Wake::unwinding)
     unwind();

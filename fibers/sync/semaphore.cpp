@@ -3,7 +3,7 @@
 
 namespace waitpoint::sync {
 
-void SemaphoreCore::refresh() {
+inline void SemaphoreCore::refresh() {
   if (running_task().scheduler->enter(object_)) count_ = initial_;
 }
 
@@ -12,8 +12,7 @@ void SemaphoreCore::release(std::ptrdiff_t units) {
   if (!before_releasing(kernel::Operation::release, object_)) return;
   WAITPOINT_CHECK(units >= 0 && units <= most_ - count_,
                   about(object_, "a semaphore is released beyond its greatest count"));
-  for (; units > 0; --units)
-    if (kernel::running->scheduler->wake_one(object_) == nullptr) break;
+  for (; units > 0 && object_.first_waiter != nullptr; --units) kernel::running->scheduler->wake_one(object_);
   count_ += units;
 }
 
@@ -33,7 +32,7 @@ bool SemaphoreCore::acquire_before(Time deadline) {
   refresh();
   before_blocking(kernel::Operation::acquire, object_);
   if (take()) return true;
-  if (deadline <= running_task().local_time) return false;
+  if (deadline <= kernel::running->local_time) return false;
   return block(object_, deadline);
 }
 
