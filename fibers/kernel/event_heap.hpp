@@ -43,9 +43,6 @@ class EventHeap {
       sift_down(at, last);
   }
 
-  /// Puts `entry` in the place of the least.
-  void replace_least(const EventEntry& entry) { sift_down(0, entry); }
-
   /// Takes out all entries due at `time` or later, in any order: to(entry).
   template <class Sink>
   void drain_from(std::uint64_t time, Sink to) {

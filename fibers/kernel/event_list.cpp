@@ -30,6 +30,7 @@ EventList::EventList(std::uint32_t capacity)
     : capacity_(capacity), memory_(reserve(entries(capacity))), heap_(memory_), calendar_(capacity) {
   run_ = memory_ + capacity + EventHeap::margin;
   run_[0].key = EventKey::never();
+  run_bound_ = std::min(2 * capacity, run_bound_);
 }
 
 bool EventList::has_address_space(std::uint32_t capacity) {
@@ -74,10 +75,22 @@ std::uint32_t EventList::find_in_run(const EventNode& node) const {
   return static_cast<std::uint32_t>(entry - run_);
 }
 
-void EventList::put_later(EventNode& node, const EventKey& key) {
-  if (key.due_ns() < calendar_.horizon()) return heap_.insert({key, &node});
-  calendar_.insert(node, key);
-  if (run_end_ - run_head_ < lookahead_) refill();
+void EventList::put_elsewhere(EventNode& node, const EventKey& key) {
+  if (key.due_ns() >= calendar_.horizon()) {
+    calendar_.insert(node, key);
+    if (run_end_ - run_head_ < lookahead_) refill();
+  } else if (run_end_ >= run_bound_) {
+    tidy_run();
+    put(node, key);
+  } else {
+    heap_.insert({key, &node});
+  }
+}
+
+// Entries that were passed, and gaps, are to be fewer than those that stay, so that this costs each of them little.
+void EventList::tidy_run() {
+  move_run_down();
+  run_bound_ = std::min(2 * capacity_, 2 * run_end_ + 4 * run_length_min);
 }
 
 void EventList::pass_gaps() {
@@ -89,8 +102,8 @@ void EventList::move_run_down() {
   std::uint32_t end = 0;
   for (std::uint32_t i = run_head_; i < run_end_; ++i) {
     if (run_[i].node == nullptr) continue;
-    if (run_[i].node->part() == EventNode::Part::run) run_[i].node->place = EventNode::in_run(end);
-    run_[end++] = run_[i];
+    run_[end] = run_[i];
+    note_place_in_run(run_[end++]);
   }
   run_head_ = 0;
   run_end_ = end;
@@ -101,7 +114,7 @@ void EventList::refill() {
   if (size_ < few) return close_calendar();
   do {
     // What is left is little, and would wander through the memory.
-    if (run_head_ >= run_wander_max) move_run_down();
+    if (run_head_ >= run_length_min) move_run_down();
     const std::uint32_t count = calendar_.take_next(run_ + run_end_);
     if (count == 0) return;
     run_end_ += count;

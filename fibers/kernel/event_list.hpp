@@ -5,8 +5,9 @@
 // The order is exact and total: by time, then by order = phase:4 | tie:60. Nodes live in their tasks and timers and
 // know their place, so that a timeout that did not happen is removed truly.
 //
-// Few events are in a heap. When they become many, those that are not due soon go to a calendar, whose buckets come
-// back sorted, one after the other, into the run; the heap has what was put in since for a time before the horizon:
+// An event that comes near the end of those that are in their order, the run, is put there, as most are where events
+// are few or of one instant; one that comes far before it, into a heap. When events become many, those that are not due
+// soon go to a calendar, whose buckets come back sorted, one after the other, into the run:
 //
 //      least of run and heap | ......... | horizon | ................ calendar ................
 //
@@ -39,6 +40,8 @@ class EventList {
     const EventEntry& run = run_[run_head_];
     return heap_.least().key < run.key ? heap_.least() : run;
   }
+  /// Whether the events are so many that they are in a calendar.
+  bool is_large() const { return lookahead_ != 0; }
   /// The node that is `ahead` events behind the least one of the run, if it is known already: to make it ready early.
   const EventNode* coming(std::uint32_t ahead) const {
     return run_head_ + ahead < run_end_ ? run_[run_head_ + ahead].node : nullptr;
@@ -67,27 +70,13 @@ class EventList {
   Time present() const { return Time::from_ns(static_cast<std::int64_t>(present_ns_)); }
   /// Time has come to `time` without an event out of the list; none in it is due before.
   void advance(Time time) { present_ns_ = static_cast<std::uint64_t>(time.ns()); }
-  /// Takes the least event out and puts `node` in, which must not be there: one pass instead of two.
-  EventNode& pop_and_insert(EventNode& node, const EventKey& key) {
-    WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
-    if (key.due_ns() < calendar_.horizon() && heap_.least().key < run_[run_head_].key && until_upkeep_ > 1) {
-      EventNode& least = *heap_.least().node;
-      present_ns_ = heap_.least().key.due_ns();
-      --until_upkeep_;
-      least.place = EventNode::absent;
-      heap_.replace_least({key, &node});
-      return least;
-    }
-    EventNode& least = pop();
-    insert(node, key);
-    return least;
-  }
 
  private:
   static constexpr std::uint32_t few = 12;   // events below which a calendar is given up
   static constexpr std::uint32_t many = 32;  // from which on one is taken
   static constexpr std::uint32_t lookahead = 4;
-  static constexpr std::uint32_t run_wander_max = 64;  // entries that were passed, before the run begins anew
+  static constexpr std::uint32_t reach = 12;           // entries of the run that an event may come before
+  static constexpr std::uint32_t run_length_min = 64;  // the run begins anew when so much was passed
   static constexpr std::uint32_t calibration_period_min = 512;
 
   void check_insertion(const EventNode& node) const {
@@ -95,22 +84,30 @@ class EventList {
     WAITPOINT_CHECK(size_ < capacity_,
                     "more events than a run may have pending: tasks, timers, and messages under way");
   }
+  // Into its place in the run, if that is near its end; else to the others.
   [[gnu::always_inline]] void put(EventNode& node, const EventKey& key) {
-    // Who is woken at the present instant: in their order, as a rule.
-    if (key.due_ns() == present_ns_ && (run_head_ == run_end_ || !(key < run_[run_end_ - 1].key)) &&
-        run_end_ < 2 * capacity_ && key.due_ns() < calendar_.horizon()) {
-      append_to_run(node, key);
-    } else {
-      put_later(node, key);
+    EventEntry* const end = run_ + run_end_;
+    EventEntry* at = end;
+    const EventEntry* const farthest = run_end_ - run_head_ <= reach ? run_ + run_head_ : end - reach;
+    while (at != farthest && key < at[-1].key) --at;
+    const bool is_near = at != farthest || at == run_ + run_head_;
+    if (__builtin_expect(!is_near || key.due_ns() >= calendar_.horizon() || run_end_ >= run_bound_, 0))
+      return put_elsewhere(node, key);
+    for (EventEntry* to = end; to != at; --to) {
+      *to = to[-1];
+      note_place_in_run(*to);
     }
-  }
-  void append_to_run(EventNode& node, const EventKey& key) {
-    node.place = EventNode::in_run(run_end_);
-    EventEntry* end = run_ + run_end_++;
-    end[0] = {key, &node};
+    *at = {key, &node};
+    node.place = EventNode::in_run(static_cast<std::uint32_t>(at - run_));
     end[1].key = EventKey::never();
+    ++run_end_;
   }
-  void put_later(EventNode& node, const EventKey& key);
+  // Events that came from the calendar keep their places there.
+  void note_place_in_run(const EventEntry& entry) {
+    if (entry.node != nullptr && entry.node->part() == EventNode::Part::run)
+      entry.node->place = EventNode::in_run(static_cast<std::uint32_t>(&entry - run_));
+  }
+  [[gnu::noinline]] void put_elsewhere(EventNode& node, const EventKey& key);
   [[gnu::always_inline]] EventNode& take_least(bool of_heap) {
     if (of_heap) return take_from_heap();
     const EventEntry& least = run_[run_head_];
@@ -134,7 +131,7 @@ class EventList {
     if (node.place >= EventNode::in_calendar(0)) calendar_.release(node);
     node.place = EventNode::absent;
     if (run_head_ == run_end_) {
-      if (run_head_ >= run_wander_max) empty_run();
+      if (run_head_ >= run_length_min) empty_run();
     } else if (run_[run_head_].node == nullptr) {
       pass_gaps();
     }
@@ -148,6 +145,7 @@ class EventList {
   // The head of the run is an event that was not removed; an empty run begins at the beginning.
   void pass_gaps();
   void move_run_down();
+  void tidy_run();
   void remove_from_run(std::uint32_t index);
   std::uint32_t find_in_run(const EventNode& node) const;
   void refill();
@@ -163,6 +161,7 @@ class EventList {
   EventEntry* run_;  // from head to end in ascending order, and behind it an entry that is never due
   std::uint32_t run_head_ = 0;
   std::uint32_t run_end_ = 0;
+  std::uint32_t run_bound_ = 4 * run_length_min;               // it is tidied up before it ends beyond
   std::uint32_t lookahead_ = 0;                                // the run is kept so long, while there is a calendar
   std::uint32_t calibration_period_ = calibration_period_min;  // in events taken
   std::uint32_t until_upkeep_ = calibration_period_min;

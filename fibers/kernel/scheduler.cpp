@@ -127,7 +127,7 @@ inline Task* Scheduler::due(EventNode& node, Time time) {
     node.fire(node);
     return nullptr;
   }
-  prepare_coming();
+  if (events_.is_large()) prepare_coming();
   Task& task = reinterpret_cast<Task&>(node);  // the node is its first member
   if (task.state == TaskState::blocked) {
     Object& object = *task.blocked_on;
@@ -208,23 +208,26 @@ void Scheduler::reclaim_ended() {
   arena_.give_back(stack);
 }
 
-// Another event is before the task's, or the window ends: the fiber to leave for.
-Fiber& Scheduler::give_way(Task& task) {
-  const EventEntry& least = events_.least();
-  const Time time = least.key.time;
+// Another event, due at `time`, is before the task's: the fiber to leave for.
+Fiber& Scheduler::give_way(Task& task, Time time) {
   task.state = TaskState::ready;
-  if (precedes(task, least.key)) {
-    // The end of a window must not cost a task its place: it does not go through the list.
-    paused_ = &task;
-    return outside(RunState::reached);
-  }
   const EventKey own = key(task, task.local_time);
   if (time >= until_) {
     events_.insert(task.event, own);
     return outside(RunState::reached);
   }
-  Task* next = due(events_.pop_and_insert(task.event, own), time);
+  EventNode& least = events_.pop();
+  events_.insert(task.event, own);
+  Task* next = due(least, time);
   return next != nullptr ? next->fiber : next_fiber();
+}
+
+// The window ends before the task's event, which is the least. That must not cost it its place: it does not go through
+// the list.
+Fiber& Scheduler::wait_for_window(Task& task) {
+  task.state = TaskState::ready;
+  paused_ = &task;
+  return outside(RunState::reached);
 }
 
 }  // namespace waitpoint::kernel

@@ -223,6 +223,7 @@ class Scheduler {
   void stop_waiting(Task& task, Object& object);
   bool begin_segment(Task& task, Operation operation, Object* object);
   Wake go_on(Task& task, Object& object);
+  bool go_on_from_waitpoint(Task& task);
   bool act_for_timer(Task& task, Operation operation, Object* object);
   Task* wake_a_waiter(Object& object);
   // The task's event is executed: counted, and hashed.
@@ -239,7 +240,8 @@ class Scheduler {
   void check_progress(Task& task);
   EventKey key(const Task& task, Time time) { return {time, make_order(task.phase, chooser_.tie(task))}; }
   bool precedes(const Task& task, const EventKey& other);
-  Fiber& give_way(Task& task);
+  Fiber& give_way(Task& task, Time time);
+  Fiber& wait_for_window(Task& task);
   Fiber& park(Task& task, Object& object, Time deadline);
   Fiber& next_fiber();
   Fiber& outside(RunState state);

@@ -102,7 +102,7 @@ struct Task {
   Robot* robot = nullptr;
   std::uint64_t id = 0;        ///< from robot and creation path
   std::uint64_t sequence = 0;  ///< its events so far
-  const Object* at = nullptr;  ///< the object of its last waitpoint, if any
+  Object* at = nullptr;        ///< the object of its last waitpoint, if any
   Fiber fiber;
   std::uint32_t turns = 0;  ///< waitpoints passed at its local time
   Phase phase = Phase::tasks;

@@ -10,8 +10,13 @@ namespace waitpoint::kernel {
 
 // Goes on when the task's event is the least; false when the run is over.
 inline bool Scheduler::arrive(Task& task) {
-  if (task.local_time >= until_ || !precedes(task, events_.least().key)) {
-    leave(task.fiber, give_way(task));
+  const EventKey& least = events_.least().key;
+  if (!precedes(task, least)) {
+    leave(task.fiber, give_way(task, least.time));
+    return !interrupted_ || rest();
+  }
+  if (task.local_time >= until_) {
+    leave(task.fiber, wait_for_window(task));
     if (interrupted_ && !rest()) return false;
   }
   now_ = task.local_time;
@@ -37,6 +42,13 @@ bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* o
   else if (++task.turns > turns_max && !give_turn(task))
     return false;
   if (!arrive(task)) return false;
+  // Whoever comes back is running, and where it is stands in its record: it kept no registers for that.
+  return go_on_from_waitpoint(*running);
+}
+
+inline bool Scheduler::go_on_from_waitpoint(Task& task) {
+  const Operation operation = task.operation;
+  Object* const object = task.at;
   if (needs_attention(task) && !begin_segment(task, operation, object)) return false;
   execute(task, operation, object);
   return true;
@@ -73,7 +85,7 @@ bool Scheduler::sleep_until(Time time) {
     if (task.seat != nullptr && time > task.local_time) leave_processor(task);
   }
   if (time > task.local_time) task.local_time = time;
-  return waitpoint(Operation::sleep, nullptr);
+  return waitpoint_in_the_list(task, Operation::sleep, nullptr);
 }
 
 // Whatever a timer does, it does in its turn: its event is the one now executing.
@@ -110,7 +122,7 @@ void Scheduler::begin(Task& task) {
 bool Scheduler::give_turn(Task& task) {
   task.turns = 1;
   const Operation operation = task.operation;
-  const Object* at = task.at;
+  Object* const at = task.at;
   if (!yield()) return false;
   task.operation = operation;
   task.at = at;

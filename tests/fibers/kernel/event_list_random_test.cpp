@@ -79,13 +79,8 @@ class SideBySide {
   }
 
   void pop_and_insert() {
-    const Reference least = *reference_.begin();
-    const std::size_t node = out_.back();
-    out_.pop_back();
-    now_ = least.time;
-    ASSERT_EQ(&list_.pop_and_insert(nodes_[node], new_key(node)), &nodes_[least.node]);
-    note_out(least.node);
-    note_in(node);
+    pop();
+    insert();
   }
 
   void compare() {
