@@ -36,6 +36,7 @@ void condition_variable_any::notify(Waiter& waiter) {
 bool condition_variable_any::enlist(Waiter& waiter) {
   if (!sync::before_blocking(kernel::Operation::wait, object_)) return false;
   waiter.task = kernel::running;
+  if (waiter.stop != nullptr) waiter.stop->waiter = &waiter;
   if (object_.users++ == 0) first_ = last_ = nullptr;
   (first_ == nullptr ? first_ : last_->next) = &waiter;
   last_ = &waiter;
@@ -50,6 +51,7 @@ void condition_variable_any::strike_off(Waiter& waiter) {
 }
 
 void condition_variable_any::leave(Waiter& waiter) {
+  if (waiter.stop != nullptr) waiter.stop->waiter = nullptr;
   // Once the run is over, the list may be gone.
   if (kernel::running->scheduler->unwinding()) return;
   if (!waiter.notified) strike_off(waiter);

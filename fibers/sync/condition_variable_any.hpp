@@ -2,12 +2,14 @@
 // Condition variable over any lock with lock() and unlock(), in the names and semantics of std::condition_variable_any.
 //
 // Who waits stands in its list before it unlocks, so that a notification between its unlock and its sleep is not lost.
-// Different tasks may wait with different locks.
+// Different tasks may wait with different locks. A wait with a stop token also ends when somebody asks to stop: that
+// wakes this wait alone.
 #pragma once
 
 #include <condition_variable>
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/stop_token.hpp"
 
 namespace waitpoint {
 
@@ -51,13 +53,39 @@ class condition_variable_any {
     return wait_before(lock, sync::after(span), ready);
   }
 
+  /// Each returns ready() once that is true, somebody has asked `token` to stop, or the deadline has come.
+  template <class Lock, class Predicate>
+  bool wait(Lock& lock, stop_token token, Predicate ready) {
+    return wait_before(lock, std::move(token), Time::max(), ready);
+  }
+  template <class Lock, class Clock, class Span, class Predicate>
+  bool wait_until(Lock& lock, stop_token token, const std::chrono::time_point<Clock, Span>& deadline, Predicate ready) {
+    return wait_before(lock, std::move(token), sync::until(deadline), ready);
+  }
+  template <class Lock, class Rep, class Ratio, class Predicate>
+  bool wait_for(Lock& lock, stop_token token, const std::chrono::duration<Rep, Ratio>& span, Predicate ready) {
+    return wait_before(lock, std::move(token), sync::after(span), ready);
+  }
+
  private:
+  struct Stop;
   // One wait, in the frame of who waits.
   struct Waiter {
+    Stop* stop = nullptr;
     kernel::Task* task = nullptr;
     Waiter* next = nullptr;
     bool blocked = false;   // else still on its way to sleep
     bool notified = false;  // and no longer in the list
+  };
+  // What a request to stop does to the waits of one call.
+  struct Stop {
+    void operator()() {
+      requested = true;
+      if (waiter != nullptr && !waiter->notified) condition.notify(*waiter);
+    }
+    condition_variable_any& condition;
+    Waiter* waiter = nullptr;  // in the list, or just out of it
+    bool requested = false;
   };
   // Locks again whatever ends the wait. Lets Unwind through, as lock() throws it only where no exception is under way.
   template <class Lock>
@@ -68,9 +96,13 @@ class condition_variable_any {
 
   // False if the deadline came first. The lock is held again in both cases.
   template <class Lock>
-  bool wait_before(Lock& lock, Time deadline) {
-    Waiter self;
+  bool wait_before(Lock& lock, Time deadline, Stop* stop = nullptr) {
+    Waiter self{stop};
     if (!enlist(self)) return false;
+    if (stop != nullptr && stop->requested) {  // before there was a waiter to wake
+      leave(self);
+      return true;
+    }
     try {
       lock.unlock();
     } catch (...) {
@@ -85,6 +117,16 @@ class condition_variable_any {
     while (!ready())
       if (!wait_before(lock, deadline)) return ready();
     return true;
+  }
+  template <class Lock, class Predicate>
+  bool wait_before(Lock& lock, stop_token token, Time deadline, Predicate ready) {
+    Stop stop{*this};
+    const stop_callback<Stop&> wake(std::move(token), stop);
+    while (!stop.requested) {
+      if (ready()) return true;
+      if (!wait_before(lock, deadline, &stop)) break;
+    }
+    return ready();
   }
 
   bool enlist(Waiter& waiter);

@@ -1,31 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/priority_mutex.hpp"
 
+#include "fibers/sync/mutex_core.hpp"
+
 namespace waitpoint {
 
-bool priority_mutex::take() {
-  if (object_.owner != nullptr) return false;
-  object_.owner = kernel::running;
-  kernel::hold(*kernel::running, lock_);
+using kernel::Operation;
+using kernel::running;
+
+void priority_mutex::lock() {
+  if (sync::before_blocking(Operation::lock, object_)) acquire(Time::max());
+}
+
+bool priority_mutex::lock_before(Time deadline) {
+  if (!sync::before_blocking(deadline <= now() ? Operation::try_lock : Operation::lock, object_)) return true;
+  WAITPOINT_CHECK(object_.owner != running, sync::about(object_, "a task tries to lock a mutex that it holds"));
+  return acquire(deadline);
+}
+
+bool priority_mutex::acquire(Time deadline) {
+  if (object_.owner != nullptr) {
+    if (deadline <= running->local_time) return false;
+    return sync::block(object_, deadline);  // unlock() makes the woken one the owner
+  }
+  sync::own(object_, *running);
+  kernel::hold(*running, lock_);
   return true;
 }
 
-bool priority_mutex::try_lock() { return sync::before_blocking(kernel::Operation::try_lock, object_) && take(); }
-
-bool priority_mutex::lock_before(Time deadline) {
-  if (deadline <= now()) return try_lock();
-  if (!sync::before_blocking(kernel::Operation::lock, object_)) return false;
-  return take() || sync::block(object_, deadline);  // unlock() makes the woken one the owner
-}
-
 void priority_mutex::unlock() {
-  if (!sync::before_releasing(kernel::Operation::unlock, object_)) return;
-  WAITPOINT_CHECK(object_.owner == kernel::running, "a task unlocks a mutex that it does not hold");
-  kernel::let_go(*kernel::running, lock_);
-  // The owner goes first: whoever is woken must find nobody there.
-  object_.owner = nullptr;
-  object_.owner = kernel::wake_most_urgent(*kernel::running->scheduler, object_);
-  if (object_.owner != nullptr) kernel::hold(*object_.owner, lock_);
+  if (!sync::before_releasing(Operation::unlock, object_)) return;
+  WAITPOINT_CHECK(object_.owner == running, sync::about(object_, "a task unlocks a mutex that it does not hold"));
+  kernel::let_go(*running, lock_);
+  sync::disown(object_);
+  kernel::Task* const next = kernel::wake_most_urgent(*running->scheduler, object_);
+  if (next == nullptr) return;
+  sync::own(object_, *next);
+  kernel::hold(*next, lock_);
 }
 
 }  // namespace waitpoint

@@ -6,11 +6,13 @@
 //             until that one gives up waiting (PTHREAD_PRIO_INHERIT)
 //   ceiling   its holder is as urgent as the declared ceiling, as soon as it holds it (PTHREAD_PRIO_PROTECT)
 //
-// An unlock hands it to the most urgent waiter, of these to the first, in every order: there is no choice.
+// An unlock hands it to the most urgent waiter, of these to the first, in every order: there is no choice. Misuse is
+// what it is of a mutex.
 #pragma once
 
 #include "fibers/kernel/processor.hpp"
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/misuse.hpp"
 
 namespace waitpoint {
 
@@ -24,22 +26,28 @@ class priority_mutex {
  public:
   explicit priority_mutex(const mutex_attributes& attributes = {})
       : object_("mutex", attributes.label), lock_{object_, attributes.protocol, attributes.ceiling} {}
+  /// `label` is shown in reports; it must outlive the mutex.
+  explicit priority_mutex(const char* label) : priority_mutex(mutex_attributes{.label = label}) {}
+  ~priority_mutex() { sync::check_destroyed(object_); }
   priority_mutex(const priority_mutex&) = delete;
   priority_mutex& operator=(const priority_mutex&) = delete;
 
-  void lock() { lock_before(Time::max()); }
-  bool try_lock();
+  void lock();
+  bool try_lock() { return lock_before(sync::long_past); }
   template <class Rep, class Ratio>
   bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
     return lock_before(sync::after(span));
   }
-  bool try_lock_until(steady_clock::time_point deadline) { return lock_before(to_time(deadline)); }
+  template <class Clock, class Span>
+  bool try_lock_until(const std::chrono::time_point<Clock, Span>& deadline) {
+    return lock_before(sync::until(deadline));
+  }
   /// By its holder only.
   void unlock();
 
  private:
   bool lock_before(Time deadline);
-  bool take();
+  bool acquire(Time deadline);
 
   kernel::Object object_;
   kernel::PriorityLock lock_;

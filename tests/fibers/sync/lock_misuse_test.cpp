@@ -143,6 +143,24 @@ TEST(LockMisuse, WhatARunLeftBehindMayBeDestroyed) {
   });
 }
 
+// There is no task then that it could be a mistake of: what destroys it is no part of the run.
+TEST(LockMisuse, WhatIsDestroyedOutsideAnyTaskIsNotLookedAt) {
+  auto held = std::make_unique<mutex>();
+  auto waited_for = std::make_unique<condition_variable>();
+  {
+    Simulation simulation;
+    simulation.spawn(simulation.environment(), {}, [&] {
+      std::unique_lock lock(*held);
+      waited_for->wait(lock);
+    });
+    EXPECT_EQ(simulation.run_before(Time() + Duration(1ms)), RunEnd::deadlock);
+  }
+  held.reset();
+  waited_for.reset();
+  const counting_semaphore<> never_used(1);
+  const timed_mutex never_used_too;
+}
+
 TEST(LockMisuseDeathTest, WaitingOnAConditionWithoutHoldingTheMutex) {
   const char* message = "a task waits on a condition variable without holding the lock: condition variable #1 \"c\"";
   EXPECT_DEATH(simulate([] {

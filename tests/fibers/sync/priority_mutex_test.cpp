@@ -216,7 +216,16 @@ TEST(PriorityMutexDeathTest, MisuseIsABug) {
                  s.join();
                }),
                "priority ceiling is below");
-  EXPECT_DEATH(simulate([] { priority_mutex().unlock(); }), "does not hold");
+  EXPECT_DEATH(simulate([] { priority_mutex("mine").unlock(); }),
+               "a task unlocks a mutex that it does not hold: mutex #1 \"mine\"");
+  EXPECT_DEATH(simulate([] {
+                 priority_mutex m;
+                 m.lock(), (void)m.try_lock();
+               }),
+               "a task tries to lock a mutex that it holds: mutex #1, held by main of environment");
+  EXPECT_DEATH(simulate([] { priority_mutex("short").lock(); }), "destroyed while it is held: mutex #1 \"short\"");
+  static priority_mutex kept("kept");
+  EXPECT_DEATH(simulate([] { kept.lock(); }), "a thread ends while it holds a lock: mutex #1 \"kept\", held by main");
 }
 
 }  // namespace

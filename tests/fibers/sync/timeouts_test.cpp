@@ -143,6 +143,38 @@ TEST(Timeouts, AreKeptToTheNanosecondAndRoundedUp) {
   expect_each(3ms, 2ms, true, 2ms - 1ns);
 }
 
+TEST(Timeouts, OutOfRangeIsForEver) {
+  in_every_order([] {
+    timed_mutex m;
+    m.lock();
+    std::vector<thread> threads;
+    for (int i = 0; i < 6; ++i)
+      threads.emplace_back([&, i] {
+        using std::chrono::time_point;
+        const bool got = i == 0   ? m.try_lock_for(std::chrono::hours::max())
+                         : i == 1 ? m.try_lock_for(std::chrono::nanoseconds::max())
+                         : i == 2 ? m.try_lock_for(std::chrono::duration<double>(1e300))
+                         : i == 3 ? m.try_lock_until(steady_clock::time_point::max())
+                         : i == 4 ? m.try_lock_until(time_point<steady_clock, std::chrono::hours>::max())
+                                  : m.try_lock_until(boot_clock::time_point::max());
+        EXPECT_TRUE(got);
+        EXPECT_EQ(now(), Time() + Duration(1h));
+        m.unlock();
+      });
+    sleep_for(1h);
+    m.unlock();
+    for (thread& t : threads) t.join();
+  });
+  in_order([] {
+    binary_semaphore s(0);
+    using std::chrono::time_point;
+    EXPECT_FALSE(s.try_acquire_until(steady_clock::time_point::min()));
+    EXPECT_FALSE(s.try_acquire_until(time_point<steady_clock, std::chrono::hours>::min()));
+    EXPECT_FALSE(s.try_acquire_for(std::chrono::hours::min()));
+    EXPECT_EQ(now(), Time());
+  });
+}
+
 TEST(Timeouts, AreOnAnyClockThatHasAToTime) {
   in_order([] {
     binary_semaphore s(0);
