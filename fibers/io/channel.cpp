@@ -11,6 +11,7 @@ void Channel::enter() {
     scheduler.enter(sending_);
     scheduler_ = &scheduler;
     pollers_.clear();
+    arrivals_ = 0;
     refresh();
   }
   WAITPOINT_CHECK(receiving_.robot == kernel::running->robot || scheduler.unwinding(),
@@ -43,9 +44,18 @@ void Channel::wake_one(kernel::Object& side) {
   wake_pollers();
 }
 
-void Channel::wake_first(kernel::Object& side) {
-  if (scheduler_ == nullptr) return;
-  scheduler_->wake_first(side);
+// Who is served hangs on nothing but this channel and what arrives at it: no unrelated robot can shift it.
+void Channel::wake_one_for_arrival(kernel::Object& side) {
+  if (scheduler_ == nullptr || scheduler_->unwinding() || !scheduler_->has_entered(side)) return;
+  ++arrivals_;
+  std::uint32_t count = 0;
+  for (const kernel::Task* task = side.first_waiter; task != nullptr; task = task->next_waiter) ++count;
+  if (count != 0) {
+    kernel::Task* chosen = side.first_waiter;
+    for (std::uint32_t i = scheduler_->chooser().waiter(side, arrivals_, count); i > 0; --i)
+      chosen = chosen->next_waiter;
+    scheduler_->wake(*chosen);
+  }
   wake_pollers();
 }
 

@@ -72,8 +72,8 @@ class Channel {
 
   /// For one thing to be had: wakes one who waits at `side`, of the chooser's choice, and the pollers.
   void wake_one(kernel::Object& side);
-  /// The same for an arrival, which no task chooses for: the first.
-  void wake_first(kernel::Object& side);
+  /// The same for an arrival from another task's channel, which may be an event of no task.
+  void wake_one_for_arrival(kernel::Object& side);
   /// Wakes all who wait at `side`, to look again, and the pollers.
   void wake_all(kernel::Object& side);
 
@@ -100,6 +100,7 @@ class Channel {
  private:
   kernel::Scheduler* scheduler_ = nullptr;
   std::vector<kernel::Object*> pollers_;
+  std::uint64_t arrivals_ = 0;
 };
 
 /// Adds what is sent to the digest of the sender's robot.

@@ -49,7 +49,7 @@ void DatagramCore::arrive(Message message) {
     return;
   }
   queue_.push_back(std::move(message));
-  wake_first(receiving_);
+  wake_one_for_arrival(receiving_);
 }
 
 Result<Datagram> DatagramCore::receive(std::span<std::byte> buffer, const Deadline& deadline) {

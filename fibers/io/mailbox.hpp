@@ -79,7 +79,7 @@ class mailbox : public Channel {
   /// A letter from a sender by name.
   void arrive(const T& letter, Receipt receipt) {
     letters_.push_back({letter, std::move(receipt)});
-    wake_first(receiving_);
+    wake_one_for_arrival(receiving_);
   }
 
  private:

@@ -23,7 +23,7 @@ Status Listener::listen(const std::string& port) {
 std::shared_ptr<Stream> Listener::take_in(Link& back) {
   if (backlog_.size() == options_.backlog || !node_->has_room()) return nullptr;
   backlog_.push_back(std::make_shared<Stream>(node_, back, options_.stream, node_->name() + ":" + port_));
-  wake_first(receiving_);
+  wake_one_for_arrival(receiving_);
   return backlog_.back();
 }
 

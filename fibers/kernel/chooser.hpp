@@ -45,6 +45,12 @@ class Chooser {
     const std::uint64_t draw = Digest::mix(~seed_ ^ Digest::mix(waker.id + waker.sequence * 0x9E3779B97F4A7C15u));
     return static_cast<std::uint32_t>((draw >> 32) * count >> 32);
   }
+  /// The same for the `arrivals`-th message that arrived at `object`, which no task brings.
+  std::uint32_t waiter(const Object& object, std::uint64_t arrivals, std::uint32_t count) const {
+    if (order_ == Order::fifo || count == 1) return 0;
+    const std::uint64_t draw = Digest::mix(~seed_ ^ Digest::mix(object.identity + arrivals * 0x9E3779B97F4A7C15u));
+    return static_cast<std::uint32_t>((draw >> 32) * count >> 32);
+  }
 
   /// What a computation of `task` costs, from `least` to `greatest`; each has a number of its own.
   Duration computing(Task& task, Duration least, Duration greatest) const {
