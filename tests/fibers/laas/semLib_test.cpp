@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fibers/laas/taskLib.hpp"
 #include "tests/fibers/laas/laas_run.hpp"
 
 namespace waitpoint::laas {
@@ -55,6 +56,26 @@ TEST(SemLib, AMutexServesFirstComeFirstServedInEveryOrder) {
     semGive(mutex);
     for (thread& t : threads) t.join();
     EXPECT_EQ(order, "abcde");
+  });
+}
+
+// pocolibs accepts SEM_Q_PRIORITY and has tickets all the same.
+TEST(SemLib, TheQueueIsFirstComeFirstServedWhateverThePriorities) {
+  with_clock([] {
+    const SEM_ID mutex = semMCreate(SEM_Q_PRIORITY);
+    semTake(mutex, WAIT_FOREVER);
+    std::string order;
+    for (const char name : {'a', 'b', 'c'})
+      taskSpawn(std::string(1, name).c_str(), 200 - 50 * (name - 'a'), 0, 20000, [&, name] {
+        sleep_for((name - 'a' + 1) * 1ms);
+        semTake(mutex, WAIT_FOREVER);
+        order += name;
+        semGive(mutex);
+      });
+    sleep_for(1s);
+    semGive(mutex);
+    sleep_for(1s);
+    EXPECT_EQ(order, "abc");
   });
 }
 
