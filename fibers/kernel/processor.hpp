@@ -15,6 +15,7 @@
 // transitively), or as their ceilings say. (Liu, Layland, JACM 1973; Sha, Rajkumar, Lehoczky, IEEE TC 1990.)
 #pragma once
 
+#include "fibers/kernel/lock_protocol.hpp"
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::kernel {
@@ -52,8 +53,6 @@ struct Processor {
   Seat* user = nullptr;
   std::uint64_t arrivals = 0;
 };
-
-enum class LockProtocol : std::uint8_t { inherit, ceiling };
 
 /// A lock that lends its holder urgency: part of a mutex.
 struct PriorityLock {

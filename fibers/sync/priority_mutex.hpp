@@ -13,14 +13,9 @@
 #include "fibers/kernel/processor.hpp"
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/misuse.hpp"
+#include "fibers/sync/mutex_attributes.hpp"
 
 namespace waitpoint {
-
-struct mutex_attributes {
-  kernel::LockProtocol protocol = kernel::LockProtocol::inherit;
-  int ceiling = 0;         ///< of `ceiling`: not below the priority of any thread that locks it, which is a bug
-  const char* label = "";  ///< shown in reports; must outlive the mutex
-};
 
 class priority_mutex {
  public:

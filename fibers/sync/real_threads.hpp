@@ -20,11 +20,13 @@
 #include "fibers/kernel/clock_options.hpp"
 #include "fibers/kernel/stack_arena.hpp"
 #include "fibers/sync/local_values.hpp"
+#include "fibers/sync/real_priority_mutex.hpp"
 
 namespace waitpoint::threads {
 
 using kernel::ClockKind;
 using kernel::ClockOptions;
+using kernel::LockProtocol;
 using std::async;
 using std::atomic_signal_fence;
 using std::atomic_thread_fence;
@@ -40,6 +42,7 @@ using std::stop_callback;
 using std::stop_source;
 using std::stop_token;
 using std::chrono::steady_clock;
+using waitpoint::mutex_attributes;
 
 struct system_clock : std::chrono::system_clock {
   template <class Span>

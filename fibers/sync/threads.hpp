@@ -24,6 +24,7 @@
 #include "fibers/sync/once.hpp"
 #include "fibers/sync/packaged_task.hpp"
 #include "fibers/sync/periodic_timer.hpp"
+#include "fibers/sync/priority_mutex.hpp"
 #include "fibers/sync/recursive_mutex.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/shared_mutex.hpp"
@@ -32,6 +33,7 @@ namespace waitpoint::threads {
 
 using kernel::ClockKind;
 using kernel::ClockOptions;
+using kernel::LockProtocol;
 using waitpoint::access_hardware;
 using waitpoint::async;
 using waitpoint::atomic;
@@ -51,12 +53,14 @@ using waitpoint::jthread;
 using waitpoint::latch;
 using waitpoint::launch;
 using waitpoint::mutex;
+using waitpoint::mutex_attributes;
 using waitpoint::nostopstate;
 using waitpoint::nostopstate_t;
 using waitpoint::now;
 using waitpoint::once_flag;
 using waitpoint::packaged_task;
 using waitpoint::periodic_timer;
+using waitpoint::priority_mutex;
 using waitpoint::processor;
 using waitpoint::promise;
 using waitpoint::recursive_mutex;

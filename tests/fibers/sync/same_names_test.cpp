@@ -52,6 +52,50 @@ TEST(SameNames, Atomics) {
   });
 }
 
+TEST(SameNames, MutexesWithOptions) {
+  run([] {
+    threads::priority_mutex inherits("inherits");
+    threads::priority_mutex with_ceiling({.protocol = threads::LockProtocol::ceiling, .ceiling = 5});
+    int inside = 0, total = 0;
+    std::vector<threads::thread> all;
+    for (int i = 0; i < 3; ++i)
+      all.emplace_back([&] {
+        for (int k = 0; k < 5; ++k) {
+          const std::scoped_lock both(inherits, with_ceiling);
+          EXPECT_EQ(++inside, 1);
+          threads::this_thread::yield();
+          --inside;
+          ++total;
+        }
+      });
+    for (threads::thread& t : all) t.join();
+    EXPECT_EQ(total, 15);
+    inherits.lock();
+    threads::thread([&] {
+      EXPECT_FALSE(inherits.try_lock());
+      EXPECT_FALSE(inherits.try_lock_for(1ms));
+      EXPECT_FALSE(inherits.try_lock_until(threads::steady_clock::now() + 1ms));
+      EXPECT_FALSE(inherits.try_lock_until(threads::system_clock::now() + 1ms));
+    }).join();
+    inherits.unlock();
+    EXPECT_TRUE(inherits.try_lock_for(1ms));
+    inherits.unlock();
+  });
+}
+
+TEST(SameNames, WaitsThatAStopRequestEnds) {
+  run([] {
+    threads::mutex m;
+    threads::condition_variable_any changed;
+    threads::jthread waiter([&](const threads::stop_token& token) {
+      std::unique_lock lock(m);
+      EXPECT_FALSE(changed.wait(lock, token, [] { return false; }));
+      EXPECT_FALSE(changed.wait_for(lock, token, 1h, [] { return false; }));
+    });
+    threads::this_thread::sleep_for(1ms);
+  });
+}
+
 TEST(SameNames, FuturesAndTheirMakers) {
   run([] {
     threads::promise<int> gives;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of a mutex for threads that share processors, simulated or of the system: see priority_mutex.hpp.
+#pragma once
+
+#include "fibers/kernel/lock_protocol.hpp"
+
+namespace waitpoint {
+
+struct mutex_attributes {
+  kernel::LockProtocol protocol = kernel::LockProtocol::inherit;
+  int ceiling = 0;         ///< of `ceiling`: not below the priority of any thread that locks it, which is a bug
+  const char* label = "";  ///< shown in reports; must outlive the mutex
+};
+
+}  // namespace waitpoint
