@@ -35,7 +35,7 @@ std::string unreached_goals(const RobotResult& robot) {
 std::string late_tasks(const RobotResult& robot) {
   std::string text;
   for (const bridge::LateTask& task : robot.late_tasks)
-    text += fmt::format("  {}: task {} missed {} deadlines, and so {} periods of {} ms; at most {} ms late\n",
+    text += fmt::format("  {}: task {} missed {} deadlines, and so {} periods of {:g} ms; at most {:g} ms late\n",
                         robot.name, task.name, task.missed_deadlines, task.missed_periods, task.period.seconds() * 1e3,
                         task.greatest_lateness.seconds() * 1e3);
   return text;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/experiment.hpp"
 
+#include "fibers/sync/thread.hpp"
+
 namespace waitpoint::bridge {
 namespace {
 
@@ -52,8 +54,10 @@ void Experiment::spawn(Robot& robot) {
   lanes_.push_back(&lane);
   simulation_.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true},
                     [&robot] { robot.bridge().run(); });
-  simulation_.spawn(lane, {.name = "executive", .stack = kernel::StackSize::large, .service = robot.goals() == 0},
-                    [&robot] { robot.run(); });
+  const genom::TaskComputing& computing = robot.computing();
+  sync::start_thread(simulation_.scheduler(), lane,
+                     {.name = "executive", .stack = kernel::StackSize::large, .service = robot.goals() == 0},
+                     [&robot] { robot.run(); }, {computing.clock, computing.on, computing.priority});
 }
 
 void Experiment::run_world() {

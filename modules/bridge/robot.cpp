@@ -74,6 +74,7 @@ void Robot::make_executive(const OccupancyGrid& map, std::uint64_t seed) {
   parameters.planning.robot_radius_m = radius_m(scenario_.body.shape);
   genom::Settings settings(scenario_.executive);
   settings.read(parameters);
+  computing_ = genom::read_computing(settings, "", names_, {});
   settings.check_all_used();
   std::vector<Point> goals;
   for (const Goal& goal : scenario_.goals) goals.push_back(goal.position);

@@ -17,6 +17,7 @@
 #include "modules/bridge/scenario.hpp"
 #include "modules/executive/executive.hpp"
 #include "modules/genom/module_type.hpp"
+#include "modules/genom/task_computing.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::bridge {
@@ -44,6 +45,8 @@ class Robot {
   const genom::NameSpace& names() const { return names_; }
   std::size_t goals() const { return scenario_.goals.size(); }
   std::size_t goals_reached() const;
+  /// How the task of run() computes, as the scenario says.
+  const genom::TaskComputing& computing() const { return computing_; }
   /// The least period of all execution tasks; nothing if none is periodic.
   std::optional<Duration> least_period() const;
   /// Without its digest, which is the run's to know.
@@ -61,6 +64,7 @@ class Robot {
   std::vector<std::unique_ptr<genom::Module>> modules_;
   std::vector<const ModuleScenario*> module_scenarios_;  // of each module
   RobotBridge bridge_;
+  genom::TaskComputing computing_;
   std::optional<executive::Executive> executive_;
   Evaluation evaluation_;
 };

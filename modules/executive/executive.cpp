@@ -40,21 +40,27 @@ void Executive::run() {
   wait_for_position();
   // Not within one call: compilers differ in the order of arguments, and reading the position may take time.
   Point here = position();
-  const Order* order = &mission_.start(threads::now(), here);
+  const Order* order = planned(mission_.start(threads::now(), here));
   while (order->kind != Order::Kind::finished && !stopping_) {
     if (order->kind == Order::Kind::wait) {
       threads::this_thread::sleep_until(order->until);
       here = position();
-      order = &mission_.waited(threads::now(), here);
+      order = planned(mission_.waited(threads::now(), here));
       continue;
     }
     const std::optional<genom::Report> report = drive(order->via_points);
     if (!report) break;
     here = position();
-    order = *report == genom::ok ? &mission_.arrived(threads::now(), here)
-                                 : &mission_.blocked(threads::now(), here, seen());
+    order = planned(*report == genom::ok ? mission_.arrived(threads::now(), here)
+                                         : mission_.blocked(threads::now(), here, seen()));
   }
   stop_modules();
+}
+
+// What the mission says to do next has cost its planning.
+const Order* Executive::planned(const Order& order) const {
+  if (order.kind != Order::Kind::finished) threads::compute(parameters_.plan_cost_us);
+  return &order;
 }
 
 void Executive::start_modules() {

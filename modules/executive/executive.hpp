@@ -24,11 +24,13 @@ namespace waitpoint::executive {
 struct Parameters {
   PlanningParameters planning;
   MissionParameters mission;
-  double mark_range_m = 3;  ///< echoes farther away are not marked on the map
+  double mark_range_m = 3;     ///< echoes farther away are not marked on the map
+  Duration plan_cost_us = {};  ///< what it costs to find a route
 
   static constexpr auto fields() {
     return std::tuple(field("planning", &Parameters::planning), field("mission", &Parameters::mission),
-                      field("mark_range_m", &Parameters::mark_range_m));
+                      field("mark_range_m", &Parameters::mark_range_m),
+                      field("plan_cost_us", &Parameters::plan_cost_us));
   }
 };
 
@@ -51,6 +53,7 @@ class Executive {
  private:
   void start_modules();
   void wait_for_position();
+  const Order* planned(const Order& order) const;
   void stop_modules();
   std::optional<genom::Report> drive(std::span<const Point> via_points);
   Point position() const;

@@ -52,6 +52,16 @@ TEST_F(DurationsTest, AMeasuredRunReplaysFromItsRecordToTheSameDigest) {
   }
 }
 
+TEST_F(DurationsTest, TheShippedScenarioOfMeasuredModulesReplaysFromItsRecord) {
+  const auto run = [&](const std::vector<std::string>& more) {
+    return outcome_of(run_command("office-measured.yaml", "3", more));
+  };
+  const Outcome first = run({"--record-durations", path("a")});
+  ASSERT_NE(first.digest(), "") << first.errors;
+  EXPECT_NE(run({}).digest(), first.digest());
+  EXPECT_EQ(run({"--replay-durations", path("a")}).digest(), first.digest());
+}
+
 TEST_F(DurationsTest, ChosenDurationsAreRecordedToo) {
   const std::string interval = "{kind: interval, cost_us: [100, 900]}";
   const Outcome seeded = run({"--order", "seeded", "--record-durations", path("a")}, interval);

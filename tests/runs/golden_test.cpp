@@ -2,6 +2,7 @@
 // The runs of today are those of yesterday, and of every other machine: digests kept in tests/golden/digests.txt.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -33,8 +34,13 @@ TEST_P(Golden, the_first_seconds_have_the_digest_that_they_had) {
       << "if the run was meant to change, write its new digest into tests/golden/digests.txt";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenario, Golden, ::testing::Values("office.yaml", "office-10.yaml"),
-                         [](const auto& info) { return info.param == "office.yaml" ? "office" : "office_10"; });
+INSTANTIATE_TEST_SUITE_P(Scenario, Golden,
+                         ::testing::Values("office.yaml", "office-10.yaml", "office-one-processor.yaml"),
+                         [](const auto& info) {
+                           std::string name = info.param.substr(0, info.param.find('.'));
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace waitpoint::runs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "modules/bridge/scenario_reader.hpp"
@@ -39,8 +40,14 @@ TEST_P(ShippedScenario, has_free_starts_and_goals_with_room) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenario, ShippedScenario, ::testing::Values("office.yaml", "office-10.yaml"),
-                         [](const auto& info) { return info.param == "office.yaml" ? "office" : "office_10"; });
+INSTANTIATE_TEST_SUITE_P(Scenario, ShippedScenario,
+                         ::testing::Values("office.yaml", "office-10.yaml", "office-one-processor.yaml",
+                                           "office-measured.yaml"),
+                         [](const auto& info) {
+                           std::string name = info.param.substr(0, info.param.find('.'));
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(ShippedScenario, office_has_one_robot_six_goals_and_a_crate_on_no_map) {
   const Scenario scenario = shipped("office.yaml");

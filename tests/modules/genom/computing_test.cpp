@@ -77,6 +77,36 @@ TEST(TaskComputing, TasksShareAProcessorByTheirPriorities) {
   EXPECT_EQ(end_of_codel_us({on("tasks.control.processor", "cpu")}), 1000);
 }
 
+// The frame holds a module's locks during its codels: the control task, urgent as it is, waits for the execution task,
+// which waits for whoever is more urgent than that: priority inversion, of the time that the middle one likes.
+TEST(TaskComputing, AModulesLocksMakeForPriorityInversion) {
+  const auto replied_at = [](Duration middle_computes) {
+    ComputingRobot robot({{"processor", "cpu", "f", 1},
+                          {"tasks.main.priority", "1", "f", 2},
+                          {"tasks.main.cost_us", "4000", "f", 3},
+                          {"tasks.control.priority", "9", "f", 4}});
+    robot.task->set_permanent([] {});
+    robot.module.add_control<Number>("Ask", [](const Number&, Nothing&) { return ok; });
+    Time replied;
+    const waitpoint::Report report = simulate([&] {
+      robot.module.start();
+      thread({.service = true, .on = &robot.cpu, .priority = 5}, [&] {
+        this_thread::sleep_until(Time() + Duration(12ms));
+        compute(middle_computes);
+      }).detach();
+      this_thread::sleep_until(Time() + Duration(11ms));  // main computes since 10 ms, for 4 ms
+      Client client(robot.names, "asker");
+      EXPECT_EQ(client.call("m", "Ask", Number{1}).report, ok);
+      replied = now();
+    });
+    EXPECT_TRUE(report.passed) << report;
+    return replied;
+  };
+  EXPECT_EQ(replied_at({}), Time() + Duration(14ms));
+  EXPECT_EQ(replied_at(5ms), Time() + Duration(19ms));
+  EXPECT_EQ(replied_at(50ms), Time() + Duration(64ms));
+}
+
 TEST(TaskComputing, WhatCannotBeIsNamedWithItsLine) {
   const auto complaint = [](const std::vector<std::pair<std::string, std::string>>& written) -> std::string {
     std::vector<Setting> settings;
