@@ -126,6 +126,35 @@ robots:
             self.compile("blinker", *mixed, program="blinker_mixed")
 
 
+class TwoRobots(Installed):
+    """Robots that talk to each other over the medium of their scenario."""
+
+    def outcome(self, *options):
+        program = self.compile("two_robots", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"))
+        output = run(program, "run", HERE / "two_robots/two_robots.yaml", *options)
+        # (time, who, what, positions, log entries), and the digest of the run
+        told = re.findall(r"^ *([\d.]+) s  (\w+) (.*) \((\d+) positions, (\d+) log entries\)$", output, re.MULTILINE)
+        return told, re.findall(r"wp1:[0-9a-f]{16}", output)[-1]
+
+    def test_lose_sight_of_each_other_and_no_letter(self):
+        told, digest = self.outcome()
+        self.assertEqual([(who, what) for _, who, what, _, _ in told],
+                         [("bea", "hears ada"), ("ada", "hears bea"), ("bea", "has lost ada"), ("ada", "has lost bea"),
+                          ("bea", "hears ada"), ("ada", "hears bea")])
+        for _, _, what, positions, entries in told[2:]:
+            # In 20 s and 5 positions a second some are lost; the log waits out of range, and then it is all there.
+            self.assertLess(int(positions), 90)
+            self.assertEqual(int(entries), 34 if what.startswith("hears") else 18)
+        self.assertEqual(self.outcome()[1], digest)
+
+    def test_the_medium_is_the_scenarios_to_say(self):
+        told, digest = self.outcome("--set", "medium.loss=0")
+        self.assertEqual([positions for _, _, what, positions, _ in told if "lost" in what], ["91", "91"])
+        self.assertNotEqual(digest, self.outcome()[1])
+        self.assertEqual(self.outcome("--set", "medium.loss=1")[0], [])
+        self.assertEqual([what for _, _, what, _, _ in self.outcome("--set", "medium=")[0]], ["cannot send: no route"] * 2)
+
+
 class LostLetter(Installed):
     """Tests of one's own threads need neither world nor modules."""
 
