@@ -85,6 +85,26 @@ TEST(MisuseDeathTest, ComputingForANegativeTime) {
   EXPECT_DEATH(simulate([] { compute(-1ns); }), "computing takes no negative time");
 }
 
+TEST(MisuseDeathTest, ComputingBeyondTheEndOfTime) {
+  EXPECT_DEATH(simulate([] {
+                 compute(Duration::max());
+                 compute(1ns);
+               }),
+               "virtual time overflows");
+  EXPECT_DEATH(simulate([] { access_hardware(-1ns); }), "an access to hardware has a negative latency");
+}
+
+TEST(MisuseDeathTest, AnIntervalWhoseEndsAreSwapped) {
+  const char* message = "the ends of an interval of computing times are swapped";
+  EXPECT_DEATH(simulate([] { compute(2ms, 1ms); }), message);
+  EXPECT_DEATH(simulate([] {
+                 const kernel::ClockOptions swapped{
+                     .kind = kernel::ClockKind::interval, .least = Duration(2ms), .greatest = Duration(1ms)};
+                 thread({.clock = swapped}, [] {}).join();
+               }),
+               message);
+}
+
 TEST(MisuseDeathTest, TwoRobotsOfOneName) {
   EXPECT_DEATH(
       {
