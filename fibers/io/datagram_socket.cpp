@@ -7,7 +7,9 @@ namespace waitpoint::io {
 
 DatagramCore::DatagramCore(Network& network, const DatagramOptions& options)
     : Channel("datagram socket", ""), network_(network), node_(network.own_node()), options_(options) {
-  WAITPOINT_CHECK(options.queue_max > 0, "a datagram socket's queue holds nothing");
+  WAITPOINT_CHECK(options.queue_max > 0 && options.queue_max <= datagrams_max,
+                  "a datagram socket's queue holds at least one datagram and at most 65536");
+  WAITPOINT_CHECK(options.message_bytes_max <= datagram_bytes_max, "a datagram has at most 65507 bytes");
   node_->take_socket();
 }
 

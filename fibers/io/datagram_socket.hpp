@@ -16,9 +16,13 @@
 
 namespace waitpoint::io {
 
+inline constexpr std::size_t datagrams_max = 65536;
+/// As UDP over IPv4 has it.
+inline constexpr std::size_t datagram_bytes_max = 65507;
+
 struct DatagramOptions {
-  std::size_t queue_max = 64;             ///< datagrams that wait to be received
-  std::size_t message_bytes_max = 65507;  ///< of one datagram, as UDP over IPv4 has it
+  std::size_t queue_max = 64;                          ///< datagrams that wait to be received, up to datagrams_max
+  std::size_t message_bytes_max = datagram_bytes_max;  ///< of one datagram
 };
 
 /// A datagram received.

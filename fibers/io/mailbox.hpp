@@ -27,13 +27,16 @@ namespace waitpoint::io {
 /// What a mailbox tells the sender of a letter: ok once it is received; refused or peer_closed if it never will be.
 using Receipt = std::function<void(Status)>;
 
+/// The most letters that a mailbox may hold, or a sender may have under way.
+inline constexpr std::size_t letters_max = 65536;
+
 template <class T>
 class mailbox : public Channel {
  public:
-  /// Holds `capacity` letters, at least one.
+  /// Holds `capacity` letters, from one to letters_max.
   explicit mailbox(std::size_t capacity, std::string label = "")
       : Channel("mailbox", std::move(label)), capacity_(capacity) {
-    WAITPOINT_CHECK(capacity > 0, "a mailbox holds at least one letter");
+    WAITPOINT_CHECK(capacity > 0 && capacity <= letters_max, "a mailbox holds at least one letter and at most 65536");
   }
   /// One at which a task waits is destroyed by a bug.
   ~mailbox() override {

@@ -35,7 +35,7 @@ class SenderCore : public Channel, public std::enable_shared_from_this<SenderCor
 template <Sendable T>
 class mailbox_sender {
  public:
-  /// Of the running task's robot. At most `window` letters are under way or not yet received.
+  /// Of the running task's robot. At most `window` letters, from one to letters_max, are under way or not yet received.
   mailbox_sender(Network& network, const Address& address, std::size_t window = 16)
       : core_(std::make_shared<SenderCore>(network, address, window)) {}
 

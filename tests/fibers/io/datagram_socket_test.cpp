@@ -210,6 +210,15 @@ TEST(DatagramSocketDeathTest, MisuseIsABug) {
                  for (;;) sockets.emplace_back(network);
                }),
                "a robot has more sockets than NetworkLimits::sockets_max");
+  const auto with = [](const DatagramOptions& options) {
+    return simulate([=] {
+      Network network;
+      datagram_socket(network, options);
+    });
+  };
+  EXPECT_DEATH(with({.queue_max = 0}), "a datagram socket's queue holds at least one datagram and at most 65536");
+  EXPECT_DEATH(with({.queue_max = datagrams_max + 1}), "at most 65536");
+  EXPECT_DEATH(with({.message_bytes_max = datagram_bytes_max + 1}), "a datagram has at most 65507 bytes");
 }
 
 }  // namespace

@@ -154,6 +154,12 @@ TEST(MailboxSenderDeathTest, MisuseIsABug) {
                  (void)box.bind(network, "b");
                }),
                "a mailbox is bound a second time");
+  for (const std::size_t window : {std::size_t{0}, letters_max + 1})
+    EXPECT_DEATH(simulate([window] {
+                   Network network;
+                   mailbox_sender<int>(network, "in", window);
+                 }),
+                 "a mailbox sender's window holds at least one letter and at most 65536");
 }
 
 }  // namespace

@@ -212,6 +212,7 @@ TEST(Mailbox, WaitingForNothingIsReportedAsADeadlock) {
 
 TEST(MailboxDeathTest, MisuseIsABug) {
   EXPECT_DEATH(mailbox<int>(0), "at least one letter");
+  EXPECT_DEATH(mailbox<int>(letters_max + 1), "a mailbox holds at least one letter and at most 65536");
   EXPECT_DEATH((void)mailbox<int>(1).receive(), "outside a simulated task");
   EXPECT_DEATH(simulate([] {
                  auto box = std::make_unique<mailbox<int>>(1);
