@@ -85,6 +85,7 @@ class Blinker(Installed):
         digests = [re.findall(r"wp1:[0-9a-f]{16}", output) for output in outputs]
         self.assertTrue(digests[0])
         self.assertEqual(digests[0], digests[1])
+        self.assertIn(digests[0][-1], (HERE.parents[1] / "README.md").read_text(), "the README shows another digest")
         self.assertIn("lighthouse", (self.folder / "events").read_text())
 
         other = run(program, "run", HERE / "blinker/blinker.yaml", "--set", "robots.0.modules.watchman.flashes=1")
@@ -146,6 +147,8 @@ class TwoRobots(Installed):
             self.assertLess(int(positions), 90)
             self.assertEqual(int(entries), 34 if what.startswith("hears") else 18)
         self.assertEqual(self.outcome()[1], digest)
+        document = (HERE.parents[1] / "docs/communication.md").read_text()
+        self.assertIn(digest, document, "docs/communication.md shows another digest")
 
     def test_the_medium_is_the_scenarios_to_say(self):
         told, digest = self.outcome("--set", "medium.loss=0")
