@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who waits to send, or to accept, and is let at the very instant of the deadline: is in time or is not, in some orders
+// the one, in some the other; what was sent is there once, and what was not is not. (Who waits to receive: the tests of
+// each kind.)
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "fibers/io/mailbox_sender.hpp"
+#include "fibers/io/pipe.hpp"
+#include "fibers/io/stream_listener.hpp"
+#include "fibers/sync/thread.hpp"
+#include "tests/fibers/io/bytes.hpp"
+#include "tests/fibers/io/fleet.hpp"
+
+namespace waitpoint::io {
+namespace {
+
+using namespace std::chrono_literals;
+using this_thread::sleep_for;
+
+// In many orders: `body` with a call that waits for 5 ms, and what lets it then; whether it was in time.
+void expect_both(const std::function<bool()>& body) {
+  int in_time = 0, late = 0;
+  for (std::uint64_t number = 0; number <= 60; ++number) {
+    const Report report = simulate([&] { ++(body() ? in_time : late); }, order_number(number));
+    ASSERT_TRUE(report.passed) << report;
+    ASSERT_FALSE(testing::Test::HasFailure()) << "in order " << number;
+  }
+  EXPECT_GT(in_time, 5);
+  EXPECT_GT(late, 5);
+}
+
+// `wait` within a task, `let` at 5 ms: what the one came to.
+Status at_one_instant(const std::function<Status()>& wait, const std::function<void()>& let) {
+  Status status = Status::ok;
+  thread waiting([&] {
+    status = wait();
+    EXPECT_EQ(now(), at(5ms));
+  });
+  sleep_for(5ms);
+  let();
+  waiting.join();
+  EXPECT_TRUE(status == Status::ok || status == Status::timed_out) << to_string(status);
+  return status;
+}
+
+TEST(RoomAtTheDeadline, OfAPipe) {
+  expect_both([] {
+    PipeEnds pipe = make_pipe(4);
+    EXPECT_TRUE(pipe.writer.write(bytes_of("full")));
+    const Status status = at_one_instant([&] { return pipe.writer.write(bytes_of("more"), 5ms).status(); },
+                                         [&] { EXPECT_EQ(read_text(pipe.reader), "full"); });
+    EXPECT_EQ(read_text(pipe.reader, 9, no_wait), status == Status::ok ? "more" : "[would block]");
+    return status == Status::ok;
+  });
+}
+
+TEST(RoomAtTheDeadline, OfAMailbox) {
+  expect_both([] {
+    mailbox<int> box(1);
+    EXPECT_EQ(box.send(1), Status::ok);
+    const Status status =
+        at_one_instant([&] { return box.send_for(2, 5ms); }, [&] { EXPECT_EQ(*box.try_receive(), 1); });
+    EXPECT_EQ(static_cast<bool>(box.try_receive()), status == Status::ok);
+    return status == Status::ok;
+  });
+}
+
+TEST(RoomAtTheDeadline, OfAWindow) {
+  expect_both([] {
+    Network network;
+    mailbox<int> box(1);
+    EXPECT_EQ(box.bind(network, "in"), Status::ok);
+    mailbox_sender<int> sender(network, "in", 1);
+    EXPECT_EQ(sender.send(1), Status::ok);
+    const Status status =
+        at_one_instant([&] { return sender.send_for(2, 5ms); }, [&] { EXPECT_EQ(*box.try_receive(), 1); });
+    EXPECT_EQ(static_cast<bool>(box.try_receive()), status == Status::ok);
+    return status == Status::ok;
+  });
+}
+
+TEST(RoomAtTheDeadline, OfAStream) {
+  expect_both([] {
+    Network network;
+    stream_listener door(network, {.stream = {.buffer_bytes = 4}});
+    EXPECT_EQ(door.listen("door"), Status::ok);
+    Result<stream_socket> out = connect(network, "door"), in = door.accept();
+    EXPECT_TRUE(out->write(bytes_of("full")));
+    const Status status = at_one_instant([&] { return out->write(bytes_of("more"), 5ms).status(); },
+                                         [&] { EXPECT_EQ(read_text(*in), "full"); });
+    EXPECT_EQ(read_text(*in, 9, no_wait), status == Status::ok ? "more" : "[would block]");
+    return status == Status::ok;
+  });
+}
+
+TEST(RoomAtTheDeadline, AConnectionToAccept) {
+  expect_both([] {
+    Network network;
+    stream_listener door(network);
+    EXPECT_EQ(door.listen("door"), Status::ok);
+    stream_socket client;
+    const Status status = at_one_instant([&] { return door.accept(5ms).status(); },
+                                         [&] { client = std::move(*connect(network, "door")); });
+    EXPECT_EQ(door.accept(no_wait).status(), status == Status::ok ? Status::would_block : Status::ok);
+    return status == Status::ok;
+  });
+}
+
+// What comes from another robot is there before the tasks of its instant: always in time.
+TEST(RoomAtTheDeadline, WordFromAnotherRobotIsInTime) {
+  in_every_order({"ada", "bob"}, two_ms, [](Fleet& fleet) {
+    fleet.spawn("ada", [&] {
+      mailbox<int> box(4);
+      EXPECT_EQ(box.bind(fleet.network, "in"), Status::ok);
+      EXPECT_EQ(*box.receive(), 1);
+      EXPECT_EQ(*box.receive(), 2);
+    });
+    fleet.spawn("bob", [&] {
+      sleep_for(1ms);
+      mailbox_sender<int> sender(fleet.network, "ada:in", 1);
+      EXPECT_EQ(sender.send(1), Status::ok);
+      EXPECT_EQ(sender.send_for(2, 4ms), Status::ok);
+      EXPECT_EQ(now(), at(5ms));
+    });
+  });
+}
+
+}  // namespace
+}  // namespace waitpoint::io
