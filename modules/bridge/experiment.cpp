@@ -18,11 +18,44 @@ Outcome outcome_of(RunEnd end) {
 
 }  // namespace
 
+namespace {
+
+/// Asks after each event whether it is enough, beside the watch that there is.
+class PauseWatch : private kernel::Watch {
+ public:
+  PauseWatch(kernel::Scheduler& scheduler, const std::function<bool(const kernel::EventRecord&)>& enough)
+      : Watch{&PauseWatch::see}, scheduler_(scheduler), other_(scheduler.watch()), enough_(enough) {
+    scheduler_.set_watch(this);
+  }
+  ~PauseWatch() { scheduler_.set_watch(other_); }
+  PauseWatch(const PauseWatch&) = delete;
+  PauseWatch& operator=(const PauseWatch&) = delete;
+
+  bool paused() const { return paused_; }
+
+ private:
+  static void see(kernel::Watch& watch, const kernel::EventRecord& record) {
+    PauseWatch& self = static_cast<PauseWatch&>(watch);
+    if (self.other_ != nullptr) self.other_->event(*self.other_, record);
+    if (self.paused_ || !self.enough_(record)) return;
+    self.paused_ = true;
+    self.scheduler_.pause();
+  }
+
+  kernel::Scheduler& scheduler_;
+  kernel::Watch* other_;
+  const std::function<bool(const kernel::EventRecord&)>& enough_;
+  bool paused_ = false;
+};
+
+}  // namespace
+
 Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
                        const ExperimentOptions& options)
     : options_(options), simulation_({options.order, options.seed, options.replay}) {
   make_network(scenario);
   assembly_.emplace(scenario, types, &*network_, options.seed);
+  operator_.emplace(assembly_->world(), robots(), lanes_);
   simulation_.spawn(
       simulation_.environment(),
       {.name = "world", .stack = kernel::StackSize::large, .phase = kernel::Phase::world, .service = true},
@@ -63,6 +96,7 @@ void Experiment::spawn(Robot& robot) {
 void Experiment::run_world() {
   for (std::int64_t k = 1;; ++k) {
     this_thread::sleep_until(Time() + assembly_->scenario().step * k);
+    operator_->act(now());
     assembly_->world().step();
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (!lanes_[i]->ended) robots()[i]->observe(now());
@@ -72,8 +106,29 @@ void Experiment::run_world() {
 }
 
 RunEnd Experiment::run_before(Time until) {
+  paused_ = false;
   end_ = simulation_.run_before(until);
   return end_;
+}
+
+RunEnd Experiment::run_before(Time until, const std::function<bool(const kernel::EventRecord&)>& enough) {
+  kernel::Scheduler& scheduler = simulation_.scheduler();
+  PauseWatch watch(scheduler, enough);
+  const RunEnd end = run_before(until);
+  paused_ = watch.paused() && end == RunEnd::time_reached;
+  return end;
+}
+
+Time Experiment::intervene(Intervention intervention, std::optional<Time> date) {
+  const Duration step = assembly_->scenario().step;
+  const Time next = Time() + step * static_cast<std::int64_t>(world().steps() + 1);
+  if (date && *date < next)
+    throw intervention.written.bad(to_string(*date) + " s is past: the world's next step is at " + to_string(next) +
+                                   " s");
+  const std::int64_t steps = date ? (date->since_start() + step - Duration::from_ns(1)) / step : 0;
+  const Time at = date ? Time() + step * steps : next;
+  operator_->add(at, std::move(intervention));
+  return at;
 }
 
 RunResult Experiment::result() const {

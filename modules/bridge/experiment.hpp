@@ -7,6 +7,7 @@
 //   then the robots' tasks of that instant
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +16,8 @@
 #include "fibers/io/network.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "modules/bridge/assembly.hpp"
+#include "modules/bridge/operator.hpp"
+#include "modules/bridge/run_result.hpp"
 
 namespace waitpoint::bridge {
 
@@ -31,6 +34,15 @@ class Experiment {
 
   /// Carries out everything before `until`; may be called again with a later time, in windows of any size.
   RunEnd run_before(Time until);
+  /// The same, but `enough` is asked after each event, and where it says so the run pauses before the next: paused().
+  /// `enough` must only look and not throw.
+  RunEnd run_before(Time until, const std::function<bool(const kernel::EventRecord&)>& enough);
+  bool paused() const { return paused_; }
+
+  /// To be carried out at a step of the world: the next one, or the first not before `date`. Returns when that is. What
+  /// this run does not have, or a date that is past, is BadInput. What came of it: outcomes().
+  Time intervene(Intervention intervention, std::optional<Time> date = std::nullopt);
+  const std::vector<InterventionOutcome>& outcomes() const { return operator_->outcomes(); }
 
   Simulation& simulation() { return simulation_; }
   io::Network& network() { return *network_; }
@@ -52,9 +64,11 @@ class Experiment {
   ExperimentOptions options_;
   std::optional<io::Network> network_;  // before the robots, whose modules have sockets
   std::optional<Assembly> assembly_;
-  std::vector<const kernel::Robot*> lanes_;  // of each robot
-  Simulation simulation_;                    // after what its tasks use: it goes first
+  std::vector<kernel::Robot*> lanes_;  // of each robot
+  std::optional<Operator> operator_;
+  Simulation simulation_;  // after what its tasks use: it goes first
   RunEnd end_ = RunEnd::time_reached;
+  bool paused_ = false;
 };
 
 }  // namespace waitpoint::bridge

@@ -147,4 +147,14 @@ RobotResult Robot::result() const {
   return result;
 }
 
+std::size_t index_of(std::string_view name, const std::vector<std::unique_ptr<Robot>>& robots,
+                     const Location& written) {
+  std::vector<std::string_view> known;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (robots[i]->name() == name) return i;
+    known.push_back(robots[i]->name());
+  }
+  throw written.bad("there is no robot '" + std::string(name) + "'" + did_you_mean(name, known));
+}
+
 }  // namespace waitpoint::bridge

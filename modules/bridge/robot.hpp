@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/occupancy_grid.hpp"
@@ -68,5 +69,8 @@ class Robot {
   std::optional<executive::Executive> executive_;
   Evaluation evaluation_;
 };
+
+/// Which of `robots` has that name; BadInput at `written` if none has.
+std::size_t index_of(std::string_view name, const std::vector<std::unique_ptr<Robot>>& robots, const Location& written);
 
 }  // namespace waitpoint::bridge

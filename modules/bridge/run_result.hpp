@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +25,11 @@ enum class Outcome : std::uint8_t {
   deadlock,     ///< tasks wait for each other, or nothing can ever run again
   no_progress,  ///< tasks spin while virtual time stands still
   interrupted,  ///< a signal, after the step that it came in
+  left,         ///< at the prompt, before anything else ended it
 };
 
 constexpr std::string_view to_string(Outcome outcome) {
-  constexpr std::string_view names[] = {"finished", "time limit", "deadlock", "no progress", "interrupted"};
+  constexpr std::string_view names[] = {"finished", "time limit", "deadlock", "no progress", "interrupted", "left"};
   return names[static_cast<std::size_t>(outcome)];
 }
 
@@ -81,6 +83,11 @@ struct RobotResult {
   }
 };
 
+/// How far a paced run was behind the wall clock, in seconds of it: each time it was to wait for it.
+struct Lag {
+  double mean_s = 0, max_s = 0;
+};
+
 struct RunResult {
   std::string scenario;  ///< its name
   std::uint64_t seed = 0;
@@ -92,6 +99,7 @@ struct RunResult {
   std::uint64_t events = 0;
   Duration simulated;
   double wall_s = 0, real_time_factor = 0;
+  std::optional<Lag> lag;  ///< of a paced run
 };
 
 /// The figures of all robots together: sums, the greatest of the greatest, the mean of the means.
