@@ -33,8 +33,10 @@ SeedRange range_of(const std::string& text) {
 
 /// As the arguments are written, before their values are understood.
 struct Arguments {
-  std::string scenario, seed, seeds, order, until, speed, summary, picture, trajectory, digests, events;
+  std::string scenario, seed, seeds, order, until, speed, journal, replay_journal;
+  std::string summary, picture, trajectory, digests, events;
   std::string record_durations, replay_durations;
+  bool interactive = false;
   std::vector<std::string> assignments;
 };
 
@@ -68,6 +70,13 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
       "order of events of one instant: fifo, the default, or seeded, by hashes\nof the seed");
   add("--until", arguments.until, "S", "end at this virtual time, in seconds (default: the scenario's until_s)");
   add("--speed", arguments.speed, "X", "pace to X simulated seconds a second; 0, the default, is as fast as it goes");
+  run->add_flag("--interactive", arguments.interactive,
+                "take commands from standard input: step, stop at a time or a condition, change\n"
+                "the speed, send requests, move robots and obstacles; type help there")
+      ->disable_flag_override();
+  add("--journal", arguments.journal, "FILE", "write what was done at the prompt, each at its virtual time");
+  add("--replay-journal", arguments.replay_journal, "FILE",
+      "do again what a journal says, and check that the run comes to its digest");
   add("--summary", arguments.summary, "FILE.json", "write the summary as JSON");
   add("--picture", arguments.picture, "FILE.svg", "draw the floor and the paths");
   add("--trajectory", arguments.trajectory, "FILE.tum",
@@ -86,12 +95,15 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
 /// A range of seeds is many runs: what is written of a single one has no place there.
 void check_alone(const Arguments& arguments) {
   const std::pair<const char*, const std::string&> others[] = {{"--seed", arguments.seed},
+                                                               {"--journal", arguments.journal},
+                                                               {"--replay-journal", arguments.replay_journal},
                                                                {"--picture", arguments.picture},
                                                                {"--trajectory", arguments.trajectory},
                                                                {"--digests", arguments.digests},
                                                                {"--events", arguments.events},
                                                                {"--record-durations", arguments.record_durations},
                                                                {"--replay-durations", arguments.replay_durations}};
+  if (arguments.interactive) throw BadInput("--seeds", "cannot be used together with --interactive");
   for (const auto& [name, value] : others) {
     if (!value.empty()) throw BadInput("--seeds", std::string("cannot be used together with ") + name);
   }
@@ -106,12 +118,14 @@ std::filesystem::path meant_by(const std::string& name) {
   return error ? std::filesystem::path(name) : path;
 }
 
-/// Each file takes its name when it is complete: of two with one name, the first would be lost.
+/// Each file takes its name when it is complete: of two with one name, the first would be lost. So would be a journal
+/// that is read.
 void check_distinct(const Arguments& arguments) {
   const std::pair<const char*, const std::string&> files[] = {
       {"--summary", arguments.summary},       {"--picture", arguments.picture},
       {"--trajectory", arguments.trajectory}, {"--digests", arguments.digests},
-      {"--events", arguments.events},         {"--record-durations", arguments.record_durations}};
+      {"--events", arguments.events},         {"--record-durations", arguments.record_durations},
+      {"--journal", arguments.journal},       {"--replay-journal", arguments.replay_journal}};
   std::map<std::filesystem::path, const char*> options;
   for (const auto& [option, name] : files) {
     const std::filesystem::path path = name.empty() ? std::filesystem::path() : meant_by(name);
@@ -155,6 +169,11 @@ RunOptions run_options(const Arguments& arguments) {
   const auto file = [](const std::string& name) {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
   };
+  options.interactive = arguments.interactive;
+  options.journal = file(arguments.journal);
+  options.replay_journal = file(arguments.replay_journal);
+  if (options.interactive && options.replay_journal)
+    throw BadInput("--replay-journal", "cannot be used together with --interactive");
   options.summary = file(arguments.summary);
   options.picture = file(arguments.picture);
   options.trajectory = file(arguments.trajectory);

@@ -27,6 +27,9 @@ struct RunOptions {
   std::optional<Duration> until;   ///< instead of the scenario's
   kernel::Order order = kernel::Order::fifo;
   double speed = 0;  ///< simulated seconds a second; 0: as fast as it goes
+  bool interactive = false;
+  std::optional<std::filesystem::path> journal;         ///< to write
+  std::optional<std::filesystem::path> replay_journal;  ///< to carry out again
   std::optional<std::filesystem::path> summary, picture, trajectory, digests, events;
   std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
 };

@@ -17,20 +17,22 @@ EventRecorder::EventRecorder(const std::filesystem::path& path) : Watch{&EventRe
   file_.write("# time robot task operation object\n");
 }
 
-void EventRecorder::write(kernel::Watch& watch, const kernel::EventRecord& record) {
-  EventRecorder& self = static_cast<EventRecorder&>(watch);
-  if (self.failure_ != nullptr) return;
-  std::string& line = self.line_;
-  line = to_string(record.time);
+std::string event_text(const kernel::EventRecord& record) {
+  std::string line = to_string(record.time);
   line += std::string(" ") + record.task->robot->name + " " + record.task->name + " " + kernel::name(record.operation);
   if (const kernel::Object* object = record.object; object != nullptr) {
     line += std::string(" ") + object->kind + "#" + std::to_string(object->number);
     if (object->label[0] != '\0') line += std::string(" \"") + object->label + "\"";
   }
-  line += '\n';
+  return line;
+}
+
+void EventRecorder::write(kernel::Watch& watch, const kernel::EventRecord& record) {
+  EventRecorder& self = static_cast<EventRecorder&>(watch);
+  if (self.failure_ != nullptr) return;
   // Nothing may be thrown through the kernel: what fails here is told at the end.
   try {
-    self.file_.write(line);
+    self.file_.write(event_text(record) + "\n");
   } catch (...) {
     self.failure_ = std::current_exception();
   }

@@ -24,6 +24,9 @@ class DigestRecorder {
   OutputFile file_;
 };
 
+/// "time robot task operation object", without a newline.
+std::string event_text(const kernel::EventRecord& record);
+
 /// Lines "time robot task operation object": one for each event.
 class EventRecorder : private kernel::Watch {
  public:
@@ -35,7 +38,6 @@ class EventRecorder : private kernel::Watch {
   static void write(kernel::Watch& watch, const kernel::EventRecord& record);
 
   OutputFile file_;
-  std::string line_;
   std::exception_ptr failure_;
 };
 

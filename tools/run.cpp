@@ -4,40 +4,26 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <optional>
 
 #include "modules/bridge/expectation.hpp"
 #include "modules/bridge/experiment.hpp"
+#include "modules/bridge/journal.hpp"
 #include "modules/bridge/scenario_reader.hpp"
 #include "tools/duration_files.hpp"
+#include "tools/interruption.hpp"
+#include "tools/journal_file.hpp"
 #include "tools/output_file.hpp"
-#include "tools/pacing.hpp"
 #include "tools/picture.hpp"
-#include "tools/progress.hpp"
+#include "tools/prompt.hpp"
 #include "tools/recorders.hpp"
+#include "tools/session.hpp"
 #include "tools/summary.hpp"
 #include "tools/trajectory.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-constexpr Duration window = std::chrono::milliseconds(100);
-constexpr std::int64_t windows_per_second = 10;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt(int) { interrupted = 1; }
-
-// The first signal ends the run in good order; a second one, or one outside a run, does what it does by default.
-void heed_signals() {
-  struct sigaction action {};
-  action.sa_handler = interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 // The files of one run: opened before it starts, written when it is over.
 class Outputs {
@@ -88,36 +74,64 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   std::string line = "waitpoint run " + options.scenario.string() + " --seed " + std::to_string(seed);
   if (options.order == kernel::Order::seeded) line += " --order seeded";
   if (options.replay_durations) line += " --replay-durations " + options.replay_durations->string();
+  // What is written of this run is what another one has to read.
+  if (const auto& journal = options.journal ? options.journal : options.replay_journal)
+    line += " --replay-journal " + journal->string();
   for (const std::string& assignment : options.assignments) line += " --set '" + assignment + "'";
   return line;
 }
 
-bridge::RunResult carry_out(const RunOptions& options, const bridge::Scenario& scenario, std::uint64_t seed,
-                            bridge::Experiment& experiment, Outputs& outputs) {
-  const Time until = Time() + options.until.value_or(scenario.until);
-  outputs.watch(experiment.simulation());
-  Progress progress(stderr, isatty(STDERR_FILENO) != 0, until.since_start());
-  const Pacing pacing(options.speed);
-  const double start_s = wall_clock_s();
-  RunEnd end = RunEnd::time_reached;
-  Time reached;
-  for (std::int64_t k = 1; end == RunEnd::time_reached && reached < until && interrupted == 0; ++k) {
-    reached = std::min(until, Time() + window * k);
-    end = experiment.run_before(reached);
-    progress.update(reached, experiment.goals_reached(), experiment.goals());
-    if (k % windows_per_second == 0 || end != RunEnd::time_reached || reached == until)
-      outputs.second(experiment.simulation(), (k + windows_per_second - 1) / windows_per_second);
-    pacing.wait_for(reached, [] { return interrupted != 0; });
-  }
-  progress.finish();
+Time limit(const RunOptions& options, const bridge::Scenario& scenario) {
+  return Time() + options.until.value_or(scenario.until);
+}
 
-  bridge::RunResult result = experiment.result();
+bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool interrupted) {
+  bridge::RunResult result = session.result();
   result.seed = seed;
-  if (end == RunEnd::time_reached && interrupted != 0) result.outcome = bridge::Outcome::interrupted;
-  result.wall_s = wall_clock_s() - start_s;
-  const Time last = end == RunEnd::time_reached ? reached : experiment.simulation().global_time();
-  result.simulated = last.since_start();
-  result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
+  if (interrupted && !session.over()) result.outcome = bridge::Outcome::interrupted;
+  return result;
+}
+
+Session session_of(const RunOptions& options, bridge::Experiment& experiment, Outputs& outputs, Time until) {
+  outputs.watch(experiment.simulation());
+  return {experiment, until, options.speed,
+          [&](std::int64_t second) { outputs.second(experiment.simulation(), second); }};
+}
+
+bridge::RunResult carry_out(const RunOptions& options, const bridge::Scenario& scenario, std::uint64_t seed,
+                            bridge::Experiment& experiment, Outputs& outputs, JournalFile* journal) {
+  Session session = session_of(options, experiment, outputs, limit(options, scenario));
+  if (journal != nullptr) session.keep(*journal);
+  bool interrupted = false;
+  if (options.interactive)
+    interrupted = !Prompt(session, STDIN_FILENO, isatty(STDIN_FILENO) != 0).run();
+  else
+    interrupted = session.carry_on(session.until()) == Session::Stop::interrupted;
+  if (journal != nullptr) journal->write(bridge::to_text(session.here()));
+  bridge::RunResult result = result_of(session, seed, interrupted);
+  if (!interrupted && !session.over()) result.outcome = bridge::Outcome::left;
+  return result;
+}
+
+// What a journal says, to its end; whether it came to the same.
+bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scenario, const bridge::Journal& journal,
+                         bridge::Experiment& experiment, Outputs& outputs, JournalFile* kept, bool& same) {
+  const std::optional<bridge::JournalEnd> end = options.until ? std::nullopt : journal.end;
+  // The run may have been left between two events of an instant: it is their number that says where.
+  const Time until = end ? end->time + Duration::from_ns(1) : limit(options, scenario);
+  Session session = session_of(options, experiment, outputs, until);
+  const kernel::Scheduler& scheduler = experiment.simulation().scheduler();
+  Session::Stop stop = Session::Stop::target;
+  if (!end)
+    stop = session.carry_on(until);
+  else if (end->events > 0)
+    stop = session.carry_on(until, [&](const kernel::EventRecord&) { return scheduler.events() == end->events; });
+  const bool interrupted = stop == Session::Stop::interrupted;
+  const bridge::JournalEnd here = session.here();
+  same = interrupted || !end || (here.events == end->events && here.digest == end->digest);
+  if (kept != nullptr) kept->write(bridge::to_text(here));
+  bridge::RunResult result = result_of(session, options.seed, interrupted);
+  if (end && !interrupted && result.outcome == bridge::Outcome::time_limit) result.simulated = end->time.since_start();
   return result;
 }
 
@@ -129,18 +143,26 @@ int status(const bridge::Scenario& scenario, const bridge::RunResult& result) {
   return unmet.empty() ? 0 : 1;
 }
 
+void tell_of(const bridge::Journal& journal, bool same) {
+  if (!journal.end)
+    std::fputs("waitpoint: the journal has no end: the run that wrote it did not come to one\n", stderr);
+  if (same) return;
+  std::fprintf(stderr, "waitpoint: this is not the run of the journal, which ended with %s after %llu events\n",
+               journal.end->digest.c_str(), static_cast<unsigned long long>(journal.end->events));
+}
+
 int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types) {
   std::optional<OutputFile> summary;
   if (options.summary) summary.emplace(*options.summary);
   std::vector<bridge::RunResult> results;
   int worst = 0;
   std::fputs(seeds_head().c_str(), stdout);
-  for (std::uint64_t seed = options.seeds->first; interrupted == 0; ++seed) {
+  for (std::uint64_t seed = options.seeds->first; interruption() == 0; ++seed) {
     bridge::Experiment experiment(scenario, types, {seed, options.order, replay_line(options, seed)});
     RunOptions single = options;
     single.summary.reset();
     Outputs none(single, scenario);
-    results.push_back(carry_out(options, scenario, seed, experiment, none));
+    results.push_back(carry_out(options, scenario, seed, experiment, none, nullptr));
     std::fputs(seeds_row(results.back()).c_str(), stdout);
     std::fflush(stdout);
     worst = std::max(worst, status(scenario, results.back()));
@@ -151,7 +173,7 @@ int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::
     summary->commit();
   }
   flush_stdout();
-  return interrupted != 0 ? 130 : worst;
+  return interruption() != 0 ? 130 : worst;
 }
 
 }  // namespace
@@ -161,14 +183,28 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   heed_signals();
   if (options.seeds) return run_seeds(options, scenario, types);
   bridge::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
+  const bridge::JournalHead head = bridge::journal_head(scenario, options.seed, options.order);
+  std::string lines = to_text(head);
+  std::optional<bridge::Journal> journal;
+  if (options.replay_journal) {
+    journal = bridge::read_journal(*options.replay_journal, head);
+    for (const auto& [date, intervention] : journal->interventions)
+      lines += to_text(experiment.intervene(intervention, date), intervention);
+  }
   Outputs outputs(options, scenario);
   DurationFiles durations(options, scenario, experiment);
-  const bridge::RunResult result = carry_out(options, scenario, options.seed, experiment, outputs);
+  std::optional<JournalFile> kept;
+  if (options.journal) kept.emplace(*options.journal).write(lines);
+  JournalFile* const keep = kept ? &*kept : nullptr;
+  bool same = true;
+  const bridge::RunResult result = journal ? repeat(options, scenario, *journal, experiment, outputs, keep, same)
+                                           : carry_out(options, scenario, options.seed, experiment, outputs, keep);
   durations.finish(result.outcome == bridge::Outcome::finished);
   std::fputs(summary_text(result).c_str(), stdout);
   outputs.write(experiment, result);
   flush_stdout();
-  return status(scenario, result);
+  if (journal) tell_of(*journal, same);
+  return same ? status(scenario, result) : 1;
 }
 
 }  // namespace waitpoint::tools

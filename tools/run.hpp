@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `waitpoint run`: carries out a scenario, shows how far it has come, writes what was asked for.
 //
-// The run is carried out in short windows of virtual time; between two of them progress is shown, signals are heeded
-// and the wall clock is waited for. The windows change nothing in the run.
+// At once, or from a prompt (prompt.hpp), or as a journal says (modules/bridge/journal.hpp).
 #pragma once
 
 #include <span>

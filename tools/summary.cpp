@@ -113,6 +113,10 @@ Json json_of(const RunResult& result) {
   json["simulated_s"] = result.simulated.seconds();
   json["wall_s"] = result.wall_s;
   json["real_time_factor"] = result.real_time_factor;
+  if (result.lag) {
+    json["lag_mean_s"] = result.lag->mean_s;
+    json["lag_max_s"] = result.lag->max_s;
+  }
   json["environment_digest"] = to_string(result.environment_digest);
   json["warnings"] = result.warnings;
   if (!result.trouble.empty())
@@ -141,6 +145,9 @@ std::string summary_text(const RunResult& result) {
   text += fmt::format("  events            {}\n", result.events);
   text +=
       fmt::format("  speed             {:.1f} times real time ({:.2f} s)\n", result.real_time_factor, result.wall_s);
+  if (result.lag)
+    text += fmt::format("  lag               mean {:.1f} ms, greatest {:.1f} ms behind the wall clock\n",
+                        result.lag->mean_s * 1e3, result.lag->max_s * 1e3);
   if (result.robots.size() > 1) text += robot_table(result);
   std::string unreached;
   for (const RobotResult& robot : result.robots) unreached += unreached_goals(robot);

@@ -24,10 +24,20 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
+// A file that holds the text, at its beginning.
+int file_of(const std::string& text) {
+  std::FILE* file = std::tmpfile();
+  if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file) != text.size() || std::fflush(file) != 0)
+    return -1;
+  std::rewind(file);
+  return fileno(file);
+}
+
 // In the child: from here on there is only the command, or an end.
 [[noreturn]] void become(const Command& command) {
   for (const std::string& assignment : command.environment) putenv(const_cast<char*>(assignment.c_str()));
   if (!command.folder.empty() && chdir(command.folder.c_str()) != 0) _exit(126);
+  if (!command.input.empty() && dup2(file_of(command.input), STDIN_FILENO) < 0) _exit(126);
   if (!command.random_addresses) personality(ADDR_NO_RANDOMIZE);
   std::vector<char*> words;
   for (const std::string& word : command.words) words.push_back(const_cast<char*>(word.c_str()));

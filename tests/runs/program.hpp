@@ -18,6 +18,7 @@ struct Command {
   std::vector<std::string> words;             ///< the first is the executable, searched in PATH
   std::vector<std::string> environment = {};  ///< KEY=VALUE, over this process's own
   std::filesystem::path folder = {};          ///< its current folder; empty: this process's
+  std::string input = {};                     ///< what its standard input holds
   bool random_addresses = true;               ///< whether the kernel may lay out its addresses at random
 };
 

@@ -67,6 +67,20 @@ TEST_F(CommandLine, settings_are_kept_in_order_and_do_not_swallow_the_scenario) 
   EXPECT_EQ(std::get<CheckOptions>(read({"check", "a.yaml", "--set", "x=1"})).assignments.size(), 1u);
 }
 
+TEST_F(CommandLine, a_run_is_interactive_or_follows_a_journal) {
+  const RunOptions options = run({"run", "a", "--interactive", "--journal", "j"});
+  EXPECT_TRUE(options.interactive);
+  EXPECT_EQ(options.journal, "j");
+  EXPECT_FALSE(run({"run", "a"}).interactive);
+  EXPECT_EQ(run({"run", "a", "--replay-journal", "j"}).replay_journal, "j");
+  EXPECT_EQ(message({"run", "a", "--interactive", "--replay-journal", "j"}),
+            "--replay-journal: cannot be used together with --interactive");
+  EXPECT_EQ(message({"run", "a", "--seeds", "1..2", "--interactive"}),
+            "--seeds: cannot be used together with --interactive");
+  EXPECT_EQ(message({"run", "a", "--seeds", "1..2", "--journal", "j"}),
+            "--seeds: cannot be used together with --journal");
+}
+
 TEST_F(CommandLine, a_range_of_seeds) {
   const RunOptions options = run({"run", "a", "--seeds", "3..10"});
   ASSERT_TRUE(options.seeds.has_value());
@@ -86,7 +100,7 @@ TEST_F(CommandLine, help_and_version_are_texts) {
   EXPECT_EQ(std::get<ShownText>(read({"--version"})).text, "waitpoint 1.2.3\n");
   const std::string help = std::get<ShownText>(read({"run", "--help"})).text;
   for (const char* option : {"--seed", "--seeds", "--until", "--speed", "--summary", "--picture", "--trajectory",
-                             "--digests", "--events", "--set"}) {
+                             "--digests", "--events", "--set", "--interactive", "--journal", "--replay-journal"}) {
     EXPECT_NE(help.find(option), std::string::npos) << option;
   }
   EXPECT_NE(std::get<ShownText>(read({"--help"})).text.find("check"), std::string::npos);
@@ -125,6 +139,8 @@ TEST_F(CommandLine, two_files_of_one_name_are_refused) {
   const std::string link = folder / "link", file = folder / "file";
   EXPECT_EQ(message({"run", "a", "--trajectory", link.c_str(), "--record-durations", file.c_str()}),
             "--record-durations: '" + file + "' is the file that --trajectory writes");
+  EXPECT_EQ(message({"run", "a", "--journal", "j", "--replay-journal", "./j"}),
+            "--replay-journal: './j' is the file that --journal writes");
   EXPECT_EQ(message({"run", "a", "--summary", "/dev/null", "--events", "/dev/null"}), "");
   EXPECT_EQ(message({"run", "a", "--summary", "out", "--events", "out.events"}), "");
 }

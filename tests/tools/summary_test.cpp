@@ -58,6 +58,16 @@ TEST(SummaryJson, bytes_that_are_no_utf8_do_not_lose_the_summary) {
   EXPECT_TRUE(Json::accept(summary_json(result)));
 }
 
+TEST(Summary, of_a_paced_run_tells_its_lag) {
+  bridge::RunResult result = sample_result(1);
+  EXPECT_FALSE(Json::parse(summary_json(result)).contains("lag_max_s"));
+  EXPECT_EQ(summary_text(result).find("lag"), std::string::npos);
+  result.lag = {0.125, 2.5};
+  EXPECT_EQ(Json::parse(summary_json(result)).at("lag_mean_s"), 0.125);
+  EXPECT_EQ(Json::parse(summary_json(result)).at("lag_max_s"), 2.5);
+  EXPECT_NE(summary_text(result).find("mean 125.0 ms, greatest 2500.0 ms behind the wall clock"), std::string::npos);
+}
+
 TEST(SummaryText, tells_the_figures_and_ends_with_the_digest) {
   const std::string text = summary_text(sample_result(1));
   for (const char* part : {"seed 7: time limit after 40.0 s", "1 of 2", "10.5 m", "mean 0.030 m, greatest 0.125 m",
