@@ -38,6 +38,7 @@ struct Arguments {
   std::string record_durations, replay_durations;
   bool interactive = false;
   std::vector<std::string> assignments;
+  bool check = false;
 };
 
 void add_scenario(CLI::App& command, Arguments& arguments) {
@@ -88,25 +89,50 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
       "write what local clocks measured, counted or chose (docs/clocks.md)");
   add("--replay-durations", arguments.replay_durations, "FILE",
       "take these durations from a record of the same scenario and seed:\nthe same run again, with the same digest");
+  run->add_flag("--check", arguments.check,
+                "run it twice in this process and once in a perturbed one (addresses,\n"
+                "memory, environment, clocks, directories) and compare event by event:\n"
+                "tells the first event that differs, with status 1, or that none does\n"
+                "(docs/determinism.md)");
   add_set(*run, arguments);
   return run;
 }
 
+using Given = std::initializer_list<std::pair<const char*, const std::string&>>;
+
+void check_not_together(const char* option, const Given& others) {
+  for (const auto& [name, value] : others) {
+    if (!value.empty()) throw BadInput(option, std::string("cannot be used together with ") + name);
+  }
+}
+
+/// A self-check compares runs and writes nothing of them.
+void check_writes_nothing(const Arguments& arguments) {
+  if (arguments.interactive) throw BadInput("--check", "cannot be used together with --interactive");
+  check_not_together("--check", {{"--seeds", arguments.seeds},
+                                 {"--journal", arguments.journal},
+                                 {"--replay-journal", arguments.replay_journal},
+                                 {"--speed", arguments.speed},
+                                 {"--summary", arguments.summary},
+                                 {"--picture", arguments.picture},
+                                 {"--trajectory", arguments.trajectory},
+                                 {"--digests", arguments.digests},
+                                 {"--events", arguments.events},
+                                 {"--record-durations", arguments.record_durations}});
+}
+
 /// A range of seeds is many runs: what is written of a single one has no place there.
 void check_alone(const Arguments& arguments) {
-  const std::pair<const char*, const std::string&> others[] = {{"--seed", arguments.seed},
-                                                               {"--journal", arguments.journal},
-                                                               {"--replay-journal", arguments.replay_journal},
-                                                               {"--picture", arguments.picture},
-                                                               {"--trajectory", arguments.trajectory},
-                                                               {"--digests", arguments.digests},
-                                                               {"--events", arguments.events},
-                                                               {"--record-durations", arguments.record_durations},
-                                                               {"--replay-durations", arguments.replay_durations}};
   if (arguments.interactive) throw BadInput("--seeds", "cannot be used together with --interactive");
-  for (const auto& [name, value] : others) {
-    if (!value.empty()) throw BadInput("--seeds", std::string("cannot be used together with ") + name);
-  }
+  check_not_together("--seeds", {{"--seed", arguments.seed},
+                                 {"--journal", arguments.journal},
+                                 {"--replay-journal", arguments.replay_journal},
+                                 {"--picture", arguments.picture},
+                                 {"--trajectory", arguments.trajectory},
+                                 {"--digests", arguments.digests},
+                                 {"--events", arguments.events},
+                                 {"--record-durations", arguments.record_durations},
+                                 {"--replay-durations", arguments.replay_durations}});
 }
 
 /// What a name stands for, links followed as far as there is something. Empty for what is no regular file, such as
@@ -145,6 +171,8 @@ RunOptions run_options(const Arguments& arguments) {
   } else if (environment != nullptr && *environment != '\0') {
     options.seed = seed_of("WAITPOINT_SEED", environment);
   }
+  options.check = arguments.check;
+  if (options.check) check_writes_nothing(arguments);
   if (!arguments.seeds.empty()) {
     check_alone(arguments);
     options.seeds = range_of(arguments.seeds);

@@ -18,6 +18,7 @@
 #include "tools/picture.hpp"
 #include "tools/prompt.hpp"
 #include "tools/recorders.hpp"
+#include "tools/self_check.hpp"
 #include "tools/session.hpp"
 #include "tools/summary.hpp"
 #include "tools/trajectory.hpp"
@@ -181,6 +182,12 @@ int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::
 int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
   heed_signals();
+  if (options.check) {
+    const auto is_interrupted = [] { return interrupted != 0; };
+    const int status = self_check(options, scenario, types, replay_line(options, options.seed), is_interrupted);
+    flush_stdout();
+    return status;
+  }
   if (options.seeds) return run_seeds(options, scenario, types);
   bridge::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
   const bridge::JournalHead head = bridge::journal_head(scenario, options.seed, options.order);

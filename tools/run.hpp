@@ -11,8 +11,8 @@
 
 namespace waitpoint::tools {
 
-/// Returns the exit status: 0 if the run came to what the scenario expects, 1 if not, 130 if a signal ended it. Throws
-/// BadInput before anything is run or written.
+/// Returns the exit status: 0 if the run came to what the scenario expects (with --check: is the same again), 1 if not,
+/// 130 if a signal ended it. Throws BadInput before anything is run or written.
 int run(const RunOptions& options, std::span<const genom::ModuleType> types);
 
 }  // namespace waitpoint::tools

@@ -2,8 +2,10 @@
 """The machinery sees what it must see: each check on a small tree that breaks its rule, the counting on programs that
 pass, fail, crash and hang."""
 
+import ast
 import hashlib
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -124,6 +126,25 @@ class Symbols(InATemporaryFolder):
                 status, output = self.symbols_of(code)
                 self.assertEqual(status, 1, output)
                 self.assertIn(f": {what}: ", output)
+
+
+class Contract(unittest.TestCase):
+    def test_each_test_that_it_names_is_there(self):
+        """docs/determinism.md names tests as Suite.test, and their files."""
+        text = (ROOT / "docs/determinism.md").read_text()
+        sources = {path: path.read_text() for path in (ROOT / "tests").rglob("*_test.*") if path.suffix in (".cpp", ".py")}
+        there = set()
+        for path, source in sources.items():
+            if path.suffix == ".cpp":
+                there |= {f"{suite}.{name}" for suite, name in re.findall(r"^TEST(?:_[FP])?\((\w+), (\w+)\)", source, re.M)}
+                continue
+            for suite in (node for node in ast.parse(source).body if isinstance(node, ast.ClassDef)):
+                there |= {f"{suite.name}.{node.name}" for node in suite.body if isinstance(node, ast.FunctionDef)}
+        named = set(re.findall(r"`([A-Z]\w+\.\w+)`", text))
+        self.assertGreater(len(named), 40)
+        self.assertEqual(sorted(named - there), [])
+        files = set(re.findall(r"`(tests/[\w/.]+)`", text))
+        self.assertEqual(sorted(name for name in files if not (ROOT / name).exists()), [])
 
 
 class Wraps(InATemporaryFolder):

@@ -158,6 +158,123 @@ class TwoRobots(Installed):
         self.assertEqual([what for _, _, what, _, _ in self.outcome("--set", "medium=")[0]], ["cannot send: no route"] * 2)
 
 
+class Unrepeatable(Installed):
+    """Whatever a module takes from outside the simulation, a self-check finds it and names the first event that differs."""
+
+    SECOND, PERTURBED = "the second run in this process", "the run in a perturbed process"
+
+    def check(self, source, *more, **surroundings):
+        program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"),
+                               "-pthread")
+        entries = self.folder / "entries"  # more than fit into one page, or into one reading
+        if not entries.exists():
+            entries.mkdir()
+            for number in range(1000):
+                (entries / f"entry {number}").touch()
+        command = [program, "run", HERE / "unrepeatable/unrepeatable.yaml", "--check", "--set",
+                   f"robots.0.modules.unrepeatable.source={source}", *more]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120, cwd=entries,
+                              env={**os.environ, **surroundings})
+        return done.returncode, done.stdout + done.stderr
+
+    def assert_caught(self, source, *runs):
+        """Found by one of the runs, at the event after the value was given to the poster."""
+        status, output = self.check(source)
+        self.assertEqual(status, 1, output)
+        told = re.fullmatch(r"""unrepeatable, seed 1: not the same run: (?P<run>.*) parts from the first
+  event             (?P<number>\d+)
+  was               (?P<was>[0-9.]+ s, robot gambler, task unrepeatable\.main: \w+.*), digest (?P<digest>[0-9a-f]{16})
+  is                (?P<is>.*), digest (?P<other>[0-9a-f]{16})
+  differs in        the values that the robot gave since its event before
+  event before      [0-9.]+ s, robot gambler, task unrepeatable\.main: .*
+(?:  OS thread         (?P<thread>.*)
+)?  replay            waitpoint run .*unrepeatable.yaml --seed 1 --set 'robots.0.modules.unrepeatable.source=\w+' --check
+""", output)
+        self.assertIsNotNone(told, output)
+        self.assertIn(told["run"], runs)
+        self.assertEqual(told["was"], told["is"])
+        self.assertNotEqual(told["digest"], told["other"])
+        return told
+
+    def test_a_run_that_repeats_is_said_to_repeat(self):
+        status, output = self.check("none")
+        self.assertEqual(status, 0, output)
+        self.assertRegex(output, r"""\Aunrepeatable, seed 1: the same run, twice in this process and once in a perturbed one
+  events            \d+, each compared with its robot's digest
+  digest            wp1:[0-9a-f]{16}
+\Z""")
+
+    def test_the_wall_clock_is_caught(self):
+        self.assert_caught("wall_clock", self.PERTURBED)
+
+    def test_rdtsc_is_caught(self):
+        self.assert_caught("rdtsc", self.SECOND)
+
+    def test_getrandom_is_caught(self):
+        self.assert_caught("getrandom", self.SECOND)
+
+    def test_a_pointer_ordered_set_is_caught(self):
+        self.assert_caught("pointer_order", self.SECOND, self.PERTURBED)
+
+    def test_hash_order_is_caught(self):
+        self.assert_caught("hash_order", self.SECOND, self.PERTURBED)
+
+    def test_uninitialised_memory_is_caught(self):
+        self.assert_caught("uninitialised", self.SECOND, self.PERTURBED)
+
+    def test_uninitialised_memory_of_a_stack_is_caught(self):
+        self.assert_caught("uninitialised_stack", self.SECOND, self.PERTURBED)
+
+    def test_a_static_that_survives_a_run_is_caught(self):
+        self.assert_caught("static", self.SECOND)
+
+    def test_getpid_is_caught(self):
+        self.assert_caught("getpid", self.PERTURBED)
+
+    def test_directory_order_is_caught(self):
+        self.assert_caught("directory_order", self.PERTURBED)
+
+    def test_a_heap_address_is_caught(self):
+        self.assert_caught("heap_address", self.SECOND, self.PERTURBED)
+
+    def test_a_hidden_thread_of_the_system_is_caught_and_named(self):
+        self.assertIn("'hidden'", self.assert_caught("hidden_thread", self.SECOND)["thread"])
+
+    def test_an_environment_variable_is_caught(self):
+        self.assert_caught("environment", self.PERTURBED)
+
+    def assert_cut_off(self, how, source, **surroundings):
+        """The process ended, or was ended, in the first period: the event that it did not come to is named."""
+        status, output = self.check(source, **surroundings)
+        self.assertEqual(status, 1, output)
+        self.assertRegex(output, r"not the same run: the run in a perturbed process parts from the first\n"
+                                 r"  event             \d+\n  was               0\.\d+ s, robot gambler, task .*\n"
+                                 rf"  is                no event: {how}\n  differs in        whether there is such an event\n"
+                                 r"  event before      0\.\d+ s, robot gambler, task unrepeatable\.main: ")
+
+    def test_a_perturbed_process_that_dies_is_told_with_the_event_it_did_not_come_to(self):
+        self.assert_cut_off(r"the process was ended by signal 4 \(Illegal instruction\)", "crash")
+
+    def test_a_perturbed_process_is_not_waited_for_without_end(self):
+        self.assert_cut_off("the process had not ended after 2 s and was stopped", "endless_loop", WAITPOINT_TIME_LIMIT="2")
+
+    def test_a_run_that_fails_in_one_process_only_is_told(self):
+        status, output = self.check("exception")
+        self.assertEqual(status, 1, output)
+        self.assertRegex(output, r"not the same run: the run in a perturbed process parts from the first\n  event +\d+\n"
+                                 r"  was  +0\.1\d+ s, robot gambler, .*\n  is   +0\.1\d+ s, robot gambler, ")
+
+    def test_where_addresses_are_not_at_random_they_are_in_the_perturbed_process(self):
+        program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"),
+                               "-pthread")
+        done = subprocess.run(["setarch", "-R", program, "run", HERE / "unrepeatable/unrepeatable.yaml", "--check"],
+                              capture_output=True, text=True, timeout=120)
+        if "setarch" in done.stderr:
+            self.skipTest(done.stderr)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertNotIn("not perturbed", done.stdout)
+
+
 class LostLetter(Installed):
     """Tests of one's own threads need neither world nor modules."""
 

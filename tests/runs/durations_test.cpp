@@ -71,6 +71,16 @@ TEST_F(DurationsTest, ChosenDurationsAreRecordedToo) {
   EXPECT_NE(run({}, interval).digest(), plain.digest());
 }
 
+TEST_F(DurationsTest, ASelfCheckReplaysWhatTheFirstRunMeasured) {
+  const Outcome own = run({"--check"});
+  EXPECT_EQ(own.status, 0) << own.output << own.errors;
+  EXPECT_NE(own.output.find(" of the first run replayed in the others\n"), std::string::npos) << own.output;
+  const Outcome first = run({"--record-durations", path("a")});
+  const Outcome given = run({"--check", "--replay-durations", path("a")});
+  EXPECT_EQ(given.status, 0) << given.output << given.errors;
+  EXPECT_EQ(given.digest(), first.digest());
+}
+
 TEST_F(DurationsTest, ARecordThatDoesNotFitIsOneLineAndStatus2) {
   ASSERT_EQ(run({"--record-durations", path("a")}).errors.find("waitpoint: error"), std::string::npos);
   const auto refused = [&](const Outcome& outcome, const std::string& part) {

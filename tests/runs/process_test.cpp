@@ -59,6 +59,29 @@ TEST(Process, what_is_written_on_the_side_does_not_change_a_run) {
   EXPECT_EQ(nlohmann::json::parse(folder.read("all.summary")).at("digest"), expected);
 }
 
+TEST(Process, a_self_check_compares_all_events_of_the_run_and_finds_no_difference) {
+  const Outcome plain = outcome_of(run_command("office.yaml", "10"));
+  const std::size_t at = plain.output.find("  events            ");
+  ASSERT_NE(at, std::string::npos) << plain.output;
+  const std::string events = plain.output.substr(at, plain.output.find('\n', at) - at);
+  const Outcome checked = outcome_of(run_command("office.yaml", "10", {"--check"}));
+  EXPECT_EQ(checked.status, 0) << checked.errors;
+  EXPECT_EQ(checked.output, "office, seed 1: the same run, twice in this process and once in a perturbed one\n" +
+                                events + ", each compared with its robot's digest\n  digest            " +
+                                plain.digest() + "\n");
+  EXPECT_EQ(checked.errors, "");
+}
+
+TEST(Process, a_self_check_without_a_place_for_its_log_is_bad_input) {
+  Command command = run_command("office.yaml", "2", {"--check"});
+  command.environment = {"TMPDIR=/proc/self"};
+  const Outcome outcome = outcome_of(command);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_NE(outcome.errors.find("--check: no temporary file can be had in '/proc/self'"), std::string::npos)
+      << outcome.errors;
+}
+
 TEST(Process, pacing_does_not_change_a_run) {
   const Outcome free = outcome_of(run_command("office.yaml", "2"));
   const auto start = std::chrono::steady_clock::now();

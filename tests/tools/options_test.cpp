@@ -96,11 +96,24 @@ TEST_F(CommandLine, the_environments_seed_gives_way_to_the_options) {
   EXPECT_EQ(message({"run", "a"}), "WAITPOINT_SEED: expected a whole number from 0 to 2^64 - 1, found 'many'");
 }
 
+TEST_F(CommandLine, a_self_check_writes_no_files_and_is_of_one_run) {
+  EXPECT_FALSE(run({"run", "a"}).check);
+  const RunOptions options = run({"run", "a", "--check", "--seed", "3", "--until", "2", "--replay-durations", "d"});
+  EXPECT_TRUE(options.check);
+  EXPECT_EQ(options.seed, 3u);
+  EXPECT_EQ(options.replay_durations, "d");
+  for (const char* option : {"--summary", "--picture", "--trajectory", "--digests", "--events", "--record-durations"})
+    EXPECT_EQ(message({"run", "a", "--check", option, "f"}),
+              std::string("--check: cannot be used together with ") + option);
+  EXPECT_EQ(message({"run", "a", "--check", "--seeds", "1..2"}), "--check: cannot be used together with --seeds");
+  EXPECT_EQ(message({"run", "a", "--check", "--speed", "1"}), "--check: cannot be used together with --speed");
+}
+
 TEST_F(CommandLine, help_and_version_are_texts) {
   EXPECT_EQ(std::get<ShownText>(read({"--version"})).text, "waitpoint 1.2.3\n");
   const std::string help = std::get<ShownText>(read({"run", "--help"})).text;
   for (const char* option : {"--seed", "--seeds", "--until", "--speed", "--summary", "--picture", "--trajectory",
-                             "--digests", "--events", "--set", "--interactive", "--journal", "--replay-journal"}) {
+                             "--digests", "--events", "--check", "--set", "--interactive", "--journal", "--replay-journal"}) {
     EXPECT_NE(help.find(option), std::string::npos) << option;
   }
   EXPECT_NE(std::get<ShownText>(read({"--help"})).text.find("check"), std::string::npos);

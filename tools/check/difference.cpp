@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/check/difference.hpp"
+
+#include <fmt/format.h>
+
+namespace waitpoint::tools {
+namespace {
+
+std::string what_differs(const LoggedEvent& expected, const LoggedEvent& found) {
+  std::string fields;
+  const auto note = [&](const char* name, bool differs) {
+    if (differs) fields += (fields.empty() ? "" : ", ") + std::string(name);
+  };
+  note("time", expected.time != found.time);
+  note("robot", expected.robot != found.robot);
+  note("task", expected.task != found.task);
+  note("operation", expected.operation != found.operation);
+  note("object", expected.object != found.object);
+  // The digest of an event that differs anyway says nothing more.
+  return fields.empty() ? "the values that the robot gave since its event before" : fields;
+}
+
+std::string shown(const std::optional<LoggedEvent>& event, const std::string& end) {
+  return event ? fmt::format("{}, digest {:016x}", to_string(*event), event->digest) : "no event: " + end;
+}
+
+}  // namespace
+
+std::string to_string(const LoggedEvent& event) {
+  std::string text =
+      to_string(event.time) + " s, robot " + event.robot + ", task " + event.task + ": " + event.operation;
+  if (!event.object.empty()) text += " " + event.object;
+  return text;
+}
+
+std::string to_text(const Difference& difference) {
+  std::string text;
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("  {:<18}{}\n", name, value);
+  };
+  const auto& [number, expected, found, expected_end, found_end, before] = difference;
+  line("event", std::to_string(number));
+  line("was", shown(expected, expected_end));
+  line("is", shown(found, found_end));
+  line("differs in", expected && found           ? what_differs(*expected, *found)
+                     : expected || found         ? "whether there is such an event"
+                     : expected_end == found_end ? "the values given after the last event"
+                                                 : "how the run ends");
+  line("event before", before ? to_string(*before) : "none");
+  return text;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/check/perturbed_process.hpp"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/personality.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "tools/check/surroundings_file.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr const char* program_file = "/proc/self/exe";
+constexpr const char* files_variable = "WAITPOINT_CHECK_FILES";  // "LOG,DURATIONS"
+
+[[noreturn]] void fail(const char* what) { throw BadInput("--check", std::string(what) + ": " + std::strerror(errno)); }
+
+std::vector<std::string> command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  if (words.empty()) fail("the command line cannot be read");
+  return words;
+}
+
+/// A file in memory that the new process finds by its descriptor.
+int surroundings() {
+  const int file = memfd_create("waitpoint-surroundings", 0);
+  if (file < 0) fail("no file in memory can be had");
+  const std::span<const unsigned char> bytes = surroundings_file();
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t written = write(file, bytes.data() + done, bytes.size() - done);
+    if (written <= 0) fail("no file in memory can be written");
+    done += static_cast<std::size_t>(written);
+  }
+  return file;
+}
+
+/// What LD_PRELOAD is to be: the object of that descriptor first, but behind a sanitizer's runtime, which must be the
+/// first of all.
+std::string preloaded(int object) {
+  std::string files;
+  for (const char* entry : {"__asan_init", "__tsan_init"}) {
+    void* const runtime = dlsym(RTLD_DEFAULT, entry);
+    Dl_info found{};
+    if (runtime == nullptr || dladdr(runtime, &found) == 0) continue;
+    if (std::string_view(found.dli_fname).find(".so") != std::string_view::npos)
+      files += found.dli_fname + std::string(":");
+  }
+  files += "/proc/self/fd/" + std::to_string(object);
+  const char* const others = std::getenv("LD_PRELOAD");
+  return files + (others != nullptr && *others != '\0' ? std::string(":") + others : "");
+}
+
+std::string other(const char* name, const char* one, const char* another) {
+  const char* const old = std::getenv(name);
+  return std::string(name) + "=" + (old != nullptr && std::string_view(old) == one ? another : one);
+}
+
+std::vector<std::string> other_environment(const PerturbedFiles& files, int preload) {
+  std::vector<std::string> variables = {
+      "LD_PRELOAD=" + preloaded(preload),
+      fmt::format("{}={},{}", files_variable, files.log, files.durations),
+      "MALLOC_TOP_PAD_=1183744",
+      other("LC_ALL", "C.UTF-8", "C"),
+      other("LANG", "C.UTF-8", "C"),
+      other("TZ", "<+0545>-5:45", "<-0330>3:30"),
+      other("USER", "somebody", "another"),
+      other("LOGNAME", "somebody", "another"),
+      other("HOSTNAME", "somewhere", "elsewhere"),
+      other("TERM", "dumb", "vt100"),
+      other("COLUMNS", "61", "163"),
+      other("LINES", "17", "71"),
+      "A_VARIABLE_MORE=" + std::string(3331, 'x'),  // moves the stack too
+  };
+  const std::vector<std::string> changed = variables;
+  for (char** at = environ; *at != nullptr; ++at) {
+    const std::string_view variable = *at;
+    const std::string_view name = variable.substr(0, variable.find('=') + 1);
+    const bool known =
+        std::any_of(changed.begin(), changed.end(), [&](const std::string& mine) { return mine.starts_with(name); });
+    if (!known) variables.emplace_back(variable);
+  }
+  std::reverse(variables.begin(), variables.end());
+  return variables;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> result;
+  for (std::string& word : words) result.push_back(word.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+// In the new process, which has one thread and ends with the one that made it.
+[[noreturn]] void become(const PerturbedFiles& files, char* const* words, char* const* variables) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  fcntl(files.log, F_SETFD, 0);
+  if (files.durations >= 0) fcntl(files.durations, F_SETFD, 0);
+  const int old = personality(0xFFFFFFFF);
+  if (old >= 0) personality(static_cast<unsigned long>(old) & ~static_cast<unsigned long>(ADDR_NO_RANDOMIZE));
+  execve(program_file, words, variables);
+  _exit(127);
+}
+
+/// Stops a process in good order if it heeds that, and in the end by force.
+class Stopping {
+ public:
+  explicit Stopping(pid_t id) : id_(id) {}
+  void ask() {
+    if (asked_ == Clock::time_point()) {
+      kill(id_, SIGTERM);
+      asked_ = Clock::now();
+    } else if (Clock::now() - asked_ > std::chrono::seconds(5)) {
+      force();
+    }
+  }
+  void force() const { kill(id_, SIGKILL); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  pid_t id_;
+  Clock::time_point asked_;
+};
+
+}  // namespace
+
+void check_perturbed_process_possible() {
+  if (access(program_file, X_OK) != 0)
+    fail("a perturbed process is this program started from /proc, which cannot be read");
+}
+
+ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bool (*interrupted)()) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::string> words = command_line();
+  const int preload = surroundings();
+  std::vector<std::string> environment = other_environment(files, preload);
+  const std::vector<char*> arguments = pointers(words), variables = pointers(environment);
+  std::fflush(nullptr);
+  const pid_t id = fork();
+  if (id < 0) fail("no process can be had");
+  if (id == 0) become(files, arguments.data(), variables.data());
+  close(preload);
+  const Clock::time_point due =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit_s));
+  Stopping stopping(id);
+  bool late = false;
+  int status = 0;
+  for (;;) {
+    const pid_t ended = waitpid(id, &status, WNOHANG);
+    if (ended == id) break;
+    if (ended < 0 && errno != EINTR) fail("the process cannot be waited for");
+    if (interrupted()) stopping.ask();
+    late = late || Clock::now() > due;
+    if (late) stopping.force();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  if (WIFEXITED(status)) return {WEXITSTATUS(status), ""};
+  if (late) return {std::nullopt, fmt::format("had not ended after {:.0f} s and was stopped", limit_s)};
+  return {std::nullopt, fmt::format("was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
+}
+
+std::optional<PerturbedFiles> files_of_perturbed_process() {
+  const char* const text = std::getenv(files_variable);
+  if (text == nullptr) return std::nullopt;
+  const std::string_view all = text;
+  const std::size_t comma = all.find(',');
+  std::int64_t log = -1, durations = -1;
+  if (comma == std::string_view::npos || !parse_number(all.substr(0, comma), log) ||
+      !parse_number(all.substr(comma + 1), durations) || log < 0)
+    throw BadInput(files_variable, "is set by a self-check for its perturbed process, and by nobody else");
+  return PerturbedFiles{static_cast<int>(log), static_cast<int>(durations)};
+}
+
+}  // namespace waitpoint::tools
