@@ -146,7 +146,7 @@ inline void Scheduler::prepare_coming() const {
   const EventNode* soon = events_.coming(0);
   if (soon == nullptr || soon->fire != nullptr) return;
   const char* stack = static_cast<const char*>(reinterpret_cast<const Task*>(soon)->fiber.context);
-  for (int line = 0; line < stack_lines_fetched; ++line) fetch(stack + 64 * line);
+  for (std::ptrdiff_t line = 0; line < stack_lines_fetched; ++line) fetch(stack + 64 * line);
   if (const EventNode* later = events_.coming(2)) {
     fetch(later);
     fetch(reinterpret_cast<const char*>(later) + 64);
