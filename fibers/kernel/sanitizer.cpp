@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "core/error.hpp"
 #include "fibers/kernel/fiber.hpp"
 
 // The runtimes' public interfaces (sanitizer/*_interface.h), of which a program has one or none.
@@ -80,8 +81,9 @@ void open_stack(const Stack& stack) {
   // ThreadSanitizer forgets who used memory when it is mapped anew.
   if (thread) {
     const std::size_t whole_pages = (size_of(stack) + 4095) / 4096 * 4096;
-    mmap(stack.low, whole_pages, PROT_READ | PROT_WRITE,
-         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK | MAP_FIXED, -1, 0);
+    const void* anew = mmap(stack.low, whole_pages, PROT_READ | PROT_WRITE,
+                            MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK | MAP_FIXED, -1, 0);
+    WAITPOINT_CHECK(anew == stack.low, "a stack cannot be mapped anew");
   }
 }
 
