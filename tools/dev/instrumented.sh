@@ -33,7 +33,7 @@ case $tool in
     # The program's own messages at a crash are tested: the sanitizers leave the signal alone.
     export ASAN_OPTIONS=handle_segv=0:detect_stack_use_after_return=1 TSAN_OPTIONS=handle_segv=0
     export UBSAN_OPTIONS=print_stacktrace=1
-    options+=(-Db_sanitize="$tool" -Db_lundef=false -Dwerror=false -Dbenchmarks=disabled)
+    options+=(-Db_sanitize="$tool" -Db_lundef=false -Doptimization=1 -Dwerror=false -Dbenchmarks=disabled)
     [[ $tool != undefined ]] || options+=(-Dcpp_args=-fno-sanitize-recover=undefined)
     # ThreadSanitizer knows 8 000 threads at most.
     [[ $tool != thread ]] || without=ManyTasks.*
