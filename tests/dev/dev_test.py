@@ -4,6 +4,8 @@ pass, fail, crash and hang."""
 
 import ast
 import hashlib
+import json
+import os
 import pathlib
 import re
 import subprocess
@@ -145,6 +147,22 @@ class Contract(unittest.TestCase):
         self.assertEqual(sorted(named - there), [])
         files = set(re.findall(r"`(tests/[\w/.]+)`", text))
         self.assertEqual(sorted(name for name in files if not (ROOT / name).exists()), [])
+
+
+class Analysis(InATemporaryFolder):
+    def entry(self, source, words):
+        return {"directory": str(self.folder), "file": source, "output": "", "command": f"c++ {words} -c {source}"}
+
+    def test_each_own_source_is_read_once_with_the_flags_of_its_first_compilation(self):
+        ours, fetched = str(ROOT / "core/digest.cpp"), str(ROOT / "subprojects/a-1/a.cpp")
+        entries = [self.entry(ours, "-I.. -DA='\"b c\"' -MD -MQ a.o -MF a.d -include d.hpp -o a.o"), self.entry(ours, "-DE"),
+                   self.entry(fetched, ""), self.entry("/usr/src/a.cpp", "")]
+        self.write("compile_commands.json", json.dumps(entries))
+        self.assertEqual(self.check("analysis"), (0, "1\n"))
+        lines = (self.folder / "analysis/build.ninja").read_text().splitlines()
+        statement = f"build analysis/core/digest.cpp.analysed: analyse {ours} | {os.path.relpath(ROOT / '.clang-tidy', self.folder)}"
+        self.assertEqual(lines[-3:], [statement, "  compiler = c++", "  flags = -I.. '-DA=\"b c\"' -include d.hpp"])
+        self.assertEqual(json.loads((self.folder / "analysis/compile_commands.json").read_text()), entries[:1])
 
 
 class Wraps(InATemporaryFolder):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a build folder compiles: `compiled.py sources BUILD` prints this repository's sources, each once;
-`compiled.py objects BUILD FOLDER` the objects made of the sources in FOLDER, as Ninja names them."""
+"""What a build folder compiles: `compiled.py objects BUILD FOLDER` prints the objects made of the sources in FOLDER, as
+Ninja names them."""
 
 import json
 import pathlib
@@ -9,18 +9,18 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
-def main():
-    what, build = sys.argv[1], pathlib.Path(sys.argv[2])
-    found = set()
+def commands(build):
+    """The entries of the compile database for this repository's own sources, as (source, entry)."""
     for entry in json.loads((build / "compile_commands.json").read_text()):
         source = (build / entry["file"]).resolve()
-        if not source.is_relative_to(ROOT) or source.is_relative_to(ROOT / "subprojects"):
-            continue
-        if what == "sources":
-            found.add(str(source.relative_to(ROOT)))
-        elif source.parent == ROOT / sys.argv[3]:
-            found.add(entry["output"])
-    print("\n".join(sorted(found)))
+        if source.is_relative_to(ROOT) and not source.is_relative_to(ROOT / "subprojects"):
+            yield source.relative_to(ROOT), entry
+
+
+def main():
+    what, build, folder = sys.argv[1:]
+    assert what == "objects", what
+    print("\n".join(sorted(entry["output"] for source, entry in commands(pathlib.Path(build)) if str(source.parent) == folder)))
 
 
 if __name__ == "__main__":

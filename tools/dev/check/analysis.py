@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`analysis.py BUILD` writes what Ninja needs to run clang-tidy over this repository's sources, in BUILD/analysis/: each
+source once, as the build first compiles it, and again only after it, a header it includes, its flags or .clang-tidy changed.
+
+A file's stamp is made when nothing was found in it; what the compiler says it includes is told to Ninja.
+"""
+
+import json
+import os
+import pathlib
+import shlex
+import sys
+
+sys.dont_write_bytecode = True
+from compiled import ROOT, commands  # noqa: E402
+
+RULES = """builddir = analysis
+rule analyse
+  command = $compiler @$out.flags -MM -MT $out -MF $out.d $in && $
+    clang-tidy -p analysis --quiet --warnings-as-errors='*' $in >$out 2>&1 || { cat $out; rm -f $out; false; }
+  rspfile = $out.flags
+  rspfile_content = $flags
+  depfile = $out.d
+  deps = gcc
+  description = $in
+"""
+
+
+def flags(entry):
+    """The compiler and the flags that say how the source is read."""
+    words = iter(shlex.split(entry["command"]))
+    compiler, kept = [], []
+    for word in words:
+        if word in ("-o", "-MF", "-MQ"):
+            next(words)
+        elif word.startswith("-"):
+            kept += [word] if word not in ("-c", "-MD") else []
+        elif kept:
+            if word != entry["file"]:
+                kept.append(word)
+        else:
+            compiler.append(word)
+    return shlex.join(compiler), shlex.join(kept)
+
+
+def main():
+    build = pathlib.Path(sys.argv[1])
+    first = {}
+    for source, entry in commands(build):
+        first.setdefault(source, entry)
+    folder, settings = build / "analysis", os.path.relpath(ROOT / ".clang-tidy", build)
+    folder.mkdir(exist_ok=True)
+    (folder / "compile_commands.json").write_text(json.dumps(list(first.values())))
+    with open(folder / "build.ninja", "w") as ninja:
+        ninja.write(RULES)
+        for source, entry in sorted(first.items()):
+            compiler, kept = flags(entry)
+            ninja.write(f"build analysis/{source}.analysed: analyse {entry['file']} | {settings}\n")
+            ninja.write(f"  compiler = {compiler}\n  flags = {kept}\n".replace("$", "$$"))
+    print(len(first))
+
+
+if __name__ == "__main__":
+    main()
