@@ -17,7 +17,7 @@ Link::Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, st
     : scheduler_(scheduler),
       from_(from),
       to_(std::move(to)),
-      medium_(std::move(medium)),
+      medium_(medium),
       distance_(distance),
       in_flight_max_(in_flight_max),
       random_(scheduler.chooser().seed(), from.name, "medium to " + to_) {

@@ -24,8 +24,8 @@ struct Medium {
   /// Of each robot to each other: messages queue behind each other. 0: unlimited.
   std::uint64_t bandwidth_bit_s = 0;
   double range_m = std::numeric_limits<double>::infinity();
-  double loss = 0;                          ///< probability that a datagram is lost
-  std::uint64_t queue_bytes = 1024 * 1024;  ///< a datagram that would wait behind more is dropped
+  double loss = 0;                      ///< probability that a datagram is lost
+  std::uint64_t queue_bytes = 1 << 20;  ///< a datagram that would wait behind more is dropped
   /// How often what waits beyond the range looks whether it can go.
   Duration range_check = std::chrono::milliseconds(100);
 };

@@ -50,6 +50,7 @@ Result<std::size_t> poll(std::span<PollEntry> entries, const Deadline& deadline)
 
 Result<std::size_t> select(std::vector<Source>& readable, std::vector<Source>& writable, const Deadline& deadline) {
   std::vector<PollEntry> entries;
+  entries.reserve(readable.size() + writable.size());
   for (const Source& source : readable) entries.push_back({source, Events::readable});
   for (const Source& source : writable) entries.push_back({source, Events::writable});
   const Result<std::size_t> result = poll(entries, deadline);

@@ -8,6 +8,8 @@
 
 #include <memory>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 
 #include "fibers/sync/future.hpp"
 #include "fibers/sync/thread.hpp"
@@ -30,9 +32,9 @@ template <class Result, class... Arguments>
 class packaged_task<Result(Arguments...)> {
  public:
   packaged_task() noexcept = default;
-  template <class Function>
-  requires(!std::is_same_v<std::remove_cvref_t<Function>, packaged_task>) explicit packaged_task(Function&& function)
-      : function_(std::make_unique<Holder<std::decay_t<Function>>>(std::forward<Function>(function))),
+  template <class Function, class = std::enable_if_t<!std::is_same_v<std::remove_cvref_t<Function>, packaged_task>>>
+  explicit packaged_task(Function&& function)
+      : function_(std::make_unique<Holder<std::decay_t<Function>>>(std::in_place, std::forward<Function>(function))),
         state_(std::make_shared<sync::ResultState<Result>>()) {}
   packaged_task(packaged_task&&) noexcept = default;
   packaged_task& operator=(packaged_task&& other) noexcept {
@@ -76,7 +78,7 @@ class packaged_task<Result(Arguments...)> {
   template <class Function>
   struct Holder : Callable {
     template <class From>
-    explicit Holder(From&& from) : function(std::forward<From>(from)) {}
+    Holder(std::in_place_t, From&& from) : function(std::forward<From>(from)) {}
     Result call(Arguments... arguments) override {
       if constexpr (std::is_void_v<Result>)
         (void)std::invoke(function, std::forward<Arguments>(arguments)...);

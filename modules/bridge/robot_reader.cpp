@@ -58,7 +58,7 @@ std::vector<ModuleScenario> read_modules(const YamlNode& node) {
 }
 
 std::string read_dotted(const YamlMap& row, std::string_view key) {
-  const std::string text = row.text(key);
+  std::string text = row.text(key);
   const std::size_t dot = text.find('.');
   if (dot == std::string::npos || dot == 0 || dot + 1 == text.size()) {
     throw row.require(key).written.bad("expected " + std::string(key) + " to be two names joined by a dot, found '" +

@@ -40,7 +40,7 @@ YamlNode load_floor(const std::filesystem::path& file) {
 
 /// The path written at `include`, checked.
 std::filesystem::path included_file(const YamlNode& include) {
-  const std::filesystem::path file = include.written.resolve(read_text(include, "include"));
+  std::filesystem::path file = include.written.resolve(read_text(include, "include"));
   if (!std::filesystem::exists(file)) throw include.written.bad("there is no file '" + file.string() + "' to include");
   return file;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/genom/task_computing.hpp"
 
+#include <cmath>
+
 #include "core/number_text.hpp"
 
 namespace waitpoint::genom {
@@ -28,7 +30,7 @@ std::int64_t read_scale(Settings& settings, const std::string& key) {
 
   const bool good = parse_number(digits, scale) && scale >= 0 && scale <= scale_max;
   if (!good) settings.reject(key, "a factor from 0 to a million, such as x0.5");
-  return static_cast<std::int64_t>(scale * 1e6 + 0.5);
+  return std::llround(scale * 1e6);
 }
 
 Duration read_cost(Settings& settings, const std::string& key, double unit_s) {

@@ -22,7 +22,8 @@ int Diagram::sector_at(double angle_rad) {
 }
 
 double Diagram::bisector_rad(int sector) {
-  return static_cast<double>(static_cast<int>(wrap(sector)) - sector_count / 2) * sector_width_rad;
+  const int from_middle = static_cast<int>(wrap(sector)) - sector_count / 2;
+  return static_cast<double>(from_middle) * sector_width_rad;
 }
 
 }  // namespace waitpoint::ndd

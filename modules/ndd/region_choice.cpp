@@ -20,7 +20,7 @@ struct Opening {
   int detour_sectors;  // from the goal's direction, with handicap and bonus
 };
 
-using Openings = Bounded<Opening, 2 * sector_count>;
+using Openings = Bounded<Opening, std::size_t{2} * sector_count>;
 
 void favour_nearest(Openings& openings, Point previous) {
   Opening* nearest = nullptr;

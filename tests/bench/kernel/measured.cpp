@@ -28,6 +28,7 @@ Child start(const std::vector<std::string>& words) {
   int ends[2];
   WAITPOINT_CHECK(pipe(ends) == 0, "no pipe to a measuring process");
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const pid_t id = fork();

@@ -142,6 +142,7 @@ void buffer(const Request& request) {
   Kit::spawn(0, 2, [] {
     for (std::uint32_t item = 1;; ++item) {
       mutex.lock();
+      // NOLINTNEXTLINE(bugprone-infinite-loop): the other task changes it, while this one waits
       while (stored == places) not_full.wait(mutex);
       items[(first + stored++) % places] = item;
       not_empty.notify();
@@ -152,6 +153,7 @@ void buffer(const Request& request) {
   Kit::spawn(1, 2, [] {
     for (std::uint32_t item = 1;; ++item) {
       mutex.lock();
+      // NOLINTNEXTLINE(bugprone-infinite-loop): the other task changes it, while this one waits
       while (stored == 0) not_empty.wait(mutex);
       if (items[first] != item) std::abort();
       first = (first + 1) % places;
