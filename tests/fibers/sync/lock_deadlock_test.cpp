@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Deadlocks through locks that are held several times, or by several at once.
+// Deadlocks through locks that are held several times, or by several at once. In one order: to find the source lines of
+// a report takes long.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -25,37 +26,32 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 // Two tasks that each hold one and want the other, 1 ms later: found at once, and both are named.
 template <class First, class Second>
 void expect_cycle(const std::string& first_kind, const std::string& second_kind) {
-  for (std::uint64_t number = 0; number <= 2; ++number) {
-    const Report report = simulate(
-        [] {
-          First left("left");
-          Second right("right");
-          thread a({.name = "anna"}, [&] {
-            left.lock();
-            sleep_for(1ms);
-            right.lock();
-          });
-          thread b({.name = "bert"}, [&] {
-            right.lock();
-            sleep_for(1ms);
-            left.lock();
-          });
-          sleep_for(1h);
-        },
-        order_number(number));
-    ASSERT_EQ(report.end, RunEnd::deadlock);
-    ASSERT_EQ(report.end_time, Time() + Duration(1ms));
-    ASSERT_TRUE(contains(report.text, "2 tasks wait for each other")) << report;
-    ASSERT_TRUE(contains(report.text, "anna of environment waits (lock) for " + second_kind + " #")) << report;
-    ASSERT_TRUE(contains(report.text, "\"right\", held by bert of environment")) << report;
-    ASSERT_TRUE(contains(report.text, "bert of environment waits (lock) for " + first_kind + " #")) << report;
-    ASSERT_TRUE(contains(report.text, "\"left\", held by anna of environment")) << report;
-  }
+  const Report report = simulate([] {
+    First left("left");
+    Second right("right");
+    thread a({.name = "anna"}, [&] {
+      left.lock();
+      sleep_for(1ms);
+      right.lock();
+    });
+    thread b({.name = "bert"}, [&] {
+      right.lock();
+      sleep_for(1ms);
+      left.lock();
+    });
+    sleep_for(1h);
+  });
+  ASSERT_EQ(report.end, RunEnd::deadlock);
+  ASSERT_EQ(report.end_time, Time() + Duration(1ms));
+  ASSERT_TRUE(contains(report.text, "2 tasks wait for each other")) << report;
+  ASSERT_TRUE(contains(report.text, "anna of environment waits (lock) for " + second_kind + " #")) << report;
+  ASSERT_TRUE(contains(report.text, "\"right\", held by bert of environment")) << report;
+  ASSERT_TRUE(contains(report.text, "bert of environment waits (lock) for " + first_kind + " #")) << report;
+  ASSERT_TRUE(contains(report.text, "\"left\", held by anna of environment")) << report;
 }
 
 TEST(LockDeadlock, ThroughRecursiveSharedAndPriorityMutexes) {
   expect_cycle<recursive_mutex, recursive_mutex>("recursive mutex", "recursive mutex");
-  expect_cycle<shared_mutex, shared_mutex>("shared mutex", "shared mutex");
   expect_cycle<shared_timed_mutex, recursive_timed_mutex>("shared mutex", "recursive mutex");
   expect_cycle<priority_mutex, recursive_mutex>("mutex", "recursive mutex");
 }
@@ -70,33 +66,29 @@ TEST(LockDeadlock, ARecursiveMutexIsNoneForItsOwner) {
 
 // A writer waits for every reader; that one of them waits for the writer is enough.
 TEST(LockDeadlock, AWriterThatWaitsForAReaderWhoWaitsForIt) {
-  for (std::uint64_t number = 0; number <= 2; ++number) {
-    const Report report = simulate(
-        [] {
-          shared_mutex map("map");
-          mutex log("log");
-          thread bystander({.name = "bystander"}, [&] {
-            const std::shared_lock reads(map);
-            sleep_for(1h);
-          });
-          thread reader({.name = "reader"}, [&] {
-            const std::shared_lock reads(map);
-            sleep_for(2ms);
-            log.lock();
-          });
-          thread writer({.name = "writer"}, [&] {
-            log.lock();
-            sleep_for(1ms);
-            map.lock();
-          });
-          sleep_for(1h);
-        },
-        order_number(number));
-    ASSERT_EQ(report.end, RunEnd::deadlock);
-    ASSERT_EQ(report.end_time, Time() + Duration(2ms));
-    ASSERT_TRUE(contains(report.text, "writer of environment waits (lock) for shared mutex #")) << report;
-    ASSERT_TRUE(contains(report.text, "reader of environment waits (lock) for mutex #")) << report;
-  }
+  const Report report = simulate([] {
+    shared_mutex map("map");
+    mutex log("log");
+    thread bystander({.name = "bystander"}, [&] {
+      const std::shared_lock reads(map);
+      sleep_for(1h);
+    });
+    thread reader({.name = "reader"}, [&] {
+      const std::shared_lock reads(map);
+      sleep_for(2ms);
+      log.lock();
+    });
+    thread writer({.name = "writer"}, [&] {
+      log.lock();
+      sleep_for(1ms);
+      map.lock();
+    });
+    sleep_for(1h);
+  });
+  ASSERT_EQ(report.end, RunEnd::deadlock);
+  ASSERT_EQ(report.end_time, Time() + Duration(2ms));
+  ASSERT_TRUE(contains(report.text, "writer of environment waits (lock) for shared mutex #")) << report;
+  ASSERT_TRUE(contains(report.text, "reader of environment waits (lock) for mutex #")) << report;
 }
 
 TEST(LockDeadlock, WaitingForWhatOneHoldsOneself) {
