@@ -112,8 +112,9 @@ TEST_F(CommandLine, a_self_check_writes_no_files_and_is_of_one_run) {
 TEST_F(CommandLine, help_and_version_are_texts) {
   EXPECT_EQ(std::get<ShownText>(read({"--version"})).text, "waitpoint 1.2.3\n");
   const std::string help = std::get<ShownText>(read({"run", "--help"})).text;
-  for (const char* option : {"--seed", "--seeds", "--until", "--speed", "--summary", "--picture", "--trajectory",
-                             "--digests", "--events", "--check", "--set", "--interactive", "--journal", "--replay-journal"}) {
+  for (const char* option :
+       {"--seed", "--seeds", "--until", "--speed", "--summary", "--picture", "--trajectory", "--digests", "--events",
+        "--check", "--set", "--interactive", "--journal", "--replay-journal"}) {
     EXPECT_NE(help.find(option), std::string::npos) << option;
   }
   EXPECT_NE(std::get<ShownText>(read({"--help"})).text.find("check"), std::string::npos);
