@@ -183,7 +183,7 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
   heed_signals();
   if (options.check) {
-    const auto is_interrupted = [] { return interrupted != 0; };
+    const auto is_interrupted = [] { return interruption() != 0; };
     const int status = self_check(options, scenario, types, replay_line(options, options.seed), is_interrupted);
     flush_stdout();
     return status;

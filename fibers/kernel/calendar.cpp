@@ -31,19 +31,16 @@ void sort(EventEntry* first, EventEntry* last) {
 
 }  // namespace
 
-Calendar::~Calendar() {
-  if (slots_ != nullptr) munmap(slots_, reserved_);
-}
-
-void Calendar::reserve() {
-  const std::size_t slots = slots_bytes(capacity_);
-  reserved_ = bytes(capacity_);
+Calendar::Calendar(std::uint32_t capacity) : reserved_(bytes(capacity)) {
+  const std::size_t slots = slots_bytes(capacity);
   void* memory = mmap(nullptr, reserved_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   WAITPOINT_CHECK(memory != MAP_FAILED, "no address space for the event list");
   slots_ = static_cast<Slot*>(memory);
   heads_ = reinterpret_cast<std::uint32_t*>(static_cast<char*>(memory) + slots);
   occupied_ = reinterpret_cast<std::uint64_t*>(static_cast<char*>(memory) + slots + heads_bytes);
 }
+
+Calendar::~Calendar() { munmap(slots_, reserved_); }
 
 void Calendar::unlink(std::uint32_t slot) {
   const Slot& gone = slots_[slot];

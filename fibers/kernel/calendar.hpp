@@ -20,12 +20,12 @@ namespace waitpoint::kernel {
 
 class Calendar {
  public:
-  /// The address space that one for `capacity` events takes once it is open.
+  /// The address space that one for `capacity` events takes.
   static constexpr std::size_t bytes(std::uint32_t capacity) {
     return slots_bytes(capacity) + heads_bytes + buckets_max / 8;
   }
-  /// For at most `capacity` events. Takes no memory before open().
-  explicit Calendar(std::uint32_t capacity) : capacity_(capacity) {}
+  /// For at most `capacity` events. Its address space is reserved at once, and committed only as it is used.
+  explicit Calendar(std::uint32_t capacity);
   ~Calendar();
   Calendar(const Calendar&) = delete;
   Calendar& operator=(const Calendar&) = delete;
@@ -117,7 +117,6 @@ class Calendar {
     slots_[slot].next = free_;
     free_ = slot;
   }
-  void reserve();
   // All slots as one chain.
   std::uint32_t detach_all();
   // The first bucket from the cursor on that has events; the limit if there is none.
@@ -125,7 +124,6 @@ class Calendar {
   void move_limit();
   void sort_far_out();
 
-  std::uint32_t capacity_;
   std::uint64_t horizon_ = closed;
   std::uint64_t cursor_ = 0;     // the bucket that begins at the horizon, counted from the start of the run
   std::uint64_t limit_ = 0;      // a multiple of half the ring, at least that and at most the ring after the cursor
@@ -136,15 +134,14 @@ class Calendar {
   std::uint32_t in_far_ = 0;
   std::uint32_t free_ = none;
   std::uint32_t opened_ = 0;
-  Slot* slots_ = nullptr;
-  std::uint32_t* heads_ = nullptr;  // of the ring's buckets, then of the far list
-  std::uint64_t* occupied_ = nullptr;
-  std::size_t reserved_ = 0;
+  Slot* slots_;
+  std::uint32_t* heads_;  // of the ring's buckets, then of the far list
+  std::uint64_t* occupied_;
+  std::size_t reserved_;
 };
 
 template <class Sink>
 void Calendar::open(std::uint64_t time, unsigned width_log2, std::uint32_t buckets, Sink early) {
-  if (slots_ == nullptr) reserve();
   const std::uint64_t bound = !is_open() || horizon_ <= time ? time : horizon_ - 1;
   std::uint32_t chain = detach_all();
   shift_ = width_log2;

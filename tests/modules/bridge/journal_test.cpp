@@ -39,9 +39,10 @@ TEST_F(JournalTest, WhatIsWrittenIsRead) {
 }
 
 TEST_F(JournalTest, LinesMayEndAsOnOtherSystems) {
-  const Journal journal = read(
-      "waitpoint journal 1\r\nscenario office wp1:0000000000000005\r\nseed 3\r\norder seeded\r\n"
-      "at 1 move rackham 1 2\r\nend 5 after 77 events wp1:00\r\n");
+  std::string text = to_text(head_) + "at 1 move rackham 1 2\nend 5 after 77 events wp1:00\n";
+  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 2))
+    text.replace(end, 1, "\r\n");
+  const Journal journal = read(text);
   EXPECT_EQ(journal.interventions.at(0).intervention.text, "move rackham 1 2");
   EXPECT_EQ(journal.end->digest, "wp1:00");
 }
