@@ -187,8 +187,8 @@ class Unrepeatable(Installed):
   is                (?P<is>.*), digest (?P<other>[0-9a-f]{16})
   differs in        the values that the robot gave since its event before
   event before      [0-9.]+ s, robot gambler, task unrepeatable\.main: .*
-(?:  OS thread         (?P<thread>.*)
-)?  replay            waitpoint run .*unrepeatable.yaml --seed 1 --set 'robots.0.modules.unrepeatable.source=\w+' --check
+(?P<threads>(?:  OS thread         .*
+)*)  replay            waitpoint run .*unrepeatable.yaml --seed 1 --set 'robots.0.modules.unrepeatable.source=\w+' --check
 """, output)
         self.assertIsNotNone(told, output)
         self.assertIn(told["run"], runs)
@@ -238,7 +238,7 @@ class Unrepeatable(Installed):
         self.assert_caught("heap_address", self.SECOND, self.PERTURBED)
 
     def test_a_hidden_thread_of_the_system_is_caught_and_named(self):
-        self.assertIn("'hidden'", self.assert_caught("hidden_thread", self.SECOND)["thread"])
+        self.assertIn("OS thread         'hidden'", self.assert_caught("hidden_thread", self.SECOND)["threads"])
 
     def test_an_environment_variable_is_caught(self):
         self.assert_caught("environment", self.PERTURBED)
