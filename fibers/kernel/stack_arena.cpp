@@ -11,6 +11,9 @@ namespace waitpoint::kernel {
 namespace {
 
 constexpr std::size_t page = 4096;
+// Tops of stacks begin at so many different lines of their pages: a prime, and so few that a parked task's record and
+// frames lie in one page as a rule.
+constexpr std::uint32_t shifts = 53;
 constexpr int madv_guard_install = 102;
 // A process may have 65 530 mappings by default, and every mprotect-ed page splits one into three.
 constexpr std::uint32_t protected_pages_max = 25000;
@@ -62,7 +65,7 @@ Stack StackArena::describe(const Range& range, StackSize size, std::uint32_t slo
   Stack stack;
   char* base = range.base + slot * bytes(size);
   stack.low = base + page;
-  stack.high = base + bytes(size) - (slot % 61) * std::size_t{64};
+  stack.high = base + bytes(size) - (slot % shifts) * std::size_t{64};
   stack.slot = slot;
   stack.size = size;
   stack.guard = slot < range.unguarded_from ? Guard::page : Guard::canary;
