@@ -67,6 +67,10 @@ int due_priority(const Seat& seat) {
 
 }  // namespace
 
+Processor::~Processor() {
+  if (decision.in_list()) scheduler->cancel(decision);
+}
+
 void set_seat(Task& task, Seat& seat) {
   seat.task = &task;
   seat.completion.fire = complete;

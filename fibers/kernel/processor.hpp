@@ -45,6 +45,10 @@ struct Seat {
 
 struct Processor {
   explicit constexpr Processor(const char* label) : object("processor", label) {}
+  /// Who left it last may have left a decision to make at the end of this instant.
+  ~Processor();
+  Processor(const Processor&) = delete;
+  Processor& operator=(const Processor&) = delete;
 
   EventNode decision;  // first: the node is its processor
   Object object;       ///< whose waiters are the tasks that wait or compute

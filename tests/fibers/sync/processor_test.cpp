@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -175,6 +177,18 @@ TEST(Processor, ARunThatEndsBeforeItsThreadsIsUnwound) {
     }
     EXPECT_EQ(destroyed, 3 * (until_ms > 0)) << until_ms;
   }
+}
+
+TEST(Processor, MayBeDestroyedAtTheInstantWhenItsLastThreadEnds) {
+  in_every_order([] {
+    alignas(processor) unsigned char place[sizeof(processor)];
+    auto* const cpu = new (place) processor;
+    thread({.on = cpu}, [] { compute(1ms); }).join();
+    cpu->~processor();
+    std::fill(std::begin(place), std::end(place), 0xFF);
+    sleep_until(at(2ms));
+    EXPECT_EQ(now(), at(2ms));
+  });
 }
 
 TEST(Processor, MayServeAnotherRunAndWindowsDoNotChangeARun) {
