@@ -102,6 +102,7 @@ TEST_F(DurationsTest, ARecordThatDoesNotFitIsOneLineAndStatus2) {
   cut.resize(cut.rfind('\n') + 1);
   std::ofstream(path("cut")) << cut;
   refused(run({"--replay-durations", path("cut")}), "the record of durations ends early");
+  refused(run({"--check", "--replay-durations", path("cut")}), "the record of durations ends early");
   EXPECT_EQ(run({"--replay-durations", path("a")}, "cpu", "2").status, run({}, "cpu", "2").status) << "a shorter run";
 }
 
