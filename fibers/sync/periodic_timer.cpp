@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/periodic_timer.hpp"
 
+#include "fibers/sync/misuse.hpp"
+
 namespace waitpoint {
 
 periodic_timer::~periodic_timer() {
+  sync::check_destroyed(object_);
   if (event_.in_list()) scheduler_->cancel(event_);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -215,6 +216,16 @@ TEST(PeriodicTimer, MayBeDestroyedWhileItsTickIsDueAndAfterItsRun) {
       EXPECT_EQ(now(), at(10ms));
     });
   kept.reset();
+}
+
+TEST(PeriodicTimerDeathTest, DestroyingOneThatATaskWaitsForIsABug) {
+  EXPECT_DEATH(simulate([] {
+                 auto timer = std::make_unique<periodic_timer>(Period::every(10ms));
+                 thread waiter([&] { timer->wait(); });
+                 sleep_until(at(1ms));
+                 timer.reset();
+               }),
+               "destroyed while tasks wait for it: timer #");
 }
 
 }  // namespace
