@@ -327,6 +327,33 @@ class SharedCounter(Installed):
         self.assertIn("stack-buffer-overflow", output)
 
 
+LARGE_FRAME = """
+#include <waitpoint/fibers/sync/simulation.hpp>
+#include <waitpoint/fibers/sync/threads.hpp>
+int main() {
+  waitpoint::simulate([] {
+    waitpoint::thread glutton({.name = "glutton"}, [] {
+      volatile char frame[1000000];
+      frame[0] = 1;
+    });
+    glutton.join();
+  });
+}
+"""
+
+
+class LargeFrame(Installed):
+    def test_does_not_step_over_the_guard_page(self):
+        source = self.folder / "large_frame.cpp"
+        source.write_text(LARGE_FRAME)
+        program = self.folder / "large_frame"
+        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+        run("g++", "-std=c++20", "-O2", source, "-o", program, *needed, cwd=self.folder)
+        done = subprocess.run([program], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"ran over the end of its stack\n.*in task glutton")
+
+
 # The primitives as threads.hpp names them, on the standard library's threads.
 REAL_THREADS = """
 #include <waitpoint/fibers/sync/threads.hpp>
