@@ -106,33 +106,29 @@ void check_not_together(const char* option, const Given& others) {
   }
 }
 
-/// A self-check compares runs and writes nothing of them.
-void check_writes_nothing(const Arguments& arguments) {
-  if (arguments.interactive) throw BadInput("--check", "cannot be used together with --interactive");
-  check_not_together("--check", {{"--seeds", arguments.seeds},
-                                 {"--journal", arguments.journal},
-                                 {"--replay-journal", arguments.replay_journal},
-                                 {"--speed", arguments.speed},
-                                 {"--summary", arguments.summary},
-                                 {"--picture", arguments.picture},
-                                 {"--trajectory", arguments.trajectory},
-                                 {"--digests", arguments.digests},
-                                 {"--events", arguments.events},
-                                 {"--record-durations", arguments.record_durations}});
+/// What is written of a single run, or done to it, has no place where the runs are many.
+void check_of_many(const char* option, const Arguments& arguments) {
+  if (arguments.interactive) throw BadInput(option, "cannot be used together with --interactive");
+  check_not_together(option, {{"--journal", arguments.journal},
+                              {"--replay-journal", arguments.replay_journal},
+                              {"--picture", arguments.picture},
+                              {"--trajectory", arguments.trajectory},
+                              {"--digests", arguments.digests},
+                              {"--events", arguments.events},
+                              {"--record-durations", arguments.record_durations}});
 }
 
-/// A range of seeds is many runs: what is written of a single one has no place there.
+/// A self-check compares runs and writes nothing of them.
+void check_writes_nothing(const Arguments& arguments) {
+  check_not_together("--check",
+                     {{"--seeds", arguments.seeds}, {"--speed", arguments.speed}, {"--summary", arguments.summary}});
+  check_of_many("--check", arguments);
+}
+
+/// A range of seeds is many runs, of which one summary is written.
 void check_alone(const Arguments& arguments) {
-  if (arguments.interactive) throw BadInput("--seeds", "cannot be used together with --interactive");
-  check_not_together("--seeds", {{"--seed", arguments.seed},
-                                 {"--journal", arguments.journal},
-                                 {"--replay-journal", arguments.replay_journal},
-                                 {"--picture", arguments.picture},
-                                 {"--trajectory", arguments.trajectory},
-                                 {"--digests", arguments.digests},
-                                 {"--events", arguments.events},
-                                 {"--record-durations", arguments.record_durations},
-                                 {"--replay-durations", arguments.replay_durations}});
+  check_not_together("--seeds", {{"--seed", arguments.seed}, {"--replay-durations", arguments.replay_durations}});
+  check_of_many("--seeds", arguments);
 }
 
 /// What a name stands for, links followed as far as there is something. Empty for what is no regular file, such as
