@@ -20,4 +20,8 @@ bool parse_number(std::string_view text, double& number) {
   return true;
 }
 
+std::string counted(std::uint64_t count, std::string_view of) {
+  return std::to_string(count).append(" ").append(of).append(count == 1 ? "" : "s");
+}
+
 }  // namespace waitpoint

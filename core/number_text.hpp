@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers read from text: all of the text or nothing, whatever the locale, the same bits from every standard library
-// (libc++ 14 has no std::from_chars for doubles).
+// (libc++ 14 has no std::from_chars for doubles). And counts as text.
 #pragma once
 
 #include <charconv>
 #include <concepts>
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace waitpoint {
@@ -19,5 +21,8 @@ bool parse_number(std::string_view text, Integer& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size();
 }
+
+/// "1 task", "2 tasks".
+std::string counted(std::uint64_t count, std::string_view of);
 
 }  // namespace waitpoint

@@ -8,6 +8,7 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "tools/pacing.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -185,10 +186,8 @@ RunOptions run_options(const Arguments& arguments) {
     }
     options.until = Duration::from_seconds(until_s);
   }
-  if (!arguments.speed.empty() &&
-      (!parse_number(arguments.speed, options.speed) || !(options.speed >= 0 && options.speed <= 1e9))) {
-    refuse("--speed", "a number that is not negative", arguments.speed);
-  }
+  if (!arguments.speed.empty() && (!parse_number(arguments.speed, options.speed) || !is_speed(options.speed)))
+    refuse("--speed", speeds, arguments.speed);
   check_distinct(arguments);
   const auto file = [](const std::string& name) {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);

@@ -33,6 +33,9 @@ struct RunOptions {
   bool check = false;  ///< whether it is the same run again, instead of what it came to
   std::optional<std::filesystem::path> summary, picture, trajectory, digests, events;
   std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
+
+  /// When a run ends at the latest, of a scenario that says `own`.
+  Time limit(Duration own) const { return Time() + until.value_or(own); }
 };
 
 /// `waitpoint check SCENARIO ...`

@@ -15,6 +15,10 @@
 
 namespace waitpoint::tools {
 
+/// Simulated seconds a second that a run may be held to; 0 does not hold it back.
+inline bool is_speed(double speed) { return speed == 0 || (speed >= 1e-6 && speed <= 1e6); }
+inline constexpr const char* speeds = "0 or a number from 0.000001 to 1000000";
+
 class Pacing {
  public:
   /// `speed` simulated seconds a second; 0 does not hold back.

@@ -12,6 +12,7 @@
 #include "modules/bridge/condition.hpp"
 #include "modules/bridge/words.hpp"
 #include "tools/interruption.hpp"
+#include "tools/pacing.hpp"
 #include "tools/recorders.hpp"
 
 namespace waitpoint::tools {
@@ -178,8 +179,8 @@ void Prompt::speed(std::string_view rest) {
   const std::string word = bridge::take_word(rest, written_);
   bridge::require_end(rest, written_);
   double speed = 0;
-  if (!parse_number(word, speed) || !(speed >= 0 && speed <= 1e9))
-    throw written_.bad("expected a number that is not negative, found '" + word + "'");
+  if (!parse_number(word, speed) || !is_speed(speed))
+    throw written_.bad(std::string("expected ") + speeds + ", found '" + word + "'");
   session_.set_speed(speed);
 }
 

@@ -82,10 +82,6 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   return line;
 }
 
-Time limit(const RunOptions& options, const bridge::Scenario& scenario) {
-  return Time() + options.until.value_or(scenario.until);
-}
-
 bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool interrupted) {
   bridge::RunResult result = session.result();
   result.seed = seed;
@@ -101,7 +97,7 @@ Session session_of(const RunOptions& options, bridge::Experiment& experiment, Ou
 
 bridge::RunResult carry_out(const RunOptions& options, const bridge::Scenario& scenario, std::uint64_t seed,
                             bridge::Experiment& experiment, Outputs& outputs, JournalFile* journal) {
-  Session session = session_of(options, experiment, outputs, limit(options, scenario));
+  Session session = session_of(options, experiment, outputs, options.limit(scenario.until));
   if (journal != nullptr) session.keep(*journal);
   bool interrupted = false;
   if (options.interactive)
@@ -119,7 +115,7 @@ bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scen
                          bridge::Experiment& experiment, Outputs& outputs, JournalFile* kept, bool& same) {
   const std::optional<bridge::JournalEnd> end = options.until ? std::nullopt : journal.end;
   // The run may have been left between two events of an instant: it is their number that says where.
-  const Time until = end ? end->time + Duration::from_ns(1) : limit(options, scenario);
+  const Time until = end ? end->time + Duration::from_ns(1) : options.limit(scenario.until);
   Session session = session_of(options, experiment, outputs, until);
   const kernel::Scheduler& scheduler = experiment.simulation().scheduler();
   Session::Stop stop = Session::Stop::target;
@@ -132,7 +128,10 @@ bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scen
   same = interrupted || !end || (here.events == end->events && here.digest == end->digest);
   if (kept != nullptr) kept->write(bridge::to_text(here));
   bridge::RunResult result = result_of(session, options.seed, interrupted);
-  if (end && !interrupted && result.outcome == bridge::Outcome::time_limit) result.simulated = end->time.since_start();
+  if (end && !interrupted && result.outcome == bridge::Outcome::time_limit) {
+    result.simulated = end->time.since_start();
+    if (end->time < options.limit(scenario.until)) result.outcome = bridge::Outcome::left;
+  }
   return result;
 }
 

@@ -100,7 +100,7 @@ class SelfCheck {
 };
 
 Carried SelfCheck::carry_out(bridge::Experiment& experiment, const EventComparison* comparison) {
-  const Time until = Time() + options_.until.value_or(scenario_.until);
+  const Time until = options_.limit(scenario_.until);
   const double start_s = wall_clock_s();
   Carried run;
   try {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/number_text.hpp"
+
 namespace waitpoint::tools {
 namespace {
 
@@ -35,9 +37,9 @@ std::string unreached_goals(const RobotResult& robot) {
 std::string late_tasks(const RobotResult& robot) {
   std::string text;
   for (const bridge::LateTask& task : robot.late_tasks)
-    text += fmt::format("  {}: task {} missed {} deadlines, and so {} periods of {:g} ms; at most {:g} ms late\n",
-                        robot.name, task.name, task.missed_deadlines, task.missed_periods, task.period.seconds() * 1e3,
-                        task.greatest_lateness.seconds() * 1e3);
+    text += fmt::format("  {}: task {} missed {}, and so {} of {:g} ms; at most {:g} ms late\n", robot.name, task.name,
+                        counted(task.missed_deadlines, "deadline"), counted(task.missed_periods, "period"),
+                        task.period.seconds() * 1e3, task.greatest_lateness.seconds() * 1e3);
   return text;
 }
 

@@ -78,6 +78,12 @@ void set_seat(Task& task, Seat& seat) {
   task.attention |= attention::processor;
 }
 
+bool is_shared(const Processor& processor) {
+  for (const Task* task = running->scheduler->first_task(); task != nullptr; task = task->next)
+    if (task->seat != nullptr && task->seat->processor == &processor) return true;
+  return false;
+}
+
 void vacate(Task& task) {
   if (task.seat == nullptr) return;
   Processor& processor = *task.seat->processor;

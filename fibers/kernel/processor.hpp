@@ -68,6 +68,8 @@ struct PriorityLock {
 
 /// Gives `task`, which has not started, its seat.
 void set_seat(Task& task, Seat& seat);
+/// Whether a task of the running run has a seat on `processor`.
+bool is_shared(const Processor& processor);
 /// The running task ends: its seat is free.
 void vacate(Task& task);
 

@@ -23,7 +23,7 @@ namespace {
 std::uint64_t runs = 0;
 
 void copy_name(char (&to)[name_size], const char* from) {
-  std::strncpy(to, from, name_size - 1);
+  std::strncpy(to, from != nullptr ? from : "", name_size - 1);
   to[name_size - 1] = '\0';
 }
 
@@ -169,7 +169,7 @@ void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
 }
 
 Fiber& Scheduler::outside(RunState state) {
-  state_ = state;
+  state_ = cause_ != StopCause::none ? RunState::stopped : state;
   running = nullptr;
   return main_;
 }
@@ -196,6 +196,12 @@ void Scheduler::stop(StopCause cause) {
   cause_ = cause;
   leave_to_main(RunState::stopped);
   if (interrupted_) rest();
+}
+
+void Scheduler::stop_between_events(StopCause cause, Task& culprit) {
+  cause_ = cause;
+  culprit_ = &culprit;
+  pause();
 }
 
 void Scheduler::pause() {

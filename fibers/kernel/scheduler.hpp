@@ -92,6 +92,8 @@ class Scheduler {
   StopCause stop_cause() const { return cause_; }
   /// Stops the run from within a task; run_before() returns at once.
   void stop(StopCause cause);
+  /// As stop(), for what acts between tasks: no other event is executed.
+  void stop_between_events(StopCause cause, Task& culprit);
   /// From a task or a watch: run_before() returns before another event is executed, as if its window ended here. The
   /// next call goes on as if there had been no pause.
   void pause();
@@ -117,6 +119,15 @@ class Scheduler {
     task.at = object;
     if (object != nullptr) enter(*object);
     execute(task, operation, object);
+    return true;
+  }
+  /// The running task looks at its clock: no event, but what it does again and again must end, so that others get a
+  /// turn after as many looks as waitpoints at one instant. False when the run is over.
+  bool look_at_clock(Time& local) {
+    Task& task = *running;
+    if (__builtin_expect(free_passes_ == 0 || task.local_time != now_, 0)) return look_at_clock_slowly(task, local);
+    --free_passes_;
+    local = task.local_time;
     return true;
   }
   /// As waitpoint, but behind all tasks of this instant; in the seeded order anywhere among them.
@@ -186,7 +197,7 @@ class Scheduler {
   void set_most_tasks(std::uint32_t most) { most_tasks_ = most; }
   /// Tasks that are left and are no services.
   std::uint32_t live_tasks() const { return live_tasks_; }
-  /// A task of the cycle in a deadlock, whose `search.to` leads around it; null without a cycle.
+  /// A task of the cycle in a deadlock, whose `search.to` leads around it, or one that spins; null without any.
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch);
   /// Null: durations that do not follow from the run count as they are.
@@ -216,6 +227,7 @@ class Scheduler {
   void adopt(Object& object);
   void begin(Task& task);
   bool waitpoint_in_the_list(Task& task, Operation operation, Object* object);
+  bool look_at_clock_slowly(Task& task, Time& local);
   bool arrive(Task& task);
   bool arrive_after_signal(Task& task);
   bool end_segment(Task& task);

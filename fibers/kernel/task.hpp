@@ -44,7 +44,8 @@ struct Robot {
 
 /// What tasks wait for and meet at: part of every primitive.
 struct Object {
-  explicit constexpr Object(const char* kind_of, const char* label_of = "") : kind(kind_of), label(label_of) {}
+  explicit constexpr Object(const char* kind_of, const char* label_of = "")
+      : kind(kind_of), label(label_of != nullptr ? label_of : "") {}
   Object(const Object&) = delete;
   Object& operator=(const Object&) = delete;
 

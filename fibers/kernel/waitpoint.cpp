@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The waitpoint: how a task's events find their place in the order of virtual time, and are executed.
+#include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/scheduler.hpp"
@@ -52,6 +53,18 @@ inline bool Scheduler::go_on_from_waitpoint(Task& task) {
   if (needs_attention(task) && !begin_segment(task, operation, object)) return false;
   execute(task, operation, object);
   return true;
+}
+
+bool Scheduler::look_at_clock_slowly(Task& task, Time& local) {
+  const Time before = task.local_time;
+  local = local_time(task);
+  if ((task.attention & attention::timer) != 0) return true;
+  end_free_passes(task);
+  if (local != before)
+    task.turns = 0;
+  else if (++task.turns > turns_max && !unwinding_ && give_turn(task))
+    local = local_time(task);
+  return unwinding_ ? refuse() : true;
 }
 
 bool Scheduler::yield() {

@@ -20,6 +20,7 @@
 #include <type_traits>
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/object.hpp"
 
 namespace waitpoint {
 
@@ -228,7 +229,7 @@ class atomic {
     return true;
   }
 
-  mutable kernel::Object object_{"atomic"};
+  mutable sync::Object object_{"atomic"};
   mutable T value_;
   T initial_;
 };

@@ -27,7 +27,6 @@ class BarrierCore {
   constexpr BarrierCore(std::ptrdiff_t expected, const char* label) : object_("barrier", label), initial_(expected) {
     WAITPOINT_CHECK(expected >= 0, "a barrier expects a negative count");
   }
-  ~BarrierCore() { check_destroyed(object_); }
 
   struct Arrival {
     std::uint64_t phase;
@@ -42,7 +41,7 @@ class BarrierCore {
  private:
   void refresh();
 
-  kernel::Object object_;
+  Object object_;
   std::ptrdiff_t initial_;
   std::ptrdiff_t expected_ = 0;  // in each phase from the next on
   std::ptrdiff_t missing_ = 0;   // in this one

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/blocked_report.hpp"
 
+#include <algorithm>
 #include <vector>
 
+#include "core/number_text.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
 
@@ -13,13 +15,25 @@ using kernel::Task;
 
 constexpr std::size_t frames_shown = 4;
 constexpr std::size_t tasks_shown = 16;
+constexpr std::size_t frames_searched = 24;
 
-std::string more(std::size_t count) { return "\n  and " + std::to_string(count) + " more tasks"; }
-
-void add_place(std::string& text, kernel::Scheduler& scheduler, Task& task) {
-  void* frames[24];
-  const std::size_t count = scheduler.call_stack(task, frames, std::size(frames));
-  for (const std::string& line : user_source_lines({frames, count}, frames_shown)) text += "\n      at " + line;
+// A line for each task, the first of them, and below it the places in the source where it is.
+template <class Describe>
+std::string describe_each(kernel::Scheduler& scheduler, const std::vector<Task*>& tasks, Describe describe_one) {
+  const std::size_t shown = std::min(tasks.size(), tasks_shown);
+  std::vector<ReturnAddresses> stacks;
+  for (std::size_t i = 0; i < shown; ++i) {
+    ReturnAddresses& stack = stacks.emplace_back(frames_searched);
+    stack.resize(scheduler.call_stack(*tasks[i], stack.data(), stack.size()));
+  }
+  const auto places = user_source_lines(stacks, frames_shown);
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) {
+    text += "\n  task " + describe_one(*tasks[i]);
+    for (const std::string& line : places[i]) text += "\n      at " + line;
+  }
+  if (tasks.size() > shown) text += "\n  and " + counted(tasks.size() - shown, "more task");
+  return text;
 }
 
 // The writer that a reader waits behind, where other readers hold the lock.
@@ -30,8 +44,8 @@ const Task* writer_before(const Task& task) {
   return nullptr;
 }
 
-std::string describe_wait(kernel::Scheduler& scheduler, Task& task) {
-  std::string text = "\n  task " + describe(task);
+std::string describe_wait(const Task& task) {
+  std::string text = describe(task);
   if (task.blocked_on == nullptr) return text + " is not blocked";
   const kernel::Object& object = *task.blocked_on;
   text += std::string(" waits (") + kernel::name(task.operation) + ") for " + describe(object);
@@ -40,8 +54,13 @@ std::string describe_wait(kernel::Scheduler& scheduler, Task& task) {
   else if (const std::string holders = describe_holders(object); !holders.empty())
     text += ", " + holders;
   if (const Task* writer = writer_before(task); writer != nullptr) text += ", behind " + describe(*writer);
-  add_place(text, scheduler, task);
   return text;
+}
+
+std::string describe_use(const Task& task) {
+  std::string text = describe(task) + " (" + kernel::name(task.operation);
+  if (task.at != nullptr) text.append(" ").append(describe(*task.at));
+  return text + ")";
 }
 
 }  // namespace
@@ -59,31 +78,35 @@ std::string describe_deadlock(kernel::Scheduler& scheduler) {
       if (!task->service) waiting.push_back(task);
   }
   std::string text = "deadlock at " + to_string(scheduler.global_time()) + " s: ";
-  if (scheduler.culprit() == nullptr)
-    text += std::to_string(waiting.size()) + " tasks wait, and nothing is left that could wake them";
-  else if (waiting.size() == 1)
+  if (scheduler.culprit() != nullptr && waiting.size() == 1)
     text += "a task waits for itself";
+  else if (waiting.size() == 1)
+    text += "a task waits, and nothing is left that could wake it";
+  else if (scheduler.culprit() != nullptr)
+    text += counted(waiting.size(), "task") + " wait for each other";
   else
-    text += std::to_string(waiting.size()) + " tasks wait for each other";
-  for (std::size_t i = 0; i < waiting.size() && i < tasks_shown; ++i) text += describe_wait(scheduler, *waiting[i]);
-  if (waiting.size() > tasks_shown) text += more(waiting.size() - tasks_shown);
-  return text;
+    text += counted(waiting.size(), "task") + " wait, and nothing is left that could wake them";
+  return text + describe_each(scheduler, waiting, describe_wait);
 }
 
 std::string describe_spinning(kernel::Scheduler& scheduler) {
-  std::string text =
-      "no progress: virtual time stands still at " + to_string(scheduler.global_time()) + " s while tasks spin";
-  std::size_t spinning = 0;
-  for (Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
-    if (task->state == kernel::TaskState::blocked || task->local_time != scheduler.global_time()) continue;
-    if (++spinning > tasks_shown) continue;
-    text += "\n  task " + describe(*task) + " (" + kernel::name(task->operation);
-    if (task->at != nullptr) text.append(" ").append(describe(*task->at));
-    text += ")";
-    add_place(text, scheduler, *task);
-  }
-  if (spinning > tasks_shown) text += more(spinning - tasks_shown);
-  return text;
+  const std::string text =
+      "no progress: virtual time stands still at " + to_string(scheduler.global_time()) + " s while ";
+  if (const Task* culprit = scheduler.culprit(); (culprit->attention & kernel::attention::timer) != 0)
+    return text + "timers fire again and again, the last one " + describe(*culprit->at) + " of " + culprit->robot->name;
+  std::vector<Task*> spinning;
+  for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
+    if (task->state != kernel::TaskState::blocked && task->local_time == scheduler.global_time())
+      spinning.push_back(task);
+  return text + "tasks spin" + describe_each(scheduler, spinning, describe_use);
+}
+
+std::string describe_endless(kernel::Scheduler& scheduler) {
+  std::vector<Task*> asleep;
+  for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
+    if (task->state == kernel::TaskState::ready && task->local_time == Time::max()) asleep.push_back(task);
+  return "virtual time ran out" +
+         describe_each(scheduler, asleep, [](const Task& task) { return describe(task) + " sleeps for ever"; });
 }
 
 }  // namespace waitpoint::sync

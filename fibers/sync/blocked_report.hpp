@@ -14,4 +14,7 @@ std::string describe_deadlock(kernel::Scheduler& scheduler);
 /// After a run stopped for lack of progress: the tasks that spin at this instant.
 std::string describe_spinning(kernel::Scheduler& scheduler);
 
+/// After a run that had all the time there is: the tasks that sleep for ever.
+std::string describe_endless(kernel::Scheduler& scheduler);
+
 }  // namespace waitpoint::sync

@@ -5,7 +5,7 @@
 
 namespace waitpoint {
 
-system_clock::time_point system_clock::now() noexcept {
+system_clock::time_point system_clock::now() {
   return time_point(duration((Duration::from_ns(sync::start_date_ns()) + waitpoint::now().since_start()).ns()));
 }
 

@@ -19,8 +19,13 @@
 
 namespace waitpoint {
 
-/// The caller's local virtual time.
-inline Time now() { return kernel::local_time(sync::running_task()); }
+/// The caller's local virtual time. Who looks at it again and again gives other tasks a turn now and then; where none
+/// of them lets time pass, the run makes no progress.
+inline Time now() {
+  Time local;
+  if (!sync::running_task().scheduler->look_at_clock(local)) sync::unwind();
+  return local;
+}
 
 struct steady_clock {
   using rep = std::int64_t;
@@ -29,7 +34,8 @@ struct steady_clock {
   using time_point = std::chrono::time_point<steady_clock>;
   static constexpr bool is_steady = true;
 
-  static time_point now() noexcept { return time_point(duration(waitpoint::now().ns())); }
+  /// No noexcept: it is left by an exception when the run is over.
+  static time_point now() { return time_point(duration(waitpoint::now().ns())); }
 };
 
 /// Counts from 1970-01-01 as std::chrono::system_clock does; a run starts at SimulationOptions::start_date. Nobody sets
@@ -41,7 +47,7 @@ struct system_clock {
   using time_point = std::chrono::time_point<system_clock>;
   static constexpr bool is_steady = true;
 
-  static time_point now() noexcept;
+  static time_point now();
 
   static std::time_t to_time_t(const time_point& t) noexcept { return std::chrono::system_clock::to_time_t(cut(t)); }
   static time_point from_time_t(std::time_t t) noexcept { return time_point(std::chrono::seconds(t)); }
@@ -89,7 +95,7 @@ constexpr std::int64_t ns_within_range(const std::chrono::duration<Rep, Ratio>& 
 /// The deadline `span` from the caller's local virtual time: now at the earliest.
 template <class Rep, class Ratio>
 Time after(const std::chrono::duration<Rep, Ratio>& span) {
-  const Time from = now();
+  const Time from = kernel::local_time(running_task());
   const std::int64_t ns = ns_within_range(span);
   std::int64_t at = 0;
   if (ns <= 0) return from;

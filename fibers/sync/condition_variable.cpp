@@ -5,11 +5,6 @@
 
 namespace waitpoint {
 
-condition_variable::~condition_variable() {
-  sync::let_notified_leave(object_);
-  sync::check_destroyed(object_);
-}
-
 void condition_variable::notify_one() {
   if (sync::before_releasing(kernel::Operation::notify_one, object_)) kernel::running->scheduler->wake_one(object_);
 }

@@ -19,7 +19,7 @@ class condition_variable {
  public:
   constexpr condition_variable() = default;
   explicit constexpr condition_variable(const char* label) : object_("condition variable", label) {}
-  ~condition_variable();
+  ~condition_variable() { sync::let_notified_leave(object_); }
   condition_variable(const condition_variable&) = delete;
   condition_variable& operator=(const condition_variable&) = delete;
 
@@ -61,7 +61,7 @@ class condition_variable {
     return true;
   }
 
-  kernel::Object object_{"condition variable"};
+  sync::Object object_{"condition variable"};
   const mutex* mutex_ = nullptr;  // of those who wait
 };
 

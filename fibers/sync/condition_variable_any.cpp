@@ -5,11 +5,6 @@
 
 namespace waitpoint {
 
-condition_variable_any::~condition_variable_any() {
-  sync::let_notified_leave(object_);
-  sync::check_destroyed(object_);
-}
-
 void condition_variable_any::notify_one() {
   if (!sync::before_releasing(kernel::Operation::notify_one, object_) || object_.users == 0) return;
   std::uint32_t count = 0;

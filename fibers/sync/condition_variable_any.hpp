@@ -9,6 +9,7 @@
 #include <condition_variable>
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/misuse.hpp"
 #include "fibers/sync/stop_token.hpp"
 
 namespace waitpoint {
@@ -19,7 +20,7 @@ class condition_variable_any {
  public:
   constexpr condition_variable_any() = default;
   explicit constexpr condition_variable_any(const char* label) : object_("condition variable", label) {}
-  ~condition_variable_any();
+  ~condition_variable_any() { sync::let_notified_leave(object_); }
   condition_variable_any(const condition_variable_any&) = delete;
   condition_variable_any& operator=(const condition_variable_any&) = delete;
 
@@ -135,7 +136,7 @@ class condition_variable_any {
   void strike_off(Waiter& waiter);
   void notify(Waiter& waiter);
 
-  kernel::Object object_{"condition variable"};
+  sync::Object object_{"condition variable"};
   Waiter* first_ = nullptr;
   Waiter* last_ = nullptr;
 };

@@ -9,33 +9,12 @@
 // exception or by unwinding, the latest first.
 #pragma once
 
-#include <functional>
-#include <type_traits>
-#include <utility>
-
 #include "fibers/sync/local_values.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint {
 
 template <class T>
-class fiber_local {
- public:
-  fiber_local() requires std::is_default_constructible_v<T>
-  = default;
-  /// `initial` makes the value of each task.
-  explicit fiber_local(std::function<T()> initial) : initial_(std::move(initial)) {}
-  fiber_local(const fiber_local&) = delete;
-  fiber_local& operator=(const fiber_local&) = delete;
-
-  /// The running task's own value.
-  T& operator*() const { return get(); }
-  T* operator->() const { return &get(); }
-  T& get() const { return sync::values_of_running_task().get<T>(key_, initial_); }
-
- private:
-  std::uint64_t key_ = sync::next_local_key();
-  std::function<T()> initial_;
-};
+using fiber_local = sync::Local<T, sync::values_of_running_task>;
 
 }  // namespace waitpoint

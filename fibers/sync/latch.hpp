@@ -19,7 +19,6 @@ class latch {
       : object_("latch", label), expected_(expected) {
     WAITPOINT_CHECK(expected >= 0, "a latch expects a negative count");
   }
-  ~latch() { sync::check_destroyed(object_); }
   latch(const latch&) = delete;
   latch& operator=(const latch&) = delete;
 
@@ -48,7 +47,7 @@ class latch {
   void refresh();
   bool wait_before(Time deadline);
 
-  kernel::Object object_;
+  sync::Object object_;
   std::ptrdiff_t expected_;
   std::ptrdiff_t count_ = 0;
 };

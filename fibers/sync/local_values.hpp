@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace waitpoint::sync {
@@ -57,5 +58,26 @@ inline std::uint64_t next_local_key() {
   static std::atomic<std::uint64_t> last = 0;
   return ++last;
 }
+
+/// A variable of which each thread has its own; `values` says whose turn it is.
+template <class T, LocalValues& (*values)()>
+class Local {
+ public:
+  Local() requires std::is_default_constructible_v<T>
+  = default;
+  /// `initial` makes the value of each thread.
+  explicit Local(std::function<T()> initial) : initial_(std::move(initial)) {}
+  Local(const Local&) = delete;
+  Local& operator=(const Local&) = delete;
+
+  /// The running thread's own value.
+  T& operator*() const { return get(); }
+  T* operator->() const { return &get(); }
+  T& get() const { return values().template get<T>(key_, initial_); }
+
+ private:
+  std::uint64_t key_ = next_local_key();
+  std::function<T()> initial_;
+};
 
 }  // namespace waitpoint::sync

@@ -5,15 +5,12 @@
 #pragma once
 
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/sync/object.hpp"
 
 namespace waitpoint::sync {
 
 /// `message` and the object's name and holders, for a check that failed: the text is the only one there is.
 const char* about(const kernel::Object& object, const char* message);
-
-/// For destructors: it is a bug to destroy what a task of the running run holds or waits for. What another run left, or
-/// a run that is over, is not looked at; nor is what is destroyed outside any task.
-void check_destroyed(const kernel::Object& object);
 
 /// For destructors of what may be destroyed as soon as nobody waits any more: those who were woken, but have not had
 /// their turn since, get it.

@@ -7,8 +7,8 @@
 // while it is held or waited for.
 #pragma once
 
-#include "fibers/sync/clock.hpp"
 #include "fibers/sync/mutex_core.hpp"
+#include "fibers/sync/timed.hpp"
 
 namespace waitpoint {
 
@@ -39,18 +39,6 @@ class mutex {
   sync::MutexCore core_{"mutex", ""};
 };
 
-class timed_mutex : public mutex {
- public:
-  using mutex::mutex;
-
-  template <class Rep, class Ratio>
-  bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
-    return lock_before(sync::after(span));
-  }
-  template <class Clock, class Span>
-  bool try_lock_until(const std::chrono::time_point<Clock, Span>& deadline) {
-    return lock_before(sync::until(deadline));
-  }
-};
+using timed_mutex = sync::timed<mutex>;
 
 }  // namespace waitpoint

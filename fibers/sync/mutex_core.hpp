@@ -23,7 +23,6 @@ void disown(kernel::Object& object);
 class MutexCore {
  public:
   constexpr MutexCore(const char* kind, const char* label) : object_(kind, label) {}
-  ~MutexCore() { check_destroyed(object_); }
 
   kernel::Object& object() { return object_; }
   const kernel::Object& object() const { return object_; }
@@ -37,7 +36,7 @@ class MutexCore {
   void release();
 
  private:
-  kernel::Object object_;
+  Object object_;
 };
 
 }  // namespace waitpoint::sync

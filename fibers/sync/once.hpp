@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fibers/sync/blocking.hpp"
+#include "fibers/sync/object.hpp"
 
 namespace waitpoint {
 
@@ -29,7 +30,7 @@ class once_flag {
   bool begin();
   void end(bool returned);
 
-  kernel::Object object_{"once flag"};
+  sync::Object object_{"once flag"};
   bool done_ = false;
 };
 

@@ -6,7 +6,6 @@
 namespace waitpoint {
 
 periodic_timer::~periodic_timer() {
-  sync::check_destroyed(object_);
   if (event_.in_list()) scheduler_->cancel(event_);
 }
 

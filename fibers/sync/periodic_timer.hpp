@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/object.hpp"
 
 namespace waitpoint {
 
@@ -60,7 +61,7 @@ class periodic_timer {
   void start();
   void catch_up();
 
-  kernel::Object object_;
+  sync::Object object_;
   Event event_;
   kernel::Scheduler* scheduler_ = nullptr;
   Period period_;

@@ -23,7 +23,6 @@ class priority_mutex {
       : object_("mutex", attributes.label), lock_{object_, attributes.protocol, attributes.ceiling} {}
   /// `label` is shown in reports; it must outlive the mutex.
   explicit priority_mutex(const char* label) : priority_mutex(mutex_attributes{.label = label}) {}
-  ~priority_mutex() { sync::check_destroyed(object_); }
   priority_mutex(const priority_mutex&) = delete;
   priority_mutex& operator=(const priority_mutex&) = delete;
 
@@ -44,7 +43,7 @@ class priority_mutex {
   bool lock_before(Time deadline);
   bool acquire(Time deadline);
 
-  kernel::Object object_;
+  sync::Object object_;
   kernel::PriorityLock lock_;
 };
 

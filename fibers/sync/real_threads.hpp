@@ -173,26 +173,14 @@ struct once_flag : std::once_flag {
   explicit constexpr once_flag(const char*) {}
 };
 
-inline thread_local sync::LocalValues local_values;
+inline sync::LocalValues& local_values() {
+  static thread_local sync::LocalValues values;
+  return values;
+}
 
 /// What thread_local itself cannot be: a member.
 template <class T>
-class fiber_local {
- public:
-  fiber_local() requires std::is_default_constructible_v<T>
-  = default;
-  explicit fiber_local(std::function<T()> initial) : initial_(std::move(initial)) {}
-  fiber_local(const fiber_local&) = delete;
-  fiber_local& operator=(const fiber_local&) = delete;
-
-  T& operator*() const { return get(); }
-  T* operator->() const { return &get(); }
-  T& get() const { return local_values.get<T>(key_, initial_); }
-
- private:
-  std::uint64_t key_ = sync::next_local_key();
-  std::function<T()> initial_;
-};
+using fiber_local = sync::Local<T, local_values>;
 
 struct thread_attributes {
   const char* name = "thread";

@@ -3,8 +3,8 @@
 // std::recursive_timed_mutex. The last of as many unlocks hands it on, as a mutex.
 #pragma once
 
-#include "fibers/sync/clock.hpp"
 #include "fibers/sync/mutex_core.hpp"
+#include "fibers/sync/timed.hpp"
 
 namespace waitpoint {
 
@@ -28,18 +28,6 @@ class recursive_mutex {
   std::uint64_t depth_ = 0;  // of the owner's locks
 };
 
-class recursive_timed_mutex : public recursive_mutex {
- public:
-  using recursive_mutex::recursive_mutex;
-
-  template <class Rep, class Ratio>
-  bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
-    return lock_before(sync::after(span));
-  }
-  template <class Clock, class Span>
-  bool try_lock_until(const std::chrono::time_point<Clock, Span>& deadline) {
-    return lock_before(sync::until(deadline));
-  }
-};
+using recursive_timed_mutex = sync::timed<recursive_mutex>;
 
 }  // namespace waitpoint

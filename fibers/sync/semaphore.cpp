@@ -10,8 +10,8 @@ inline void SemaphoreCore::refresh() {
 void SemaphoreCore::release(std::ptrdiff_t units) {
   refresh();
   if (!before_releasing(kernel::Operation::release, object_)) return;
-  WAITPOINT_CHECK(units >= 0 && units <= most_ - count_,
-                  about(object_, "a semaphore is released beyond its greatest count"));
+  WAITPOINT_CHECK(units >= 0, about(object_, "a semaphore is released by a negative number"));
+  WAITPOINT_CHECK(units <= most_ - count_, about(object_, "a semaphore is released beyond its greatest count"));
   for (; units > 0 && object_.first_waiter != nullptr; --units) kernel::running->scheduler->wake_one(object_);
   count_ += units;
 }

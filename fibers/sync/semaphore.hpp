@@ -25,7 +25,6 @@ class SemaphoreCore {
       : object_("semaphore", label), initial_(initial), most_(most) {
     WAITPOINT_CHECK(initial >= 0 && initial <= most, "a semaphore begins with a count out of its range");
   }
-  ~SemaphoreCore() { check_destroyed(object_); }
 
   void release(std::ptrdiff_t units);
   bool acquire_before(Time deadline);
@@ -35,7 +34,7 @@ class SemaphoreCore {
   bool take();
   void refresh();
 
-  kernel::Object object_;
+  Object object_;
   std::ptrdiff_t initial_;
   std::ptrdiff_t most_;
   std::ptrdiff_t count_ = 0;

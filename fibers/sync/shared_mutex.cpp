@@ -11,8 +11,6 @@ using kernel::Operation;
 using kernel::running;
 using kernel::Task;
 
-shared_mutex::~shared_mutex() { sync::check_destroyed(object_); }
-
 // What another run left is forgotten.
 void shared_mutex::refresh() {
   if (sync::running_task().scheduler->enter(object_)) readers_.clear();

@@ -18,7 +18,8 @@
 
 #include <vector>
 
-#include "fibers/sync/clock.hpp"
+#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/timed.hpp"
 
 namespace waitpoint {
 
@@ -27,7 +28,6 @@ class shared_mutex {
   shared_mutex() = default;
   /// `label` is shown in reports; it must outlive the mutex.
   explicit shared_mutex(const char* label) : object_("shared mutex", label) {}
-  ~shared_mutex();
   shared_mutex(const shared_mutex&) = delete;
   shared_mutex& operator=(const shared_mutex&) = delete;
 
@@ -53,22 +53,14 @@ class shared_mutex {
   void admit_readers();
   void hand_over(bool readers_first);
 
-  kernel::Object object_{"shared mutex"};
   std::vector<kernel::Task*> readers_;  // those who hold it
+  sync::Object object_{"shared mutex"};
 };
 
-class shared_timed_mutex : public shared_mutex {
+class shared_timed_mutex : public sync::timed<shared_mutex> {
  public:
-  using shared_mutex::shared_mutex;
+  using sync::timed<shared_mutex>::timed;
 
-  template <class Rep, class Ratio>
-  bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
-    return lock_before(sync::after(span));
-  }
-  template <class Clock, class Span>
-  bool try_lock_until(const std::chrono::time_point<Clock, Span>& deadline) {
-    return lock_before(sync::until(deadline));
-  }
   template <class Rep, class Ratio>
   bool try_lock_shared_for(const std::chrono::duration<Rep, Ratio>& span) {
     return lock_shared_before(sync::after(span));

@@ -10,6 +10,7 @@
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/blocking.hpp"
+#include "fibers/sync/object_names.hpp"
 #include "fibers/sync/signals.hpp"
 #include "fibers/sync/thread.hpp"
 
@@ -24,6 +25,16 @@ SimulationOptions checked(SimulationOptions options) {
     throw std::system_error(std::make_error_code(std::errc::not_enough_memory),
                             "no address space for the run's tables (a limit such as ulimit -v)");
   return options;
+}
+
+std::string what(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::exception& exception) {
+    return exception.what();
+  } catch (...) {
+    return "an exception of unknown type";
+  }
 }
 
 }  // namespace
@@ -60,7 +71,10 @@ RunEnd Simulation::run_before(Time until) {
   const kernel::FaultReports reports(scheduler_);
   const kernel::RunState state = scheduler_.run_before(until);
   if (failure_ != nullptr) std::rethrow_exception(failure_);
-  if (state == kernel::RunState::reached) return RunEnd::time_reached;
+  if (state == kernel::RunState::reached) {
+    if (until == Time::max()) trouble_ = sync::describe_endless(scheduler_);
+    return RunEnd::time_reached;
+  }
   if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::ended) return RunEnd::ended;
   if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::no_progress) {
     trouble_ = sync::describe_spinning(scheduler_);
@@ -114,7 +128,11 @@ Digest Simulation::digest() const {
 }
 
 void Simulation::fail(std::exception_ptr failure) {
-  if (failure_ == nullptr) failure_ = std::move(failure);
+  if (failure_ == nullptr) {
+    failure_ = std::move(failure);
+    trouble_ = "an exception escaped from task " + sync::describe(*kernel::running) + " at " +
+               to_string(kernel::running->local_time) + " s: " + what(failure_);
+  }
   scheduler_.stop(kernel::StopCause::requested);
 }
 
@@ -152,12 +170,9 @@ Report simulate(std::function<void()> body, SimulationOptions options) {
   simulation.spawn(simulation.environment(), {.name = "main"}, std::move(body));
   try {
     report.end = simulation.run_before();
-    report.text = report.end == RunEnd::time_reached ? "virtual time ran out" : simulation.trouble();
-  } catch (const std::exception& failure) {
-    report.text = std::string("an exception escaped from a task: ") + failure.what();
-  } catch (...) {
-    report.text = "an exception of unknown type escaped from a task";
+  } catch (...) {  // told by simulation.trouble()
   }
+  report.text = simulation.trouble();
   report.digest = simulation.digest();
   report.end_time = simulation.global_time();
   report.events = simulation.scheduler().events();

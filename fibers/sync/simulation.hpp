@@ -65,7 +65,8 @@ class Simulation {
   /// is rethrown here, and at every later call.
   RunEnd run_before(Time until = Time::max());
 
-  /// What run_before() found, in words; empty unless a deadlock or a lack of progress.
+  /// What run_before() found, in words: a deadlock, a lack of progress, who sleeps for ever, from which task an
+  /// exception escaped, and when. Else empty.
   const std::string& trouble() const { return trouble_; }
 
   /// Ends every task that is left. Nothing can be run afterwards.

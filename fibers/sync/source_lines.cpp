@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <memory>
-#include <set>
 #include <string_view>
 
 namespace waitpoint::sync {
@@ -59,17 +59,16 @@ std::string name_from_symbols(const Place& place) {
   return place.info.dli_fname + std::string(text);
 }
 
+constexpr int patience_s = 20;  // it reads all of a program's debugging information
+
 // Asks addr2line for all places of one module at once: starting it is what takes its time.
-void add_lines(std::vector<Place>& places, const std::string& module) {
+void add_lines(const std::vector<Place*>& asked, const std::string& module) {
   if (contains(module, "'")) return;
-  std::vector<Place*> asked;
-  std::string command = "addr2line -aCfip -e '" + module + "'";
-  for (Place& place : places) {
-    if (place.info.dli_fname == nullptr || place.info.dli_fname != module) continue;
+  std::string command = "timeout " + std::to_string(patience_s) + " addr2line -aCfip -e '" + module + "'";
+  for (const Place* place : asked) {
     char text[32];
-    std::snprintf(text, sizeof text, " 0x%zx", static_cast<std::size_t>(place.offset));
+    std::snprintf(text, sizeof text, " 0x%zx", static_cast<std::size_t>(place->offset));
     command += text;
-    asked.push_back(&place);
   }
   FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
   if (pipe == nullptr) return;
@@ -90,25 +89,13 @@ void add_lines(std::vector<Place>& places, const std::string& module) {
   pclose(pipe);
 }
 
-}  // namespace
-
-std::vector<std::string> user_source_lines(std::span<void* const> return_addresses, std::size_t most) {
-  std::vector<Place> places;
-  std::set<std::string> modules;
-  for (void* address : return_addresses) {
-    places.push_back(place_of(address));
-    if (const char* module = places.back().info.dli_fname; module != nullptr) modules.insert(module);
-  }
-  for (const std::string& module : modules) add_lines(places, module);
-  Dl_info own{};
-  const bool known = dladdr(reinterpret_cast<void*>(&user_source_lines), &own) != 0;
-  // In a shared library of its own everything is ours, also where it has no debugging information.
-  const std::string own_library = known && contains(own.dli_fname, ".so") ? own.dli_fname : "";
+// Of one stack whose places are known.
+std::vector<std::string> user_lines(std::span<const Place> places, const std::string& own_library, std::size_t most) {
   std::vector<std::string> found;
-  for (Place& place : places) {
+  for (const Place& place : places) {
     if (place.info.dli_fname != nullptr && place.info.dli_fname == own_library) continue;
-    if (place.lines.empty()) place.lines.push_back(name_from_symbols(place));
-    for (const std::string& line : place.lines) {
+    const std::vector<std::string> without = {name_from_symbols(place)};
+    for (const std::string& line : place.lines.empty() ? without : place.lines) {
       if (is_entry(line)) return found;
       if (is_ours(line)) continue;
       found.push_back(line);
@@ -116,6 +103,26 @@ std::vector<std::string> user_source_lines(std::span<void* const> return_address
     }
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::string>> user_source_lines(std::span<const ReturnAddresses> stacks, std::size_t most) {
+  std::vector<std::vector<Place>> places(stacks.size());
+  for (std::size_t i = 0; i < stacks.size(); ++i)
+    for (void* address : stacks[i]) places[i].push_back(place_of(address));
+  std::map<std::string, std::vector<Place*>> modules;
+  for (std::vector<Place>& stack : places)
+    for (Place& place : stack)
+      if (place.info.dli_fname != nullptr) modules[place.info.dli_fname].push_back(&place);
+  for (const auto& [module, asked] : modules) add_lines(asked, module);
+  Dl_info own{};
+  const bool known = dladdr(reinterpret_cast<void*>(&user_source_lines), &own) != 0;
+  // In a shared library of its own everything is ours, also where it has no debugging information.
+  const std::string own_library = known && contains(own.dli_fname, ".so") ? own.dli_fname : "";
+  std::vector<std::vector<std::string>> lines;
+  for (const std::vector<Place>& stack : places) lines.push_back(user_lines(stack, own_library, most));
+  return lines;
 }
 
 }  // namespace waitpoint::sync

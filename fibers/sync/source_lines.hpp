@@ -9,9 +9,11 @@
 
 namespace waitpoint::sync {
 
-/// "function at file:line" for the innermost frames outside this library and the standard one, at most `most`. Where
-/// there is no debugging information, the function's name or the address within its module stands alone. Uses the
-/// addr2line program where it is installed; for reports only.
-std::vector<std::string> user_source_lines(std::span<void* const> return_addresses, std::size_t most);
+using ReturnAddresses = std::vector<void*>;  ///< of one call stack, innermost first
+
+/// For each call stack "function at file:line" of the innermost frames outside this library and the standard one, at
+/// most `most`. Where there is no debugging information, the function's name or the address within its module stands
+/// alone. Uses the addr2line program where it is installed, for so long as a person likes to wait; for reports only.
+std::vector<std::vector<std::string>> user_source_lines(std::span<const ReturnAddresses> stacks, std::size_t most);
 
 }  // namespace waitpoint::sync

@@ -102,7 +102,7 @@ std::shared_ptr<sync::ThreadState> thread::start(const thread_attributes& attrib
 }
 
 thread& thread::operator=(thread&& other) noexcept {
-  if (joinable()) std::terminate();
+  WAITPOINT_CHECK(!joinable(), "a thread that is joinable is assigned to");
   state_ = std::move(other.state_);
   return *this;
 }
@@ -111,7 +111,7 @@ thread::~thread() {
   if (!joinable()) return;
   // Outside any task, what ended with its run was let go there.
   const bool let_go = kernel::running != nullptr ? kernel::running->scheduler->unwinding() : state_->task == nullptr;
-  if (!let_go) std::terminate();
+  WAITPOINT_CHECK(let_go, "a thread that is joinable is destroyed");
 }
 
 void thread::join() {

@@ -104,7 +104,7 @@ class thread {
               std::apply([](auto&&... parts) { std::invoke(std::move(parts)...); }, std::move(*call));
             })) {}
   thread(thread&& other) noexcept = default;
-  /// As std::thread: the target must not be joinable.
+  /// As std::thread: the target must not be joinable, or the program ends.
   thread& operator=(thread&& other) noexcept;
   /// As std::thread: must not be joinable. While a run is unwound, and after it, the thread is let go.
   ~thread();

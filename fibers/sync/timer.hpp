@@ -20,7 +20,9 @@ namespace waitpoint {
 class timer {
  public:
   explicit timer(std::function<void()> callback, const char* label = "")
-      : object_("timer", label), callback_(std::move(callback)), event_(&timer::fire, this) {}
+      : object_("timer", label), callback_(std::move(callback)), event_(&timer::fire, this) {
+    WAITPOINT_CHECK(callback_ != nullptr, "a timer has nothing to call");
+  }
   /// Stops it. To be destroyed by its own callback is a bug.
   ~timer();
   timer(const timer&) = delete;

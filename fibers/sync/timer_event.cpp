@@ -15,6 +15,8 @@ struct RunTimers : RobotState {
   explicit RunTimers(kernel::Robot&) {}
   std::uint32_t pending = 0;
   std::uint32_t barren = 0;  // timers that fired on end while only timers were left
+  Time instant;
+  std::uint32_t firings = 0;  // at that instant
 };
 
 struct RobotTimers : RobotState {
@@ -57,6 +59,13 @@ void TimerEvent::fire(kernel::EventNode& node) {
   --run.pending;
   run.barren = scheduler.pending_events() == run.pending ? run.barren + 1 : 0;
   if (run.barren > barren_max) return;
+
+  run.firings = run.instant == self.due_ ? run.firings + 1 : 0;
+  run.instant = self.due_;
+  if (run.firings > firings_max) {
+    timers.task.at = self.timer_;
+    return scheduler.stop_between_events(kernel::StopCause::no_progress, timers.task);
+  }
 
   kernel::Task* const interrupted = kernel::running;
   kernel::running = &timers.task;

@@ -7,6 +7,7 @@
 //
 // Timers keep no run alive. While nothing is in the event list but timers, only a timer can wake a task; when they have
 // fired `barren_max` times so without waking any, they are let go, and the run is found to be what it is: a deadlock.
+// Timers that fire at one instant for ever end the run: it makes no progress.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,8 @@ namespace waitpoint::sync {
 
 /// How often timers may fire on end while no task is left that could go on without them.
 inline constexpr std::uint32_t barren_max = 1'000'000;
+/// How often they may fire at one instant: more than there can be timers, so that some start again at once each time.
+inline constexpr std::uint32_t firings_max = 2 * kernel::events_max;
 
 class TimerEvent {
  public:

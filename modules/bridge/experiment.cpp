@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/experiment.hpp"
 
+#include "core/error.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint::bridge {
@@ -107,7 +108,13 @@ void Experiment::run_world() {
 
 RunEnd Experiment::run_before(Time until) {
   paused_ = false;
-  end_ = simulation_.run_before(until);
+  try {
+    end_ = simulation_.run_before(until);
+  } catch (const BadInput&) {
+    throw;
+  } catch (...) {
+    throw std::runtime_error(simulation_.trouble());
+  }
   return end_;
 }
 

@@ -129,7 +129,8 @@ TEST_F(CommandLine, what_is_not_understood_is_one_clear_line) {
   EXPECT_EQ(message({"run", "a", "--seed", "-1"}), "--seed: expected a whole number from 0 to 2^64 - 1, found '-1'");
   EXPECT_EQ(message({"run", "a", "--until", "0"}), "--until: expected a positive number of seconds, found '0'");
   EXPECT_EQ(message({"run", "a", "--until", "5s"}), "--until: expected a positive number of seconds, found '5s'");
-  EXPECT_EQ(message({"run", "a", "--speed", "nan"}), "--speed: expected a number that is not negative, found 'nan'");
+  EXPECT_EQ(message({"run", "a", "--speed", "nan"}),
+            "--speed: expected 0 or a number from 0.000001 to 1000000, found 'nan'");
   EXPECT_EQ(message({"run", "a", "--seeds", "5..1"}), "--seeds: expected FIRST..LAST, found '5..1'");
   EXPECT_EQ(message({"run", "a", "--seeds", "1..2", "--picture", "p"}),
             "--seeds: cannot be used together with --picture");

@@ -4,8 +4,10 @@
 
 #include <memory>
 
+#include "fibers/sync/atomic.hpp"
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/mutex.hpp"
+#include "fibers/sync/once.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/sync/orders.hpp"
@@ -123,6 +125,49 @@ TEST(LockMisuseDeathTest, DestroyingWhatTasksWaitFor) {
                  s.reset();
                }),
                "destroyed while tasks wait for it: semaphore #[0-9]+");
+}
+
+TEST(LockMisuseDeathTest, DestroyingAtomicsOnceFlagsAndProcessorsThatTasksNeed) {
+  EXPECT_DEATH(simulate([] {
+                 auto a = std::make_unique<atomic<int>>(0, "gone");
+                 thread waiter([&] { a->wait(0); });
+                 sleep_for(1ms);
+                 a.reset();
+               }),
+               "destroyed while tasks wait for it: atomic #[0-9]+ \"gone\"");
+  EXPECT_DEATH(simulate([] {
+                 auto flag = std::make_unique<atomic_flag>();
+                 thread waiter([&] { flag->wait(false); });
+                 sleep_for(1ms);
+                 flag.reset();
+               }),
+               "destroyed while tasks wait for it: atomic");
+  EXPECT_DEATH(simulate([] {
+                 auto once = std::make_unique<once_flag>();
+                 thread first([&] { call_once(*once, [] { sleep_for(1h); }); });
+                 thread second([&] { call_once(*once, [] {}); });
+                 sleep_for(1ms);
+                 once.reset();
+               }),
+               "destroyed while it is held: once flag");
+  for (const auto started : {0ms, 1ms})
+    EXPECT_DEATH(simulate([&] {
+                   auto cpu = std::make_unique<processor>("cpu");
+                   thread worker({.on = cpu.get()}, [] { sleep_for(1h); });
+                   if (started > 0ms) sleep_for(started);
+                   cpu.reset();
+                 }),
+                 "destroyed while threads share it: processor");
+}
+
+TEST(LockMisuse, ANullLabelOrNameIsNone) {
+  const Report report = simulate([] {
+    mutex m(nullptr);
+    m.lock();
+    thread t({.name = nullptr}, [&] { m.lock(); });
+    t.join();
+  });
+  EXPECT_EQ(report.end, RunEnd::deadlock);
 }
 
 TEST(LockMisuse, WhatARunLeftBehindMayBeDestroyed) {

@@ -119,35 +119,6 @@ TEST(PriorityMutex, ATimeoutTakesBackWhatWasInherited) {
   });
 }
 
-TEST(PriorityMutex, AnUnlockAtTheInstantOfTheTimeoutIsOneOfTheTwo) {
-  int locked = 0, timed_out = 0;
-  for (std::uint64_t number = 0; number <= seeds_tried; ++number) {
-    const Report report = simulate(
-        [&] {
-          priority_mutex m;
-          m.lock();
-          thread waiter([&] {
-            if (m.try_lock_for(5ms)) {
-              ++locked;
-              m.unlock();
-            } else {
-              ++timed_out;
-            }
-            EXPECT_EQ(now(), at(5ms));
-          });
-          sleep_until(at(5ms));
-          m.unlock();
-          waiter.join();
-          EXPECT_TRUE(m.try_lock());
-          m.unlock();
-        },
-        order_number(number));
-    EXPECT_TRUE(report.passed) << report;
-  }
-  EXPECT_GT(locked, 0);
-  EXPECT_GT(timed_out, 0);
-}
-
 TEST(PriorityMutex, ServesTheMostUrgentAndOfEqualsTheFirst) {
   in_every_order([] {
     Shared s;

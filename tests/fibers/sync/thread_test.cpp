@@ -132,7 +132,9 @@ TEST(Thread, AnExceptionThatEscapesEndsTheRunAndIsReported) {
   });
   EXPECT_FALSE(report.passed);
   EXPECT_FALSE(went_on);
-  EXPECT_NE(report.text.find("the wheel fell off"), std::string::npos) << report;
+  EXPECT_NE(report.text.find("escaped from task thread of environment at 0.003000000 s: the wheel fell off"),
+            std::string::npos)
+      << report;
   EXPECT_EQ(report.end_time, at(3ms));
   const Report of_main = simulate([] { throw 7; });
   EXPECT_NE(of_main.text.find("unknown type"), std::string::npos) << of_main;

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/sync/processor.hpp"
+
+#include "fibers/sync/misuse.hpp"
+
+namespace waitpoint {
+
+processor::~processor() {
+  if (kernel::running == nullptr || kernel::running->scheduler->unwinding()) return;
+  WAITPOINT_CHECK(!kernel::is_shared(core_), sync::about(core_.object, "destroyed while threads share it"));
+}
+
+}  // namespace waitpoint

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run in which virtual time stands still for ever ends, and says who keeps it so.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "fibers/sync/mutex.hpp"
+#include "fibers/sync/thread.hpp"
+#include "fibers/sync/timer.hpp"
+#include "tests/fibers/sync/orders.hpp"
+
+namespace waitpoint {
+namespace {
+
+using namespace std::chrono_literals;
+using this_thread::sleep_for;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(NoProgress, TasksThatSpinAtOneInstantAreNamed) {
+  for (std::uint64_t number = 0; number <= 1; ++number) {
+    const Report report = simulate(
+        [] {
+          sleep_for(2ms);
+          mutex m("busy");
+          m.lock();
+          thread spinner({.name = "spinner"}, [&] {
+            while (!m.try_lock()) {
+            }
+          });
+          for (;;) this_thread::yield();
+        },
+        order_number(number));
+    EXPECT_EQ(report.end, RunEnd::no_progress);
+    EXPECT_TRUE(contains(report.text, "no progress: virtual time stands still at 0.002000000 s")) << report;
+    EXPECT_TRUE(contains(report.text, "task spinner of environment (try_lock mutex #")) << report;
+    EXPECT_TRUE(contains(report.text, "task main of environment (yield)")) << report;
+  }
+}
+
+TEST(NoProgress, WhoPollsTheClockIsNamed) {
+  for (std::uint64_t number = 0; number <= 1; ++number) {
+    const Report report = simulate(
+        [] {
+          sleep_for(2ms);
+          const auto end = steady_clock::now() + 1ms;
+          while (steady_clock::now() < end) {
+          }
+        },
+        order_number(number));
+    EXPECT_EQ(report.end, RunEnd::no_progress);
+    EXPECT_TRUE(contains(report.text, "task main of environment")) << report;
+  }
+}
+
+TEST(NoProgress, WhoPollsTheClockLetsOthersGoOn) {
+  in_every_order([] {
+    bool done = false;
+    thread other([&] {
+      sleep_for(0ms);
+      done = true;
+    });
+    while (!done) (void)system_clock::now();
+    other.join();
+    // Its own time passes while it computes.
+    for (const Time end = now() + 20ms; now() < end;) compute(1us);
+    EXPECT_EQ(now(), Time() + 20ms);
+  });
+}
+
+TEST(NoProgress, ATimerThatStartsItselfAgainAtOnceIsNamed) {
+  const Report report = simulate([] {
+    timer* again = nullptr;
+    timer restless([&] { again->start_after(0s); }, "restless");
+    again = &restless;
+    restless.start_after(1ms);
+    sleep_for(2ms);
+  });
+  EXPECT_EQ(report.end, RunEnd::no_progress);
+  EXPECT_TRUE(contains(report.text, "timers fire again and again, the last one timer #1 \"restless\" of environment"))
+      << report;
+}
+
+TEST(NoProgress, ALongButFiniteInstantIsNone) {
+  in_every_order([] {
+    mutex m;
+    std::vector<thread> threads;
+    for (int t = 0; t < 4; ++t)
+      threads.emplace_back([&] {
+        for (int i = 0; i < 5000; ++i) {
+          const std::lock_guard guard(m);
+        }
+      });
+    for (thread& t : threads) t.join();
+    EXPECT_EQ(now(), Time());
+  });
+}
+
+TEST(Endless, WhoSleepsForEverIsNamed) {
+  const Report report = simulate([] {
+    thread sleeper({.name = "beauty"}, [] { sleep_for(std::chrono::hours::max()); });
+    sleeper.join();
+  });
+  EXPECT_EQ(report.end, RunEnd::time_reached);
+  EXPECT_TRUE(contains(report.text, "virtual time ran out")) << report;
+  EXPECT_TRUE(contains(report.text, "task beauty of environment sleeps for ever")) << report;
+}
+
+}  // namespace
+}  // namespace waitpoint
