@@ -6,28 +6,39 @@
 //           stays where it is. A computation of uncertain cost takes the longest.
 //   seeded  The order of ties, who is served and what computations cost are hashes of (seed, task, its sequence
 //           number), never drawn from a shared stream: what one robot does cannot shift another's choices.
+//   explored  Somebody else decides: see decisions.hpp.
 #pragma once
 
 #include <cstdint>
 
 #include "core/digest.hpp"
 #include "core/time.hpp"
+#include "fibers/kernel/decisions.hpp"
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::kernel {
 
-enum class Order : std::uint8_t { fifo, seeded };
+enum class Order : std::uint8_t { fifo, seeded, explored };
 
 class Chooser {
  public:
   Chooser(Order order, std::uint64_t seed) : order_(order), seed_(seed) {}
 
+  /// As a new one of this seed, with the same who decides.
+  void restart(std::uint64_t seed) {
+    seed_ = seed;
+    insertions_ = 0;
+  }
+
   Order order() const { return order_; }
   std::uint64_t seed() const { return seed_; }
+  /// Who decides in the explored order; null before anybody does.
+  Decisions* decisions() const { return decisions_; }
+  void set_decisions(Decisions& decisions) { decisions_ = &decisions; }
 
   /// The tie of an event that `task` puts into the list now.
   std::uint64_t tie(const Task& task) {
-    if (order_ == Order::fifo) return ++insertions_;
+    if (order_ != Order::seeded) return ++insertions_;
     return Digest::mix(seed_ ^ Digest::mix(task.id + task.sequence * 0x9E3779B97F4A7C15u));
   }
   /// The tie of a timer's event: timers fire in the order of their numbers within a robot, robots by their names' hash.
@@ -42,19 +53,26 @@ class Chooser {
   /// Which of `count` waiters `waker` serves; `count` is positive.
   std::uint32_t waiter(const Task& waker, std::uint32_t count) const {
     if (order_ == Order::fifo || count == 1) return 0;
+    if (order_ == Order::explored) return decisions_->among(Choice::waiter, waker, count);
     const std::uint64_t draw = Digest::mix(~seed_ ^ Digest::mix(waker.id + waker.sequence * 0x9E3779B97F4A7C15u));
     return static_cast<std::uint32_t>((draw >> 32) * count >> 32);
   }
   /// The same for the `arrivals`-th message that arrived at `object`, which no task brings.
   std::uint32_t waiter(const Object& object, std::uint64_t arrivals, std::uint32_t count) const {
-    if (order_ == Order::fifo || count == 1) return 0;
+    if (order_ != Order::seeded || count == 1) return 0;
     const std::uint64_t draw = Digest::mix(~seed_ ^ Digest::mix(object.identity + arrivals * 0x9E3779B97F4A7C15u));
     return static_cast<std::uint32_t>((draw >> 32) * count >> 32);
+  }
+
+  /// Whether a wait of `task` for a condition ends for nothing.
+  bool is_spurious(const Task& task) const {
+    return order_ == Order::explored && decisions_->among(Choice::spurious, task, 2) != 0;
   }
 
   /// What a computation of `task` costs, from `least` to `greatest`; each has a number of its own.
   Duration computing(Task& task, Duration least, Duration greatest) const {
     if (order_ == Order::fifo) return greatest;
+    if (order_ == Order::explored) return decisions_->computing(task, least, greatest);
     constexpr std::uint64_t computations = 0x636F6D7075746573u;  // "computes": no other choice has these numbers
     const std::uint64_t draw =
         Digest::mix((seed_ + computations) ^ Digest::mix(task.id + ++task.choices * 0x9E3779B97F4A7C15u));
@@ -66,6 +84,7 @@ class Chooser {
   Order order_;
   std::uint64_t seed_;
   std::uint64_t insertions_ = 0;
+  Decisions* decisions_ = nullptr;
 };
 
 }  // namespace waitpoint::kernel

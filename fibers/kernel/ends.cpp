@@ -53,6 +53,7 @@ void Scheduler::unwind() {
   // Timers may outlive the run: they must not find themselves in its list. Objects that tasks wait for are not touched:
   // they may be gone with the frames that own them, and read as fresh in the next run.
   while (!events_.empty()) events_.pop();
+  ready_.clear();
   // Each entry ends its task, which unlinks it.
   while (last_task_ != nullptr) {
     Task& task = *last_task_;

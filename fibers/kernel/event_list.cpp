@@ -43,6 +43,16 @@ bool EventList::has_address_space(std::uint32_t capacity) {
 
 EventList::~EventList() { munmap(memory_, entries(capacity_) * sizeof(EventEntry)); }
 
+void EventList::restart() {
+  WAITPOINT_CHECK(size_ == 0, "a list with events is begun anew");
+  if (calendar_.is_open()) close_calendar();
+  empty_run();
+  run_bound_ = std::min(2 * capacity_, 4 * run_length_min);
+  calibration_period_ = until_upkeep_ = calibration_period_min;
+  present_ns_ = calibrated_at_ns_ = 0;
+  passed_ = 0;
+}
+
 void EventList::remove(EventNode& node) {
   WAITPOINT_CHECK(node.in_list(), "an event to remove is not in the list");
   switch (node.part()) {

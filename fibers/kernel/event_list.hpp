@@ -33,6 +33,9 @@ class EventList {
   EventList(const EventList&) = delete;
   EventList& operator=(const EventList&) = delete;
 
+  /// As new; it must be empty.
+  void restart();
+
   bool empty() const { return size_ == 0; }
   std::uint32_t size() const { return size_; }
   /// The least entry; its key reads as never due if the list is empty.

@@ -44,6 +44,25 @@ Scheduler::~Scheduler() {
   unwind();
 }
 
+void Scheduler::restart(std::uint64_t seed) {
+  WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "a run begins before the one before it is unwound");
+  events_.restart();
+  chooser_.restart(seed);
+  epoch_ = ++runs;
+  now_ = until_ = Time();
+  lookahead_ = Duration::max();
+  first_robot_ = last_robot_ = nullptr;
+  culprit_ = nullptr;
+  first_abandoned_ = nullptr;
+  executed_ = turns_given_ = 0;
+  live_tasks_ = made_ = 0;
+  state_ = RunState::idle;
+  cause_ = StopCause::none;
+  unheard_ = PairDigest();
+  may_stay_ = chooser_.order() == Order::fifo && !sanitizer::present;
+  unwinding_ = interrupted_ = false;
+}
+
 void Scheduler::add(Robot& robot, const char* name) {
   robot = Robot();
   copy_name(robot.name, name);
@@ -67,6 +86,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   task.scheduler = this;
   task.robot = &robot;
   task.id = running != nullptr ? child_id(running->id, running->children++) : child_id(robot.id, robot.children++);
+  task.number = made_++;
   task.local_time = start;
   task.entry = entry;
   task.argument = argument;
@@ -86,7 +106,8 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
     ++live_tasks_;
     ++robot.live_tasks;
   }
-  put(task.event, key(task, task.local_time));
+  place(task, task.local_time);
+  if (task.local_time <= now_ && running != nullptr && task.phase < running->phase) end_free_passes(*running);
   return &task;
 }
 
@@ -115,6 +136,7 @@ RunState Scheduler::run_before(Time until) {
 // Takes the least event out, and what is not a task's until one is: the fiber that goes on. Where the window or the run
 // ends, that of the context outside. To be left for at once.
 Fiber& Scheduler::next_fiber() {
+  if (__builtin_expect(is_explored(), 0)) return next_explored();
   for (;;) {
     EventNode* node = events_.pop_before(until_);
     if (node == nullptr) return outside(events_.empty() ? RunState::idle : RunState::reached);
@@ -130,16 +152,7 @@ inline Task* Scheduler::due(EventNode& node, Time time) {
     return nullptr;
   }
   if (events_.is_large()) prepare_coming();
-  Task& task = reinterpret_cast<Task&>(node);  // the node is its first member
-  if (task.state == TaskState::blocked) {
-    Object& object = *task.blocked_on;
-    remove_waiter(task);
-    task.wake = Wake::timed_out;
-    set_local_time(task, time);
-    if (needs_attention(task)) stop_waiting(task, object);
-  }
-  resume(task);
-  return &task;
+  return &go(task_of(node));
 }
 
 // With many tasks, each one's record and stack are out of the cache by the time it is due: they are fetched while the
@@ -153,14 +166,6 @@ inline void Scheduler::prepare_coming() const {
     fetch(later);
     fetch(reinterpret_cast<const char*>(later) + 64);
   }
-}
-
-inline void Scheduler::resume(Task& task) {
-  if (__builtin_expect(!StackArena::intact(task.fiber.stack), 0)) report_overflow(task);
-  task.state = TaskState::running;
-  running = &task;
-  hash_events_of(*task.robot);
-  let_pass(task);
 }
 
 void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {

@@ -17,6 +17,7 @@
 #include "core/time.hpp"
 #include "fibers/kernel/chooser.hpp"
 #include "fibers/kernel/event_list.hpp"
+#include "fibers/kernel/ready_set.hpp"
 #include "fibers/kernel/stack_arena.hpp"
 #include "fibers/kernel/task.hpp"
 
@@ -79,6 +80,13 @@ class Scheduler {
 
   /// Whether a scheduler can be made: the process may have little address space (ulimit -v).
   static bool has_address_space() { return EventList::has_address_space(events_max); }
+
+  /// In the explored order, before the first run_before(): who decides. It must outlive the run.
+  void set_decisions(Decisions& decisions);
+
+  /// After unwind(): all is as in a new scheduler of this seed, which has no robot yet; but its memory is in place. Takes
+  /// a microsecond.
+  void restart(std::uint64_t seed);
 
   /// Adds a robot; the record must outlive the run.
   void add(Robot& robot, const char* name);
@@ -182,7 +190,7 @@ class Scheduler {
   Duration lookahead() const { return lookahead_; }
 
   /// Events in the list: those of tasks that can go on or wait with a finite timeout, and those of timers.
-  std::uint32_t pending_events() const { return events_.size(); }
+  std::uint32_t pending_events() const { return events_.size() + ready_.size(); }
 
   Time global_time() const { return now_; }
   Chooser& chooser() { return chooser_; }
@@ -256,8 +264,13 @@ class Scheduler {
   Fiber& wait_for_window(Task& task);
   Fiber& park(Task& task, Object& object, Time deadline);
   Fiber& next_fiber();
+  Fiber& next_explored();
   Fiber& outside(RunState state);
+  static Task& task_of(EventNode& node) { return reinterpret_cast<Task&>(node); }  // the node is its first member
   Task* due(EventNode& node, Time time);
+  Task& go(Task& task);
+  bool is_explored() const { return chooser_.order() == Order::explored; }
+  void place(Task& task, Time time);
   void prepare_coming() const;
   void resume(Task& task);
   void hash_events_of(Robot& robot);
@@ -278,6 +291,7 @@ class Scheduler {
   bool closes_a_cycle(Task& task);
 
   EventList events_;
+  ReadySet ready_;  // of the events of the present instant, where somebody else decides
   StackArena arena_;
   Chooser chooser_;
   Fiber main_;
@@ -303,6 +317,7 @@ class Scheduler {
   std::uint64_t executed_ = 0;
   std::uint32_t live_tasks_ = 0;
   std::uint32_t tasks_ = 0;
+  std::uint32_t made_ = 0;  // tasks so far
   std::uint32_t most_tasks_ = tasks_max;
   std::uint64_t turns_given_ = 0;  // since virtual time last moved
   Time turns_given_at_;

@@ -2,6 +2,7 @@
 // Steps that the scheduler's files take inline: for them alone.
 #pragma once
 
+#include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
@@ -38,6 +39,14 @@ inline void Scheduler::set_local_time(Task& task, Time time) {
 inline void Scheduler::put(EventNode& node, const EventKey& key) {
   events_.insert(node, key);
   if (key.time <= now_ && running != nullptr && key.order < make_order(running->phase, 0)) end_free_passes(*running);
+}
+
+// The task's event at `time`.
+inline void Scheduler::place(Task& task, Time time) {
+  if (__builtin_expect(is_explored(), 0) && time <= now_ && task.phase == Phase::tasks)
+    ready_.add(task);
+  else
+    events_.insert(task.event, key(task, time));
 }
 
 // The one place where fibers are switched. What is decided before is decided in functions that have returned: a parked
@@ -79,15 +88,38 @@ inline void Scheduler::remove_waiter(Task& task) {
   task.blocked_on = nullptr;
 }
 
+inline void Scheduler::resume(Task& task) {
+  if (__builtin_expect(!StackArena::intact(task.fiber.stack), 0)) report_overflow(task);
+  task.state = TaskState::running;
+  running = &task;
+  hash_events_of(*task.robot);
+  let_pass(task);
+}
+
+// The task's event is next: it runs.
+inline Task& Scheduler::go(Task& task) {
+  if (task.state == TaskState::blocked) {
+    Object& object = *task.blocked_on;
+    remove_waiter(task);
+    task.wake = Wake::timed_out;
+    set_local_time(task, now_);
+    if (needs_attention(task)) stop_waiting(task, object);
+  }
+  resume(task);
+  return task;
+}
+
 // Algorithm 2: who was woken takes the global time as its local one.
 inline void Scheduler::make_ready(Task& task) {
   if (__builtin_expect(sanitizer::present, 0)) sanitizer::release(task.blocked_on);
   remove_waiter(task);
-  if (task.finite_wait) events_.remove(task.event);
+  // One whose wait has just run out stands among those that are ready, and stays there.
+  const bool placed = __builtin_expect(ReadySet::contains(task), 0);
+  if (task.finite_wait && !placed) events_.remove(task.event);
   task.wake = Wake::woken;
   task.state = TaskState::ready;
   set_local_time(task, now_);
-  events_.insert(task.event, key(task, now_));
+  if (!placed) place(task, now_);
   if (running != nullptr && task.phase < running->phase) end_free_passes(*running);
 }
 

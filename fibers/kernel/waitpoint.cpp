@@ -11,6 +11,12 @@ namespace waitpoint::kernel {
 
 // Goes on when the task's event is the least; false when the run is over.
 inline bool Scheduler::arrive(Task& task) {
+  if (__builtin_expect(is_explored(), 0)) {
+    task.state = TaskState::ready;
+    place(task, task.local_time);
+    leave(task.fiber, next_fiber());
+    return !interrupted_ || rest();
+  }
   const EventKey& least = events_.least().key;
   if (!precedes(task, least)) {
     leave(task.fiber, give_way(task, least.time));
@@ -81,7 +87,7 @@ bool Scheduler::yield() {
   if (task.local_time != now_) task.turns = 0;
   check_progress(task);
   if (unwinding_) return false;
-  events_.insert(task.event, key(task, task.local_time));
+  place(task, task.local_time);
   task.state = TaskState::ready;
   leave(task.fiber, next_fiber());
   if (interrupted_ && !rest()) return false;

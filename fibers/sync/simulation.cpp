@@ -50,6 +50,16 @@ Simulation::Simulation(SimulationOptions options)
 
 Simulation::~Simulation() { unwind(); }
 
+void Simulation::restart(std::uint64_t seed) {
+  options_.seed = seed;
+  failure_ = nullptr;
+  trouble_.clear();
+  robots_.clear();
+  robot_states_.clear();
+  scheduler_.restart(seed);
+  add(environment_, "environment");
+}
+
 kernel::Robot& Simulation::add_robot(const std::string& name) {
   WAITPOINT_CHECK(name.size() < kernel::name_size, "a robot's name is too long");
   for (const kernel::Robot& robot : robots_) WAITPOINT_CHECK(name != robot.name, "two robots of one name");

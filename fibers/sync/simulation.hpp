@@ -51,6 +51,10 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
+  /// After unwind(): as a new one with the same options but for the seed. The robots that were added are gone. For many
+  /// short runs: it takes a microsecond, as memory stays in place.
+  void restart(std::uint64_t seed);
+
   /// The lane of tasks that belong to no robot.
   kernel::Robot& environment() { return environment_; }
   const kernel::Robot& environment() const { return environment_; }
