@@ -86,6 +86,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   task.scheduler = this;
   task.robot = &robot;
   task.id = running != nullptr ? child_id(running->id, running->children++) : child_id(robot.id, robot.children++);
+  task.maker = running != nullptr ? running->id : 0;
   task.number = made_++;
   task.local_time = start;
   task.entry = entry;

@@ -84,8 +84,8 @@ class Scheduler {
   /// In the explored order, before the first run_before(): who decides. It must outlive the run.
   void set_decisions(Decisions& decisions);
 
-  /// After unwind(): all is as in a new scheduler of this seed, which has no robot yet; but its memory is in place. Takes
-  /// a microsecond.
+  /// After unwind(): all is as in a new scheduler of this seed, which has no robot yet; but its memory is in place.
+  /// Takes a microsecond.
   void restart(std::uint64_t seed);
 
   /// Adds a robot; the record must outlive the run.

@@ -129,6 +129,7 @@ struct Task {
   Seat* seat = nullptr;         ///< null: it has a processor of its own
   std::uint64_t choices = 0;    ///< its computing times that were chosen so far
   std::uint32_t children = 0;
+  std::uint64_t maker = 0;        ///< the id of the task that made it; 0: from outside
   std::uint32_t number = 0;       ///< of the run's tasks, in the order of their making, from 0
   std::uint32_t held_shared = 0;  ///< how often it stands among the holders of something
   std::uint32_t refusals = 0;     ///< calls made since the run is over

@@ -137,10 +137,10 @@ Digest Simulation::digest() const {
   return digest;
 }
 
-void Simulation::fail(std::exception_ptr failure) {
+void Simulation::fail(std::exception_ptr failure, const char* how) {
   if (failure_ == nullptr) {
     failure_ = std::move(failure);
-    trouble_ = "an exception escaped from task " + sync::describe(*kernel::running) + " at " +
+    trouble_ = std::string(how) + " task " + sync::describe(*kernel::running) + " at " +
                to_string(kernel::running->local_time) + " s: " + what(failure_);
   }
   scheduler_.stop(kernel::StopCause::requested);

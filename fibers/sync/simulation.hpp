@@ -87,8 +87,8 @@ class Simulation {
   const kernel::Scheduler& scheduler() const { return scheduler_; }
 
   static Simulation& of(kernel::Scheduler& scheduler) { return *static_cast<Simulation*>(scheduler.client()); }
-  /// Ends the run with an exception: for the tasks' own entry.
-  void fail(std::exception_ptr failure);
+  /// From within a task: ends the run with an exception. `how` and the task's name begin what trouble() says of it.
+  void fail(std::exception_ptr failure, const char* how = "an exception escaped from");
 
  private:
   SimulationOptions options_;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/body.hpp"
+
+#include "fibers/explore/strategies/fifo.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+SimulationOptions explored() {
+  SimulationOptions options;
+  options.order = kernel::Order::explored;
+  return options;
+}
+
+}  // namespace
+
+Body::Body(std::function<void()> function, ForeignChecks* checks, Time until, std::uint32_t steps_max)
+    : function_(std::move(function)),
+      checks_(checks),
+      until_(until),
+      simulation_(explored()),
+      reports_(simulation_.scheduler()),
+      explorer_(simulation_.scheduler(), steps_max) {
+  simulation_.scheduler().set_decisions(explorer_);
+}
+
+void Body::start(Strategy& strategy, const Played& played) {
+  if (used_) simulation_.restart(0);
+  used_ = true;
+  explorer_.begin(strategy, played);
+  if (checks_ != nullptr) checks_->begin();
+  simulation_.spawn(simulation_.environment(), {.name = "main"}, function_);
+}
+
+Outcome Body::run(Strategy& strategy, const Played& played) {
+  start(strategy, played);
+  Outcome outcome;
+  try {
+    outcome.end = simulation_.run_before(until_);
+  } catch (...) {  // told by trouble()
+  }
+  outcome.failure = simulation_.trouble();
+  if (outcome.failure.empty() && outcome.end == RunEnd::time_reached)
+    outcome.failure = "it had not ended at " + to_string(until_) + " s";
+  outcome.digest = simulation_.digest().value();
+  outcome.end_time = simulation_.global_time();
+  outcome.events = simulation_.scheduler().events();
+  simulation_.unwind();
+  outcome.abandoned = simulation_.abandoned();
+  if (checks_ != nullptr)
+    if (const std::string failures = checks_->end(); outcome.failure.empty()) outcome.failure = failures;
+  return outcome;
+}
+
+void Body::run_up_to(const Played& played, const std::function<void()>& look) {
+  Fifo rest;
+  start(rest, played);
+  try {
+    simulation_.scheduler().run_before(until_);
+    look();
+  } catch (...) {
+    simulation_.unwind();
+    throw;
+  }
+  simulation_.unwind();
+  if (checks_ != nullptr) (void)checks_->end();
+}
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The body of a test, run under one schedule after the other, in one place in memory.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "fibers/explore/explorer.hpp"
+#include "fibers/kernel/fault_reports.hpp"
+#include "fibers/sync/simulation.hpp"
+
+namespace waitpoint::exploration {
+
+/// What else can find a fault with a run, beside what the kernel sees: a test framework's expectations.
+class ForeignChecks {
+ public:
+  virtual ~ForeignChecks() = default;
+  /// A run begins.
+  virtual void begin() = 0;
+  /// It is over: what failed since begin(), in words; empty if nothing.
+  virtual std::string end() = 0;
+  /// Of the test that is running, and the program's option that runs it alone; empty where there is none.
+  virtual std::string name() const = 0;
+  virtual std::string option_for(const std::string& name) const = 0;
+};
+
+/// What a schedule came to.
+struct Outcome {
+  RunEnd end = RunEnd::ended;
+  std::string failure;  ///< in words, its first line what happened; empty if it passed
+  std::uint64_t digest = 0;
+  Time end_time;
+  std::uint64_t events = 0;
+  std::vector<std::string> abandoned;
+
+  bool passed() const { return failure.empty(); }
+};
+
+class Body {
+ public:
+  /// `checks` may be null. A schedule has `until` of virtual time, and `steps_max` switch points at one instant.
+  Body(std::function<void()> function, ForeignChecks* checks, Time until, std::uint32_t steps_max);
+
+  /// Runs it from the beginning, by `strategy`, which was begun for it, but for what is played.
+  Outcome run(Strategy& strategy, const Played& played = {});
+  /// As run(), up to the decision where `played` stops; then `look` is called, before all is unwound.
+  void run_up_to(const Played& played, const std::function<void()>& look);
+
+  const Explorer& explorer() const { return explorer_; }
+  Simulation& simulation() { return simulation_; }
+
+ private:
+  void start(Strategy& strategy, const Played& played);
+
+  std::function<void()> function_;
+  ForeignChecks* checks_;
+  Time until_;
+  Simulation simulation_;
+  kernel::FaultReports reports_;  // once, not for each schedule
+  Explorer explorer_;
+  bool used_ = false;
+};
+
+}  // namespace waitpoint::exploration

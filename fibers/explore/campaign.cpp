@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/campaign.hpp"
+
+#include <chrono>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "fibers/explore/environment.hpp"
+#include "fibers/explore/explain.hpp"
+#include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/explore/supervisor.hpp"
+#include "fibers/explore/timeline.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t runs_to_minimize = 200'000;
+constexpr std::uint64_t runs_to_explain = 20'000;
+constexpr std::size_t events_shown = 40;
+constexpr std::uint64_t schedules_between_looks_at_the_clock = 64;
+
+std::uint32_t upper_half(std::uint64_t digest) { return static_cast<std::uint32_t>(digest >> 32); }
+
+}  // namespace
+
+Campaign::Campaign(ForeignChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call)
+    : checks_(checks),
+      options_(options),
+      call_(call),
+      body_(std::move(body), checks, options.until, options.steps_max) {}
+
+ExploreReport Campaign::run() {
+  const Clock::time_point start = Clock::now();
+  if (begins_well()) search();
+  report_.passed = report_.text.empty();
+  report_.distinct = seen_.size();
+  report_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return report_;
+}
+
+// In the default order, twice: that is the profile, and shows whether the body is the same a second time.
+bool Campaign::begins_well() {
+  const Outcome first = take_profile(body_, profile_);
+  usual_digest_ = first.digest;
+  seen_.insert(first.digest);
+  report_.schedules = 1;
+  if (!first.passed()) {
+    tell({{body_.explorer().schedule(), first}, token_of({{}, first}), "the default schedule"});
+    return false;
+  }
+  report_.text = difference_between_repeats();
+  return report_.text.empty();
+}
+
+std::string Campaign::difference_between_repeats() {
+  const Timeline before = take_timeline(body_, {});
+  const Timeline after = take_timeline(body_, {});
+  for (std::size_t i = 0; i < before.events.size() || i < after.events.size(); ++i) {
+    const auto text = [&](const Timeline& timeline) {
+      if (i >= timeline.events.size()) return std::string("nothing more");
+      const TimelineEvent& event = timeline.events[i];
+      return timeline.tasks[event.task] + " " + name(event.operation) + " " + event.object;
+    };
+    if (text(before) != text(after))
+      return "the body leaks state from one schedule into the next: in the default order, event " + std::to_string(i) +
+             " is first '" + text(before) + "' and then '" + text(after) + "'";
+  }
+  return "";
+}
+
+bool Campaign::fails(Strategy& strategy, std::uint64_t number) {
+  strategy.begin(number, Draws(options_.seed, options_.strategy, number), profile_);
+  const Outcome outcome = body_.run(strategy);
+  ++report_.schedules;
+  seen_.insert(outcome.digest);
+  if (outcome.passed()) return false;
+  Failure failure{body_.explorer().schedule(), outcome};
+  report_.failed_at = number;
+  Token token{call_, upper_half(outcome.digest), options_.strategy, options_.seed, number, {}};
+  tell({std::move(failure), std::move(token),
+        "schedule " + std::to_string(number) + " of strategy " + options_.strategy + ", seed " +
+            std::to_string(options_.seed)});
+  return true;
+}
+
+void Campaign::search() {
+  const std::unique_ptr<Strategy> strategy = make_strategy(options_.strategy);
+  const Clock::time_point start = Clock::now();
+  const Token token{call_, 0, options_.strategy, options_.seed, 0, {}};
+  Supervisor supervisor(token, "replay: WAITPOINT_REPLAY=", " " + command_line(checks_));
+  for (std::uint64_t number = 0; number < options_.iterations; ++number) {
+    if (options_.time_limit_s > 0 && number % schedules_between_looks_at_the_clock == 0 &&
+        std::chrono::duration<double>(Clock::now() - start).count() >= options_.time_limit_s)
+      break;
+    supervisor.begin(number);
+    if (fails(*strategy, number)) return;
+    if (!strategy->end()) {
+      report_.complete = true;
+      break;
+    }
+  }
+  supervisor.pause();
+  Fifo usual;
+  if (body_.run(usual).digest != usual_digest_) {
+    report_.text = difference_between_repeats();
+    if (report_.text.empty())
+      report_.text = "the body leaks state from one schedule into the next: the default schedule is another one now";
+  }
+}
+
+Token Campaign::token_of(const Failure& failure) const {
+  return {call_, upper_half(failure.outcome.digest), "", 0, 0, failure.schedule.deviations()};
+}
+
+void Campaign::tell(const Found& found) {
+  Failure least = found.failure;
+  if (options_.minimize) least = minimize(body_, found.failure, runs_to_minimize);
+  const std::string deviating = to_text(token_of(least));
+  report_.replay = deviating.size() <= token_length_max ? deviating : to_text(found.token);
+  report_.schedule = least.schedule;
+  std::string& text = report_.text;
+  text = found.which + " failed: " + least.outcome.failure + "\n";
+  const std::size_t switches = least.schedule.switches().size();
+  text += switches == 0   ? "it is the default order that fails\n"
+          : switches == 1 ? "one switch away from the default order fails\n"
+                          : std::to_string(switches) + " switches away from the default order fail\n";
+  if (const std::string why = explain(body_, least, runs_to_explain); !why.empty()) text += why + "\n";
+  const Timeline timeline = take_timeline(body_, least.schedule);
+  text += "what the tasks did (*: in place of one that could have gone on):\n" + to_text(timeline, events_shown);
+  if (const std::string file = trace_file(); !file.empty()) {
+    std::ofstream out(file);
+    write_trace(out, timeline);
+    if (!out.flush()) throw BadInput("WAITPOINT_TRACE", "cannot write to '" + file + "'");
+  }
+  text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_line(checks_);
+}
+
+ExploreReport Campaign::replay(const Token& token) {
+  const Outcome first = take_profile(body_, profile_);
+  options_.minimize = false;
+  Outcome outcome;
+  Fifo rest;
+  if (token.strategy.empty()) {
+    outcome = token.deviations.empty() ? first : body_.run(rest, {.deviations = token.deviations});
+  } else {
+    const std::unique_ptr<Strategy> strategy = make_strategy(token.strategy);
+    // An exhaustive one comes to a schedule by those before it.
+    for (std::uint64_t number = strategy->is_exhaustive() ? 0 : token.number; number <= token.number; ++number) {
+      strategy->begin(number, Draws(token.seed, token.strategy, number), profile_);
+      outcome = body_.run(*strategy);
+      if (number < token.number && !strategy->end())
+        throw BadInput("replay", "expected schedule " + std::to_string(token.number) + ", but there are only " +
+                                     std::to_string(number + 1));
+    }
+  }
+  report_.schedules = 1;
+  report_.distinct = 1;
+  report_.failed_at = token.number;
+  const bool is_it = token.digest == 0 || token.digest == upper_half(outcome.digest);
+  const Failure failure{body_.explorer().schedule(), outcome};
+  if (!outcome.passed()) tell({failure, token, "the replayed schedule"});
+  if (!is_it)
+    report_.text = "this is not the run of the token: its digest begins with " +
+                   to_text(Token{token.call, upper_half(outcome.digest), "", 0, 0, {}}).substr(4) +
+                   "; the program is another one now\n" + report_.text;
+  report_.passed = report_.text.empty();
+  return report_;
+}
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One call of explore(): schedule after schedule of one body, until one fails or it is enough.
+#pragma once
+
+#include <unordered_set>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/explore/minimize.hpp"
+#include "fibers/explore/profile.hpp"
+#include "fibers/explore/token.hpp"
+
+namespace waitpoint::exploration {
+
+class Campaign {
+ public:
+  /// `call` counts the campaigns of one test.
+  Campaign(ForeignChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call);
+
+  ExploreReport run();
+  /// The schedule of that token alone.
+  ExploreReport replay(const Token& token);
+
+ private:
+  struct Found {
+    Failure failure;
+    Token token;
+    std::string which;  // schedule, in words
+  };
+
+  bool begins_well();
+  void search();
+  bool fails(Strategy& strategy, std::uint64_t number);
+  std::string difference_between_repeats();
+  void tell(const Found& found);
+  Token token_of(const Failure& failure) const;
+
+  ForeignChecks* checks_;
+  ExploreOptions options_;
+  std::uint32_t call_;
+  Body body_;
+  Profile profile_;
+  std::uint64_t usual_digest_ = 0;  // of the default schedule
+  std::unordered_set<std::uint64_t> seen_;
+  ExploreReport report_;
+};
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <stdexcept>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/blocking.hpp"
+
+namespace waitpoint {
+
+void check(bool holds, const char* message, const char* file, int line) {
+  if (holds) return;
+  kernel::Scheduler& scheduler = *sync::running_task().scheduler;
+  if (scheduler.unwinding()) return;
+  const std::string text = std::string(file) + ":" + std::to_string(line) + ": " + message;
+  Simulation::of(scheduler).fail(std::make_exception_ptr(std::runtime_error(text)), "a check failed in");
+  sync::unwind();
+}
+
+}  // namespace waitpoint

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which events may come to something else in the other order: those at one object, unless both only look at it.
+#pragma once
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::exploration {
+
+inline bool only_looks(kernel::Operation operation) {
+  return operation == kernel::Operation::load || operation == kernel::Operation::stop_requested;
+}
+
+/// Of what the two tasks are about to do.
+inline bool are_dependent(const kernel::Task& a, const kernel::Task& b) {
+  return a.at != nullptr && a.at == b.at && !(only_looks(a.operation) && only_looks(b.operation));
+}
+
+}  // namespace waitpoint::exploration

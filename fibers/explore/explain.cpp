@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/explain.hpp"
+
+#include <optional>
+
+#include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/sync/object_names.hpp"
+#include "fibers/sync/source_lines.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+constexpr std::size_t frames_searched = 24;
+constexpr std::size_t frames_shown = 4;
+
+struct Crossing {
+  std::size_t decision;
+  std::uint32_t instead;  // with which it passes
+};
+
+// From the end backwards: where another choice, and the default order from there on, passes.
+std::optional<Crossing> last_crossing(Body& body, const Failure& failure, std::uint64_t runs_max) {
+  const std::vector<Decision>& decisions = failure.schedule.decisions;
+  Fifo rest;
+  for (std::size_t i = decisions.size(); i-- > 0;) {
+    std::vector<Decision> changed(decisions.begin(), decisions.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    for (std::uint32_t other = 0; other < decisions[i].count; ++other) {
+      if (other == decisions[i].chosen) continue;
+      if (runs_max-- == 0) return std::nullopt;
+      changed.back().chosen = other;
+      if (body.run(rest, {.prefix = changed}).passed()) return Crossing{i, other};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string about_to(const Task& task) {
+  std::string text = "task " + sync::describe(task) + ", about to " + name(task.operation);
+  if (task.at != nullptr) text += " " + sync::describe(*task.at);
+  return text;
+}
+
+// At a choice between tasks: the one that came, and the one that should have.
+std::string describe_pair(Body& body, const Decision& decision, std::span<Task* const> ready, std::uint32_t instead) {
+  kernel::Scheduler& scheduler = body.simulation().scheduler();
+  Task* const pair[] = {ready[decision.chosen], ready[instead]};
+  std::vector<sync::ReturnAddresses> stacks;
+  for (Task* task : pair) {
+    sync::ReturnAddresses& stack = stacks.emplace_back(frames_searched);
+    stack.resize(scheduler.call_stack(*task, stack.data(), stack.size()));
+  }
+  const auto places = sync::user_source_lines(stacks, frames_shown);
+  const char* const words[] = {"\n  goes first here:             ", "\n  goes first where it passes:  "};
+  std::string text;
+  for (std::size_t i = 0; i < 2; ++i) {
+    text += words[i] + about_to(*pair[i]);
+    for (const std::string& line : places[i]) text += "\n      at " + line;
+  }
+  return text;
+}
+
+const char* description(Choice choice) {
+  switch (choice) {
+    case Choice::task: return "which task goes on";
+    case Choice::waiter: return "who is woken";
+    case Choice::spurious: return "whether a wait ends for nothing";
+    case Choice::loss: return "whether a datagram is lost";
+    case Choice::computing: return "how long a computation takes";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string explain(Body& body, const Failure& failure, std::uint64_t runs_max) {
+  const std::optional<Crossing> crossing = last_crossing(body, failure, runs_max);
+  if (!crossing) return "";
+  const Decision& decision = failure.schedule.decisions[crossing->decision];
+  std::string text = "the last choice from which it could still have passed: number " +
+                     std::to_string(crossing->decision) + ", " + description(decision.change.choice);
+  if (decision.change.choice != Choice::task)
+    return text + ": alternative " + std::to_string(decision.chosen) + " fails, " + std::to_string(crossing->instead) +
+           " passes";
+  Played played{.prefix = failure.schedule.decisions};
+  played.stop_at = crossing->decision;
+  body.run_up_to(played, [&] {
+    const std::span<Task* const> ready = body.explorer().stopped_before();
+    if (ready.empty()) return;
+    text += ", at " + to_string(body.simulation().global_time()) + " s" +
+            describe_pair(body, decision, ready, crossing->instead);
+  });
+  return text;
+}
+
+}  // namespace waitpoint::exploration

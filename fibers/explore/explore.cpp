@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/explore.hpp"
+
+#include <ostream>
+
+#include "core/error.hpp"
+#include "fibers/explore/campaign.hpp"
+#include "fibers/explore/environment.hpp"
+
+namespace waitpoint {
+namespace {
+
+// The calls within one test, or within a program that has none: what a token tells them apart by.
+std::uint32_t count_call(const std::string& test) {
+  static std::string last;
+  static std::uint32_t calls = 0;
+  if (test != last) calls = 0;
+  last = test;
+  return ++calls;
+}
+
+}  // namespace
+
+ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<void()> body,
+                           const ExploreOptions& asked) {
+  WAITPOINT_CHECK(kernel::running == nullptr, "schedules are explored from within a run");
+  ExploreOptions options = exploration::with_environment(asked);
+  const std::uint32_t call = count_call(checks != nullptr ? checks->name() : "");
+  if (options.replay.empty()) return exploration::Campaign(checks, std::move(body), options, call).run();
+  const exploration::Token token = exploration::read_token(options.replay);
+  if (token.call == call) return exploration::Campaign(checks, std::move(body), options, call).replay(token);
+  options.iterations = 0;  // the token is another call's: this one has to be passed to come there
+  return exploration::Campaign(checks, std::move(body), options, call).run();
+}
+
+std::ostream& operator<<(std::ostream& out, const ExploreReport& report) {
+  if (!report.passed) return out << report.text;
+  out << "passed " << report.schedules << " schedules, " << report.distinct << " distinct";
+  if (report.complete) out << ", which are all there are";
+  return out;
+}
+
+}  // namespace waitpoint

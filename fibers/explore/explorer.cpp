@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/explorer.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+using kernel::Operation;
+
+constexpr std::uint8_t looks_max = 6;
+
+// What changes nothing for others, and what one does again and again who waits for them.
+bool is_look(Operation operation) {
+  switch (operation) {
+    case Operation::load:
+    case Operation::try_lock:
+    case Operation::try_lock_shared:
+    case Operation::try_acquire:
+    case Operation::try_wait:
+    case Operation::compare_exchange:
+    case Operation::exchange:
+    case Operation::stop_requested:
+    case Operation::poll:
+    case Operation::sleep:
+    case Operation::yield: return true;
+    default: return false;
+  }
+}
+
+}  // namespace
+
+void Explorer::begin(Strategy& strategy, const Played& played) {
+  strategy_ = &strategy;
+  played_ = played;
+  schedule_.decisions.clear();
+  habits_.clear();
+  stopped_before_.clear();
+  last_ = nullptr;
+  spinning_ = step_ = step_of_instant_ = 0;
+  instant_ = Time();
+  deviated_ = 0;
+  parted_ = false;
+}
+
+// The number of the alternative that is to be taken at this decision; `count` if that is open.
+std::uint32_t Explorer::of_deviations(std::uint32_t count) {
+  const std::size_t at = schedule_.decisions.size();
+  while (deviated_ < played_.deviations.size() && played_.deviations[deviated_].decision < at) ++deviated_;
+  if (deviated_ == played_.deviations.size() || played_.deviations[deviated_].decision != at) return count;
+  parted_ |= played_.deviations[deviated_].chosen >= count;
+  return std::min(count, played_.deviations[deviated_].chosen);
+}
+
+const Decision* Explorer::of_prefix(Choice choice, std::uint32_t count) {
+  const std::size_t at = schedule_.decisions.size();
+  if (parted_ || at >= played_.prefix.size()) return nullptr;
+  const Decision& decision = played_.prefix[at];
+  if (decision.change.choice == choice && decision.count == count) return &decision;
+  parted_ = true;
+  return nullptr;
+}
+
+bool Explorer::is_played(const Switch& change) const {
+  return std::find(played_.switches.begin(), played_.switches.end(), change) != played_.switches.end();
+}
+
+std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
+  const Time now = scheduler_.global_time();
+  if (now != instant_) {
+    instant_ = now;
+    step_of_instant_ = 0;
+  }
+  if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
+  std::uint32_t chosen = 0;
+  if (count > 1) {
+    std::uint32_t usual = 0;
+    for (std::uint32_t i = 0; i < count && last_ != nullptr; ++i)
+      if (ready[i] == last_) usual = i;
+    if (schedule_.decisions.size() == played_.stop_at) {
+      stopped_before_.assign(ready, ready + count);
+      scheduler_.stop_between_events(kernel::StopCause::requested, *ready[usual]);
+      return usual;
+    }
+    chosen = choose(ready, count, usual);
+    schedule_.decisions.push_back(
+        {count, chosen, usual, {Choice::task, event_of(*ready[usual]), event_of(*ready[chosen])}});
+  } else {
+    strategy_->next({{ready, 1}, last_, last_ == ready[0], step_});
+  }
+  note(*ready[chosen]);
+  ++step_;
+  return chosen;
+}
+
+std::uint32_t Explorer::choose(Task* const* ready, std::uint32_t count, std::uint32_t usual) {
+  if (const Decision* decision = of_prefix(Choice::task, count)) return decision->chosen;
+  if (const std::uint32_t chosen = of_deviations(count); chosen != count) return chosen;
+  if (!played_.switches.empty()) {
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (i != usual && is_played({Choice::task, event_of(*ready[usual]), event_of(*ready[i])})) return i;
+  }
+  return offer(ready, count);
+}
+
+void Explorer::stop_spinning() {
+  for (Habit& habit : habits_) habit.spins = false;
+  spinning_ = 0;
+}
+
+// Asks the strategy, which does not see those that spin as long as there are others.
+std::uint32_t Explorer::offer(Task* const* ready, std::uint32_t count) {
+  bool may_go_on = false;
+  if (spinning_ == 0) {
+    for (std::uint32_t i = 0; i < count; ++i) may_go_on |= ready[i] == last_;
+    return strategy_->next({{ready, count}, last_, may_go_on, step_});
+  }
+  offered_.clear();
+  places_.clear();
+  const auto add = [&](std::uint32_t at) {
+    offered_.push_back(ready[at]);
+    places_.push_back(at);
+  };
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (ready[i]->number >= habits_.size() || !habits_[ready[i]->number].spins) {
+      add(i);
+      may_go_on |= ready[i] == last_;
+    }
+  if (offered_.empty()) {  // all of them spin: one of the others has its turn
+    stop_spinning();
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (ready[i] != last_) add(i);
+  }
+  return places_[strategy_->next({offered_, last_, may_go_on, step_})];
+}
+
+void Explorer::note(const Task& task) {
+  if (task.number >= habits_.size()) habits_.resize(task.number + 1);
+  Habit& habit = habits_[task.number];
+  if (!is_look(task.operation)) {
+    habit.looks = 0;
+    if (spinning_ != 0) stop_spinning();
+  } else if (task.operation == Operation::yield) {
+    spinning_ += !habit.spins;
+    habit.spins = true;
+  } else if (task.at != habit.at[0] && task.at != habit.at[1]) {
+    habit.looks = 0;
+  } else if (++habit.looks >= looks_max) {
+    spinning_ += !habit.spins;
+    habit.spins = true;
+    habit.looks = 0;
+  }
+  habit.at[1] = habit.at[0];
+  habit.at[0] = task.at;
+  last_ = &task;
+}
+
+std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {
+  std::uint32_t chosen = count;
+  if (const Decision* decision = of_prefix(choice, count)) chosen = decision->chosen;
+  if (chosen == count) chosen = of_deviations(count);
+  for (std::uint32_t i = 1; i < count && !played_.switches.empty() && chosen == count; ++i)
+    if (is_played({choice, event_of(task), {i, 0}})) chosen = i;
+  if (chosen == count) chosen = strategy_->among(choice, task, count);
+  WAITPOINT_CHECK(chosen < count, "a strategy chooses what there is not");
+  schedule_.decisions.push_back({count, chosen, 0, {choice, event_of(task), {chosen, 0}}});
+  return chosen;
+}
+
+Duration Explorer::computing(const Task& task, Duration least, Duration greatest) {
+  const std::int64_t span = (greatest - least).ns();
+  const std::uint32_t count = span < computing_steps ? static_cast<std::uint32_t>(span) + 1 : computing_steps + 1;
+  const std::uint32_t less = among(Choice::computing, task, count);
+  __extension__ using Wide = __int128;
+  return greatest - Duration::from_ns(static_cast<std::int64_t>(static_cast<Wide>(span) * less / (count - 1)));
+}
+
+}  // namespace waitpoint::exploration

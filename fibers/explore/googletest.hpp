@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Expectations of GoogleTest that fail within an explored body are caught: they make its schedule fail, and are shown
+// once, with the report. Comes with explore.hpp where GoogleTest was included before.
+#pragma once
+
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+#include "fibers/explore/body.hpp"
+
+namespace waitpoint::exploration {
+
+class GoogleTestChecks final : public ForeignChecks {
+ public:
+  void begin() override {
+    reporter_.reset();
+    results_.emplace();
+    reporter_.emplace(testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &*results_);
+  }
+  std::string end() override {
+    reporter_.reset();
+    std::string text;
+    for (int i = 0; results_ && i < results_->size(); ++i) {
+      const testing::TestPartResult& result = results_->GetTestPartResult(i);
+      if (result.failed())
+        text.append(text.empty() ? "" : "\n")
+            .append("expectation at ")
+            .append(result.file_name() != nullptr ? result.file_name() : "?")
+            .append(":")
+            .append(std::to_string(result.line_number()))
+            .append(": ")
+            .append(result.message());
+    }
+    return text;
+  }
+  std::string name() const override {
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    return test == nullptr ? "" : std::string(test->test_suite_name()) + "." + test->name();
+  }
+  std::string option_for(const std::string& name) const override { return "--gtest_filter=" + name; }
+
+ private:
+  std::optional<testing::TestPartResultArray> results_;
+  std::optional<testing::ScopedFakeTestPartResultReporter> reporter_;
+};
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/minimize.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "fibers/explore/strategies/fifo.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+// Schedules with so many switches are tried exhaustively.
+constexpr std::size_t searched_max = 2;
+
+// The first line without the task and the time of an escaped exception.
+std::string_view words_of(std::string_view text) {
+  text = text.substr(0, text.find('\n'));
+  const std::size_t said = text.find(" s: ");
+  return said == std::string_view::npos ? text : text.substr(said);
+}
+
+class Minimizer {
+ public:
+  Minimizer(Body& body, const Failure& found, std::uint64_t runs_max) : body_(body), least_(found), left_(runs_max) {}
+
+  Failure run() {
+    // As switches by tasks and events it may come to another run: then it stays as it was found.
+    if (const auto again = fails_with(least_.schedule.switches())) least_ = *again;
+    leave_out();
+    for (std::size_t count = 1; count <= searched_max && count < switches(); ++count)
+      if (const auto fewer = search({}, 0, count)) least_ = *fewer;
+    return least_;
+  }
+
+ private:
+  std::size_t switches() const { return least_.schedule.switches().size(); }
+
+  std::optional<Failure> failing(const Played& played) {
+    if (left_ == 0) return std::nullopt;
+    --left_;
+    Fifo rest;
+    Failure tried;
+    tried.outcome = body_.run(rest, played);
+    tried.schedule = body_.explorer().schedule();
+    passed_ = tried.schedule;
+    if (!is_same_failure(tried.outcome, least_.outcome)) return std::nullopt;
+    return tried;
+  }
+  std::optional<Failure> fails_with(const std::vector<Switch>& switches) { return failing({.switches = switches}); }
+
+  // Delta debugging: complements of ever smaller parts.
+  void leave_out() {
+    std::size_t parts = 2;
+    std::vector<Switch> kept = least_.schedule.switches();
+    while (kept.size() > 1 && left_ > 0) {
+      const std::size_t size = (kept.size() + parts - 1) / parts;
+      bool reduced = false;
+      for (std::size_t from = 0; from < kept.size() && !reduced; from += size) {
+        std::vector<Switch> others(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(from));
+        const std::size_t end = std::min(kept.size(), from + size);
+        others.insert(others.end(), kept.begin() + static_cast<std::ptrdiff_t>(end), kept.end());
+        if (const auto still = fails_with(others); still && still->schedule.switches().size() < kept.size()) {
+          least_ = *still;
+          kept = least_.schedule.switches();
+          reduced = true;
+        }
+      }
+      if (reduced)
+        parts = std::max<std::size_t>(2, parts - 1);
+      else if (size == 1)
+        return;
+      else
+        parts = std::min(kept.size(), parts * 2);
+    }
+  }
+
+  // All schedules that are `prefix` up to `from`, and then differ `count` times from the default order.
+  std::optional<Failure> search(std::vector<Decision> prefix, std::size_t from, std::size_t count) {
+    prefix.resize(from);
+    if (const auto failed = failing({.prefix = prefix})) return failed;
+    const std::vector<Decision> path = passed_.decisions;
+    for (std::size_t i = from; i < path.size() && left_ > 0; ++i) {
+      std::vector<Decision> changed(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      for (std::uint32_t other = 0; other < path[i].count; ++other) {
+        if (other == path[i].chosen) continue;
+        changed.back().chosen = other;
+        if (count > 1) {
+          if (const auto failed = search(changed, i + 1, count - 1)) return failed;
+        } else if (const auto failed = failing({.prefix = changed})) {
+          return failed;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  Body& body_;
+  Failure least_;
+  std::uint64_t left_;
+  Schedule passed_;  // of the last run
+};
+
+}  // namespace
+
+bool is_same_failure(const Outcome& a, const Outcome& b) {
+  if (a.passed() || b.passed()) return false;
+  if (a.end != b.end) return false;
+  // What a deadlock or a lack of progress says names places and times, which differ from schedule to schedule.
+  if (a.end != RunEnd::ended) return true;
+  return words_of(a.failure) == words_of(b.failure);
+}
+
+Failure minimize(Body& body, const Failure& found, std::uint64_t runs_max) {
+  return Minimizer(body, found, runs_max).run();
+}
+
+}  // namespace waitpoint::exploration

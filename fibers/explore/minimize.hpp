@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A failing schedule with as few switches away from the default order as can be found: what is left is what matters.
+//
+// First switches are left out by halves, quarters and so on as long as the rest still fails in the same way (Zeller,
+// Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 2002); then all schedules with fewer
+// switches than are left are tried, with one, with two, as far as the budget goes.
+#pragma once
+
+#include <cstdint>
+
+#include "fibers/explore/body.hpp"
+
+namespace waitpoint::exploration {
+
+/// Where it failed, and how: the schedule, and what it came to.
+struct Failure {
+  Schedule schedule;
+  Outcome outcome;
+};
+
+/// Whether two outcomes are the same failure: of one kind, and where it has words of its own, in the same words.
+bool is_same_failure(const Outcome& a, const Outcome& b);
+
+/// At most `runs_max` runs of `body`. What it returns fails as `found` does.
+Failure minimize(Body& body, const Failure& found, std::uint64_t runs_max);
+
+}  // namespace waitpoint::exploration

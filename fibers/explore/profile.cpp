@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/profile.hpp"
+
+#include <algorithm>
+
+#include "fibers/explore/body.hpp"
+#include "fibers/explore/strategies/fifo.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+struct Counting : kernel::Watch {
+  explicit Counting(Profile& to) : profile(to) { event = &Counting::count; }
+
+  static void count(kernel::Watch& self, const kernel::EventRecord& record) {
+    Profile& profile = static_cast<Counting&>(self).profile;
+    const Task& task = *record.task;
+    Profile::TaskEvents* known = profile.find(task.id);
+    if (known == nullptr) known = &profile.tasks.emplace_back(Profile::TaskEvents{task.id, task.maker, 0, {}});
+    ++known->events;
+    known->objects.push_back(record.object != nullptr ? record.object->identity : 0);
+  }
+
+  Profile& profile;
+};
+
+// The objects of more than one task, in the order of their first use.
+std::vector<std::uint64_t> shared_objects(const Profile& profile) {
+  std::vector<std::uint64_t> used, shared;
+  for (const Profile::TaskEvents& task : profile.tasks) {
+    std::vector<std::uint64_t> own;
+    for (const std::uint64_t object : task.objects) {
+      if (object == 0 || std::find(own.begin(), own.end(), object) != own.end()) continue;
+      own.push_back(object);
+      const bool known = std::find(used.begin(), used.end(), object) != used.end();
+      if (!known)
+        used.push_back(object);
+      else if (std::find(shared.begin(), shared.end(), object) == shared.end())
+        shared.push_back(object);
+    }
+  }
+  return shared;
+}
+
+}  // namespace
+
+Outcome take_profile(Body& body, Profile& profile) {
+  profile = Profile();
+  Counting counting(profile);
+  kernel::Scheduler& scheduler = body.simulation().scheduler();
+  scheduler.set_watch(&counting);
+  Fifo fifo;
+  Outcome outcome = body.run(fifo);
+  scheduler.set_watch(nullptr);
+  profile.steps = body.explorer().steps();
+  profile.shared = shared_objects(profile);
+  return outcome;
+}
+
+}  // namespace waitpoint::exploration

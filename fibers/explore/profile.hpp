@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the first schedule of a campaign, which is first in first out, showed of the body: how long it is, how many
+// events each of its tasks has, and at which objects. Strategies that need to know beforehand take it as an estimate.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::exploration {
+
+struct Profile {
+  struct TaskEvents {
+    std::uint64_t task;    ///< its id: the same in every schedule
+    std::uint64_t parent;  ///< 0 for the first task
+    std::uint32_t events = 0;
+    std::vector<std::uint64_t> objects;  ///< of each event, 0 without one: their identities, in their order
+  };
+
+  std::uint32_t steps = 0;  ///< switch points
+  std::vector<TaskEvents> tasks;
+  std::vector<std::uint64_t> shared;  ///< identities of objects that more than one task used
+
+  /// Null for a task that the first schedule did not have.
+  const TaskEvents* find(std::uint64_t task) const {
+    for (const TaskEvents& known : tasks)
+      if (known.task == task) return &known;
+    return nullptr;
+  }
+  TaskEvents* find(std::uint64_t task) { return const_cast<TaskEvents*>(std::as_const(*this).find(task)); }
+};
+
+class Body;
+struct Outcome;
+
+/// Runs `body` in the default order and looks at what it does; what that came to.
+Outcome take_profile(Body& body, Profile& profile);
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exhaustive search, depth first: after each schedule the last choice that has an alternative left takes it. Bounded,
+// it tries all schedules with at most so many preemptions, that is switches away from a task that could go on
+// (Musuvathi, Qadeer, "Iterative context bounding", PLDI 2007): most bugs need two or three.
+//
+// Of what a computation may cost, it tries the two ends.
+#pragma once
+
+#include "fibers/explore/strategy.hpp"
+
+namespace waitpoint::exploration {
+
+class Dfs final : public Strategy {
+ public:
+  static constexpr std::uint32_t unbounded = 0xFFFFFFFF;
+
+  explicit Dfs(std::uint32_t preemptions = unbounded) : preemptions_(preemptions) {}
+
+  void begin(std::uint64_t, const Draws&, const Profile&) override;
+  std::uint32_t next(const SwitchPoint& at) override;
+  std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
+  bool end() override;
+  bool is_exhaustive() const override { return true; }
+
+ private:
+  struct Level {
+    std::uint32_t count;
+    std::uint32_t tried;  // the alternative on the present path
+  };
+  std::uint32_t descend(std::uint32_t count);
+
+  std::uint32_t preemptions_;
+  std::vector<Level> path_;
+  std::size_t depth_ = 0;
+  std::uint32_t preempted_ = 0;
+};
+
+}  // namespace waitpoint::exploration

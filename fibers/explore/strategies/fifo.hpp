@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The default order: a task goes on as long as it can, then the one that has been ready longest; nothing rare happens.
+#pragma once
+
+#include "fibers/explore/strategy.hpp"
+
+namespace waitpoint::exploration {
+
+/// What the default order chooses at a switch point.
+inline std::uint32_t usual(const SwitchPoint& at) {
+  if (at.may_go_on)
+    for (std::uint32_t i = 0; i < at.ready.size(); ++i)
+      if (at.ready[i] == at.last) return i;
+  return 0;
+}
+
+class Fifo final : public Strategy {
+ public:
+  void begin(std::uint64_t, const Draws&, const Profile&) override {}
+  std::uint32_t next(const SwitchPoint& at) override { return usual(at); }
+  std::uint32_t among(Choice, const Task&, std::uint32_t) override { return 0; }
+};
+
+}  // namespace waitpoint::exploration

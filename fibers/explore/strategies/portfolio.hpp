@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several strategies in turn, a schedule each: no single one finds what all others find.
+#pragma once
+
+#include "fibers/explore/strategy.hpp"
+
+namespace waitpoint::exploration {
+
+class Portfolio final : public Strategy {
+ public:
+  explicit Portfolio(std::vector<std::unique_ptr<Strategy>> parts) : parts_(std::move(parts)) {}
+
+  void begin(std::uint64_t number, const Draws& draws, const Profile& profile) override {
+    part_ = parts_[number % parts_.size()].get();
+    part_->begin(number / parts_.size(), draws, profile);
+  }
+  std::uint32_t next(const SwitchPoint& at) override { return part_->next(at); }
+  std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override {
+    return part_->among(choice, task, count);
+  }
+
+ private:
+  std::vector<std::unique_ptr<Strategy>> parts_;
+  Strategy* part_ = nullptr;
+};
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Random walk: at each switch point any of the ready tasks, all alike. Nothing beats its throughput; orders in which
+// one task has to wait long are rare.
+#pragma once
+
+#include "fibers/explore/strategies/drawn.hpp"
+
+namespace waitpoint::exploration {
+
+class Random final : public Drawn {
+ public:
+  std::uint32_t next(const SwitchPoint& at) override { return at.ready.size() == 1 ? 0 : draw(at.ready.size()); }
+};
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The interface behind which all strategies stand: which schedule of a body is tried next.
+//
+// A strategy is asked at each switch point which of the ready tasks goes on, and for each other choice. It knows of the
+// tasks what the kernel does: what each is about to do, and at which object. Its random numbers come from the
+// schedule's own stream. What it learns, it learns from the Profile, which is the same for every schedule of a
+// campaign; only exhaustive strategies carry something from one schedule to the next.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fibers/explore/draws.hpp"
+#include "fibers/explore/profile.hpp"
+#include "fibers/kernel/decisions.hpp"
+
+namespace waitpoint::exploration {
+
+using kernel::Choice;
+using kernel::Task;
+
+/// A switch point.
+struct SwitchPoint {
+  std::span<Task* const> ready;  ///< at least one, in the order in which they came to be so
+  const Task* last;              ///< whose event was executed last; null at the first
+  bool may_go_on;                ///< it is among the ready, and does not spin
+  std::uint32_t step;            ///< switch points before this one
+};
+
+class Strategy {
+ public:
+  virtual ~Strategy() = default;
+
+  /// Schedule `number` of the campaign begins; its random numbers are `draws`.
+  virtual void begin(std::uint64_t number, const Draws& draws, const Profile& profile) = 0;
+  /// The index of the task that goes on.
+  virtual std::uint32_t next(const SwitchPoint& at) = 0;
+  /// Which of `count` alternatives, at least two.
+  virtual std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) = 0;
+  /// The schedule is over; false if there is no other left to try.
+  virtual bool end() { return true; }
+  /// Whether end() will tell when all schedules have been tried.
+  virtual bool is_exhaustive() const { return false; }
+};
+
+/// The strategy of that name: "random", "pct:3". Throws BadInput, which names those there are.
+std::unique_ptr<Strategy> make_strategy(const std::string& name);
+
+/// Of all strategies, with their parameters, as --help shows them.
+std::string strategy_names();
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sees to it that a schedule which takes the whole process down still says how to repeat it: a process of its own,
+// which does nothing but wait for the explored one to end. What it would have to say lies in memory that both share,
+// and is written there before each schedule and at each switch away from the default order.
+//
+//   explored process   ===|schedule 1|===|schedule 2|== killed
+//   supervisor             ............................ waits ... prints the line that repeats schedule 2
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <string>
+
+#include "fibers/explore/token.hpp"
+
+namespace waitpoint::exploration {
+
+class Supervisor {
+ public:
+  /// `replay` begins and `after` ends the line that is printed; between them comes the token. Where no process can be
+  /// had there is no supervision.
+  Supervisor(const Token& token, const std::string& replay, const std::string& after);
+  /// The explored process goes on: nothing is printed.
+  ~Supervisor();
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+
+  /// Schedule `number` begins.
+  void begin(std::uint64_t number);
+  /// Nothing of a schedule is under way.
+  void pause();
+
+ private:
+  struct Shared;
+  [[noreturn]] void wait_for_the_end(int pipe, const Token& token, const std::string& replay, const std::string& after);
+
+  Shared* shared_ = nullptr;
+  int pipe_ = -1;
+  pid_t process_ = -1;
+};
+
+}  // namespace waitpoint::exploration

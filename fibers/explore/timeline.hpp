@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each task did in one schedule, event by event: as text, and as a trace for the viewers of Chrome and Perfetto,
+// with a track for each task in virtual time, and arrows from who woke to who was woken.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "fibers/explore/body.hpp"
+
+namespace waitpoint::exploration {
+
+struct TimelineEvent {
+  Time time;
+  std::uint32_t task;  ///< index of Timeline::tasks
+  kernel::Operation operation;
+  std::string object;     ///< "mutex #1 "left""; empty without one
+  std::int64_t woken_by;  ///< index of the event that woke the task; -1 for none
+  bool is_switch;         ///< it came in place of another task's that could have gone on
+};
+
+struct Timeline {
+  std::vector<std::string> tasks;  ///< "name of robot", in the order of their making
+  std::vector<TimelineEvent> events;
+};
+
+/// Runs `body` once more by `schedule`, and looks.
+Timeline take_timeline(Body& body, const Schedule& schedule);
+
+/// The last `events_max` events, one a line: the time, the task in its column, what it does; with an asterisk where it
+/// came in another's place.
+std::string to_text(const Timeline& timeline, std::size_t events_max);
+
+/// In the JSON of Chrome's trace format. Where virtual time stands still, events follow each other by a nanosecond.
+void write_trace(std::ostream& out, const Timeline& timeline);
+
+}  // namespace waitpoint::exploration
