@@ -40,7 +40,8 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   } catch (...) {  // told by trouble()
   }
   outcome.failure = simulation_.trouble();
-  if (outcome.failure.empty() && outcome.end == RunEnd::time_reached)
+  outcome.was_cut = explorer_.was_cut();
+  if (!outcome.was_cut && outcome.failure.empty() && outcome.end == RunEnd::time_reached)
     outcome.failure = "it had not ended at " + to_string(until_) + " s";
   outcome.digest = simulation_.digest().value();
   outcome.end_time = simulation_.global_time();

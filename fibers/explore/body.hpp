@@ -27,7 +27,8 @@ class ForeignChecks {
 /// What a schedule came to.
 struct Outcome {
   RunEnd end = RunEnd::ended;
-  std::string failure;  ///< in words, its first line what happened; empty if it passed
+  std::string failure;   ///< in words, its first line what happened; empty if it passed
+  bool was_cut = false;  ///< it did not end, as nothing new could have followed; it has passed then
   std::uint64_t digest = 0;
   Time end_time;
   std::uint64_t events = 0;

@@ -74,7 +74,7 @@ bool Campaign::fails(Strategy& strategy, std::uint64_t number) {
   strategy.begin(number, Draws(options_.seed, options_.strategy, number), profile_);
   const Outcome outcome = body_.run(strategy);
   ++report_.schedules;
-  seen_.insert(outcome.digest);
+  if (!outcome.was_cut) seen_.insert(outcome.digest);
   if (outcome.passed()) return false;
   Failure failure{body_.explorer().schedule(), outcome};
   report_.failed_at = number;

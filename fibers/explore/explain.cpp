@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/explore/timeline.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
 
@@ -24,6 +25,8 @@ std::optional<Crossing> last_crossing(Body& body, const Failure& failure, std::u
   Fifo rest;
   for (std::size_t i = decisions.size(); i-- > 0;) {
     std::vector<Decision> changed(decisions.begin(), decisions.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    // That a wait might have ended for nothing explains nothing.
+    if (decisions[i].change.choice == Choice::spurious && !decisions[i].is_switch()) continue;
     for (std::uint32_t other = 0; other < decisions[i].count; ++other) {
       if (other == decisions[i].chosen) continue;
       if (runs_max-- == 0) return std::nullopt;
@@ -35,7 +38,7 @@ std::optional<Crossing> last_crossing(Body& body, const Failure& failure, std::u
 }
 
 std::string about_to(const Task& task) {
-  std::string text = "task " + sync::describe(task) + ", about to " + name(task.operation);
+  std::string text = title_of(task) + ", about to " + name(task.operation);
   if (task.at != nullptr) text += " " + sync::describe(*task.at);
   return text;
 }

@@ -25,7 +25,7 @@
 
 #include "core/time.hpp"
 #include "fibers/explore/body.hpp"
-#ifdef GTEST_INCLUDE_GTEST_GTEST_H_
+#ifdef GTEST_TEST
 #include "fibers/explore/googletest.hpp"
 #endif
 
@@ -65,7 +65,7 @@ ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<voi
 
 /// As above, with the expectations of GoogleTest where that was included before.
 static inline ExploreReport explore(std::function<void()> body, const ExploreOptions& options = {}) {
-#ifdef GTEST_INCLUDE_GTEST_GTEST_H_
+#ifdef GTEST_TEST
   exploration::GoogleTestChecks checks;
   return explore_with(&checks, std::move(body), options);
 #else

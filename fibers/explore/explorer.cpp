@@ -42,7 +42,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   spinning_ = step_ = step_of_instant_ = 0;
   instant_ = Time();
   deviated_ = 0;
-  parted_ = false;
+  parted_ = was_cut_ = false;
 }
 
 // The number of the alternative that is to be taken at this decision; `count` if that is open.
@@ -85,14 +85,22 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
       return usual;
     }
     chosen = choose(ready, count, usual);
+    if (chosen == Strategy::cut) return give_up(*ready[usual]);
     schedule_.decisions.push_back(
         {count, chosen, usual, {Choice::task, event_of(*ready[usual]), event_of(*ready[chosen])}});
   } else {
-    strategy_->next({{ready, 1}, last_, last_ == ready[0], step_});
+    if (strategy_->next({{ready, 1}, last_, last_ == ready[0], step_}) == Strategy::cut) return give_up(*ready[0]);
   }
   note(*ready[chosen]);
   ++step_;
   return chosen;
+}
+
+// The run ends here: whatever is returned is not entered.
+std::uint32_t Explorer::give_up(Task& task) {
+  was_cut_ = true;
+  scheduler_.stop_between_events(kernel::StopCause::requested, task);
+  return 0;
 }
 
 std::uint32_t Explorer::choose(Task* const* ready, std::uint32_t count, std::uint32_t usual) {
@@ -133,7 +141,8 @@ std::uint32_t Explorer::offer(Task* const* ready, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i)
       if (ready[i] != last_) add(i);
   }
-  return places_[strategy_->next({offered_, last_, may_go_on, step_})];
+  const std::uint32_t chosen = strategy_->next({offered_, last_, may_go_on, step_});
+  return chosen == Strategy::cut ? chosen : places_[chosen];
 }
 
 void Explorer::note(const Task& task) {

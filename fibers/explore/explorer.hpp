@@ -46,6 +46,8 @@ class Explorer final : public kernel::Decisions {
   std::uint32_t steps() const { return step_; }
   /// The decision at which the run had other alternatives than the prefix, if there was one.
   bool parted() const { return parted_; }
+  /// The strategy had it end where nothing new could follow.
+  bool was_cut() const { return was_cut_; }
   /// The tasks between which the run was stopped to choose.
   std::span<Task* const> stopped_before() const { return stopped_before_; }
 
@@ -62,6 +64,7 @@ class Explorer final : public kernel::Decisions {
   };
 
   std::uint32_t choose(Task* const* ready, std::uint32_t count, std::uint32_t usual);
+  std::uint32_t give_up(Task& task);
   std::uint32_t offer(Task* const* ready, std::uint32_t count);
   void note(const Task& task);
   std::uint32_t of_deviations(std::uint32_t count);
@@ -85,6 +88,7 @@ class Explorer final : public kernel::Decisions {
   Time instant_;
   std::size_t deviated_ = 0;  // how many of what is played are past
   bool parted_ = false;
+  bool was_cut_ = false;
 };
 
 }  // namespace waitpoint::exploration

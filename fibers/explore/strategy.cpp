@@ -7,6 +7,7 @@
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "fibers/explore/strategies/dfs.hpp"
+#include "fibers/explore/strategies/dpor.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/explore/strategies/pct.hpp"
 #include "fibers/explore/strategies/portfolio.hpp"
@@ -43,6 +44,7 @@ constexpr Known known[] = {
     {"surw", nullptr, 0, [](std::uint32_t) -> Made { return std::make_unique<Urw>(true); }},
     {"bounded", "K", 2, [](std::uint32_t most) -> Made { return std::make_unique<Dfs>(most); }},
     {"dfs", nullptr, 0, [](std::uint32_t) -> Made { return std::make_unique<Dfs>(); }},
+    {"dpor", nullptr, 0, [](std::uint32_t) -> Made { return std::make_unique<Dpor>(); }},
 };
 constexpr std::uint32_t parameter_max = 1000;
 

@@ -36,6 +36,9 @@ class Strategy {
 
   /// Schedule `number` of the campaign begins; its random numbers are `draws`.
   virtual void begin(std::uint64_t number, const Draws& draws, const Profile& profile) = 0;
+  /// In place of an index: nothing new can follow, the schedule is not worth going on with.
+  static constexpr std::uint32_t cut = 0xFFFFFFFF;
+
   /// The index of the task that goes on.
   virtual std::uint32_t next(const SwitchPoint& at) = 0;
   /// Which of `count` alternatives, at least two.

@@ -19,8 +19,7 @@ struct Recording : kernel::Watch {
   static void record(kernel::Watch& watch, const kernel::EventRecord& record) {
     Recording& self = static_cast<Recording&>(watch);
     const Task& task = *record.task;
-    if (self.numbers.emplace(task.id, self.timeline.tasks.size()).second)
-      self.timeline.tasks.push_back(sync::describe(task));
+    if (self.numbers.emplace(task.id, self.timeline.tasks.size()).second) self.timeline.tasks.push_back(title_of(task));
     const std::vector<Decision>& decisions = self.explorer.schedule().decisions;
     const bool is_switch = decisions.size() > self.decisions && decisions.back().is_switch() &&
                            decisions.back().change.choice == Choice::task;
@@ -54,6 +53,11 @@ std::string quoted(const std::string& text) {
 }
 
 }  // namespace
+
+std::string title_of(const Task& task) {
+  const std::string title = std::string(task.name) + "#" + std::to_string(task.number);
+  return std::string_view(task.robot->name) == "environment" ? title : title + " of " + task.robot->name;
+}
 
 Timeline take_timeline(Body& body, const Schedule& schedule) {
   Timeline timeline;

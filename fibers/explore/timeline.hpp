@@ -11,6 +11,9 @@
 
 namespace waitpoint::exploration {
 
+/// "consumer#2 of r1": tasks of one name are told apart by their numbers. The robot is left out where there are none.
+std::string title_of(const Task& task);
+
 struct TimelineEvent {
   Time time;
   std::uint32_t task;  ///< index of Timeline::tasks
@@ -21,7 +24,7 @@ struct TimelineEvent {
 };
 
 struct Timeline {
-  std::vector<std::string> tasks;  ///< "name of robot", in the order of their making
+  std::vector<std::string> tasks;  ///< their titles, in the order of their first events
   std::vector<TimelineEvent> events;
 };
 

@@ -81,8 +81,9 @@ RunEnd Simulation::run_before(Time until) {
   const kernel::FaultReports reports(scheduler_);
   const kernel::RunState state = scheduler_.run_before(until);
   if (failure_ != nullptr) std::rethrow_exception(failure_);
-  if (state == kernel::RunState::reached) {
-    if (until == Time::max()) trouble_ = sync::describe_endless(scheduler_);
+  const bool was_told = state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::requested;
+  if (state == kernel::RunState::reached || was_told) {
+    if (!was_told && until == Time::max()) trouble_ = sync::describe_endless(scheduler_);
     return RunEnd::time_reached;
   }
   if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::ended) return RunEnd::ended;

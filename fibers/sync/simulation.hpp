@@ -36,10 +36,10 @@ struct SimulationOptions {
 
 /// How a run ended, or that it did not.
 enum class RunEnd : std::uint8_t {
-  time_reached,
-  ended,        ///< no task remains but services
-  deadlock,     ///< tasks wait for each other, or none can ever run
-  no_progress,  ///< tasks spin while virtual time stands still
+  time_reached,  ///< or it was stopped by somebody
+  ended,         ///< no task remains but services
+  deadlock,      ///< tasks wait for each other, or none can ever run
+  no_progress,   ///< tasks spin while virtual time stands still
 };
 
 class Simulation {

@@ -35,6 +35,7 @@ std::uint32_t Dfs::next(const SwitchPoint& at) {
 }
 
 std::uint32_t Dfs::among(Choice choice, const Task&, std::uint32_t count) {
+  if (choice == Choice::spurious) return 0;  // it could end for nothing for ever
   if (choice == Choice::computing) return descend(2) == 0 ? 0 : count - 1;
   return descend(count);
 }
