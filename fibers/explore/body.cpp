@@ -22,6 +22,7 @@ Body::Body(std::function<void()> function, ForeignChecks* checks, Time until, st
       reports_(simulation_.scheduler()),
       explorer_(simulation_.scheduler(), steps_max) {
   simulation_.scheduler().set_decisions(explorer_);
+  simulation_.tell(sync::Places::left_out);
 }
 
 void Body::start(Strategy& strategy, const Played& played) {

@@ -19,10 +19,11 @@ constexpr std::size_t frames_searched = 24;
 
 // A line for each task, the first of them, and below it the places in the source where it is.
 template <class Describe>
-std::string describe_each(kernel::Scheduler& scheduler, const std::vector<Task*>& tasks, Describe describe_one) {
+std::string describe_each(kernel::Scheduler& scheduler, const std::vector<Task*>& tasks, Places told,
+                          Describe describe_one) {
   const std::size_t shown = std::min(tasks.size(), tasks_shown);
   std::vector<ReturnAddresses> stacks;
-  for (std::size_t i = 0; i < shown; ++i) {
+  for (std::size_t i = 0; i < shown && told == Places::told; ++i) {
     ReturnAddresses& stack = stacks.emplace_back(frames_searched);
     stack.resize(scheduler.call_stack(*tasks[i], stack.data(), stack.size()));
   }
@@ -30,6 +31,7 @@ std::string describe_each(kernel::Scheduler& scheduler, const std::vector<Task*>
   std::string text;
   for (std::size_t i = 0; i < shown; ++i) {
     text += "\n  task " + describe_one(*tasks[i]);
+    if (told == Places::left_out) continue;
     for (const std::string& line : places[i]) text += "\n      at " + line;
   }
   if (tasks.size() > shown) text += "\n  and " + counted(tasks.size() - shown, "more task");
@@ -65,7 +67,7 @@ std::string describe_use(const Task& task) {
 
 }  // namespace
 
-std::string describe_deadlock(kernel::Scheduler& scheduler) {
+std::string describe_deadlock(kernel::Scheduler& scheduler, Places places) {
   std::vector<Task*> waiting;
   if (Task* first = scheduler.culprit(); first != nullptr) {
     Task* task = first;
@@ -86,10 +88,10 @@ std::string describe_deadlock(kernel::Scheduler& scheduler) {
     text += counted(waiting.size(), "task") + " wait for each other";
   else
     text += counted(waiting.size(), "task") + " wait, and nothing is left that could wake them";
-  return text + describe_each(scheduler, waiting, describe_wait);
+  return text + describe_each(scheduler, waiting, places, describe_wait);
 }
 
-std::string describe_spinning(kernel::Scheduler& scheduler) {
+std::string describe_spinning(kernel::Scheduler& scheduler, Places places) {
   const std::string text =
       "no progress: virtual time stands still at " + to_string(scheduler.global_time()) + " s while ";
   if (const Task* culprit = scheduler.culprit(); (culprit->attention & kernel::attention::timer) != 0)
@@ -98,15 +100,15 @@ std::string describe_spinning(kernel::Scheduler& scheduler) {
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
     if (task->state != kernel::TaskState::blocked && task->local_time == scheduler.global_time())
       spinning.push_back(task);
-  return text + "tasks spin" + describe_each(scheduler, spinning, describe_use);
+  return text + "tasks spin" + describe_each(scheduler, spinning, places, describe_use);
 }
 
-std::string describe_endless(kernel::Scheduler& scheduler) {
+std::string describe_endless(kernel::Scheduler& scheduler, Places places) {
   std::vector<Task*> asleep;
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
     if (task->state == kernel::TaskState::ready && task->local_time == Time::max()) asleep.push_back(task);
   return "virtual time ran out" +
-         describe_each(scheduler, asleep, [](const Task& task) { return describe(task) + " sleeps for ever"; });
+         describe_each(scheduler, asleep, places, [](const Task& task) { return describe(task) + " sleeps for ever"; });
 }
 
 }  // namespace waitpoint::sync

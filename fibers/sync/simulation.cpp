@@ -8,7 +8,6 @@
 
 #include "core/number_text.hpp"
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/signals.hpp"
@@ -83,16 +82,16 @@ RunEnd Simulation::run_before(Time until) {
   if (failure_ != nullptr) std::rethrow_exception(failure_);
   const bool was_told = state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::requested;
   if (state == kernel::RunState::reached || was_told) {
-    if (!was_told && until == Time::max()) trouble_ = sync::describe_endless(scheduler_);
+    if (!was_told && until == Time::max()) trouble_ = sync::describe_endless(scheduler_, places_);
     return RunEnd::time_reached;
   }
   if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::ended) return RunEnd::ended;
   if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::no_progress) {
-    trouble_ = sync::describe_spinning(scheduler_);
+    trouble_ = sync::describe_spinning(scheduler_, places_);
     return RunEnd::no_progress;
   }
   if (scheduler_.live_tasks() == 0) return RunEnd::ended;
-  trouble_ = sync::describe_deadlock(scheduler_);
+  trouble_ = sync::describe_deadlock(scheduler_, places_);
   return RunEnd::deadlock;
 }
 

@@ -17,6 +17,7 @@
 #include "core/digest.hpp"
 #include "core/time.hpp"
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/robot_state.hpp"
 
 namespace waitpoint {
@@ -72,6 +73,8 @@ class Simulation {
   /// What run_before() found, in words: a deadlock, a lack of progress, who sleeps for ever, from which task an
   /// exception escaped, and when. Else empty.
   const std::string& trouble() const { return trouble_; }
+  /// Whether trouble() says where in the source tasks wait, as it does otherwise: for who has many troubles.
+  void tell(sync::Places places) { places_ = places; }
 
   /// Ends every task that is left. Nothing can be run afterwards.
   void unwind();
@@ -101,6 +104,7 @@ class Simulation {
 
   std::exception_ptr failure_;
   std::string trouble_;
+  sync::Places places_ = sync::Places::told;
   std::terminate_handler terminate_ = nullptr;  // what std::terminate called before unwind() did
 };
 

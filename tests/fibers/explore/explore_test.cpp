@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// explore(): what it finds, what it says of it, and that its line repeats it.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "core/error.hpp"
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/atomic.hpp"
+#include "fibers/sync/condition_variable.hpp"
+#include "fibers/sync/mutex.hpp"
+#include "fibers/sync/semaphore.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint {
+namespace {
+
+using namespace std::chrono_literals;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Three tasks count by load and store: an increment may be lost.
+void count_to_three(int least) {
+  atomic<int> count{0};
+  std::vector<thread> threads;
+  for (int i = 0; i < 3; ++i)
+    threads.emplace_back([&] {
+      const int seen = count.load();
+      count.store(seen + 1);
+    });
+  for (thread& t : threads) t.join();
+  check(count.load() >= least, "an increment was lost");
+}
+
+// The consumer looks for the letter and waits for it in two steps; between them it is not heard.
+void lose_a_wake_up() {
+  mutex m;
+  condition_variable arrived;
+  bool there = false;
+  thread consumer({.name = "consumer"}, [&] {
+    {
+      const std::lock_guard guard(m);
+      if (there) return;
+    }
+    std::unique_lock lock(m);
+    arrived.wait(lock);
+  });
+  thread producer({.name = "producer"}, [&] {
+    const std::lock_guard guard(m);
+    there = true;
+    arrived.notify_one();
+  });
+  consumer.join();
+  producer.join();
+}
+
+TEST(Explore, WhatHoldsInAllSchedulesPasses) {
+  const ExploreReport report = explore([] { count_to_three(1); });
+  EXPECT_TRUE(report.passed) << report;
+  EXPECT_GT(report.schedules, 9'000U);
+  EXPECT_GT(report.distinct, 500U);
+  EXPECT_FALSE(report.complete);
+  EXPECT_TRUE(simulate(lose_a_wake_up).passed);  // which a single run does not show
+}
+
+TEST(Explore, ALostWakeUpIsFoundMinimizedAndExplained) {
+  const ExploreReport report = explore(lose_a_wake_up);
+  EXPECT_FALSE(report.passed);
+  EXPECT_TRUE(contains(report.text, "deadlock at ")) << report;
+  EXPECT_TRUE(contains(report.text, "task consumer of environment waits (wait) for condition variable")) << report;
+  EXPECT_EQ(report.schedule.switches().size(), 1U) << report;
+  EXPECT_TRUE(contains(report.text, "one switch away from the default order fails")) << report;
+  EXPECT_TRUE(contains(report.text, "the last choice from which it could still have passed")) << report;
+  EXPECT_TRUE(contains(report.text, "producer#2, about to ")) << report;
+  EXPECT_TRUE(contains(report.text, "consumer#1  wait condition variable")) << report;
+  EXPECT_TRUE(contains(report.text, "replay: WAITPOINT_REPLAY=wx1.")) << report;
+  EXPECT_TRUE(contains(report.text, "--gtest_filter=Explore.ALostWakeUpIsFoundMinimizedAndExplained")) << report;
+  EXPECT_LE(report.replay.size(), 80U);
+}
+
+TEST(Explore, EveryWayToFailIsReportedInItsWords) {
+  const auto words = [](std::function<void()> body) { return explore(std::move(body)).text; };
+  EXPECT_TRUE(contains(words([] { count_to_three(3); }), ": an increment was lost"));
+  const auto throws = [] {
+    atomic<int> turn{0};
+    thread([&] { turn.store(1); }).detach();
+    if (turn.load() == 1) throw std::runtime_error("too early");
+    this_thread::sleep_for(1ms);
+  };
+  EXPECT_TRUE(
+      contains(words(throws), "an exception escaped from task main of environment at 0.000000000 s: too early"));
+  const auto locks_in_opposite_orders = [] {
+    mutex left, right;
+    const auto take = [](mutex& first, mutex& second) {
+      const std::lock_guard a(first);
+      const std::lock_guard b(second);
+    };
+    thread one([&] { take(left, right); });
+    thread two([&] { take(right, left); });
+    one.join();
+    two.join();
+  };
+  EXPECT_TRUE(contains(words(locks_in_opposite_orders), "wait for each other"));
+  const auto spins = [] {
+    atomic<bool> never{false};
+    while (!never.load()) {
+    }
+  };
+  EXPECT_TRUE(contains(words(spins), "no progress"));
+}
+
+TEST(Explore, AnExpectationThatFailsIsCaughtAndReportedOnce) {
+  int runs = 0;
+  const ExploreReport report = explore([&] {
+    ++runs;
+    atomic<int> turn{0};
+    thread other([&] { turn.store(1); });
+    EXPECT_EQ(turn.load(), 0) << "the other was first";
+    other.join();
+  });
+  EXPECT_FALSE(report.passed);
+  EXPECT_GT(runs, 3);
+  EXPECT_TRUE(contains(report.text, "expectation at ")) << report;
+  EXPECT_TRUE(contains(report.text, "the other was first")) << report;
+}
+
+TEST(Explore, TheTokenRepeatsTheFailure) {
+  const auto body = [] { count_to_three(2); };
+  const ExploreReport found = explore(body, {.minimize = false});
+  ASSERT_FALSE(found.passed);
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    std::string token = found.replay;
+    token[4] = static_cast<char>('2' + repeat);  // it counts the calls in this test
+    const ExploreReport again = explore(body, {.replay = token});
+    EXPECT_FALSE(again.passed);
+    EXPECT_EQ(again.schedules, 1U);
+    EXPECT_TRUE(contains(again.text, "the replayed schedule failed: a check failed in task main")) << again;
+    EXPECT_EQ(again.schedule.deviations(), found.schedule.deviations());
+  }
+}
+
+TEST(Explore, ATokenOfAnotherProgramIsKnownAsSuch) {
+  const ExploreReport found = explore([] { count_to_three(2); });
+  std::string token = found.replay;
+  token[4] = '2';
+  const ExploreReport other = explore(lose_a_wake_up, {.replay = token});
+  EXPECT_TRUE(contains(other.text, "this is not the run of the token")) << other;
+}
+
+TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
+  const auto message = [](const ExploreOptions& options) {
+    try {
+      explore([] {}, options);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(message({.strategy = "pso"}),
+            "strategy: unknown strategy 'pso', did you mean 'pos'?; there are " + exploration::strategy_names());
+  EXPECT_EQ(message({.strategy = "pct:0"}), "strategy: expected pct:D, a whole number from 1 to 1000, found 'pct:0'");
+  EXPECT_EQ(message({.strategy = "pos:3"}), "strategy: expected pos without a parameter, found 'pos:3'");
+  EXPECT_EQ(message({.replay = "wx2.1.0"}), "replay: expected the version wx1, not 'wx2', in the token 'wx2.1.0'");
+  EXPECT_EQ(message({.replay = "wx1.1.12"}),
+            "replay: expected eight hexadecimal digits of a digest, not '12', in the token 'wx1.1.12'");
+  EXPECT_EQ(message({.replay = "wx1.1.00000000.random.7.x"}),
+            "replay: expected the number of a schedule, a whole number, not 'x', in the token "
+            "'wx1.1.00000000.random.7.x'");
+}
+
+TEST(Explore, ABodyThatLeaksStateIsNamedWithTheFirstDifference) {
+  int runs = 0;
+  const ExploreReport report = explore([&] {
+    if (++runs % 2 == 0) this_thread::yield();
+  });
+  EXPECT_FALSE(report.passed);
+  EXPECT_TRUE(contains(report.text, "the body leaks state from one schedule into the next")) << report;
+  EXPECT_TRUE(contains(report.text, "'main#0 yield")) << report;
+}
+
+TEST(Explore, TheEnvironmentSaysWhatToDoInAnyProgram) {
+  const auto with = [](const char* name, const char* value, std::function<void()> then) {
+    setenv(name, value, 1);
+    then();
+    unsetenv(name);
+  };
+  with("WAITPOINT_ITERATIONS", "7", [] { EXPECT_EQ(explore([] {}).schedules, 8U); });
+  with("WAITPOINT_STRATEGY", "dfs", [] { EXPECT_TRUE(explore([] {}).complete); });
+  with("WAITPOINT_TIME_LIMIT", "0.000001", [] { EXPECT_LT(explore([] {}).schedules, 9U); });
+  with("WAITPOINT_SEED", "nine", [] { EXPECT_THROW(explore([] {}), BadInput); });
+}
+
+TEST(Explore, WhatIsChosenBesideTasks) {
+  // Who is woken; that a wait ends for nothing; a timeout against a wake-up at one instant; what a computation costs.
+  const auto can_fail = [](std::function<void()> body) { return !explore(std::move(body)).passed; };
+  EXPECT_TRUE(can_fail([] {
+    mutex m;
+    condition_variable c;
+    int woken = 0;
+    const auto wait = [&](int name) {
+      std::unique_lock lock(m);
+      c.wait(lock);
+      if (woken == 0) woken = name;
+    };
+    thread a([&] { wait(1); });
+    this_thread::sleep_for(1ms);
+    thread b([&] { wait(2); });
+    this_thread::sleep_for(1ms);
+    c.notify_one();
+    this_thread::sleep_for(1ms);
+    c.notify_one();
+    a.join();
+    b.join();
+    check(woken == 1, "the second waiter was served first");
+  }));
+  EXPECT_TRUE(can_fail([] {
+    mutex m;
+    condition_variable c;
+    bool notified = false;
+    thread notifier([&] {
+      this_thread::sleep_for(1ms);
+      const std::lock_guard guard(m);
+      notified = true;
+      c.notify_one();
+    });
+    {
+      std::unique_lock lock(m);
+      c.wait(lock);
+    }
+    check(notified, "woken for nothing");
+    notifier.join();
+  }));
+  for (const bool in_time : {true, false})
+    EXPECT_TRUE(can_fail([&] {
+      binary_semaphore done(0);
+      thread worker([&] {
+        this_thread::sleep_for(5ms);
+        done.release();
+      });
+      const bool got = done.try_acquire_for(5ms);
+      worker.join();
+      check(got != in_time);
+    }));
+  for (const int cost_ms : {1, 2, 3})
+    EXPECT_TRUE(can_fail([&] {
+      compute(1ms, 3ms);
+      check(now() != Time() + Duration(std::chrono::milliseconds(cost_ms)));
+    }));
+}
+
+TEST(Explore, WithinDeclaredTimesOnlyFeasibleSchedulesAreTried) {
+  const auto body = [](Duration slowest) {
+    atomic<bool> written{false};
+    thread writer([&] {
+      compute(Duration(1ms), slowest);
+      written.store(true);
+    });
+    thread reader([&] {
+      compute(3ms, 4ms);
+      check(written.load(), "read before it was written");
+    });
+    writer.join();
+    reader.join();
+  };
+  EXPECT_TRUE(explore([&] { body(Duration(2ms)); }).passed);
+  const ExploreReport wider = explore([&] { body(Duration(3500us)); }, {.iterations = 1000});
+  EXPECT_TRUE(contains(wider.text, "read before it was written")) << wider;
+}
+
+}  // namespace
+}  // namespace waitpoint
