@@ -35,6 +35,7 @@ bool is_look(Operation operation) {
 void Explorer::begin(Strategy& strategy, const Played& played) {
   strategy_ = &strategy;
   played_ = played;
+  plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty();
   schedule_.decisions.clear();
   habits_.clear();
   stopped_before_.clear();
@@ -77,14 +78,16 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
   std::uint32_t chosen = 0;
   if (count > 1) {
     std::uint32_t usual = 0;
-    for (std::uint32_t i = 0; i < count && last_ != nullptr; ++i)
-      if (ready[i] == last_) usual = i;
+    while (usual < count && ready[usual] != last_) ++usual;
+    const bool may_go_on = usual < count;
+    if (!may_go_on) usual = 0;
     if (schedule_.decisions.size() == played_.stop_at) {
       stopped_before_.assign(ready, ready + count);
       scheduler_.stop_between_events(kernel::StopCause::requested, *ready[usual]);
       return usual;
     }
-    chosen = choose(ready, count, usual);
+    chosen = plays_ ? choose(ready, count, usual) : count;
+    if (chosen == count) chosen = offer(ready, count, may_go_on);
     if (chosen == Strategy::cut) return give_up(*ready[usual]);
     schedule_.decisions.push_back(
         {count, chosen, usual, {Choice::task, event_of(*ready[usual]), event_of(*ready[chosen])}});
@@ -103,6 +106,7 @@ std::uint32_t Explorer::give_up(Task& task) {
   return 0;
 }
 
+// What is played here; `count` if that is open.
 std::uint32_t Explorer::choose(Task* const* ready, std::uint32_t count, std::uint32_t usual) {
   if (const Decision* decision = of_prefix(Choice::task, count)) return decision->chosen;
   if (const std::uint32_t chosen = of_deviations(count); chosen != count) return chosen;
@@ -110,7 +114,7 @@ std::uint32_t Explorer::choose(Task* const* ready, std::uint32_t count, std::uin
     for (std::uint32_t i = 0; i < count; ++i)
       if (i != usual && is_played({Choice::task, event_of(*ready[usual]), event_of(*ready[i])})) return i;
   }
-  return offer(ready, count);
+  return count;
 }
 
 void Explorer::stop_spinning() {
@@ -119,12 +123,9 @@ void Explorer::stop_spinning() {
 }
 
 // Asks the strategy, which does not see those that spin as long as there are others.
-std::uint32_t Explorer::offer(Task* const* ready, std::uint32_t count) {
-  bool may_go_on = false;
-  if (spinning_ == 0) {
-    for (std::uint32_t i = 0; i < count; ++i) may_go_on |= ready[i] == last_;
-    return strategy_->next({{ready, count}, last_, may_go_on, step_});
-  }
+std::uint32_t Explorer::offer(Task* const* ready, std::uint32_t count, bool may_go_on) {
+  if (spinning_ == 0) return strategy_->next({{ready, count}, last_, may_go_on, step_});
+  may_go_on = false;
   offered_.clear();
   places_.clear();
   const auto add = [&](std::uint32_t at) {
@@ -168,10 +169,12 @@ void Explorer::note(const Task& task) {
 
 std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {
   std::uint32_t chosen = count;
-  if (const Decision* decision = of_prefix(choice, count)) chosen = decision->chosen;
-  if (chosen == count) chosen = of_deviations(count);
-  for (std::uint32_t i = 1; i < count && !played_.switches.empty() && chosen == count; ++i)
-    if (is_played({choice, event_of(task), {i, 0}})) chosen = i;
+  if (plays_) {
+    if (const Decision* decision = of_prefix(choice, count)) chosen = decision->chosen;
+    if (chosen == count) chosen = of_deviations(count);
+    for (std::uint32_t i = 1; i < count && !played_.switches.empty() && chosen == count; ++i)
+      if (is_played({choice, event_of(task), {i, 0}})) chosen = i;
+  }
   if (chosen == count) chosen = strategy_->among(choice, task, count);
   WAITPOINT_CHECK(chosen < count, "a strategy chooses what there is not");
   schedule_.decisions.push_back({count, chosen, 0, {choice, event_of(task), {chosen, 0}}});

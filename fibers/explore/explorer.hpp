@@ -65,7 +65,7 @@ class Explorer final : public kernel::Decisions {
 
   std::uint32_t choose(Task* const* ready, std::uint32_t count, std::uint32_t usual);
   std::uint32_t give_up(Task& task);
-  std::uint32_t offer(Task* const* ready, std::uint32_t count);
+  std::uint32_t offer(Task* const* ready, std::uint32_t count, bool may_go_on);
   void note(const Task& task);
   std::uint32_t of_deviations(std::uint32_t count);
   const Decision* of_prefix(Choice choice, std::uint32_t count);
@@ -76,6 +76,7 @@ class Explorer final : public kernel::Decisions {
   std::uint32_t steps_max_;
   Strategy* strategy_ = nullptr;
   Played played_;
+  bool plays_ = false;
   Schedule schedule_;
   std::vector<Habit> habits_;
   std::vector<Task*> offered_;  // of the ready, those that do not spin; and where they stand
