@@ -285,19 +285,29 @@ class LostLetter(Installed):
         done = subprocess.run([program], capture_output=True, text=True, env={**os.environ, "GTEST_COLOR": "no"})
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("[       OK ] Letter.ArrivesInTheDefaultOrder", done.stdout)
-        self.assertIn("[  FAILED  ] Letter.ArrivesInEveryOrderTried", done.stdout)
-        self.assertIn("[       OK ] MendedLetter.ArrivesInEveryOrderTried", done.stdout)
-        report = re.search(r"seed (\d+): (deadlock at .*)", done.stdout, re.DOTALL)
+        self.assertIn("[  FAILED  ] Letter.ArrivesInEverySchedule", done.stdout)
+        self.assertIn("[       OK ] MendedLetter.ArrivesInEverySchedule", done.stdout)
+        report = re.search(r"schedule \d+ of strategy portfolio, seed 1 failed: (deadlock at .*)", done.stdout, re.DOTALL)
         self.assertIsNotNone(report, done.stdout)
-        self.assertIn('"bell"', report[2])
-        self.assertIn("lost_letter.cpp:", report[2])
+        self.assertIn('"bell"', report[1])
+        self.assertIn("lost_letter.cpp:", report[1])
 
         # The line that the report prints repeats the run.
-        seed = re.search(r"replay: WAITPOINT_SEED=(\d+)", report[2])[1]
-        self.assertEqual(seed, report[1])
-        again = subprocess.run([program, "--gtest_filter=Letter.ArrivesInTheDefaultOrder"], capture_output=True, text=True,
-                               env={**os.environ, "WAITPOINT_SEED": seed})
-        self.assertIn("deadlock at ", again.stdout)
+        line = re.search(r"replay: (WAITPOINT_REPLAY=\S+ .*)", report[1])[1]
+        again = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
+        self.assertIn("the replayed schedule failed: deadlock at ", again.stdout)
+
+    def test_a_process_that_dies_says_how_to_repeat_it(self):
+        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+        program = self.compile("sudden_death", *needed)
+        for signal in "6", "9", "11":
+            # The supervisor has the pipe open until it has told.
+            done = subprocess.run([program, signal], capture_output=True, text=True)
+            self.assertEqual(done.returncode, -int(signal), done.stderr)
+            line = re.search(r"replay: (WAITPOINT_REPLAY=\S+ \S+)", done.stderr)
+            self.assertIsNotNone(line, done.stderr)
+            again = subprocess.run(["sh", "-c", f"{line[1]} {signal}"], capture_output=True, text=True)
+            self.assertIn(again.returncode, (-int(signal), 128 + int(signal)), again.stderr)
 
 
 class SharedCounter(Installed):
