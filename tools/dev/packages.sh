@@ -6,7 +6,7 @@
 declare -A debian=(
   [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
          nlohmann-json3-dev libpng-dev'
-  [test]='libgtest-dev clang gdb'
+  [test]='libgtest-dev clang gdb libz3-dev'
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
   [valgrind]='valgrind'
@@ -18,7 +18,7 @@ declare -A debian=(
 declare -A upstream=(
   [run]='Meson 1.0, Ninja, a C++20 compiler, pkg-config, Python 3; Boost.Context 1.74, FCL 0.7 with libccd and Eigen 3.4,
          yaml-cpp, CLI11, fmt, nlohmann_json, libpng'
-  [test]='GoogleTest, g++ and clang++, gdb'
+  [test]='GoogleTest, g++ and clang++, gdb, Z3'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'
   [valgrind]='valgrind'
