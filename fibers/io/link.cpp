@@ -8,7 +8,12 @@ namespace waitpoint::io {
 namespace {
 
 // What is drawn for a message: an index of the link's stream each.
-enum Draw : std::uint64_t { latency, loss };
+enum Draw : std::uint64_t { of_latency, of_loss };
+
+// Where somebody decides about schedules, it is also about what media do; else null.
+kernel::Decisions* who_decides(kernel::Scheduler& scheduler) {
+  return kernel::running != nullptr ? scheduler.chooser().decisions() : nullptr;
+}
 
 }  // namespace
 
@@ -46,10 +51,23 @@ double Link::distance_m() const {
 Time Link::put_on_air(std::size_t bytes, double distance_m) {
   ++number_;
   free_at_ = std::max(free_at_, scheduler_.global_time()) + time_on_air(*medium_, bytes);
-  const std::int64_t spread_ns = (medium_->latency_most - medium_->latency_least).ns();
-  const std::uint64_t drawn_ns = random_.below(static_cast<std::uint64_t>(spread_ns) + 1, number_, Draw::latency);
-  return free_at_ + medium_->latency_least + Duration::from_ns(static_cast<std::int64_t>(drawn_ns)) +
-         Duration::from_seconds(medium_->latency_per_metre.seconds() * distance_m);
+  return free_at_ + latency() + Duration::from_seconds(medium_->latency_per_metre.seconds() * distance_m);
+}
+
+Duration Link::latency() const {
+  const Duration spread = medium_->latency_most - medium_->latency_least;
+  if (spread == Duration()) return medium_->latency_least;
+  if (kernel::Decisions* decisions = who_decides(scheduler_))
+    return decisions->computing(*kernel::running, medium_->latency_least, medium_->latency_most);
+  const std::uint64_t drawn_ns = random_.below(static_cast<std::uint64_t>(spread.ns()) + 1, number_, Draw::of_latency);
+  return medium_->latency_least + Duration::from_ns(static_cast<std::int64_t>(drawn_ns));
+}
+
+bool Link::is_lost() const {
+  if (medium_->loss == 0) return false;
+  if (kernel::Decisions* decisions = who_decides(scheduler_))
+    return decisions->among(kernel::Choice::loss, *kernel::running, 2) != 0;
+  return random_.uniform(number_, Draw::of_loss) < medium_->loss;
 }
 
 void Link::begin_sending() {
@@ -71,7 +89,7 @@ void Link::send_datagram(std::size_t bytes, Arrival arrival) {
   const Time arrives = put_on_air(bytes, in_range ? away_m : 0);
   if (!in_range)
     ++statistics.out_of_range;
-  else if (random_.uniform(number_, Draw::loss) < medium_->loss)
+  else if (is_lost())
     ++statistics.lost;
   else
     launch(arrives, std::move(arrival));

@@ -71,6 +71,8 @@ class Link {
   static void look_again(kernel::EventNode& node);
   void begin_sending();
   double distance_m() const;
+  Duration latency() const;
+  bool is_lost() const;
   Time put_on_air(std::size_t bytes, double distance_m);
   void transmit_in_order(std::size_t bytes, double distance_m, Arrival arrival);
   void check_room() const;
