@@ -23,7 +23,8 @@ bool condition_variable::wait_before(std::unique_lock<mutex>& lock, Time deadlin
   // An unlock without a waitpoint of its own.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&lock.mutex()->core_.object());
   lock.mutex()->core_.release();
-  const bool woken = kernel::running->scheduler->chooser().is_spurious(*kernel::running) || sync::block(object_, deadline);
+  const bool woken =
+      kernel::running->scheduler->chooser().is_spurious(*kernel::running) || sync::block(object_, deadline);
   lock.mutex()->lock();
   return woken;
 }
