@@ -29,6 +29,7 @@ class Campaign {
 
   bool begins_well();
   void search();
+  void look_for_leaks();
   bool fails(Strategy& strategy, std::uint64_t number);
   std::string difference_between_repeats();
   void tell(const Found& found);

@@ -37,6 +37,7 @@ std::ostream& operator<<(std::ostream& out, const ExploreReport& report) {
   if (!report.passed) return out << report.text;
   out << "passed " << report.schedules << " schedules, " << report.distinct << " distinct";
   if (report.complete) out << ", which are all there are";
+  if (report.leaked_bytes > 0) out << "; each leaves " << report.leaked_bytes << " bytes on the heap";
   return out;
 }
 

@@ -18,6 +18,7 @@
 // allows. With compute(least, greatest) between them, only those that the times allow.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
@@ -49,7 +50,8 @@ struct ExploreReport {
   std::string text;  ///< of a failure: what happened, where, why, and the line that repeats it; else empty
   std::uint64_t schedules = 0;
   std::uint64_t distinct = 0;
-  bool complete = false;  ///< all there are were tried, as an exhaustive strategy knows
+  bool complete = false;         ///< all there are were tried, as an exhaustive strategy knows
+  std::size_t leaked_bytes = 0;  ///< of the heap, that the default schedule leaves in use each time
   double seconds = 0;
   std::uint64_t failed_at = 0;     ///< the number of the schedule that failed
   exploration::Schedule schedule;  ///< that failed; the least that was found

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "fibers/explore/explore.hpp"
@@ -178,6 +180,18 @@ TEST(Explore, ABodyThatLeaksStateIsNamedWithTheFirstDifference) {
   EXPECT_FALSE(report.passed);
   EXPECT_TRUE(contains(report.text, "the body leaks state from one schedule into the next")) << report;
   EXPECT_TRUE(contains(report.text, "'main#0 yield")) << report;
+}
+
+TEST(Explore, MemoryThatEachScheduleLeavesIsCounted) {
+  std::vector<std::unique_ptr<int[]>> kept;
+  kept.reserve(20'000);
+  const ExploreReport leaking = explore([&] { kept.push_back(std::make_unique<int[]>(100)); });
+  EXPECT_TRUE(leaking.passed) << leaking;
+#if !defined(__SANITIZE_ADDRESS__)
+  EXPECT_GE(leaking.leaked_bytes, 400U);
+  EXPECT_LT(leaking.leaked_bytes, 500U);
+#endif
+  EXPECT_EQ(explore([] { thread([] {}).join(); }).leaked_bytes, 0U);
 }
 
 TEST(Explore, TheEnvironmentSaysWhatToDoInAnyProgram) {
