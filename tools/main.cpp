@@ -5,6 +5,7 @@
 
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/scenario_reader.hpp"
+#include "tools/debug.hpp"
 #include "tools/options.hpp"
 #include "tools/papers_modules.hpp"
 #include "tools/run.hpp"
@@ -34,6 +35,7 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
     if (const auto* run = std::get_if<tools::RunOptions>(&options)) return tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
+    if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
     std::fputs(std::get<tools::ShownText>(options).text.c_str(), stdout);
     return 0;
   } catch (const BadInput& error) {

@@ -2,6 +2,7 @@
 #include "tools/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <string_view>
@@ -209,6 +210,25 @@ RunOptions run_options(const Arguments& arguments) {
   return options;
 }
 
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// None of the words is looked at but the one that says what is to be run: they are gdb's and the program's.
+DebugOptions debug_options(const std::vector<std::string>& words, const std::vector<std::string>& commands) {
+  DebugOptions options;
+  const auto dashes = std::find(words.begin(), words.end(), "--");
+  if (dashes == words.end() || dashes + 1 == words.end())
+    throw BadInput("gdb", "expected what to run: waitpoint gdb -- run SCENARIO ..., or waitpoint gdb -- PROGRAM ...");
+  options.gdb_options.assign(words.begin(), dashes);
+  options.words.assign(dashes + 1, words.end());
+  options.own = std::find(commands.begin(), commands.end(), options.words.front()) != commands.end();
+  return options;
+}
+
 /// What CLI11 did not understand, in one line that says what was probably meant.
 BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
@@ -218,8 +238,7 @@ BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command->get_options()) names.push_back(option->get_name());
   if (command == &app) {
-    for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-      names.push_back(sub->get_name());
+    for (const std::string& name : commands_of(app)) names.push_back(name);
   }
   const std::vector<std::string_view> known(names.begin(), names.end());
   const std::string word = extra.front().substr(0, extra.front().find('='));
@@ -242,11 +261,20 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
       app.add_subcommand("check", "Reads a scenario and tells what is wrong with it, without running it.");
   add_scenario(*check, arguments);
   add_set(*check, arguments);
+  app.add_subcommand("gdb",
+                     "Starts gdb with commands that see the simulated threads (docs/gdb.md):\n"
+                     "  waitpoint gdb [OPTIONS OF GDB] -- run SCENARIO ...\n"
+                     "  waitpoint gdb [OPTIONS OF GDB] -- PROGRAM ...");
   // After the commands are added, which would inherit it.
   app.footer(
       "waitpoint COMMAND --help tells more. Exit status: 0 as the scenario expects, 1 an expectation failed or a\n"
       "deadlock was found, 2 bad input, 130 stopped by a signal.");
   app.require_subcommand(0, 1);
+  const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
+  if (argc > 1 && std::string_view(argv[1]) == "gdb") {
+    if (words.empty() || (words[0] != "--help" && words[0] != "-h")) return debug_options(words, commands_of(app));
+    argc = 3;  // the rest is not ours
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

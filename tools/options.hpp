@@ -44,12 +44,19 @@ struct CheckOptions {
   std::vector<std::string> assignments;
 };
 
+/// `waitpoint gdb [OPTIONS OF GDB] -- PROGRAM ...`
+struct DebugOptions {
+  std::vector<std::string> gdb_options;
+  bool own = false;                ///< the words after `--` are a command of this program
+  std::vector<std::string> words;  ///< at least one
+};
+
 /// `--help`, `--version`: to be printed, and that is all.
 struct ShownText {
   std::string text;
 };
 
-using Options = std::variant<RunOptions, CheckOptions, ShownText>;
+using Options = std::variant<RunOptions, CheckOptions, DebugOptions, ShownText>;
 
 /// Reads the arguments, and WAITPOINT_SEED where --seed is not given. Throws BadInput, one clear line, for what it does
 /// not understand. `version` is the text of --version.

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/fetch.hpp"
 #include "fibers/kernel/local_clock.hpp"
@@ -42,6 +43,7 @@ Scheduler::Scheduler(Order order, std::uint64_t seed) : events_(events_max), cho
 Scheduler::~Scheduler() {
   WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
   unwind();
+  tell_debugger_of_end(*this);
 }
 
 void Scheduler::restart(std::uint64_t seed) {
@@ -117,6 +119,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
 RunState Scheduler::run_before(Time until) {
   WAITPOINT_CHECK(running == nullptr, "run_before() is called from within a task");
   WAITPOINT_CHECK(!unwinding_, "a run that is over is run");
+  tell_debugger(*this);
   until_ = until;
   if (cause_ != StopCause::none) return RunState::stopped;
   if (paused_ != nullptr) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The waitpoint: how a task's events find their place in the order of virtual time, and are executed.
+#include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/sanitizer.hpp"
@@ -120,7 +121,7 @@ bool Scheduler::act_for_timer(Task& task, Operation operation, Object* object) {
 
 void Scheduler::set_watch(Watch* watch) {
   watch_ = watch;
-  watched_ = watch != nullptr || sanitizer::present;
+  watched_ = watch != nullptr || sanitizer::present || debugger_view.watching;
 }
 
 void Scheduler::show(Operation operation, const Object* object) {
@@ -130,6 +131,7 @@ void Scheduler::show(Operation operation, const Object* object) {
     sanitizer::release(object);
   }
   if (watch_ != nullptr) watch_->event(*watch_, {now_, running, operation, object});
+  if (debugger_view.watching) show_debugger(now_, *running, operation, object);
 }
 
 void Scheduler::begin(Task& task) {

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/kernel/debugger.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::kernel {
+
+DebuggerView debugger_view;
+
+// The places where a debugger has its breakpoints: empty, and called all the same.
+[[gnu::noinline]] void debugger_run() { asm volatile(""); }
+[[gnu::noinline]] void debugger_stop() { asm volatile(""); }
+[[gnu::noinline]] void debugger_checkpoint() { asm volatile(""); }
+
+void tell_debugger(Scheduler& scheduler) {
+  debugger_view.scheduler = &scheduler;
+  debugger_run();
+}
+
+void tell_debugger_of_end(const Scheduler& scheduler) {
+  if (debugger_view.scheduler == &scheduler) debugger_view.scheduler = nullptr;
+}
+
+void show_debugger(Time now, const Task& task, Operation operation, const Object* object) {
+  DebuggerView& view = debugger_view;
+  view.before = view.last;
+  view.last = {now, task.id, object != nullptr ? object->identity : 0, operation};
+  ++view.events;
+  if (view.events == view.stop_at_event || now >= view.stop_at_time || task.id == view.stop_at_task)
+    debugger_stop();
+  else if (view.events >= view.checkpoint_at)
+    debugger_checkpoint();
+}
+
+namespace {
+
+// Beyond what a program has open: the files that it opens meanwhile get the numbers that they had.
+constexpr int kept_from = 1000;
+
+struct Muted {
+  int descriptor;
+  int kept = -1;
+};
+Muted outputs[] = {{1}, {2}};
+
+bool is_file(int descriptor) {
+  struct stat status {};
+  return fstat(descriptor, &status) != 0 || S_ISREG(status.st_mode);
+}
+
+}  // namespace
+
+/// Called by the debugger: what the process writes to its standard output and error goes nowhere from now on, or where
+/// it went again. For replays, which would show a second time what was seen. Files are left alone: a checkpoint knows
+/// how far they were written, and the replay writes the same into them.
+[[gnu::used]] void debugger_mute(int muted) {
+  for (Muted& output : outputs) {
+    if (muted == 0) {
+      if (output.kept < 0) continue;
+      dup2(output.kept, output.descriptor);
+      close(output.kept);
+      output.kept = -1;
+    } else if (output.kept < 0 && !is_file(output.descriptor)) {
+      output.kept = fcntl(output.descriptor, F_DUPFD_CLOEXEC, kept_from);
+      const int nowhere = output.kept < 0 ? -1 : open("/dev/null", O_WRONLY | O_CLOEXEC);
+      if (nowhere < 0) continue;
+      dup2(nowhere, output.descriptor);
+      close(nowhere);
+    }
+  }
+}
+
+}  // namespace waitpoint::kernel

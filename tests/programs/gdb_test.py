@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gdb sees the fibers, steps from event to event, and back: gdb_test.py BUILD.
+
+Each session is a gdb that is given commands; what it said to each of them is looked at. Leaves with 77, skipped, where
+there is no gdb or no process may be debugged.
+"""
+
+import functools
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+SCRIPT = ROOT / "tools/gdb/waitpoint-gdb.py"
+CLEAN = {**os.environ, "DEBUGINFOD_URLS": "", "LC_ALL": "C"}
+PLAIN = ["gdb", "-nx", "-batch", "-ex", f"source {SCRIPT}"]
+
+
+@functools.lru_cache(maxsize=None)
+def folder():
+    made = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(made.cleanup)
+    return pathlib.Path(made.name)
+
+
+@functools.lru_cache(maxsize=None)
+def clock_makers():
+    """The program, compiled as a user would: optimised, with debugging information, the library as an archive."""
+    (folder() / "include").mkdir()
+    (folder() / "include/waitpoint").symlink_to(ROOT)
+    program = folder() / "clock_makers"
+    compiler = os.environ.get("CXX", "g++").split()
+    subprocess.run([*compiler, "-std=c++20", "-O2", "-g", HERE / "clock_makers/clock_makers.cpp", f"-I{folder()}/include",
+                    f"-I{ROOT}", BUILD / "libwaitpoint.a", "-lboost_context", "-o", program], check=True)
+    return program
+
+
+def session(commands, arguments, start=PLAIN):
+    """What gdb said to each of the commands, in their order; of what the process writes, what came meanwhile."""
+    words = [*start, "-ex", "set pagination off", "-ex", "set width 0"]
+    for number, command in enumerate(commands):
+        words += ["-ex", f"echo @{number}@\\n", "-ex", command]
+    words += ["-ex", "echo @end@\\n", *map(str, arguments)]
+    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=CLEAN, timeout=120,
+                          cwd=folder())
+    return [part.strip() for part in re.split(r"@(?:\d+|end)@\n", done.stdout)[1:-1]]
+
+
+def of_clock_makers(*commands, arguments=()):
+    return session(commands, ["--args", clock_makers(), *arguments])
+
+
+def digest(text):
+    return re.findall(r"wp1:[0-9a-f]{16}", text)[-1]
+
+
+@functools.lru_cache(maxsize=None)
+def plain_digest():
+    return digest(subprocess.run([clock_makers()], capture_output=True, text=True, check=True).stdout)
+
+
+class Looking(unittest.TestCase):
+    TABLE = [
+        ["No", "Name", "Robot", "Module", "Local time", "State", "Waits for"],
+        ["1", "main", "environment", "-", "1.000000000", "ready", "sleep until 1.000000000 s"],
+        ["*", "2", "master", "environment", "-", "0.001000000", "running"],
+        ["3", "journeyman", "environment", "-", "0.000000000", "blocked",
+         'lock mutex #1 "bench", held by master of environment'],
+        ["4", "shop.keeper", "environment", "shop", "0.000000000", "blocked", 'wait condition variable #3 "bell"'],
+        ["5", "apprentice", "environment", "-", "0.000000000", "blocked",
+         'acquire semaphore #4 "springs", until 0.500000000 s'],
+    ]
+
+    def assert_table(self, text):
+        self.assertEqual([re.split(r" {2,}", line.strip()) for line in text.splitlines()], self.TABLE)
+
+    def assert_looks(self, told):
+        """At 1 ms, in a process as in a core file."""
+        info, time_told, fiber, trace, above, local, printed, apply_all, apply_one, bench, number, door = told
+        self.assert_table(info)
+        self.assertEqual(time_told, "0.001000000 s, event 11; master of environment is at 0.001000000 s")
+        self.assertIn('Fiber 3, journeyman of environment, at 0.000000000 s, blocked: lock mutex #1 "bench", held by master',
+                      fiber)
+        self.assertRegex(fiber, r"#\d+ .*make_clock \(.*number=2")
+        functions = " ".join(trace.splitlines())
+        self.assertRegex(functions, r"waitpoint::kernel::Scheduler::block.*waitpoint::mutex::lock.*make_clock.*run_entry")
+        self.assertNotRegex(trace, r"debugger_stop|corrupt|\?\?")
+        self.assertRegex(above, r"^#\d+ ")
+        self.assertIn("lock = ", local)
+        self.assertTrue(printed.endswith("= 0"), printed)
+        self.assertEqual(re.findall(r"^Fiber (\d), ([\w.]+) of", apply_all, re.MULTILINE),
+                         [("1", "main"), ("2", "master"), ("3", "journeyman"), ("4", "shop.keeper"), ("5", "apprentice")])
+        self.assertIn("wait_for_customer", apply_all)
+        self.assertEqual(re.findall(r"^Fiber (\d)", apply_one, re.MULTILINE), ["4", "1"])
+        self.assertEqual(bench, 'mutex #1 "bench" of environment: held by master of environment\n'
+                                "  journeyman of environment waits since 0.000000000 s (lock)")
+        self.assertIn("shop.keeper of environment waits since 0.000000000 s (wait)", number)
+        self.assertEqual(door, 'mutex #2 "door" of environment: held by nobody\n  nobody waits for it')
+
+    COMMANDS = ["info fibers", "virtual-time", "fiber journeyman", "bt", "up", "fiber 4\ninfo locals",
+                "print workshop.clocks", "fiber apply all bt", "fiber apply shop.keeper 1 bt 1", "blocked-on bench",
+                "blocked-on condition variable#3", "blocked-on workshop.door"]
+
+    def test_shows_parked_fibers_and_what_they_wait_for(self):
+        commands = list(self.COMMANDS)
+        commands[5:6] = ["fiber 4", "info locals"]
+        told = of_clock_makers("break-time 0.001", "run", *commands, "delete", "continue")
+        self.assert_looks(told[2:7] + told[8:-2])
+        self.assertIn("event 11 at 0.001000000 s: master of environment: sleep", told[1])
+        self.assertEqual(digest(told[-1]), plain_digest())
+
+    def test_shows_the_same_of_a_core_file(self):
+        core = folder() / "clock.core"
+        told = of_clock_makers("break-time 0.001", "run", f"generate-core-file {core}", "continue")
+        self.assertEqual(digest(told[-1]), plain_digest())
+        self.assertLess(core.stat().st_size, 1e9)
+        commands = list(self.COMMANDS)
+        commands[5:6] = ["fiber 4", "info locals"]
+        told = session([*commands, "next-event", "back"], [clock_makers(), core])
+        core.unlink()
+        self.assert_looks(told[:5] + told[6:-2])
+        self.assertEqual(told[-2:], ["no process is being run: run or start it first"] * 2)
+
+    def test_thousands_of_fibers_are_listed_in_a_moment(self):
+        start = time.monotonic()
+        table, clock = of_clock_makers("break-time 0.001", "run", "python import time; before = time.monotonic()",
+                                       "info fibers", "python print(time.monotonic() - before)", arguments=["2000"])[3:]
+        self.assertEqual(table.count("hand "), 2000)
+        self.assertLess(float(clock), 10, f"of {time.monotonic() - start} s")
+
+    def test_what_is_no_fiber_object_time_or_process_is_said(self):
+        told = of_clock_makers("info fibers", "next-event", "back", "break-time soon", "break-time 0.001", "run",
+                               "fiber 77", "fiber nobody", "blocked-on nothing", "blocked-on", "next-event-of nobody",
+                               "next-event 0", "break-time 0.0005", "fiber apply all", "back 100")
+        self.assertEqual(told[0], "no program is being run, and no core file is read")
+        self.assertEqual(told[1:3], ["no process is being run: run or start it first"] * 2)
+        self.assertIn("expected a time such as 12.5", told[3])
+        for text, expected in zip(told[6:], ["there is no fiber 77", "there is no fiber 'nobody'",
+                                             "no task waits for, uses or holds an object 'nothing'", "expected: blocked-on",
+                                             "there is no fiber 'nobody'", "expected: next-event [N]",
+                                             "it is 0.001000000 s already", "expected: fiber apply", "there is no event"]):
+            self.assertIn(expected, text)
+
+
+class Stepping(unittest.TestCase):
+    def test_goes_from_event_to_event_of_all_tasks_or_of_one(self):
+        told = of_clock_makers("break-time 1ms", "break-time 500ms", "run", "next-event", "next-event 3",
+                               "next-event-of shop.keeper", "virtual-time", "back 2", "continue")
+        self.assertIn("0.001000000 s\nstop at the first event at or after 0.500000000 s", told[1])
+        self.assertIn('event 12 at 0.001000000 s: master of environment: unlock mutex #1 "bench"', told[3])
+        self.assertIn('event 15 at 0.001000000 s: journeyman of environment: resume mutex #1 "bench"', told[4])
+        self.assertRegex(told[4], r"#\d+ .*make_clock")
+        self.assertIn('event 20 at 0.500000000 s: apprentice of environment: timeout semaphore #4 "springs"', told[5])
+        self.assertIn("event 18 at", told[7])
+        self.assertEqual(digest(told[8]), plain_digest())
+
+    def test_a_breakpoint_ends_a_step_and_a_step_in_a_parked_fiber_changes_nothing(self):
+        told = of_clock_makers("break wait_for_customer", "run", "next-event-of main", "next", "fiber main", "next",
+                               "fiber 1", "finish", "virtual-time", "delete", "continue")
+        self.assertIn("wait_for_customer", told[1])
+        self.assertIn("event ", told[2])
+        self.assertEqual(digest(told[-1]), plain_digest())
+
+    def test_a_thousand_stops_and_looks_change_no_digest(self):
+        loop = "python\nfor i in range(30): gdb.execute('next-event'); gdb.execute('fiber apply all bt', to_string=True)"
+        told = of_clock_makers("break-time 0", "run", loop.replace("python\n", "python exec(\"\"\"") + '""")', "continue")
+        self.assertEqual(told[2].count("\nevent ") + told[2].startswith("event "), 30)
+        self.assertEqual(digest(told[3]), plain_digest())
+
+
+class Back(unittest.TestCase):
+    def test_goes_to_the_event_before_over_jumps_of_time_and_forward_again(self):
+        told = of_clock_makers("break-time 1", "run", "back", "virtual-time", "back", "back", "back", "info fibers",
+                               "fiber apprentice", "back 2", "next-event 5", "next-event", "continue")
+        self.assertIn("event 23 at 1.000000000 s: main of environment: sleep", told[1])
+        self.assertIn("event 22 at 0.500000000 s: apprentice of environment: end", told[2])
+        self.assertEqual(told[3], "0.500000000 s, event 22; apprentice of environment is at 0.500000000 s")
+        self.assertIn("event 19 at 0.002000000 s: journeyman of environment: end", told[6])
+        self.assertIn("until 0.500000000 s", told[7])
+        self.assertIn("try_acquire_for(500ms)", told[8])
+        self.assertIn("event 17 at 0.002000000 s", told[9])
+        self.assertIn("event 22 at 0.500000000 s: apprentice of environment: end", told[10])
+        self.assertIn("event 23 at 1.000000000 s: main of environment: sleep", told[11])
+        everything = "\n".join(told)
+        self.assertEqual(everything.count("springs: no"), 2, "what a replay writes is thrown away")
+        self.assertEqual(digest(told[12]), plain_digest())
+        self.assertIn("exited normally", told[12])
+
+    def test_goes_to_the_beginning_of_the_event_from_within(self):
+        told = of_clock_makers("break 'clock_makers.cpp':50", "run", "virtual-time", "back", "back", "continue",
+                               "delete", "continue")
+        event = int(re.search(r"event (\d+)", told[2])[1])
+        self.assertIn(f"event {event} at", told[3])
+        self.assertIn(f"event {event - 1} at", told[4])
+        self.assertIn("Breakpoint 1", told[5])
+        self.assertEqual(digest(told[-1]), plain_digest())
+
+    def test_says_when_the_run_does_not_repeat(self):
+        told = of_clock_makers("break-time 1ns", "run", "next-event", "back", arguments=["0", "restless"])
+        self.assertIn("event 12", told[2])
+        self.assertIn("this run does not repeat: what was event 11 is another one now", told[3])
+
+
+class Office(unittest.TestCase):
+    """A robot's modules, by `waitpoint gdb`."""
+
+    def test_is_stepped_through_and_keeps_its_digest(self):
+        program, scenario = BUILD / "tools/waitpoint", ROOT / "scenarios/office.yaml"
+        plain = subprocess.run([program, "run", scenario, "--until", "4"], capture_output=True, text=True, check=False)
+        told = session(["break-time 3", "run", "info fibers", "next-event-of ndd.motion", "back", "virtual-time",
+                        "fiber rackham/segloc.slam", "bt", "fiber apply all bt 3", "back 50000", "break-time 3.5",
+                        "continue", "continue"], ["--", "run", scenario, "--until", "4"],
+                       start=[program, "gdb", "-nx", "-batch"])
+        self.assertIn("at 3.000000000 s: world of environment: sleep", told[1])
+        self.assertRegex(told[2], r"ndd\.motion +rackham +ndd +2\.\d+ +blocked +timer_wait timer #\d+ \"task period\"")
+        at = int(re.search(r"event (\d+) at 3\.\d+ s: ndd.motion of rackham", told[3])[1])
+        self.assertIn(f"event {at - 1} at", told[4])
+        self.assertIn(f", event {at - 1};", told[5])
+        self.assertIn("segloc", told[7])
+        self.assertEqual(len(re.findall(r"^Fiber ", told[8], re.MULTILINE)), 13)
+        self.assertIn("there is no event before", told[9])
+        self.assertIn("at 3.500000000 s", told[11])
+        self.assertEqual(digest(told[12]), digest(plain.stdout))
+
+    def test_the_command_says_what_it_lacks(self):
+        def status(*words, **environment):
+            done = subprocess.run([BUILD / "tools/waitpoint", "gdb", *words], capture_output=True, text=True,
+                                  env={**CLEAN, **environment})
+            self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1))
+            return done.returncode, done.stderr
+
+        self.assertEqual(status("--", "run", "x.yaml", PATH="/nonexistent"), (2, "waitpoint: gdb: gdb is not installed\n"))
+        self.assertEqual(status("--", "./nothing"), (2, "waitpoint: gdb: there is no program './nothing'\n"))
+        for words in ([], ["--"], ["run", "x.yaml"]):
+            self.assertEqual(status(*words)[0], 2)
+            self.assertIn("expected what to run", status(*words)[1])
+
+
+def may_debug():
+    done = subprocess.run([*PLAIN[:3], "-ex", "run", "--args", "true"], capture_output=True, text=True, env=CLEAN)
+    return "exited normally" in done.stdout
+
+
+if __name__ == "__main__":
+    BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+    if shutil.which("gdb") is None:
+        print("gdb is not installed")
+        sys.exit(77)
+    if not may_debug():
+        print("no process may be debugged here")
+        sys.exit(77)
+    unittest.main()

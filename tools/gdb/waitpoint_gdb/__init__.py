@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What gdb needs to see fibers as it sees threads, to step from event to event, and to step back."""
+
+from . import back, core_files, looking, selection, stepping, watching
+
+
+def register():
+    """Makes the commands, the unwinder and the breakpoints of this package gdb's; once is enough, twice does no harm."""
+    selection.register()
+    watching.register()
+    looking.register()
+    stepping.register()
+    back.register()
+    core_files.register()

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checkpoints for `back`: gdb's own, which are forks of the process, made while it runs.
+
+One at the first event, then one each `spacing` events. When there are too many every second one is given up, and the
+spacing doubles: so they lie evenly over the run however long it is, and the way from the nearest one before an event is at
+most some part of the run.
+"""
+
+import os
+import re
+import signal
+
+import gdb
+
+from . import records
+
+SPACING_MIN = 65536  # events: some 50 ms of a replay
+MOST = 12
+
+kept = {}  # by event: the number that gdb has given
+spacing = SPACING_MIN
+exit_breakpoint = None
+
+
+class Wanted(gdb.Parameter):
+    """Whether the process is forked now and then while it runs, so that `back` is quick; without, `back` cannot be had."""
+
+    set_doc = "Set whether checkpoints are made for `back`."
+    show_doc = "Show whether checkpoints are made for `back`."
+
+    def __init__(self):
+        super().__init__("waitpoint-checkpoints", gdb.COMMAND_RUNNING, gdb.PARAM_BOOLEAN)
+        self.value = True
+
+    def get_set_string(self):
+        return ""
+
+    def get_show_string(self, value):
+        return f"Checkpoints are{'' if self.value else ' not'} made for `back`."
+
+
+class Exit(gdb.Breakpoint):
+    """The process ends: gdb would go on with one of its checkpoints, as if it were still there."""
+
+    def __init__(self):
+        super().__init__("_exit", internal=True)
+        self.silent = True
+
+    def stop(self):
+        delete_all()
+        return False
+
+
+def wanted():
+    return gdb.parameter("waitpoint-checkpoints")
+
+
+def listed():
+    """({number: process} of all that gdb has, the current one included; its number)."""
+    text, found, current = gdb.execute("info checkpoints", to_string=True), {}, None
+    pattern = r"^([* ]) *(\d+) (?:process (\d+)|Thread \S+ \(LWP (\d+)\))"
+    for star, number, process, thread in re.findall(pattern, text, re.MULTILINE):
+        found[int(number)] = int(process or thread)
+        current = int(number) if star == "*" else current
+    return found, current
+
+
+def fork():
+    """Makes a checkpoint of the process as it stands; its number."""
+    before = set(listed()[0])
+    gdb.execute("checkpoint", to_string=True)
+    new = set(listed()[0]) - before - {0}
+    if not new:
+        raise gdb.GdbError("the process cannot be forked")
+    return max(new)
+
+
+def make(event):
+    """Of the event that begins now; called where the kernel calls debugger_checkpoint()."""
+    global spacing, exit_breakpoint
+    if exit_breakpoint is None:
+        exit_breakpoint = Exit()
+    if wanted() and event not in kept:
+        kept[event] = fork()
+    while len(kept) > MOST:
+        spacing *= 2
+        for surplus in sorted(kept)[1::2]:
+            delete(kept.pop(surplus))
+    ask_for_next(event)
+
+
+def ask_for_next(event):
+    before = [made for made in kept if made <= event]
+    records.write_view("checkpoint_at", max(before, default=event) + spacing if wanted() else 2**64 - 1)
+
+
+def delete(number):
+    """Ends a process that is not the current one.
+
+    Not by `delete checkpoint`: gdb 13 fails at the first process, whose parent is gdb itself. A signal to stop is waiting
+    for the process when it is let go, so that it executes nothing more."""
+    process = listed()[0].get(number)
+    if process is None:
+        return
+    os.kill(process, signal.SIGSTOP)
+    gdb.execute(f"detach checkpoint {number}", to_string=True)
+    os.kill(process, signal.SIGKILL)
+
+
+def delete_all():
+    for number in kept.values():
+        delete(number)
+    forget()
+
+
+def delete_after(event):
+    """What comes later need not come again: somebody may change a variable."""
+    for made in [made for made in kept if made > event]:
+        delete(kept.pop(made))
+
+
+def restart_before(event):
+    """Goes to the last checkpoint not after `event`; the process that was there before is given up."""
+    before = [made for made in kept if made <= event]
+    if not before:
+        raise gdb.GdbError("there is no checkpoint before that event: gdb did not watch the process then")
+    nearest, (_, left) = max(before), listed()
+    gdb.execute(f"restart {kept[nearest]}", to_string=True)
+    kept[nearest] = fork()
+    delete(left)
+    delete_after(event)
+    return nearest
+
+
+def forget():
+    """Of a process that is gone."""
+    global spacing
+    kept.clear()
+    spacing = SPACING_MIN
+
+
+def register():
+    Wanted()

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Core files by `generate-core-file` (gcore): small, and with the stacks in them.
+
+The stacks' arena (fibers/kernel/stack_arena.hpp) is gigabytes of addresses, of which little is used: gdb 13 would write all
+of it. And gdb gives up a whole region at a page that it cannot read, as light guard pages (Linux 6.13) are. So while
+the file is written, what no stack was opened in is marked as not to be dumped, and the guards are away. A core file that
+Linux writes needs none of this.
+"""
+
+import gdb
+
+from . import records, watching
+
+# Of madvise, which x86-64 Linux fixes.
+DONT_DUMP, DO_DUMP, INSTALL_GUARD, REMOVE_GUARD = 16, 17, 102, 103
+STACK_SIZES = (16384, 65536, 262144)
+PAGE = 4096
+
+lifted = []  # what to undo: (address, size, advice)
+
+
+def advise(address, size, advice):
+    """Whether the kernel did it; errno stays what it was."""
+    gdb.execute("set $waitpoint_errno = *((int *(*)(void))__errno_location)()", to_string=True)
+    call = f"((int (*)(unsigned long, unsigned long, int))madvise)({address}, {size}, {advice})"
+    done = int(gdb.parse_and_eval(call)) == 0
+    gdb.execute("set var *((int *(*)(void))__errno_location)() = $waitpoint_errno", to_string=True)
+    return done
+
+
+def ranges(scheduler):
+    """(base, bytes of a slot, slots opened, slots with a guard, slots in all) of each size of stacks."""
+    offset, size, _ = records.place("Scheduler", "arena_.ranges_")
+    width = records.record_type("StackArena::Range").sizeof
+    for at, slot in zip(range(0, size, width), STACK_SIZES):
+        one = records.Record("StackArena::Range", scheduler.address + offset + at)
+        opened = one.number("opened")
+        yield one.number("base"), slot, opened, min(opened, one.number("unguarded_from")), one.number("slots")
+
+
+def before_dump():
+    if not watching.is_process() or not records.view().number("scheduler"):
+        return
+    for base, slot, opened, guarded, slots in ranges(records.scheduler()):
+        unused = base + opened * slot, (slots - opened) * slot
+        if base and advise(*unused, DONT_DUMP):
+            lifted.append((*unused, DO_DUMP))
+        if guarded and advise(base, guarded * slot, REMOVE_GUARD):
+            lifted.extend((base + number * slot, PAGE, INSTALL_GUARD) for number in range(guarded))
+
+
+def after_dump():
+    while lifted:
+        advise(*lifted.pop())
+
+
+def register():
+    for when, function in (("hook", "before_dump"), ("hookpost", "after_dump")):
+        gdb.execute(f"define {when}-generate-core-file\npython waitpoint_gdb.core_files.{function}()\nend")
+    gdb.execute("python import waitpoint_gdb.core_files")

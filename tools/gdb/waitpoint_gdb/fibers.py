@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tasks of the run as fibers: in the order of their making, numbered from 1 as they stand now, and what each one waits
+for, in the words of the reports (fibers/sync/blocked_report.cpp)."""
+
+import gdb
+
+from . import records
+
+HOLDERS_SHOWN = 4
+# Where a part of the event list has its entries, each of which begins with the time: see event.hpp and event_list.hpp.
+PARTS = {0: ("events_.heap_.entries_", "EventEntry"), 1: ("events_.run_", "EventEntry"),
+         2: ("events_.calendar_.slots_", "Calendar::Slot")}
+
+
+class Task(records.Record):
+    def __init__(self, address):
+        super().__init__("Task", address)
+        self.name_given = self.text("name")
+
+    @property
+    def robot(self):
+        return robot_name(self.number("robot"))
+
+    @property
+    def module(self):
+        """Tasks of a module are called MODULE.TASK."""
+        return self.name_given.rpartition(".")[0]
+
+    @property
+    def context(self):
+        """Where the parked fiber goes on; 0 of the one whose stack is the processor's."""
+        return self.number("fiber.context")
+
+    @property
+    def state(self):
+        if self.address == records.running():
+            return "running"
+        return records.enumerators("TaskState")[self.number("state")]
+
+    @property
+    def operation(self):
+        return records.enumerators("Operation")[self.number("operation")]
+
+    def describe(self):
+        return f"{self.name_given} of {self.robot}"
+
+
+def robot_name(address):
+    return records.Record("Robot", address).text("name") if address else ""
+
+
+class Object(records.Record):
+    def __init__(self, address):
+        super().__init__("Object", address)
+        self.kind, self.label = records.text_at(self.number("kind")), records.text_at(self.number("label"))
+
+    def describe(self):
+        label = f' "{self.label}"' if self.label else ""
+        return f"{self.kind} #{self.number('number')}{label}"
+
+    def holders(self):
+        """Who holds it, in words; empty where nobody does."""
+        owner = self.number("owner")
+        if owner:
+            return ("of " if self.kind == "end of thread" else "held by ") + Task(owner).describe()
+        count, first = self.number("holder_count"), self.number("holders")
+        if not count:
+            return ""
+        shown = min(count, HOLDERS_SHOWN)
+        words = records.memory(first, 8 * shown)
+        names = [Task(int.from_bytes(words[at : at + 8], "little")).describe() for at in range(0, 8 * shown, 8)]
+        return "shared by " + ", ".join(names) + (f" and {count - shown} more" if count > shown else "")
+
+    def waiters(self):
+        """The tasks that wait, in the order in which they came."""
+        address = self.number("first_waiter")
+        while address:
+            task = Task(address)
+            yield task
+            address = task.number("next_waiter")
+
+
+def all_tasks(scheduler=None):
+    address = (scheduler or records.scheduler()).number("first_task_")
+    tasks = []
+    while address:
+        tasks.append(Task(address))
+        address = tasks[-1].number("next")
+    return tasks
+
+
+def due(task, scheduler):
+    """When the event of a task that is not running is due."""
+    location = task.number("event.place")
+    if location >> 30 not in PARTS:
+        return records.NO_TIME
+    path, name = PARTS[location >> 30]
+    size = records.record_type(name).sizeof
+    entry = scheduler.number(path) + (location & (2**30 - 1)) * size
+    offset, width, _ = records.place(name, "key.time.ns_")
+    return int.from_bytes(records.memory(entry + offset, width), "little")
+
+
+def waits_for(task, scheduler):
+    """What a task that is not running waits for, in words."""
+    blocked_on = task.number("blocked_on")
+    if blocked_on:
+        thing = Object(blocked_on)
+        holders = thing.holders()
+        text = f"{task.operation} {thing.describe()}"
+        if holders:
+            text += (" " if holders.startswith("of ") else ", ") + holders
+        if task.number("finite_wait"):
+            text += f", until {records.seconds(due(task, scheduler))} s"
+        return text
+    if task.operation == "sleep":
+        return f"sleep until {records.seconds(task.number('local_time.ns_'))} s"
+    at = task.number("at")
+    return f"its turn: {task.operation}" + (f" {Object(at).describe()}" if at else "")
+
+
+def find(word):
+    """(number, task) of the fiber that is meant by its number, NAME, or ROBOT/NAME."""
+    tasks = list(enumerate(all_tasks(), 1))
+    if word.isdigit():
+        if not 1 <= int(word) <= len(tasks):
+            raise gdb.GdbError(f"there is no fiber {word}; info fibers lists what there is")
+        return tasks[int(word) - 1]
+    fitting = [(number, task) for number, task in tasks if word in (task.name_given, f"{task.robot}/{task.name_given}")]
+    if not fitting:
+        raise gdb.GdbError(f"there is no fiber '{word}'; info fibers lists what there is")
+    if len(fitting) > 1:
+        numbers = ", ".join(str(number) for number, _ in fitting)
+        raise gdb.GdbError(f"fibers {numbers} are called '{word}': say ROBOT/NAME, or the number")
+    return fitting[0]

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The kernel's records, read from the memory of a process or of a core file.
+
+fibers/kernel/task.hpp and debugger.hpp say what they are. A record is read as a whole, and its members are taken from the
+bytes by the offsets that the debugging information gives: gdb's own values cost some ten microseconds a member, too much
+for thousands of tasks.
+"""
+
+import functools
+
+import gdb
+
+NAMESPACE = "waitpoint::kernel::"
+NO_TIME = 2**63 - 1  # Time::max(): never
+
+
+@functools.lru_cache(maxsize=None)
+def record_type(name):
+    try:
+        return gdb.lookup_type(NAMESPACE + name).strip_typedefs()
+    except gdb.error:
+        raise gdb.GdbError("this program has no tasks of waitpoint, or no debugging information (-g) of them") from None
+
+
+@functools.lru_cache(maxsize=None)
+def place(name, path):
+    """(offset, size, whether it is signed) of the member `path`, "fiber.context" for example, of the record `name`."""
+    kind, offset = record_type(name), 0
+    for part in path.split("."):
+        for field in kind.fields():
+            if field.name == part:
+                break
+        else:
+            raise gdb.GdbError(f"{name} has no member {path}: these commands are of another version of waitpoint")
+        offset += field.bitpos // 8
+        kind = field.type.strip_typedefs()
+    return offset, kind.sizeof, kind.code == gdb.TYPE_CODE_INT and kind.is_signed
+
+
+@functools.lru_cache(maxsize=None)
+def enumerators(name):
+    """The names of an enumeration by their values."""
+    return {field.enumval: field.name.rsplit("::", 1)[-1] for field in record_type(name).fields()}
+
+
+def forget():
+    """Another program has other offsets."""
+    for cache in (record_type, place, enumerators):
+        cache.cache_clear()
+
+
+def memory(address, size):
+    return bytes(gdb.selected_inferior().read_memory(address, size))
+
+
+@functools.lru_cache(maxsize=4096)
+def text_at(address):
+    """The zero-terminated text there: a kind or a label, which never change."""
+    return gdb.Value(address).cast(gdb.lookup_type("char").pointer()).string(errors="replace") if address else ""
+
+
+class Record:
+    """One record, as it was when it was read."""
+
+    def __init__(self, name, address):
+        self.name, self.address = name, address
+        self.bytes = memory(address, record_type(name).sizeof)
+
+    def number(self, path):
+        offset, size, signed = place(self.name, path)
+        return int.from_bytes(self.bytes[offset : offset + size], "little", signed=signed)
+
+    def text(self, path):
+        """An array of characters."""
+        offset, size, _ = place(self.name, path)
+        return self.bytes[offset : offset + size].split(b"\0")[0].decode(errors="replace")
+
+    def follow(self, path, name):
+        """The record that a pointer points to, or None."""
+        address = self.number(path)
+        return Record(name, address) if address else None
+
+
+def address_of(variable):
+    """Of a global variable of the kernel."""
+    symbol = gdb.lookup_global_symbol(NAMESPACE + variable)
+    if symbol is None:
+        raise gdb.GdbError("this program has no tasks of waitpoint, or no debugging information (-g) of them")
+    return int(symbol.value().address)
+
+
+def running():
+    """The address of the task whose code is executing, or 0."""
+    return int.from_bytes(memory(address_of("running"), 8), "little")
+
+
+def view():
+    """What the kernel tells debuggers."""
+    if gdb.selected_inferior().pid == 0 and not gdb.selected_inferior().threads():
+        raise gdb.GdbError("no program is being run, and no core file is read")
+    return Record("DebuggerView", address_of("debugger_view"))
+
+
+def write_view(path, value):
+    """Asks the kernel for something: the only memory that is written here."""
+    offset, size, signed = place("DebuggerView", path)
+    gdb.selected_inferior().write_memory(address_of("debugger_view") + offset, value.to_bytes(size, "little", signed=signed))
+
+
+def scheduler():
+    """That of the run which was entered last."""
+    found = view().follow("scheduler", "Scheduler")
+    if found is None:
+        raise gdb.GdbError("no run has begun, or it is over")
+    return found
+
+
+def seconds(time_ns):
+    """As reports show it."""
+    if time_ns == NO_TIME:
+        return "never"
+    sign = "-" if time_ns < 0 else ""
+    return f"{sign}{abs(time_ns) // 10**9}.{abs(time_ns) % 10**9:09d}"

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Selecting a parked fiber: its frames are shown, and nothing is written to the process.
+
+While a fiber is selected, an unwinder answers that the caller of the innermost frame is where the fiber goes on, with the
+registers that the fiber's switch left on its stack. So frame 0 stays what the processor executes, and the frames above
+it are the fiber's. A filter keeps frame 0 out of back traces.
+
+    Boost.Context, x86-64, at the context c:  +8 r12  +16 r13  +24 r14  +32 r15  +40 rbx  +48 rbp  +56 rip;  rsp = c + 64
+"""
+
+import re
+
+import gdb
+import gdb.unwinder
+
+from . import records
+
+SAVED = {"r12": 8, "r13": 16, "r14": 24, "r15": 32, "rbx": 40, "rbp": 48, "rip": 56}
+STACK_ABOVE_CONTEXT = 64
+# Frames of the primitives, and of the library's templates beneath them: not what somebody looks for.
+INNER = re.compile(r"(?<!/tests)/fibers/(kernel|sync|io|laas)/|/include/c\+\+/")
+
+
+class FrameId:
+    def __init__(self, sp, pc):
+        self.sp, self.pc = sp, pc
+
+
+class ParkedFiber(gdb.unwinder.Unwinder):
+    """The selected fiber, if it is parked."""
+
+    def __init__(self):
+        super().__init__("waitpoint-fiber")
+        self.context = 0
+
+    def select(self, context):
+        frame = gdb.newest_frame()
+        self.context, self.pc, self.sp = 0, frame.pc(), int(frame.read_register("rsp"))
+        gdb.invalidate_cached_frames()
+        self.context = context
+        gdb.invalidate_cached_frames()
+
+    def deselect(self):
+        if self.context:
+            self.context = 0
+            gdb.invalidate_cached_frames()
+
+    def resumes_at(self):
+        return int.from_bytes(records.memory(self.context + SAVED["rip"], 8), "little")
+
+    def __call__(self, pending):
+        if not self.context:
+            return None
+        pc, sp = int(pending.read_register("rip")), int(pending.read_register("rsp"))
+        if (pc, sp) != (self.pc, self.sp):
+            return None
+        # A stack address just below the fiber's: gdb wants callers to lie above.
+        unwound = pending.create_unwind_info(FrameId(gdb.Value(self.context - 16), gdb.Value(pc)))
+        saved = records.memory(self.context, STACK_ABOVE_CONTEXT)
+        for register, offset in SAVED.items():
+            value = int.from_bytes(saved[offset : offset + 8], "little")
+            unwound.add_saved_register(register, typed(value, register))
+        unwound.add_saved_register("rsp", typed(self.context + STACK_ABOVE_CONTEXT, "rsp"))
+        return unwound
+
+
+def typed(value, register):
+    kind = "unsigned long" if register not in ("rip", "rsp", "rbp") else "char"
+    kind = gdb.lookup_type(kind)
+    return gdb.Value(value).cast(kind if kind.sizeof == 8 else kind.pointer())
+
+
+class WithoutTheProcessors:
+    """A frame filter: of a selected fiber, only its own frames."""
+
+    name, priority, enabled = "waitpoint-fiber", 1000, True
+
+    def filter(self, frames):
+        if not parked.context:
+            yield from frames
+            return
+        begun, first = False, parked.resumes_at()
+        for frame in frames:
+            begun = begun or (frame.inferior_frame().pc() == first and frame.inferior_frame().level() > 0)
+            if begun:
+                yield frame
+
+
+parked = ParkedFiber()
+calling = False  # a function of the process, for an expression: the fiber stays selected
+
+
+def innermost():
+    """The innermost frame of what is selected."""
+    frame = gdb.newest_frame()
+    if parked.context:
+        first = parked.resumes_at()
+        frame = frame.older()
+        while frame is not None and frame.pc() != first:
+            frame = frame.older()
+    if frame is None:
+        raise gdb.GdbError("the fiber's frames cannot be found: is its stack damaged?")
+    return frame
+
+
+def select_users_frame():
+    """Selects the innermost frame that belongs to no primitive, or the innermost of all."""
+    frame = first = innermost()
+    while frame is not None:
+        table = frame.find_sal().symtab
+        if table is not None and not INNER.search(table.fullname()):
+            break
+        frame = frame.older()
+    (frame or first).select()
+
+
+def select(task):
+    """Shows `task` until something else is selected or the process goes on."""
+    if gdb.selected_inferior().architecture().name() != "i386:x86-64":
+        raise gdb.GdbError("the registers of a parked fiber are known for x86-64 only")
+    if task.context:
+        parked.select(task.context)
+    else:  # its stack is the processor's
+        parked.deselect()
+    select_users_frame()
+
+
+def on_continue(_):
+    if not calling:
+        parked.deselect()
+
+
+def on_call(event):
+    global calling
+    calling = isinstance(event, gdb.InferiorCallPreEvent)
+
+
+def register():
+    gdb.unwinder.register_unwinder(None, parked, replace=True)
+    gdb.frame_filters[WithoutTheProcessors.name] = WithoutTheProcessors()
+    gdb.events.cont.connect(on_continue)
+    gdb.events.inferior_call.connect(on_call)

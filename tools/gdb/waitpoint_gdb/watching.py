@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The events of a process under gdb: asking the kernel to stop at one, and telling where it stopped.
+
+The kernel (fibers/kernel/debugger.hpp) compares each event with what is asked here and calls an empty function when it is
+the one; so a step over a million events costs two stops, and none in between.
+"""
+
+import gdb
+
+from . import checkpoints, fibers, records, selection
+
+NEVER = 2**64 - 1
+
+
+class Request:
+    """What the process is asked to stop at: kept here, because a checkpoint has in it what was asked when it was made."""
+
+    def __init__(self):
+        self.event, self.task, self.times = 0, 0, []
+
+    def write(self):
+        records.write_view("stop_at_event", self.event)
+        records.write_view("stop_at_task", self.task)
+        records.write_view("stop_at_time.ns_", self.times[0] if self.times else records.NO_TIME)
+
+
+class RunBegins(gdb.Breakpoint):
+    """A run is entered: the first of a process makes the kernel show its events."""
+
+    def __init__(self):
+        super().__init__("waitpoint::kernel::debugger_run", internal=True)
+        self.silent = True
+
+    def stop(self):
+        if not records.view().number("watching"):
+            checkpoints.forget()
+            watch()
+        self.enabled = False
+        return False
+
+
+class EventReached(gdb.Breakpoint):
+    """An event that was asked for is executed."""
+
+    place = "waitpoint::kernel::debugger_stop"
+
+    def __init__(self):
+        super().__init__(self.place, internal=True)
+        self.silent = True
+
+
+class CheckpointDue(gdb.Breakpoint):
+    """Enough events since the last checkpoint; the process goes on by itself."""
+
+    place = "waitpoint::kernel::debugger_checkpoint"
+
+    def __init__(self):
+        super().__init__(self.place, internal=True)
+        self.silent = True
+
+    def stop(self):
+        checkpoints.make(events())
+        return False
+
+
+request = Request()
+replaying = False  # somewhere in between nobody wants to be told
+breakpoints = {}
+
+
+def events():
+    """How many were seen in this process, of all runs."""
+    return records.view().number("events")
+
+
+def watch():
+    """The kernel shows its events to gdb from now on."""
+    view = records.view()
+    if view.number("watching"):
+        return
+    records.write_view("watching", 1)
+    if run := view.number("scheduler"):
+        gdb.selected_inferior().write_memory(run + records.place("Scheduler", "watched_")[0], b"\1")
+    records.write_view("checkpoint_at", view.number("events") + 1 if checkpoints.wanted() else NEVER)
+    request.write()
+
+
+def is_process():
+    """And no core file, nor nothing at all."""
+    inferior = gdb.selected_inferior()
+    return bool(inferior.pid and inferior.connection is not None and inferior.connection.type != "core")
+
+
+def check_alive():
+    if not is_process():
+        raise gdb.GdbError("no process is being run: run or start it first")
+
+
+def at_an_event():
+    """Whether the process stands at the beginning of the event that was executed last."""
+    return gdb.newest_frame().name() in (EventReached.place, CheckpointDue.place)
+
+
+def describe_event():
+    """The event now executing."""
+    scheduler = records.scheduler()
+    where = f"event {scheduler.number('executed_')} at {records.seconds(scheduler.number('now_.ns_'))} s"
+    if not (address := records.running()):
+        return where
+    task = fibers.Task(address)
+    at = task.number("at")
+    thing = f" {fibers.Object(at).describe()}" if at and last("object") else ""
+    return f"{where}: {task.describe()}: {records.enumerators('Operation')[last('operation')]}{thing}"
+
+
+def last(member):
+    return records.view().number(f"last.{member}")
+
+
+def tell():
+    print(describe_event())
+    selection.select_users_frame()
+    gdb.execute("frame")
+
+
+def on_stop(event):
+    if replaying or not isinstance(event, gdb.BreakpointEvent) or breakpoints.get("stop") not in event.breakpoints:
+        return
+    now = last("time.ns_")
+    request.times = [time for time in request.times if time > now]
+    request.event = request.task = 0
+    request.write()
+    tell()
+
+
+def go_on():
+    """Lets the process run until something stops it; what is asked for is written before, and forgotten after."""
+    request.write()
+    try:
+        gdb.execute("continue")
+    finally:
+        request.event = request.task = 0
+
+
+def on_new_process(_=None):
+    """A process is started, or another program read."""
+    if "run" in breakpoints:
+        breakpoints["run"].enabled = True
+
+
+def on_exit(_):
+    selection.parked.context = 0
+    checkpoints.forget()
+    on_new_process()
+
+
+def on_new_program(_):
+    records.forget()
+    on_new_process()
+
+
+def register():
+    if breakpoints:
+        return
+    pending = gdb.parameter("breakpoint pending")
+    gdb.execute("set breakpoint pending on")
+    try:
+        breakpoints.update(run=RunBegins(), stop=EventReached(), checkpoint=CheckpointDue())
+        checkpoints.register()
+    finally:
+        gdb.execute(f"set breakpoint pending {'auto' if pending is None else 'on' if pending else 'off'}")
+    gdb.events.stop.connect(on_stop)
+    gdb.events.exited.connect(on_exit)
+    gdb.events.new_objfile.connect(on_new_program)
