@@ -168,11 +168,12 @@ class Stepping(unittest.TestCase):
         self.assertIn("event ", told[2])
         self.assertEqual(digest(told[-1]), plain_digest())
 
-    def test_a_thousand_stops_and_looks_change_no_digest(self):
-        loop = "python\nfor i in range(30): gdb.execute('next-event'); gdb.execute('fiber apply all bt', to_string=True)"
-        told = of_clock_makers("break-time 0", "run", loop.replace("python\n", "python exec(\"\"\"") + '""")', "continue")
-        self.assertEqual(told[2].count("\nevent ") + told[2].startswith("event "), 30)
-        self.assertEqual(digest(told[3]), plain_digest())
+    def test_stops_and_looks_at_every_event_change_no_digest(self):
+        loop = """python exec("for i in range(37): gdb.execute('next-event'); gdb.execute('fiber apply all bt', to_string=True)")"""
+        told = of_clock_makers("break-time 0", "run", loop, "virtual-time", "continue")
+        self.assertEqual(re.findall(r"^event (\d+) at", told[2], re.MULTILINE), [str(event) for event in range(2, 39)])
+        self.assertIn("1.000000000 s, event 38", told[3])
+        self.assertEqual(digest(told[4]), plain_digest())
 
 
 class Back(unittest.TestCase):
@@ -205,7 +206,7 @@ class Back(unittest.TestCase):
     def test_says_when_the_run_does_not_repeat(self):
         told = of_clock_makers("break-time 1ns", "run", "next-event", "back", arguments=["0", "restless"])
         self.assertIn("event 12", told[2])
-        self.assertIn("this run does not repeat: what was event 11 is another one now", told[3])
+        self.assertIn("this run does not repeat", told[3])
 
 
 class Office(unittest.TestCase):

@@ -44,7 +44,7 @@ class Back(gdb.Command):
         selection.parked.deselect()
         replay(target)
         if expected not in (None, event_seen("last")):
-            print(f"warning: this run does not repeat: what was event {target} is another one now")
+            print("warning: this run does not repeat: the event is another one than it was")
         watching.tell()
 
 

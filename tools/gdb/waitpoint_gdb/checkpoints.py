@@ -17,7 +17,7 @@ from . import records
 SPACING_MIN = 65536  # events: some 50 ms of a replay
 MOST = 12
 
-kept = {}  # by event: the number that gdb has given
+kept = {}  # by event: (the number that gdb has given, process)
 spacing = SPACING_MIN
 exit_breakpoint = None
 
@@ -52,7 +52,8 @@ class Exit(gdb.Breakpoint):
 
 
 def wanted():
-    return gdb.parameter("waitpoint-checkpoints")
+    """Not of a process that was there before gdb: its forks would go on when gdb leaves it."""
+    return gdb.parameter("waitpoint-checkpoints") and not gdb.selected_inferior().was_attached
 
 
 def listed():
@@ -66,13 +67,14 @@ def listed():
 
 
 def fork():
-    """Makes a checkpoint of the process as it stands; its number."""
+    """Makes a checkpoint of the process as it stands: (number, process)."""
     before = set(listed()[0])
     gdb.execute("checkpoint", to_string=True)
-    new = set(listed()[0]) - before - {0}
+    processes = listed()[0]
+    new = set(processes) - before - {0}
     if not new:
         raise gdb.GdbError("the process cannot be forked")
-    return max(new)
+    return max(new), processes[max(new)]
 
 
 def make(event):
@@ -85,7 +87,7 @@ def make(event):
     while len(kept) > MOST:
         spacing *= 2
         for surplus in sorted(kept)[1::2]:
-            delete(kept.pop(surplus))
+            delete(*kept.pop(surplus))
     ask_for_next(event)
 
 
@@ -94,42 +96,52 @@ def ask_for_next(event):
     records.write_view("checkpoint_at", max(before, default=event) + spacing if wanted() else 2**64 - 1)
 
 
-def delete(number):
+def delete(number, process):
     """Ends a process that is not the current one.
 
     Not by `delete checkpoint`: gdb 13 fails at the first process, whose parent is gdb itself. A signal to stop is waiting
     for the process when it is let go, so that it executes nothing more."""
-    process = listed()[0].get(number)
-    if process is None:
-        return
+    if listed()[0].get(number) != process:
+        return  # it is gone
     os.kill(process, signal.SIGSTOP)
     gdb.execute(f"detach checkpoint {number}", to_string=True)
     os.kill(process, signal.SIGKILL)
 
 
 def delete_all():
-    for number in kept.values():
-        delete(number)
+    for checkpoint in kept.values():
+        delete(*checkpoint)
     forget()
 
 
 def delete_after(event):
     """What comes later need not come again: somebody may change a variable."""
     for made in [made for made in kept if made > event]:
-        delete(kept.pop(made))
+        delete(*kept.pop(made))
 
 
 def restart_before(event):
     """Goes to the last checkpoint not after `event`; the process that was there before is given up."""
-    before = [made for made in kept if made <= event]
+    processes, left = listed()
+    before = [made for made, (number, process) in kept.items() if made <= event and processes.get(number) == process]
     if not before:
         raise gdb.GdbError("there is no checkpoint before that event: gdb did not watch the process then")
-    nearest, (_, left) = max(before), listed()
-    gdb.execute(f"restart {kept[nearest]}", to_string=True)
+    nearest = max(before)
+    gdb.execute(f"restart {kept[nearest][0]}", to_string=True)
     kept[nearest] = fork()
-    delete(left)
+    delete(left, processes[left])
     delete_after(event)
     return nearest
+
+
+def adopt_current(event):
+    """When a process dies otherwise than by its exit, gdb goes on with a checkpoint, which is none any more."""
+    for made, (_, process) in list(kept.items()):
+        if process == gdb.selected_inferior().pid:
+            del kept[made]
+            print(f"The process that was here is gone; this is a checkpoint of it, of event {made}.")
+            if event == made:
+                kept[event] = fork()
 
 
 def forget():

@@ -94,6 +94,7 @@ def is_process():
 def check_alive():
     if not is_process():
         raise gdb.GdbError("no process is being run: run or start it first")
+    checkpoints.adopt_current(events())
 
 
 def at_an_event():
@@ -140,6 +141,8 @@ def go_on():
         gdb.execute("continue")
     finally:
         request.event = request.task = 0
+        if is_process() and not gdb.selected_thread().is_running():
+            request.write()
 
 
 def on_new_process(_=None):
