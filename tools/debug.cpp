@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "tools/data_folder.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -18,7 +19,7 @@ std::filesystem::path own_program() { return std::filesystem::read_symlink("/pro
 
 std::filesystem::path commands() {
   const std::filesystem::path folder = own_program().parent_path();
-  const std::filesystem::path installed = std::filesystem::path(WAITPOINT_DATA) / "gdb";
+  const std::filesystem::path installed = std::filesystem::path(data_folder) / "gdb";
   for (const std::filesystem::path& place : {folder / "gdb", folder / "../share/waitpoint/gdb", installed}) {
     const std::filesystem::path script = place / "waitpoint-gdb.py";
     if (std::filesystem::exists(script)) return script.lexically_normal();

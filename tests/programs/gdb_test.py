@@ -142,7 +142,7 @@ class Looking(unittest.TestCase):
         self.assertEqual(told[0], "no program is being run, and no core file is read")
         self.assertEqual(told[1:3], ["no process is being run: run or start it first"] * 2)
         self.assertIn("expected a time such as 12.5", told[3])
-        for text, expected in zip(told[6:], ["there is no fiber 77", "there is no fiber 'nobody'",
+        for text, expected in zip(told[6:], ["there is no fiber '77'", "there is no fiber 'nobody'",
                                              "no task waits for, uses or holds an object 'nothing'", "expected: blocked-on",
                                              "there is no fiber 'nobody'", "expected: next-event [N]",
                                              "it is 0.001000000 s already", "expected: fiber apply", "there is no event"]):

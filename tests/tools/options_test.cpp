@@ -109,6 +109,22 @@ TEST_F(CommandLine, a_self_check_writes_no_files_and_is_of_one_run) {
   EXPECT_EQ(message({"run", "a", "--check", "--speed", "1"}), "--check: cannot be used together with --speed");
 }
 
+TEST_F(CommandLine, what_is_to_be_run_in_gdb_is_left_as_it_is) {
+  using Words = std::vector<std::string>;
+  const auto of_scenario =
+      std::get<DebugOptions>(read({"gdb", "-batch", "-x", "f", "--", "run", "a.yaml", "--seed", "?"}));
+  EXPECT_EQ(of_scenario.gdb_options, (Words{"-batch", "-x", "f"}));
+  EXPECT_EQ(of_scenario.words, (Words{"run", "a.yaml", "--seed", "?"}));
+  EXPECT_TRUE(of_scenario.own);
+  const auto of_program = std::get<DebugOptions>(read({"gdb", "--", "./runner", "--", "run"}));
+  EXPECT_EQ(of_program.words, (Words{"./runner", "--", "run"}));
+  EXPECT_FALSE(of_program.own);
+  for (const std::vector<const char*>& wrong :
+       {std::vector<const char*>{"gdb"}, {"gdb", "--"}, {"gdb", "run", "a.yaml"}})
+    EXPECT_NE(message(wrong).find("gdb: expected what to run"), std::string::npos);
+  EXPECT_NE(std::get<ShownText>(read({"gdb", "--help"})).text.find("-- PROGRAM"), std::string::npos);
+}
+
 TEST_F(CommandLine, help_and_version_are_texts) {
   EXPECT_EQ(std::get<ShownText>(read({"--version"})).text, "waitpoint 1.2.3\n");
   const std::string help = std::get<ShownText>(read({"run", "--help"})).text;

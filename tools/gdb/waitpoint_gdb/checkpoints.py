@@ -19,6 +19,7 @@ MOST = 12
 
 kept = {}  # by event: (the number that gdb has given, process)
 spacing = SPACING_MIN
+refused = False  # gdb cannot: the program has threads of the system
 exit_breakpoint = None
 
 
@@ -53,7 +54,7 @@ class Exit(gdb.Breakpoint):
 
 def wanted():
     """Not of a process that was there before gdb: its forks would go on when gdb leaves it."""
-    return gdb.parameter("waitpoint-checkpoints") and not gdb.selected_inferior().was_attached
+    return gdb.parameter("waitpoint-checkpoints") and not refused and not gdb.selected_inferior().was_attached
 
 
 def listed():
@@ -79,11 +80,15 @@ def fork():
 
 def make(event):
     """Of the event that begins now; called where the kernel calls debugger_checkpoint()."""
-    global spacing, exit_breakpoint
+    global spacing, refused, exit_breakpoint
     if exit_breakpoint is None:
         exit_breakpoint = Exit()
-    if wanted() and event not in kept:
-        kept[event] = fork()
+    try:
+        if wanted() and event not in kept:
+            kept[event] = fork()
+    except gdb.error as reason:
+        refused = True
+        print(f"`back` cannot be had: {reason}")
     while len(kept) > MOST:
         spacing *= 2
         for surplus in sorted(kept)[1::2]:
@@ -146,9 +151,9 @@ def adopt_current(event):
 
 def forget():
     """Of a process that is gone."""
-    global spacing
+    global spacing, refused
     kept.clear()
-    spacing = SPACING_MIN
+    spacing, refused = SPACING_MIN, False
 
 
 def register():

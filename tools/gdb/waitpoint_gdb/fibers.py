@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tasks of the run as fibers: in the order of their making, numbered from 1 as they stand now, and what each one waits
-for, in the words of the reports (fibers/sync/blocked_report.cpp)."""
+"""The tasks of the run as fibers, numbered from 1 in the order of their making, and what each one waits for, in the words
+of the reports (fibers/sync/blocked_report.cpp)."""
 
 import gdb
 
@@ -12,10 +12,18 @@ PARTS = {0: ("events_.heap_.entries_", "EventEntry"), 1: ("events_.run_", "Event
          2: ("events_.calendar_.slots_", "Calendar::Slot")}
 
 
+READY = 0xFFFFFFFE  # the place of an event that is due now, where somebody else decides the order: see ready_set.hpp
+
+
 class Task(records.Record):
     def __init__(self, address):
         super().__init__("Task", address)
         self.name_given = self.text("name")
+
+    @property
+    def made(self):
+        """Its number."""
+        return self.number("number") + 1
 
     @property
     def robot(self):
@@ -92,6 +100,8 @@ def all_tasks(scheduler=None):
 def due(task, scheduler):
     """When the event of a task that is not running is due."""
     location = task.number("event.place")
+    if location == READY:
+        return scheduler.number("now_.ns_")
     if location >> 30 not in PARTS:
         return records.NO_TIME
     path, name = PARTS[location >> 30]
@@ -119,17 +129,16 @@ def waits_for(task, scheduler):
     return f"its turn: {task.operation}" + (f" {Object(at).describe()}" if at else "")
 
 
+def is_called(task, word):
+    return word in (str(task.made), task.name_given, f"{task.robot}/{task.name_given}")
+
+
 def find(word):
-    """(number, task) of the fiber that is meant by its number, NAME, or ROBOT/NAME."""
-    tasks = list(enumerate(all_tasks(), 1))
-    if word.isdigit():
-        if not 1 <= int(word) <= len(tasks):
-            raise gdb.GdbError(f"there is no fiber {word}; info fibers lists what there is")
-        return tasks[int(word) - 1]
-    fitting = [(number, task) for number, task in tasks if word in (task.name_given, f"{task.robot}/{task.name_given}")]
+    """The fiber that is meant by its number, NAME, or ROBOT/NAME."""
+    fitting = [task for task in all_tasks() if is_called(task, word)]
     if not fitting:
         raise gdb.GdbError(f"there is no fiber '{word}'; info fibers lists what there is")
     if len(fitting) > 1:
-        numbers = ", ".join(str(number) for number, _ in fitting)
+        numbers = ", ".join(str(task.made) for task in fitting)
         raise gdb.GdbError(f"fibers {numbers} are called '{word}': say ROBOT/NAME, or the number")
     return fitting[0]

@@ -8,9 +8,9 @@ import gdb
 from . import fibers, records, selection
 
 
-def header(number, task, scheduler):
+def header(task, scheduler):
     waiting = "" if task.state == "running" else f": {fibers.waits_for(task, scheduler)}"
-    return f"Fiber {number}, {task.describe()}, at {records.seconds(task.number('local_time.ns_'))} s, {task.state}{waiting}"
+    return f"Fiber {task.made}, {task.describe()}, at {records.seconds(task.number('local_time.ns_'))} s, {task.state}{waiting}"
 
 
 class Waitpoint(gdb.Command):
@@ -37,7 +37,7 @@ class Waitpoint(gdb.Command):
 class InfoFibers(gdb.Command):
     """The tasks of the run: number, name, robot, module, local virtual time in seconds, state, and what they wait for.
 
-    Numbers go by the order in which the tasks that are left were made. The star is at the one that is running."""
+    Numbers are given in the order in which tasks are made. The star is at the one that is running."""
 
     def __init__(self):
         super().__init__("info fibers", gdb.COMMAND_STATUS)
@@ -45,9 +45,9 @@ class InfoFibers(gdb.Command):
     def invoke(self, argument, from_tty):
         scheduler = records.scheduler()
         rows = [("", "No", "Name", "Robot", "Module", "Local time", "State", "Waits for")]
-        for number, task in enumerate(fibers.all_tasks(scheduler), 1):
+        for task in fibers.all_tasks(scheduler):
             state = task.state
-            rows.append(("*" if state == "running" else "", str(number), task.name_given, task.robot, task.module or "-",
+            rows.append(("*" if state == "running" else "", str(task.made), task.name_given, task.robot, task.module or "-",
                          records.seconds(task.number("local_time.ns_")), state,
                          "" if state == "running" else fibers.waits_for(task, scheduler)))
         widths = [max(map(len, column)) for column in zip(*rows)]
@@ -66,20 +66,20 @@ class Fiber(gdb.Command):
     def invoke(self, argument, from_tty):
         word = argument.strip()
         if word:
-            number, task = fibers.find(word)
+            task = fibers.find(word)
             selection.select(task)
         else:
-            number, task = selected()
-        print(header(number, task, records.scheduler()))
+            task = selected()
+        print(header(task, records.scheduler()))
         gdb.execute("frame")
 
 
 def selected():
-    """(number, task) of the fiber selected, or of that whose stack is the processor's."""
+    """The fiber selected, or of that whose stack is the processor's."""
     context = selection.parked.context
-    for number, task in enumerate(fibers.all_tasks(), 1):
+    for task in fibers.all_tasks():
         if task.context == context:
-            return number, task
+            return task
     raise gdb.GdbError("no fiber is selected: the process is on its main stack")
 
 
@@ -92,18 +92,18 @@ class FiberApply(gdb.Command):
     def invoke(self, argument, from_tty):
         words = argument.split()
         if words[:1] == ["all"]:
-            chosen, words = list(enumerate(fibers.all_tasks(), 1)), words[1:]
+            chosen, words = fibers.all_tasks(), words[1:]
         else:
-            chosen = []
-            while words and (words[0].isdigit() or self.is_name(words[0])):
+            chosen, tasks = [], fibers.all_tasks()
+            while words and (words[0].isdigit() or any(fibers.is_called(task, words[0]) for task in tasks)):
                 chosen.append(fibers.find(words.pop(0)))
         if not chosen or not words:
             raise gdb.GdbError("expected: fiber apply all|N ... COMMAND")
         scheduler, before, level = records.scheduler(), selection.parked.context, gdb.selected_frame().level()
         try:
-            for number, task in chosen:
+            for task in chosen:
                 selection.select(task)
-                print(f"\n{header(number, task, scheduler)}")
+                print(f"\n{header(task, scheduler)}")
                 gdb.execute(" ".join(words))
         finally:
             selection.parked.select(before) if before else selection.parked.deselect()
@@ -111,10 +111,6 @@ class FiberApply(gdb.Command):
             while frame.level() < level and frame.older() is not None:
                 frame = frame.older()
             frame.select()
-
-    @staticmethod
-    def is_name(word):
-        return any(word in (task.name_given, f"{task.robot}/{task.name_given}") for task in fibers.all_tasks())
 
 
 class VirtualTime(gdb.Command):

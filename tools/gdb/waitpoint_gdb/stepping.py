@@ -51,7 +51,7 @@ class NextEventOf(gdb.Command):
             raise gdb.GdbError("expected: next-event-of N|NAME|ROBOT/NAME")
         watching.check_alive()
         watching.watch()
-        watching.request.task = fibers.find(argument.strip())[1].number("id")
+        watching.request.task = fibers.find(argument.strip()).number("id")
         watching.go_on()
 
 

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the files that the library needs beside itself are installed. The build writes the source.
+#pragma once
+
+namespace waitpoint::tools {
+
+/// An absolute path: PREFIX/share/waitpoint.
+extern const char* const data_folder;
+
+}  // namespace waitpoint::tools
