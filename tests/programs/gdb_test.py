@@ -31,30 +31,30 @@ def folder():
 
 
 @functools.lru_cache(maxsize=None)
-def clock_makers():
-    """The program, compiled as a user would: optimised, with debugging information, the library as an archive."""
-    (folder() / "include").mkdir()
-    (folder() / "include/waitpoint").symlink_to(ROOT)
-    program = folder() / "clock_makers"
+def compiled(name):
+    """A program as a user would compile it: optimised, with debugging information, the library as an archive."""
+    if not (folder() / "include").exists():
+        (folder() / "include").mkdir()
+        (folder() / "include/waitpoint").symlink_to(ROOT)
     compiler = os.environ.get("CXX", "g++").split()
-    subprocess.run([*compiler, "-std=c++20", "-O2", "-g", HERE / "clock_makers/clock_makers.cpp", f"-I{folder()}/include",
-                    f"-I{ROOT}", BUILD / "libwaitpoint.a", "-lboost_context", "-o", program], check=True)
-    return program
+    subprocess.run([*compiler, "-std=c++20", "-O2", "-g", HERE / name / f"{name}.cpp", f"-I{folder()}/include", f"-I{ROOT}",
+                    BUILD / "libwaitpoint.a", "-lboost_context", "-o", folder() / name], check=True)
+    return folder() / name
 
 
-def session(commands, arguments, start=PLAIN):
+def session(commands, arguments, start=PLAIN, **environment):
     """What gdb said to each of the commands, in their order; of what the process writes, what came meanwhile."""
     words = [*start, "-ex", "set pagination off", "-ex", "set width 0"]
     for number, command in enumerate(commands):
         words += ["-ex", f"echo @{number}@\\n", "-ex", command]
     words += ["-ex", "echo @end@\\n", *map(str, arguments)]
-    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=CLEAN, timeout=120,
-                          cwd=folder())
+    done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120,
+                          cwd=folder(), env={**CLEAN, **environment})
     return [part.strip() for part in re.split(r"@(?:\d+|end)@\n", done.stdout)[1:-1]]
 
 
 def of_clock_makers(*commands, arguments=()):
-    return session(commands, ["--args", clock_makers(), *arguments])
+    return session(commands, ["--args", compiled("clock_makers"), *arguments])
 
 
 def digest(text):
@@ -63,7 +63,7 @@ def digest(text):
 
 @functools.lru_cache(maxsize=None)
 def plain_digest():
-    return digest(subprocess.run([clock_makers()], capture_output=True, text=True, check=True).stdout)
+    return digest(subprocess.run([compiled("clock_makers")], capture_output=True, text=True, check=True).stdout)
 
 
 class Looking(unittest.TestCase):
@@ -123,7 +123,7 @@ class Looking(unittest.TestCase):
         self.assertLess(core.stat().st_size, 1e9)
         commands = list(self.COMMANDS)
         commands[5:6] = ["fiber 4", "info locals"]
-        told = session([*commands, "next-event", "back"], [clock_makers(), core])
+        told = session([*commands, "next-event", "back"], [compiled("clock_makers"), core])
         core.unlink()
         self.assert_looks(told[:5] + told[6:-2])
         self.assertEqual(told[-2:], ["no process is being run: run or start it first"] * 2)
@@ -207,6 +207,22 @@ class Back(unittest.TestCase):
         told = of_clock_makers("break-time 1ns", "run", "next-event", "back", arguments=["0", "restless"])
         self.assertIn("event 12", told[2])
         self.assertIn("this run does not repeat", told[3])
+
+
+class Explored(unittest.TestCase):
+    def test_a_failing_schedule_is_stepped_through(self):
+        program = compiled("explored_letter")
+        found = subprocess.run([program], capture_output=True, text=True, env=CLEAN, timeout=60)
+        token = re.search(r"replay: WAITPOINT_REPLAY=(\S+)", found.stdout)[1]
+        told = session(["break-time 0", "run", "next-event 3", "next-event-of postman", "info fibers", "back",
+                        "fiber reader", "delete", "continue"], ["--args", program], WAITPOINT_REPLAY=token)
+        self.assertIn("event 4 at", told[2])
+        at = int(re.search(r"event (\d+) at 0\.0+ s: postman of environment: ", told[3])[1])
+        self.assertRegex(told[4], r"\n\* +3 +postman +environment")
+        self.assertIn(f"event {at - 1} at", told[5])
+        self.assertIn("Fiber 2, reader of environment, at 0.000000000 s, ", told[6])
+        self.assertIn(f"WAITPOINT_REPLAY={token}", told[8])
+        self.assertIn("deadlock at 0.000000000 s", told[8])
 
 
 class Office(unittest.TestCase):

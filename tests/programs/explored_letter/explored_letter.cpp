@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A letter that is lost in one order of its threads: exploration finds it, and its token is stepped through in gdb.
+#include <iostream>
+#include <mutex>
+#include <waitpoint/fibers/explore/explore.hpp>
+#include <waitpoint/fibers/sync/threads.hpp>
+
+namespace threads = waitpoint::threads;
+
+namespace {
+
+void lose_a_letter() {
+  threads::mutex door("door");
+  threads::condition_variable bell("bell");
+  threads::thread reader({.name = "reader"}, [&] {
+    std::unique_lock lock(door);
+    bell.wait(lock);  // nobody asks whether the letter is there already
+  });
+  threads::thread postman({.name = "postman"}, [&] { bell.notify_one(); });
+  postman.join();
+  reader.join();
+}
+
+}  // namespace
+
+int main() {
+  const waitpoint::ExploreReport report = waitpoint::explore(lose_a_letter);
+  std::cout << report << "\n";
+  return report.passed ? 0 : 1;
+}
