@@ -36,7 +36,11 @@ Supervisor::Supervisor(const Token& token, const std::string& replay, const std:
 
 Supervisor::~Supervisor() {
   if (shared_ != nullptr) shared_->done = true;
-  if (pipe_ >= 0) close(pipe_);
+  // Not the end of the pipe alone: processes that a debugger or the body forked may have it open still.
+  if (pipe_ >= 0) {
+    (void)!write(pipe_, "", 1);
+    close(pipe_);
+  }
   if (process_ > 0) waitpid(process_, nullptr, 0);
   if (shared_ != nullptr) munmap(shared_, sizeof(Shared));
 }
@@ -51,12 +55,11 @@ void Supervisor::pause() {
   if (shared_ != nullptr) shared_->under_way.store(false, std::memory_order_relaxed);
 }
 
-// In the supervisor: the pipe's other end is closed when the explored process is gone, however it went.
+// In the supervisor: it is told, or the pipe's other end is closed when the explored process is gone, however it went.
 void Supervisor::wait_for_the_end(int pipe, const Token& token, const std::string& replay, const std::string& after) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
   char byte = 0;
-  while (read(pipe, &byte, 1) > 0) {
-  }
+  (void)!read(pipe, &byte, 1);
   if (!shared_->done && shared_->under_way) {
     Token failed = token;
     failed.number = shared_->number;
