@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "fibers/kernel/sanitizer.hpp"
+
 namespace waitpoint::io {
 
 void Channel::enter() {
@@ -40,6 +42,8 @@ void Channel::wake_pollers() {
 
 void Channel::wake_one(kernel::Object& side) {
   if (scheduler_ == nullptr) return;  // nobody has used it yet
+  // What is there to be had came after the waitpoint before it.
+  kernel::sanitizer::release(&side);
   scheduler_->wake_one(side);
   wake_pollers();
 }
@@ -61,6 +65,7 @@ void Channel::wake_one_for_arrival(kernel::Object& side) {
 
 void Channel::wake_all(kernel::Object& side) {
   if (scheduler_ == nullptr) return;
+  kernel::sanitizer::release(&side);
   scheduler_->wake_all(side);
   wake_pollers();
 }

@@ -21,6 +21,7 @@
 
 #include "fibers/io/letter.hpp"
 #include "fibers/io/network.hpp"
+#include "fibers/sync/unseen.hpp"
 
 namespace waitpoint::io {
 
@@ -75,12 +76,14 @@ class mailbox : public Channel {
 
   std::size_t capacity() const { return capacity_; }
   Events ready() const override {
+    const sync::Unseen unseen;
     return when(!letters_.empty() || closed_, Events::readable) |
            when(letters_.size() < capacity_ || closed_, Events::writable) | when(closed_, Events::closed);
   }
 
   /// A letter from a sender by name.
   void arrive(const T& letter, Receipt receipt) {
+    const sync::Unseen unseen;
     letters_.push_back({letter, std::move(receipt)});
     wake_one_for_arrival(receiving_);
   }
@@ -91,6 +94,7 @@ class mailbox : public Channel {
     Receipt receipt;  // none for the own robot's
   };
   void refresh() override {
+    const sync::Unseen unseen;
     letters_.clear();
     closed_ = false;
     node_ = nullptr;
@@ -121,8 +125,12 @@ template <class T>
 template <class Letter>
 Status mailbox<T>::send(Letter&& letter, const Deadline& deadline) {
   if (!begin(kernel::Operation::send, sending_)) return Status::closed;
-  const Status status = wait(sending_, deadline, [&] { return closed_ || letters_.size() < capacity_; });
+  const Status status = wait(sending_, deadline, [&] {
+    const sync::Unseen unseen;
+    return closed_ || letters_.size() < capacity_;
+  });
   if (status != Status::ok) return status;
+  const sync::Unseen unseen;
   if (closed_) return Status::peer_closed;
   letters_.push_back({T(std::forward<Letter>(letter)), nullptr});
   if constexpr (Sendable<T>) record_sent("mailbox", hash_of(letters_.back().letter));
@@ -133,8 +141,12 @@ Status mailbox<T>::send(Letter&& letter, const Deadline& deadline) {
 template <class T>
 Result<T> mailbox<T>::receive(const Deadline& deadline) {
   if (!begin(kernel::Operation::receive, receiving_)) return Status::closed;
-  const Status status = wait(receiving_, deadline, [&] { return closed_ || !letters_.empty(); });
+  const Status status = wait(receiving_, deadline, [&] {
+    const sync::Unseen unseen;
+    return closed_ || !letters_.empty();
+  });
   if (status != Status::ok) return status;
+  const sync::Unseen unseen;
   if (letters_.empty()) return Status::end_of_file;
   Entry entry = std::move(letters_.front());
   letters_.pop_front();
@@ -146,6 +158,7 @@ Result<T> mailbox<T>::receive(const Deadline& deadline) {
 
 template <class T>
 void mailbox<T>::shut(bool tell) {
+  const sync::Unseen unseen;
   if (node_ != nullptr) node_->release(Protocol::mailbox, port_);
   node_ = nullptr;
   if (std::exchange(closed_, true) || !tell) return;

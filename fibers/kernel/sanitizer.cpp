@@ -23,6 +23,10 @@ WAITPOINT_WEAK void __tsan_switch_to_fiber(void* fiber, unsigned flags);
 WAITPOINT_WEAK void __tsan_set_fiber_name(void* fiber, const char* name);
 WAITPOINT_WEAK void __tsan_acquire(void* address);
 WAITPOINT_WEAK void __tsan_release(void* address);
+// Of our own runtime behind -fsanitize=thread: fibers/explore/races.
+WAITPOINT_WEAK void waitpoint_races_open_run();
+WAITPOINT_WEAK void waitpoint_races_close_run();
+WAITPOINT_WEAK void waitpoint_races_forget(const void* low, std::size_t size);
 #undef WAITPOINT_WEAK
 }
 
@@ -72,7 +76,16 @@ void look() {
   present = address || thread || valgrind;
 }
 
+void begin_run() {
+  if (&waitpoint_races_open_run != nullptr) waitpoint_races_open_run();
+}
+
+void end_run() {
+  if (&waitpoint_races_close_run != nullptr) waitpoint_races_close_run();
+}
+
 void open_stack(const Stack& stack) {
+  if (&waitpoint_races_forget != nullptr) return waitpoint_races_forget(stack.low, size_of(stack));
   if (address) {
     __asan_unpoison_memory_region(stack.low, size_of(stack));
     // Objects that only a parked task knows are no leaks.
@@ -136,6 +149,28 @@ void arrive(Fiber& left, Fiber& here) {
     if (left.ended) __tsan_destroy_fiber(left.known_as);
   }
   if (valgrind && left.ended) ask_valgrind(deregister_stack, reinterpret_cast<std::uint64_t>(left.known_as));
+}
+
+void* enter_timer(void*& known_as) {
+  if (!thread) return nullptr;
+  void* const interrupted = __tsan_get_current_fiber();
+  if (known_as == nullptr) {
+    known_as = __tsan_create_fiber(0);
+    __tsan_set_fiber_name(known_as, "timers");
+  }
+  __tsan_switch_to_fiber(known_as, without_synchronization);
+  __tsan_acquire(&from_outside);
+  return interrupted;
+}
+
+void leave_timer(void* interrupted) {
+  if (!thread) return;
+  __tsan_release(&to_outside);
+  __tsan_switch_to_fiber(interrupted, without_synchronization);
+}
+
+void end_timer(void* known_as) {
+  if (thread && known_as != nullptr) __tsan_destroy_fiber(known_as);
 }
 
 void release(const void* object) {

@@ -27,6 +27,10 @@ extern bool present;
 /// Looks for them.
 void look();
 
+/// A run begins; it is over, its tasks unwound.
+void begin_run();
+void end_run();
+
 /// `stack` is about to be used: nothing that was known of its memory holds any more.
 void open_stack(const Stack& stack);
 /// `stack` is free again.
@@ -40,6 +44,13 @@ void name(const Fiber& fiber, const char* name);
 void leave(Fiber& from, Fiber& to);
 /// Immediately after a switch: in `here`, from `left`.
 void arrive(Fiber& left, Fiber& here);
+
+/// What follows, up to leave_timer, is not what the running fiber does: a timer's doing, of which `known_as` is the
+/// sanitizer's record (null at first). Returns what leave_timer wants.
+void* enter_timer(void*& known_as);
+void leave_timer(void* interrupted);
+/// There will be no more of it.
+void end_timer(void* known_as);
 
 /// What the caller did so far happens before what others do after they acquired `object`.
 void release(const void* object);

@@ -38,12 +38,14 @@ Scheduler::Scheduler(Order order, std::uint64_t seed) : events_(events_max), cho
   // write to the scheduler for races.
   may_stay_ = order == Order::fifo && !sanitizer::present;
   set_watch(nullptr);
+  if (sanitizer::present) sanitizer::begin_run();
 }
 
 Scheduler::~Scheduler() {
   WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
   unwind();
   tell_debugger_of_end(*this);
+  if (sanitizer::present) sanitizer::end_run();
 }
 
 void Scheduler::restart(std::uint64_t seed) {
@@ -63,6 +65,10 @@ void Scheduler::restart(std::uint64_t seed) {
   unheard_ = PairDigest();
   may_stay_ = chooser_.order() == Order::fifo && !sanitizer::present;
   unwinding_ = interrupted_ = false;
+  if (sanitizer::present) {
+    sanitizer::end_run();
+    sanitizer::begin_run();
+  }
 }
 
 void Scheduler::add(Robot& robot, const char* name) {

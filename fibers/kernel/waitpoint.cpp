@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The waitpoint: how a task's events find their place in the order of virtual time, and are executed.
+#include "fibers/kernel/access.hpp"
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
@@ -125,8 +126,8 @@ void Scheduler::set_watch(Watch* watch) {
 }
 
 void Scheduler::show(Operation operation, const Object* object) {
-  // Every use of an object comes after all earlier ones.
-  if (sanitizer::present && object != nullptr) {
+  // Every use of an object comes after all earlier ones; not so of memory.
+  if (sanitizer::present && object != nullptr && object->kind != memory_kind) {
     sanitizer::acquire(object);
     sanitizer::release(object);
   }

@@ -21,6 +21,7 @@
 
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/object.hpp"
+#include "fibers/sync/unseen.hpp"
 
 namespace waitpoint {
 
@@ -100,7 +101,7 @@ class atomic {
   T load(memory_order order = memory_order_seq_cst) const {
     WAITPOINT_CHECK(sync::can_load(order), "an atomic load is asked to release");
     before_looking(kernel::Operation::load);
-    return value_;
+    return get();
   }
   operator T() const { return load(); }
   void store(T value, memory_order order = memory_order_seq_cst) {
@@ -122,11 +123,11 @@ class atomic {
   }
   bool compare_exchange_strong(T& expected, T desired, memory_order = memory_order_seq_cst) {
     before_looking(kernel::Operation::compare_exchange);
-    const bool equal = sync::same_bits(value_, expected);
+    const bool equal = sync::same_bits(get(), expected);
     if (equal)
       put(desired);
     else
-      expected = value_;
+      expected = get();
     return equal;
   }
   bool compare_exchange_weak(T& expected, T desired, memory_order success, memory_order failure) {
@@ -139,24 +140,24 @@ class atomic {
   T fetch_add(difference_type by,
               memory_order = memory_order_seq_cst) requires sync::AtomicNumber<T> || sync::AtomicPointer<T> {
     before_changing(kernel::Operation::modify);
-    return put(sync::sum(value_, by));
+    return put(sync::sum(get(), by));
   }
   T fetch_sub(difference_type by,
               memory_order = memory_order_seq_cst) requires sync::AtomicNumber<T> || sync::AtomicPointer<T> {
     before_changing(kernel::Operation::modify);
-    return put(sync::difference(value_, by));
+    return put(sync::difference(get(), by));
   }
   T fetch_and(T bits, memory_order = memory_order_seq_cst) requires sync::AtomicInteger<T> {
     before_changing(kernel::Operation::modify);
-    return put(static_cast<T>(value_ & bits));
+    return put(static_cast<T>(get() & bits));
   }
   T fetch_or(T bits, memory_order = memory_order_seq_cst) requires sync::AtomicInteger<T> {
     before_changing(kernel::Operation::modify);
-    return put(static_cast<T>(value_ | bits));
+    return put(static_cast<T>(get() | bits));
   }
   T fetch_xor(T bits, memory_order = memory_order_seq_cst) requires sync::AtomicInteger<T> {
     before_changing(kernel::Operation::modify);
-    return put(static_cast<T>(value_ ^ bits));
+    return put(static_cast<T>(get() ^ bits));
   }
 
   T operator+=(difference_type by) requires sync::AtomicNumber<T> || sync::AtomicPointer<T> {
@@ -190,6 +191,7 @@ class atomic {
   void notify_one() {
     if (kernel::running == nullptr) return;
     before_changing(kernel::Operation::notify_one);
+    const sync::Unseen unseen;
     kernel::running->scheduler->wake_one(object_);
   }
   void notify_all() {
@@ -200,6 +202,7 @@ class atomic {
 
  private:
   void refresh() const {
+    const sync::Unseen unseen;
     if (kernel::running->scheduler->enter(object_)) value_ = initial_;
   }
   void before_looking(kernel::Operation operation) const {
@@ -212,8 +215,13 @@ class atomic {
     refresh();
     sync::before_releasing(operation, object_);
   }
+  T get() const {
+    const sync::Unseen unseen;
+    return value_;
+  }
   // The value before.
   T put(T value) {
+    const sync::Unseen unseen;
     const T before = value_;
     value_ = value;
     if (kernel::running == nullptr) initial_ = value;
@@ -222,9 +230,9 @@ class atomic {
   bool wait_before(T old, Time deadline) const {
     (void)sync::running_task();
     before_looking(kernel::Operation::wait);
-    while (sync::same_bits(value_, old)) {
+    while (sync::same_bits(get(), old)) {
       if (deadline <= now()) return false;
-      if (!sync::block(object_, deadline)) return !sync::same_bits(value_, old);
+      if (!sync::block(object_, deadline)) return !sync::same_bits(get(), old);
     }
     return true;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/barrier.hpp"
 
+#include "fibers/kernel/sanitizer.hpp"
+
 namespace waitpoint::sync {
 
 void BarrierCore::refresh() {
@@ -23,6 +25,8 @@ void BarrierCore::end_phase() {
   if (kernel::running->scheduler->unwinding()) return;
   missing_ = expected_;
   ++phase_;
+  // What the completion function did came after the last arrival's waitpoint.
+  kernel::sanitizer::release(&object_);
   kernel::running->scheduler->wake_all(object_);
 }
 

@@ -10,6 +10,7 @@
 #include "core/time.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/sync/unseen.hpp"
 
 namespace waitpoint::sync {
 
@@ -42,13 +43,18 @@ inline bool before_releasing(kernel::Operation operation, kernel::Object& object
 
 /// Blocks the running task on `object`; false if the deadline came first. Throws Unwind when the run is over.
 inline bool block(kernel::Object& object, Time deadline = Time::max()) {
-  ++object.users;
+  {
+    const Unseen unseen;
+    ++object.users;
+  }
   const kernel::Wake wake = kernel::running->scheduler->block(object, deadline);
   // A run that is over leaves its objects as they are: this one may be gone.
-  if (wake == kernel::Wake::unwinding)
+  if (wake == kernel::Wake::unwinding) {
     unwind();
-  else
+  } else {
+    const Unseen unseen;
     --object.users;
+  }
   return wake == kernel::Wake::woken;
 }
 

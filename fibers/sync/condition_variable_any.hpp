@@ -11,6 +11,7 @@
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/misuse.hpp"
 #include "fibers/sync/stop_token.hpp"
+#include "fibers/sync/unseen.hpp"
 
 namespace waitpoint {
 
@@ -80,7 +81,12 @@ class condition_variable_any {
   };
   // What a request to stop does to the waits of one call.
   struct Stop {
+    bool is_asked() const {
+      const sync::Unseen unseen;
+      return requested;
+    }
     void operator()() {
+      const sync::Unseen unseen;
       requested = true;
       if (waiter != nullptr && !waiter->notified) condition.notify(*waiter);
     }
@@ -100,7 +106,7 @@ class condition_variable_any {
   bool wait_before(Lock& lock, Time deadline, Stop* stop = nullptr) {
     Waiter self{stop};
     if (!enlist(self)) return false;
-    if (stop != nullptr && stop->requested) {  // before there was a waiter to wake
+    if (stop != nullptr && stop->is_asked()) {  // before there was a waiter to wake
       leave(self);
       return true;
     }
@@ -123,7 +129,7 @@ class condition_variable_any {
   bool wait_before(Lock& lock, stop_token token, Time deadline, Predicate ready) {
     Stop stop{*this};
     const stop_callback<Stop&> wake(std::move(token), stop);
-    while (!stop.requested) {
+    while (!stop.is_asked()) {
       if (ready()) return true;
       if (!wait_before(lock, deadline, &stop)) break;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/shared_state.hpp"
 
+#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint::sync {
@@ -64,6 +65,8 @@ void SharedState::store(Ready when) {
 void SharedState::publish() {
   ready_ = true;
   object_.owner = nullptr;
+  // What was stored came after the waitpoint before it.
+  kernel::sanitizer::release(&object_);
   kernel::running->scheduler->wake_all(object_);
 }
 

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/unseen.hpp"
 
 namespace waitpoint {
 
@@ -80,6 +81,7 @@ class ResultState : public SharedState {
   template <class... Value>
   void set(Ready when, Value&&... value) {
     if (!claim()) return;
+    const Unseen unseen;
     if constexpr (std::is_reference_v<T>)
       value_.emplace(&value...);
     else

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/digest.hpp"
+#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/sync/robot_state.hpp"
 #include "fibers/sync/simulation.hpp"
 
@@ -49,6 +50,7 @@ signal_sent post(ThreadState& to, int signal) {
   if (to.task == nullptr) return signal_sent::task_ended;
   TaskSignals& signals = signals_of(to);
   signals.pending.add(signal);
+  kernel::sanitizer::release(&signals);
   set_attention(*to.task, signals);
   return signal_sent::pending;
 }
@@ -73,6 +75,7 @@ void deliver_signals(kernel::Task& task) {
     while (!(signals.pending - signals.blocked).empty()) {
       const int signal = (signals.pending - signals.blocked).least();
       signals.pending.remove(signal);
+      kernel::sanitizer::acquire(&signals);  // who sent it did so before
       const signal_set blocked = signals.blocked;
       signals.blocked.add(signal);
       set_attention(task, signals);

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "fibers/sync/blocking.hpp"
+#include "fibers/sync/unseen.hpp"
 
 namespace waitpoint {
 namespace sync {
@@ -43,9 +44,20 @@ class StopState {
   /// Takes `callback` out. If another task is calling it, waits until that is done.
   void remove(StopCallback& callback);
 
-  std::uint32_t sources = 0;
+  /// Counts those who may ask.
+  void add_source() {
+    const Unseen unseen;
+    ++sources_;
+  }
+  void remove_source() {
+    const Unseen unseen;
+    --sources_;
+  }
   /// Without a waitpoint: whether there is somebody who has asked or may do so.
-  bool possible() const { return sources > 0 || requested_; }
+  bool possible() const {
+    const Unseen unseen;
+    return sources_ > 0 || requested_;
+  }
 
  private:
   void refresh();
@@ -53,6 +65,7 @@ class StopState {
   void unlink(StopCallback& callback);
 
   kernel::Object object_{"stop state"};
+  std::uint32_t sources_ = 0;
   bool requested_ = false;
   StopCallback* first_ = nullptr;
   StopCallback* last_ = nullptr;
@@ -93,10 +106,10 @@ inline constexpr nostopstate_t nostopstate{};
 
 class stop_source {
  public:
-  stop_source() : state_(std::make_shared<sync::StopState>()) { ++state_->sources; }
+  stop_source() : state_(std::make_shared<sync::StopState>()) { state_->add_source(); }
   explicit stop_source(nostopstate_t) noexcept {}
   stop_source(const stop_source& other) noexcept : state_(other.state_) {
-    if (state_ != nullptr) ++state_->sources;
+    if (state_ != nullptr) state_->add_source();
   }
   stop_source(stop_source&& other) noexcept = default;
   stop_source& operator=(stop_source other) noexcept {
@@ -104,7 +117,7 @@ class stop_source {
     return *this;
   }
   ~stop_source() {
-    if (state_ != nullptr) --state_->sources;
+    if (state_ != nullptr) state_->remove_source();
   }
 
   /// True for the first who asks. The callbacks have been called then; an exception out of one ends the program, as the

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/digest.hpp"
+#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/sync/robot_state.hpp"
 
 namespace waitpoint::sync {
@@ -30,8 +31,10 @@ struct RobotTimers : RobotState {
     task.service = true;
     std::strcpy(task.name, "timers");
   }
+  ~RobotTimers() override { kernel::sanitizer::end_timer(known_as); }
   RunTimers& run;
   kernel::Task task;
+  void* known_as = nullptr;  // to a sanitizer
 };
 
 }  // namespace
@@ -67,7 +70,9 @@ void TimerEvent::fire(kernel::EventNode& node) {
     return scheduler.stop_between_events(kernel::StopCause::no_progress, timers.task);
   }
 
+  void* const left = kernel::sanitizer::enter_timer(timers.known_as);
   kernel::Task* const interrupted = kernel::running;
+  kernel::Object* const timer = self.timer_;  // its callback may end what this is part of
   kernel::running = &timers.task;
   timers.task.local_time = self.due_;
   // What happens is part of the robot's digest, like what a task does.
@@ -77,7 +82,10 @@ void TimerEvent::fire(kernel::EventNode& node) {
   } catch (...) {
     WAITPOINT_CHECK(false, "an exception escapes from a timer's callback");
   }
+  // Who stops or starts the timer later comes after what it did.
+  kernel::sanitizer::release(timer);
   kernel::running = interrupted;
+  kernel::sanitizer::leave_timer(left);
 }
 
 }  // namespace waitpoint::sync

@@ -337,6 +337,27 @@ class SharedCounter(Installed):
         self.assertIn("stack-buffer-overflow", output)
 
 
+class RacyCounter(Installed):
+    """Races are found in what one command compiles and links: the flags are those of the library's own compiler."""
+
+    def outcome(self, *arguments):
+        if not list(self.prefix.rglob("waitpoint-races.pc")):
+            self.skipTest("the library waitpoint-races is not built")
+        needed = flags(self.prefix, "--cflags", "--libs", "waitpoint-races")
+        done = subprocess.run([self.compile("racy_counter", *needed), *arguments], capture_output=True, text=True, timeout=60)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_a_race_is_two_accesses_with_their_calls(self):
+        status, output = self.outcome("unlocked")
+        self.assertEqual(status, 1, output)
+        self.assertRegex(output, r"data race at 0x\w+")
+        self.assertRegex(output, r"(?s)first: .* by task one.*racy_counter\.cpp:\d+.*second: .* by task two.*racy_counter\.cpp:\d+")
+        self.assertIn("a schedule fails", output)
+
+    def test_none_is_found_under_a_lock(self):
+        self.assertEqual(self.outcome("locked"), (0, "no schedule fails\n"))
+
+
 LARGE_FRAME = """
 #include <waitpoint/fibers/sync/simulation.hpp>
 #include <waitpoint/fibers/sync/threads.hpp>

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Call stacks, kept small: each path of calls that an access was made from has a number, and is kept as the number of
+// its caller's path and one return address. Paths outlive runs: the same code takes the same ones again.
+//
+// A task's own stack of calls is an array of return addresses; the number of a path is only sought when something is
+// accessed from it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "fibers/explore/races/hash_table.hpp"
+
+namespace waitpoint::races {
+
+class CallPaths {
+ public:
+  /// The path that leads on from `caller`'s by a call that returns to `address`; 0 is the path without calls.
+  std::uint32_t extend(std::uint32_t caller, std::uint64_t address) {
+    std::uint32_t& found = children_[(address << 16 ^ caller * 0x9E3779B97F4A7C15u) | 1];
+    // Different paths with one key are rare: they lie one after the other.
+    for (std::uint32_t at = found; at != 0; at = paths_[at].same_key)
+      if (paths_[at].caller == caller && paths_[at].address == address) return at;
+    if (paths_.size() == 0) paths_.add();
+    const std::uint32_t made = paths_.add();
+    paths_[made] = {address, caller, found};
+    return found = made;
+  }
+  /// Writes the path's return addresses to `addresses`, innermost first, at most `room`; returns how many.
+  std::size_t write(std::uint32_t path, void** addresses, std::size_t room) {
+    std::size_t count = 0;
+    for (; path != 0 && count < room; path = paths_[path].caller)
+      addresses[count++] = reinterpret_cast<void*>(paths_[path].address);
+    return count;
+  }
+
+ private:
+  struct Path {
+    std::uint64_t address;
+    std::uint32_t caller;
+    std::uint32_t same_key;
+  };
+  HashTable<std::uint32_t> children_;
+  Table<Path> paths_;
+};
+
+/// The calls that a task is in. Beyond `depth_max` they are counted only.
+class CallStack {
+ public:
+  static constexpr std::uint32_t depth_max = 1000;
+
+  void enter(std::uint64_t address) {
+    if (depth_ < depth_max) calls_[depth_] = {address, 0};
+    ++depth_;
+  }
+  void leave() {
+    if (depth_ != 0) --depth_;
+  }
+  void clear() { depth_ = 0; }
+
+  /// Its path.
+  std::uint32_t path(CallPaths& paths) {
+    const std::uint32_t depth = depth_ < depth_max ? depth_ : depth_max;
+    if (depth == 0) return 0;
+    if (calls_[depth - 1].path != 0) return calls_[depth - 1].path;
+    std::uint32_t known = depth;
+    while (known != 0 && calls_[known - 1].path == 0) --known;
+    std::uint32_t path = known == 0 ? 0 : calls_[known - 1].path;
+    for (; known < depth; ++known) path = calls_[known].path = paths.extend(path, calls_[known].address);
+    return path;
+  }
+
+ private:
+  struct Call {
+    std::uint64_t address;
+    std::uint32_t path;  // 0: not sought yet
+  };
+  std::uint32_t depth_ = 0;
+  Call calls_[depth_max];
+};
+
+}  // namespace waitpoint::races

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The detector's tasks, and what orders what they do.
+#include <cstring>
+#include <new>
+
+#include "fibers/explore/races/detector.hpp"
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::races {
+namespace {
+
+constexpr std::uint32_t indices_max = 65'535;
+// Of the indices of ended tasks, how many are looked at for one to take over.
+constexpr std::uint32_t free_indices_tried = 8;
+
+bool acquires(int order) { return order != __ATOMIC_RELAXED && order != __ATOMIC_RELEASE; }
+bool releases(int order) { return order == __ATOMIC_RELEASE || order == __ATOMIC_ACQ_REL || order == __ATOMIC_SEQ_CST; }
+
+void clear(Context& context) {
+  context.clock = context.released = context.acquirable = VectorClock();
+  context.is_task = false;
+  context.ignoring = 0;
+  context.calls.clear();
+}
+
+}  // namespace
+
+// --- runs and tasks ---
+
+void Detector::begin_run() {
+  ++run_;
+  shadow_.reset();
+  clocks_.reset();
+  tasks_.reset();
+  free_indices_.reset();
+  race_count_ = 0;
+  weight_ = 0;
+  indices_ = 0;
+  if (outside_ == nullptr) outside_ = &fresh_context();
+  clear(*outside_);
+  take_index(*outside_, *outside_);
+  name(*outside_, "outside");
+  current_ = outside_;
+  update_watching();
+}
+
+Context& Detector::fresh_context() { return *new (contexts_.take(sizeof(Context))) Context; }
+
+// An index of its own; or that of an ended task of which all is known to the maker: whoever learns of the new task
+// learns of the old one too, as if they were one.
+void Detector::take_index(Context& context, const Context& maker) {
+  const std::uint32_t record = tasks_.add();
+  Epoch first = 1;
+  std::uint32_t index = indices_;
+  const std::uint32_t free = free_indices_.size();
+  for (std::uint32_t i = 0; i < free && i < free_indices_tried; ++i) {
+    FreeIndex& ended = free_indices_[free - 1 - i];
+    if (maker.clock.of(ended.index) < ended.accessed) continue;
+    index = ended.index;
+    first = ended.last + 1;
+    ended = free_indices_[free - 1];
+    free_indices_.remove_last();
+    break;
+  }
+  if (index == indices_) ++indices_;
+  WAITPOINT_CHECK(index < indices_max,
+                  "more than 65 535 tasks whose ends nobody waited for, in a run that looks for races");
+  context.index = static_cast<std::uint16_t>(index);
+  context.record = record;
+  context.accessed = 0;
+  extend(context.clock, index + 1, clocks_);
+  context.clock.epochs[index] = first;
+  tasks_[record] = TaskRecord{{}, context.index, first};
+}
+
+Context& Detector::make() {
+  Context* made = free_contexts_;
+  if (made == nullptr)
+    made = &fresh_context();
+  else
+    free_contexts_ = made->next_free;
+  clear(*made);
+  made->is_task = true;
+  assign(made->clock, current_->clock, clocks_);
+  take_index(*made, *current_);
+  next_epoch(*current_);
+  return *made;
+}
+
+void Detector::name(Context& context, const char* name) {
+  std::strncpy(tasks_[context.record].name, name, kernel::name_size - 1);
+}
+
+void Detector::switch_to(Context& context) {
+  current_ = &context;
+  update_watching();
+}
+
+void Detector::end(Context& context) {
+  free_indices_[free_indices_.add()] = {context.index, context.epoch(), context.accessed};
+  context.next_free = free_contexts_;
+  free_contexts_ = &context;
+}
+
+void Detector::update_watching() {
+  watching_ = current_->is_task && current_->ignoring == 0 &&
+              (kernel::running == nullptr || !kernel::running->scheduler->unwinding());
+}
+
+// --- what happens before what ---
+
+VectorClock& Detector::sync_point(const void* at) {
+  SyncPoint& point = sync_points_[reinterpret_cast<std::uint64_t>(at)];
+  if (point.run != run_) point = {VectorClock(), run_};
+  return point.clock;
+}
+
+// What the task does from now on, those who acquired what it released so far do not know of.
+inline void Detector::next_epoch(Context& context) { ++context.clock.epochs[context.index]; }
+
+void Detector::release(const void* at) {
+  join(sync_point(at), current_->clock, clocks_);
+  next_epoch(*current_);
+}
+
+void Detector::acquire(const void* at) { join(current_->clock, sync_point(at), clocks_); }
+
+void Detector::atomic_load(const void* at, int order) {
+  VectorClock& point = sync_point(at);
+  join(acquires(order) ? current_->clock : current_->acquirable, point, clocks_);
+}
+
+// A store begins a release sequence of its own: who sees its value knows nothing of earlier ones.
+void Detector::atomic_store(const void* at, int order) {
+  VectorClock& point = sync_point(at);
+  if (!releases(order)) return assign(point, current_->released, clocks_);
+  assign(point, current_->clock, clocks_);
+  next_epoch(*current_);
+}
+
+void Detector::atomic_modify(const void* at, int order) {
+  atomic_load(at, order);
+  VectorClock& point = sync_point(at);
+  join(point, releases(order) ? current_->clock : current_->released, clocks_);
+  if (releases(order)) next_epoch(*current_);
+}
+
+void Detector::fence(int order) {
+  if (acquires(order)) join(current_->clock, current_->acquirable, clocks_);
+  if (!releases(order)) return;
+  assign(current_->released, current_->clock, clocks_);
+  next_epoch(*current_);
+}
+
+}  // namespace waitpoint::races

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the kernel tells of its tasks and of what happens before what, in the words that ThreadSanitizer has for it
+// (kernel/sanitizer.hpp), and what it asks of this runtime alone.
+#include "fibers/explore/races/detector.hpp"
+
+namespace {
+
+using waitpoint::races::Context;
+using waitpoint::races::Detector;
+
+std::uint32_t open_runs = 0;
+
+Context& context(void* fiber) { return *static_cast<Context*>(fiber); }
+
+const waitpoint::races::Runtime runtime = {
+    [] { Detector::the().begin_run(); },
+    [](const waitpoint::races::FoundRace*& races) { return Detector::the().found(races); },
+    [](bool on) { Detector::the().learn(on); },
+    [] { Detector::the().forget_learned(); },
+};
+
+}  // namespace
+
+const waitpoint::races::Runtime* waitpoint_races_runtime() { return &runtime; }
+
+extern "C" {
+
+void* __tsan_get_current_fiber();
+void* __tsan_create_fiber(unsigned flags);
+void __tsan_destroy_fiber(void* fiber);
+void __tsan_switch_to_fiber(void* fiber, unsigned flags);
+void __tsan_set_fiber_name(void* fiber, const char* name);
+void __tsan_acquire(void* address);
+void __tsan_release(void* address);
+void waitpoint_races_open_run();
+void waitpoint_races_close_run();
+void waitpoint_races_forget(const void* low, std::size_t size);
+
+void* __tsan_get_current_fiber() { return &Detector::the().current(); }
+void* __tsan_create_fiber(unsigned) { return &Detector::the().make(); }
+void __tsan_destroy_fiber(void* fiber) { Detector::the().end(context(fiber)); }
+void __tsan_switch_to_fiber(void* fiber, unsigned) { Detector::the().switch_to(context(fiber)); }
+void __tsan_set_fiber_name(void* fiber, const char* name) { Detector::the().name(context(fiber), name); }
+void __tsan_acquire(void* address) {
+  if (Detector::the().has_current()) Detector::the().acquire(address);
+}
+void __tsan_release(void* address) {
+  if (Detector::the().has_current()) Detector::the().release(address);
+}
+
+// Runs may overlap (windows of several simulations); what is known is forgotten only between them.
+void waitpoint_races_open_run() {
+  if (open_runs++ == 0) Detector::the().begin_run();
+}
+void waitpoint_races_close_run() { --open_runs; }
+void waitpoint_races_forget(const void* low, std::size_t size) { Detector::the().forget(low, size); }
+
+}  // extern "C"

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/kernel/access.hpp"
+
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::kernel {
+
+const char memory_kind[] = "memory";
+
+void access(Operation operation, Object* memory) {
+  if ((running->attention & attention::timer) != 0) return;
+  running->scheduler->waitpoint(operation, memory);
+}
+
+void give_turn() {
+  if ((running->attention & attention::timer) == 0) running->scheduler->yield();
+}
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Data races are found where there are some, in the default order and in others, and nowhere else. This file is not
+// instrumented; the programs beside it are.
+#include "fibers/explore/races/races.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/simulation.hpp"
+#include "tests/fibers/explore/races/programs.hpp"
+
+namespace waitpoint::races {
+namespace {
+
+std::string text_of(const std::vector<Race>& races) {
+  std::ostringstream text;
+  for (const Race& race : races) text << race;
+  return text.str();
+}
+
+class Programs : public testing::TestWithParam<Program> {};
+
+TEST_P(Programs, RaceOrNotInEveryOrder) {
+  const Program& program = GetParam();
+  for (std::uint64_t seed = 0; seed <= 20; ++seed) {
+    SimulationOptions options;
+    if (seed != 0) options.order = kernel::Order::seeded;
+    options.seed = seed;
+    const Report report = simulate(program.body, options);
+    ASSERT_TRUE(report.passed) << report;
+    ASSERT_EQ(any_found(), program.races) << "with seed " << seed << "\n" << text_of(found());
+  }
+}
+
+std::string name_of(const testing::TestParamInfo<Program>& info) { return info.param.name; }
+INSTANTIATE_TEST_SUITE_P(Plain, Programs, testing::ValuesIn(plain_programs()), name_of);
+INSTANTIATE_TEST_SUITE_P(Ordered, Programs, testing::ValuesIn(ordered_programs()), name_of);
+INSTANTIATE_TEST_SUITE_P(Atomic, Programs, testing::ValuesIn(atomic_programs()), name_of);
+
+TEST(Races, AreReportedAsTwoAccessesWithTheirCalls) {
+  ASSERT_TRUE(simulate(write_planted).passed);
+  const std::vector<Race> races = found();
+  ASSERT_EQ(races.size(), 1u) << text_of(races);
+  const Race& race = races.front();
+  EXPECT_EQ(race.address, &planted);
+  EXPECT_EQ(race.memory, "waitpoint::races::planted");
+  EXPECT_EQ(race.first.task, "ada");
+  EXPECT_EQ(race.second.task, "bob");
+  for (const Access* access : {&race.first, &race.second}) {
+    EXPECT_TRUE(access->writes);
+    EXPECT_FALSE(access->atomic);
+    EXPECT_EQ(access->size, 4u);
+    ASSERT_FALSE(access->calls.empty());
+    EXPECT_NE(access->calls.front().find("write_planted"), std::string::npos) << access->calls.front();
+    EXPECT_NE(access->calls.front().find("plain_programs.cpp:"), std::string::npos) << access->calls.front();
+  }
+  EXPECT_NE(text_of(races).find("first: write of 4 bytes by task ada"), std::string::npos) << text_of(races);
+}
+
+TEST(Races, OnAStackNameItsTask) {
+  ASSERT_TRUE(simulate(plain_programs().front().body).passed);
+  ASSERT_EQ(found().size(), 1u);
+  EXPECT_EQ(found().front().memory, "the stack of task main");
+}
+
+TEST(Races, OfOneRunAreForgottenInTheNext) {
+  ASSERT_TRUE(simulate(write_planted).passed);
+  EXPECT_TRUE(any_found());
+  ASSERT_TRUE(simulate([] {}).passed);
+  EXPECT_FALSE(any_found());
+}
+
+// --- switch points ---
+
+ExploreReport explored(void (*body)(), std::uint64_t iterations) {
+  ExploreOptions options;
+  options.strategy = "random";
+  options.iterations = iterations;
+  return explore_with(nullptr, body, options);
+}
+
+TEST(MemoryAccesses, AreSwitchPoints) {
+  const ExploreReport report = explored(count_twice_without_lock, 200);
+  EXPECT_FALSE(report.passed);
+  EXPECT_NE(report.text.find("an increment is lost"), std::string::npos) << report;
+}
+
+TEST(MemoryAccesses, ThatAreTheFirstAreSwitchPointsOnceTheirCodeIsKnown) {
+  learn(true);
+  const Report report = simulate(publish_in_two_steps);
+  learn(false);
+  EXPECT_TRUE(report.passed) << report;
+  EXPECT_FALSE(explored(publish_in_two_steps, 200).passed);
+  forget_learned();
+}
+
+TEST(MemoryAccesses, DependOnNoAddress) {
+  const Report first = simulate(two_heaps);
+  std::vector<std::unique_ptr<char[]>> between;
+  for (std::size_t i = 1; i < 50; ++i) between.push_back(std::make_unique<char[]>(8 * i));
+  const Report second = simulate(two_heaps);
+  EXPECT_EQ(first.digest.value(), second.digest.value());
+  EXPECT_EQ(first.events, second.events);
+}
+
+TEST(MemoryAccesses, OfATaskThatSpinsGiveOthersATurn) {
+  const Report report = simulate(wait_for_nobody);
+  EXPECT_EQ(report.end, RunEnd::no_progress) << report;
+}
+
+}  // namespace
+}  // namespace waitpoint::races
