@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/body.hpp"
 
+#include <sstream>
+
+#include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {
@@ -10,6 +13,15 @@ SimulationOptions explored() {
   SimulationOptions options;
   options.order = kernel::Order::explored;
   return options;
+}
+
+std::string describe_races(sync::Places places) {
+  if (places == sync::Places::left_out) return "a data race";
+  std::ostringstream text;
+  const std::vector<races::Race> found = races::found();
+  text << (found.size() == 1 ? "a data race" : std::to_string(found.size()) + " data races");
+  for (const races::Race& race : found) text << "\n" << race;
+  return text.str();
 }
 
 }  // namespace
@@ -22,7 +34,12 @@ Body::Body(std::function<void()> function, ForeignChecks* checks, Time until, st
       reports_(simulation_.scheduler()),
       explorer_(simulation_.scheduler(), steps_max) {
   simulation_.scheduler().set_decisions(explorer_);
-  simulation_.tell(sync::Places::left_out);
+  tell(sync::Places::left_out);
+}
+
+void Body::tell(sync::Places places) {
+  places_ = places;
+  simulation_.tell(places);
 }
 
 void Body::start(Strategy& strategy, const Played& played) {
@@ -44,6 +61,7 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   outcome.was_cut = explorer_.was_cut();
   if (!outcome.was_cut && outcome.failure.empty() && outcome.end == RunEnd::time_reached)
     outcome.failure = "it had not ended at " + to_string(until_) + " s";
+  if (outcome.failure.empty() && races::any_found()) outcome.failure = describe_races(places_);
   outcome.digest = simulation_.digest().value();
   outcome.end_time = simulation_.global_time();
   outcome.events = simulation_.scheduler().events();

@@ -47,6 +47,9 @@ class Body {
   /// As run(), up to the decision where `played` stops; then `look` is called, before all is unwound.
   void run_up_to(const Played& played, const std::function<void()>& look);
 
+  /// Whether failures say where in the source tasks are: that takes a second. They do not, unless it is asked for.
+  void tell(sync::Places places);
+
   const Explorer& explorer() const { return explorer_; }
   Simulation& simulation() { return simulation_; }
 
@@ -59,6 +62,7 @@ class Body {
   Simulation simulation_;
   kernel::FaultReports reports_;  // once, not for each schedule
   Explorer explorer_;
+  sync::Places places_ = sync::Places::left_out;
   bool used_ = false;
 };
 

@@ -137,9 +137,9 @@ void Campaign::tell(const Found& found) {
   Failure least = found.failure;
   if (options_.minimize) least = minimize(body_, found.failure, runs_to_minimize);
   Fifo rest;
-  body_.simulation().tell(sync::Places::told);
+  body_.tell(sync::Places::told);
   if (const Outcome told = body_.run(rest, {.prefix = least.schedule.decisions}); !told.passed()) least.outcome = told;
-  body_.simulation().tell(sync::Places::left_out);
+  body_.tell(sync::Places::left_out);
   const std::string deviating = to_text(token_of(least));
   report_.replay = deviating.size() <= token_length_max ? deviating : to_text(found.token);
   report_.schedule = least.schedule;

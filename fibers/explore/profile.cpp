@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {
@@ -46,10 +47,16 @@ std::vector<std::uint64_t> shared_objects(const Profile& profile) {
 
 Outcome take_profile(Body& body, Profile& profile) {
   profile = Profile();
+  Fifo fifo;
+  if (races::present()) {
+    races::forget_learned();
+    races::learn(true);
+    (void)body.run(fifo);
+    races::learn(false);
+  }
   Counting counting(profile);
   kernel::Scheduler& scheduler = body.simulation().scheduler();
   scheduler.set_watch(&counting);
-  Fifo fifo;
   Outcome outcome = body.run(fifo);
   scheduler.set_watch(nullptr);
   profile.steps = body.explorer().steps();
