@@ -19,7 +19,9 @@ struct Counting : kernel::Watch {
     Profile::TaskEvents* known = profile.find(task.id);
     if (known == nullptr) known = &profile.tasks.emplace_back(Profile::TaskEvents{task.id, task.maker, 0, {}});
     ++known->events;
-    known->objects.push_back(record.object != nullptr ? record.object->identity : 0);
+    // That somebody waits for a thread's end does not make its end an object that is worth an order of its own.
+    const bool meets = record.object != nullptr && record.operation != kernel::Operation::join;
+    known->objects.push_back(meets ? record.object->identity : 0);
   }
 
   Profile& profile;

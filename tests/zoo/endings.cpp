@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ends that come while something is still under way: stops, cancellations, results, last messages.
+#include <array>
+#include <deque>
+#include <mutex>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/atomic.hpp"
+#include "fibers/sync/condition_variable.hpp"
+#include "fibers/sync/future.hpp"
+#include "fibers/sync/mutex.hpp"
+#include "fibers/sync/stop_token.hpp"
+#include "tests/zoo/zoo.hpp"
+
+namespace waitpoint::zoo {
+namespace {
+
+// The worker finds no message, and then that it shall stop: the last one came in between. Mended, it looks for the stop
+// first.
+template <bool mended>
+void last_message() {
+  constexpr int messages = 3;
+  mutex lock;
+  std::deque<int> queue;
+  atomic<bool> stop(false);
+  int handled = 0;
+  const auto handle = [&] {
+    const std::lock_guard guard(lock);
+    if (queue.empty()) return false;
+    queue.pop_front();
+    ++handled;
+    return true;
+  };
+  Crew crew;
+  crew.add("sender", [&] {
+    for (int i = 0; i < messages; ++i) {
+      const std::lock_guard guard(lock);
+      queue.push_back(i);
+    }
+    stop.store(true);
+  });
+  crew.add("worker", [&] {
+    for (;;) {
+      const bool stops = mended && stop.load();
+      if (handle()) continue;
+      if (mended ? stops : stop.load()) break;
+      this_thread::yield();
+    }
+  });
+  crew.join();
+  check(handled == messages, "the last message is lost");
+}
+
+// A stop that is asked for between the look at the token and the wait wakes nobody. Mended, it takes the lock.
+template <bool mended>
+void stop_between() {
+  mutex lock;
+  condition_variable work;
+  stop_source source;
+  Crew crew;
+  crew.add("stopper", [&] {
+    source.request_stop();
+    std::unique_lock guard(lock, std::defer_lock);
+    if (mended) guard.lock();
+    work.notify_all();
+  });
+  crew.add("worker", [&] {
+    std::unique_lock guard(lock);
+    while (!source.stop_requested()) work.wait(guard);
+  });
+  crew.join();
+}
+
+// Two answers to one request: each looks whether there is one yet.
+template <bool mended>
+void promise_kept_twice() {
+  promise<int> answer;
+  atomic<bool> given(false);
+  Crew crew;
+  for (int i = 0; i < 2; ++i)
+    crew.add("server", [&, i] {
+      const bool was_given = mended ? given.exchange(true) : given.load();
+      if (was_given) return;
+      given.store(true);
+      answer.set_value(i);
+    });
+  crew.join();
+  (void)answer.get_future().get();
+}
+
+// A request is completed while its client cancels it: both call it off, and its buffer is given back twice.
+template <bool mended>
+void cancel_against_complete() {
+  enum State { pending, running, completed, cancelled };
+  atomic<State> state(pending);
+  atomic<int> given_back(0);
+  Crew crew;
+  crew.add("server", [&] {
+    State seen = pending;
+    if (!state.compare_exchange_strong(seen, running)) return;
+    seen = running;
+    if (mended && !state.compare_exchange_strong(seen, completed)) return;
+    if (!mended) state.store(completed);
+    given_back.fetch_add(1);
+  });
+  crew.add("client", [&] {
+    State seen = state.load();
+    while (seen != completed && !state.compare_exchange_strong(seen, cancelled)) {
+    }
+    if (seen != completed) given_back.fetch_add(1);
+  });
+  crew.join();
+  check(given_back.load() == 1, "the buffer is given back twice");
+}
+
+// Readers announce themselves after they have read which table is in use; the old one is freed when nobody is there.
+template <bool mended>
+void freed_in_use() {
+  std::array<atomic<bool>, 2> freed;
+  std::array<atomic<int>, 2> readers;
+  atomic<std::size_t> used(0);
+  Crew crew;
+  crew.add("reader", [&] {
+    std::size_t table = used.load();
+    readers[table].fetch_add(1);
+    while (mended && table != used.load()) {
+      readers[table].fetch_sub(1);
+      table = used.load();
+      readers[table].fetch_add(1);
+    }
+    check(!freed[table].load(), "a table is read that is freed");
+    readers[table].fetch_sub(1);
+  });
+  crew.add("updater", [&] {
+    used.store(1);
+    while (readers[0].load() != 0) this_thread::yield();
+    freed[0].store(true);
+  });
+  crew.join();
+}
+
+// A pool closes as soon as no job is open; a job that makes another one closes itself first.
+template <bool mended>
+void closed_too_early() {
+  atomic<int> open(1);
+  atomic<bool> closed(false);
+  Crew crew;
+  crew.add("job", [&] {
+    for (int i = 0; i < 3; ++i) {
+      if (mended) open.fetch_add(1);
+      open.fetch_sub(1);
+      if (!mended) open.fetch_add(1);
+      check(!closed.load(), "a job comes to a pool that is closed");
+    }
+    open.fetch_sub(1);
+  });
+  crew.add("pool", [&] {
+    while (open.load() != 0) this_thread::yield();
+    closed.store(true);
+  });
+  crew.join();
+}
+
+}  // namespace
+
+Specimens endings() {
+  return {{"last message", last_message<false>, last_message<true>, 2, "ending"},
+          {"stop between", stop_between<false>, stop_between<true>, 2, "ending"},
+          {"promise kept twice", promise_kept_twice<false>, promise_kept_twice<true>, 1, "ending"},
+          {"cancel against complete", cancel_against_complete<false>, cancel_against_complete<true>, 1, "ending"},
+          {"freed in use", freed_in_use<false>, freed_in_use<true>, 1, "ending"},
+          {"closed too early", closed_too_early<false>, closed_too_early<true>, 1, "ending"}};
+}
+
+}  // namespace waitpoint::zoo

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Events that were thought to come in one order, among 3 to 100 threads.
+#include <mutex>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/atomic.hpp"
+#include "fibers/sync/latch.hpp"
+#include "fibers/sync/mutex.hpp"
+#include "tests/zoo/zoo.hpp"
+
+namespace waitpoint::zoo {
+namespace {
+
+// Robots that open a door and then say so; a supervisor sees an open door that no robot has told it of: it looks when
+// one has opened it and none has said so yet.
+template <bool mended, int robots>
+void reorder() {
+  mutex both;
+  atomic<int> open(0), said(0);
+  Crew crew;
+  for (int i = 0; i < robots - 1; ++i)
+    crew.add("robot", [&] {
+      std::unique_lock guard(both, std::defer_lock);
+      if (mended) guard.lock();
+      open.store(1);
+      said.store(1);
+    });
+  crew.add("supervisor", [&] {
+    std::unique_lock guard(both, std::defer_lock);
+    if (mended) guard.lock();
+    const bool is_open = open.load() == 1;
+    check(!is_open || said.load() == 1, "a door stands open that nobody told of");
+  });
+  crew.join();
+}
+
+// The first thread makes the table that the last one uses, which has to read its parameters before: there is time
+// enough, usually.
+template <bool mended, int threads>
+void last_before_first() {
+  constexpr int parameters = 8;
+  atomic<int> table(0), parameter(0);
+  latch made(1);
+  Crew crew;
+  crew.add("maker", [&] {
+    table.store(1);
+    made.count_down();
+  });
+  for (int i = 0; i < threads - 2; ++i) crew.add("other", [table = &table] { (void)table->load(); });
+  crew.add("user", [&] {
+    for (int i = 0; i < parameters; ++i) parameter.fetch_add(1);
+    if (mended) made.wait();
+    check(table.load() == 1, "used before it is made");
+  });
+  crew.join();
+}
+
+// A convoy whose rearguard is thought to report behind the others, as it was sent behind them.
+template <bool mended, int robots>
+void convoy() {
+  atomic<int> reported(0);
+  latch passed(robots - 1);
+  Crew crew;
+  for (int i = 0; i < robots - 1; ++i)
+    crew.add("follower", [&] {
+      reported.fetch_add(1);
+      passed.count_down();
+    });
+  crew.add("rearguard", [&] {
+    if (mended) passed.wait();
+    check(reported.fetch_add(1) > 0, "the rearguard comes first");
+  });
+  crew.join();
+}
+
+// The subscriber comes when the first messages are gone, which nobody keeps for it.
+template <bool mended>
+void late_subscriber() {
+  constexpr int messages = 15;
+  mutex topic;
+  int received = 0, kept = 0;
+  bool subscribed = false;
+  Crew crew;
+  crew.add("subscriber", [&] {
+    const std::lock_guard guard(topic);
+    subscribed = true;
+    if (mended) received += kept;
+  });
+  crew.add("publisher", [&] {
+    for (int i = 0; i < messages; ++i) {
+      const std::lock_guard guard(topic);
+      (subscribed ? received : kept) += 1;
+    }
+  });
+  crew.join();
+  check(received > 0, "no message at all is received");
+}
+
+// Who follows from the middle of the route on takes its second half for all of it. All or nearly all, or nothing, would
+// be noticed.
+template <bool mended>
+void half_the_route() {
+  constexpr int points = 10;
+  mutex route;
+  int sent = 0, heard = 0;
+  bool follows = false;
+  Crew crew;
+  crew.add("follower", [&] {
+    const std::lock_guard guard(route);
+    follows = true;
+    if (mended) heard = sent;
+  });
+  crew.add("planner", [&] {
+    for (int i = 0; i < points; ++i) {
+      const std::lock_guard guard(route);
+      ++sent;
+      if (follows) ++heard;
+    }
+  });
+  crew.join();
+  check(heard != points / 2, "half the route ends in the river");
+}
+
+}  // namespace
+
+Specimens orders() {
+  return {{"reorder 3", reorder<false, 3>, reorder<true, 3>, 1, "order"},
+          {"reorder 5", reorder<false, 5>, reorder<true, 5>, 1, "order"},
+          {"reorder 10", reorder<false, 10>, reorder<true, 10>, 1, "order"},
+          {"reorder 20", reorder<false, 20>, reorder<true, 20>, 1, "order"},
+          {"reorder 50", reorder<false, 50>, reorder<true, 50>, 1, "order"},
+          {"reorder 100", reorder<false, 100>, reorder<true, 100>, 1, "order"},
+          {"last before first of 20", last_before_first<false, 20>, last_before_first<true, 20>, 1, "order"},
+          {"last before first of 100", last_before_first<false, 100>, last_before_first<true, 100>, 1, "order"},
+          {"convoy of 50", convoy<false, 50>, convoy<true, 50>, 1, "order"},
+          {"convoy of 100", convoy<false, 100>, convoy<true, 100>, 1, "order"},
+          {"late subscriber", late_subscriber<false>, late_subscriber<true>, 1, "order"},
+          {"half the route", half_the_route<false>, half_the_route<true>, 2, "order"}};
+}
+
+}  // namespace waitpoint::zoo

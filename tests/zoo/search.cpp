@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/zoo/search.hpp"
+
+#include "fibers/explore/explore.hpp"
+
+namespace waitpoint::zoo {
+
+Search::Search(void (*function)())
+    : body_(function, nullptr, ExploreOptions().until, ExploreOptions().steps_max),
+      usual_(exploration::take_profile(body_, profile_)) {}
+
+std::optional<Found> Search::find(const std::string& strategy, std::uint64_t seed, std::uint64_t most) {
+  const auto tried = exploration::make_strategy(strategy);
+  for (std::uint64_t number = 0; number < most; ++number) {
+    tried->begin(number, exploration::Draws(seed, strategy, number), profile_);
+    const exploration::Outcome outcome = body_.run(*tried);
+    if (!outcome.passed()) return Found{number + 1, {body_.explorer().schedule(), outcome}};
+    if (!tried->end()) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace waitpoint::zoo

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A specimen under many schedules, as explore() does it, without what explore() says of a failure.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fibers/explore/minimize.hpp"
+#include "fibers/explore/profile.hpp"
+
+namespace waitpoint::zoo {
+
+struct Found {
+  std::uint64_t schedules;  ///< tried, that one included
+  exploration::Failure failure;
+};
+
+class Search {
+ public:
+  explicit Search(void (*function)());
+
+  /// What the default order came to.
+  const exploration::Outcome& usual() const { return usual_; }
+  /// The first failure among `most` schedules of `strategy`; nothing if there is none, or all are tried.
+  std::optional<Found> find(const std::string& strategy, std::uint64_t seed, std::uint64_t most);
+  exploration::Body& body() { return body_; }
+
+ private:
+  exploration::Body body_;
+  exploration::Profile profile_;
+  exploration::Outcome usual_;
+};
+
+}  // namespace waitpoint::zoo

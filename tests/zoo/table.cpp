@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the table of docs/zoo.md: how many schedules each strategy needs for each specimen, in the median of 20 seeds.
+//
+//   zoo-table [NAME ...]    of those specimens alone
+//
+// Below it, how many of the portfolio's failures came to the same digest when what was chosen was played again.
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+#include "fibers/explore/strategies/fifo.hpp"
+#include "tests/zoo/search.hpp"
+#include "tests/zoo/zoo.hpp"
+
+namespace {
+
+constexpr const char* strategies[] = {"portfolio", "random", "pct:2", "pct:3", "pos", "urw", "surw", "bounded:2"};
+constexpr std::uint64_t seeds = 20, schedules_max = 10'000;
+
+struct Repeats {
+  std::uint64_t failures = 0, same = 0;
+};
+
+bool is_repeated(waitpoint::zoo::Search& search, const waitpoint::exploration::Failure& failure) {
+  waitpoint::exploration::Fifo rest;
+  const auto deviations = failure.schedule.deviations();
+  return search.body().run(rest, {.deviations = deviations}).digest == failure.outcome.digest;
+}
+
+// "median (found by so many seeds)"; exhaustive strategies have no seed.
+std::string cell(waitpoint::zoo::Search& search, const std::string& strategy, Repeats& repeats) {
+  std::vector<std::uint64_t> needed;
+  std::uint64_t found = 0;
+  const bool one = strategy.starts_with("bounded");
+  for (std::uint64_t seed = 1; seed <= (one ? 1 : seeds); ++seed) {
+    const auto failure = search.find(strategy, seed, schedules_max);
+    found += failure.has_value();
+    if (failure && strategy == "portfolio") {
+      ++repeats.failures;
+      repeats.same += is_repeated(search, failure->failure);
+    }
+    needed.push_back(failure ? failure->schedules : schedules_max + 1);
+  }
+  std::sort(needed.begin(), needed.end());
+  const std::uint64_t median = needed[needed.size() / 2];
+  std::string text = median > schedules_max ? "-" : std::to_string(median);
+  if (!one && found < seeds) text += " (" + std::to_string(found) + ")";
+  return text;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::printf("| specimen | kind | switches |");
+  for (const char* strategy : strategies) std::printf(" %s |", strategy);
+  std::printf("\n|---|---|---|");
+  for (std::size_t i = 0; i < std::size(strategies); ++i) std::printf("---|");
+  std::printf("\n");
+  Repeats repeats;
+  for (const waitpoint::zoo::Specimen& specimen : waitpoint::zoo::specimens()) {
+    const auto is_name = [&](const char* argument) { return std::strcmp(argument, specimen.name) == 0; };
+    if (count > 1 && std::none_of(arguments + 1, arguments + count, is_name)) continue;
+    waitpoint::zoo::Search search(specimen.buggy);
+    std::printf("| %s | %s | %u |", specimen.name, specimen.kind, specimen.switches);
+    for (const char* strategy : strategies) {
+      std::printf(" %s |", cell(search, strategy, repeats).c_str());
+      std::fflush(stdout);
+    }
+    std::printf("\n");
+  }
+  std::printf("\nReplays: %llu of %llu failures came to the same digest.\n",
+              static_cast<unsigned long long>(repeats.same), static_cast<unsigned long long>(repeats.failures));
+  return repeats.same == repeats.failures ? 0 : 1;
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The zoo's animals are what they are said to be, and exploration finds, shortens and repeats each of them.
+#include "tests/zoo/zoo.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "fibers/explore/campaign.hpp"
+#include "fibers/explore/strategies/fifo.hpp"
+#include "tests/zoo/search.hpp"
+
+namespace waitpoint::zoo {
+namespace {
+
+using exploration::Campaign;
+using exploration::Outcome;
+
+constexpr std::uint64_t schedules_max = 10'000;
+constexpr std::uint64_t runs_to_minimize = 5'000;
+constexpr std::uint64_t seeds[] = {101, 102};
+
+TEST(Zoo, HasAtLeastThirtySpecimensOfManyKinds) {
+  std::set<std::string> kinds, names;
+  for (const Specimen& specimen : specimens()) {
+    kinds.insert(specimen.kind);
+    EXPECT_TRUE(names.insert(specimen.name).second) << specimen.name;
+  }
+  EXPECT_GE(specimens().size(), 30u);
+  EXPECT_GE(kinds.size(), 6u);
+}
+
+TEST(Zoo, PassesInTheDefaultOrder) {
+  for (const Specimen& specimen : specimens()) {
+    EXPECT_EQ(Search(specimen.buggy).usual().failure, "") << specimen.name;
+    EXPECT_EQ(Search(specimen.correct).usual().failure, "") << specimen.name;
+  }
+}
+
+TEST(Zoo, NoCorrectTwinIsReported) {
+  for (const Specimen& specimen : specimens()) {
+    const auto found = Search(specimen.correct).find("portfolio", seeds[0], 2'000);
+    EXPECT_FALSE(found) << specimen.name << ": " << found->failure.outcome.failure;
+  }
+}
+
+// With a switch more than it needs at most, for nine of ten.
+TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
+  std::uint32_t failures = 0, longer = 0;
+  for (const Specimen& specimen : specimens()) {
+    Search search(specimen.buggy);
+    for (const std::uint64_t seed : seeds) {
+      const auto found = search.find("portfolio", seed, schedules_max);
+      EXPECT_TRUE(found) << specimen.name << ", seed " << seed;
+      if (!found) continue;
+      const auto least = exploration::minimize(search.body(), found->failure, runs_to_minimize);
+      EXPECT_TRUE(exploration::is_same_failure(least.outcome, found->failure.outcome)) << specimen.name;
+      const std::size_t switches = least.schedule.switches().size();
+      ++failures;
+      longer += switches > specimen.switches + 1;
+      EXPECT_GE(switches, specimen.switches) << specimen.name << " needs fewer than it says";
+    }
+  }
+  EXPECT_LE(longer * 10, failures);
+}
+
+TEST(Zoo, WhatWasChosenRepeatsTheFailure) {
+  exploration::Fifo rest;
+  for (const Specimen& specimen : specimens()) {
+    Search search(specimen.buggy);
+    const auto found = search.find("portfolio", seeds[0], schedules_max);
+    ASSERT_TRUE(found) << specimen.name;
+    const auto deviations = found->failure.schedule.deviations();
+    const Outcome again = search.body().run(rest, {.deviations = deviations});
+    EXPECT_EQ(again.digest, found->failure.outcome.digest) << specimen.name;
+    EXPECT_EQ(again.failure, found->failure.outcome.failure) << specimen.name;
+  }
+}
+
+// As a token says it, in a campaign of its own; some of them, as each failure is explained.
+TEST(Zoo, ATokenRepeatsTheFailure) {
+  constexpr std::size_t every = 6;
+  for (std::size_t i = 0; i < specimens().size(); i += every) {
+    const Specimen& specimen = specimens()[i];
+    const auto found = Search(specimen.buggy).find("portfolio", seeds[0], schedules_max);
+    ASSERT_TRUE(found) << specimen.name;
+    const auto digest = static_cast<std::uint32_t>(found->failure.outcome.digest >> 32);
+    ExploreOptions options;
+    options.minimize = false;
+    Campaign campaign(nullptr, specimen.buggy, options, 1);
+    const ExploreReport report = campaign.replay({1, digest, "portfolio", seeds[0], found->schedules - 1, {}});
+    EXPECT_FALSE(report.passed) << specimen.name;
+    EXPECT_EQ(report.text.find("not the run of the token"), std::string::npos) << specimen.name << ": " << report.text;
+    const std::string& failure = found->failure.outcome.failure;
+    EXPECT_NE(report.text.find(failure.substr(0, failure.find('\n'))), std::string::npos) << specimen.name;
+  }
+}
+
+}  // namespace
+}  // namespace waitpoint::zoo
