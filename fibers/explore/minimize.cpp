@@ -27,7 +27,8 @@ class Minimizer {
   Failure run() {
     // As switches by tasks and events it may come to another run: then it stays as it was found.
     if (const auto again = fails_with(least_.schedule.switches())) least_ = *again;
-    leave_out();
+    do leave_out();
+    while (switches() > searched_max && replace_two_by_one());
     for (std::size_t count = 1; count <= searched_max && count < switches(); ++count)
       if (const auto fewer = search({}, 0, count)) least_ = *fewer;
     return least_;
@@ -73,6 +74,36 @@ class Minimizer {
       else
         parts = std::min(kept.size(), parts * 2);
     }
+  }
+
+  // One switch anywhere in the place of two: where none can be left out, one that comes earlier may do the work of
+  // both.
+  bool replace_two_by_one() {
+    const std::vector<Switch> kept = least_.schedule.switches();
+    for (std::size_t i = 0; i + 1 < kept.size(); ++i)
+      for (std::size_t j = i + 1; j < kept.size(); ++j) {
+        std::vector<Switch> others;
+        for (std::size_t k = 0; k < kept.size(); ++k)
+          if (k != i && k != j) others.push_back(kept[k]);
+        if (const auto failed = fails_with(others)) {
+          least_ = *failed;
+          return true;
+        }
+        const std::vector<Decision> path = passed_.decisions;
+        for (std::size_t at = 0; at < path.size(); ++at) {
+          std::vector<Decision> changed(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+          for (std::uint32_t other = 0; other < path[at].count; ++other) {
+            if (left_ == 0) return false;
+            if (other == path[at].chosen) continue;
+            changed.back().chosen = other;
+            const auto failed = failing({.prefix = changed, .switches = others});
+            if (!failed || failed->schedule.switches().size() >= kept.size()) continue;
+            least_ = *failed;
+            return true;
+          }
+        }
+      }
+    return false;
   }
 
   // All schedules that are `prefix` up to `from`, and then differ `count` times from the default order.

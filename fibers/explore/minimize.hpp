@@ -2,8 +2,9 @@
 // A failing schedule with as few switches away from the default order as can be found: what is left is what matters.
 //
 // First switches are left out by halves, quarters and so on as long as the rest still fails in the same way (Zeller,
-// Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 2002); then all schedules with fewer
-// switches than are left are tried, with one, with two, as far as the budget goes.
+// Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 2002), and replaced, two by one, wherever
+// that one may be; then all schedules with fewer switches than are left are tried, with one, with two, as far as the
+// budget goes.
 #pragma once
 
 #include <cstdint>

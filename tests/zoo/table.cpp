@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the table of docs/zoo.md: how many schedules each strategy needs for each specimen, in the median of 20 seeds.
 //
-//   zoo-table [NAME ...]    of those specimens alone
+//   zoo-table [--seed=N] [NAME ...]    of those specimens alone, with the seeds from N on (default: 1)
 //
 // Below it, how many of the portfolio's failures came to the same digest when what was chosen was played again.
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <cstring>
 #include <vector>
 
+#include "core/number_text.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "tests/zoo/search.hpp"
 #include "tests/zoo/zoo.hpp"
@@ -29,11 +30,11 @@ bool is_repeated(waitpoint::zoo::Search& search, const waitpoint::exploration::F
 }
 
 // "median (found by so many seeds)"; exhaustive strategies have no seed.
-std::string cell(waitpoint::zoo::Search& search, const std::string& strategy, Repeats& repeats) {
+std::string cell(waitpoint::zoo::Search& search, const std::string& strategy, std::uint64_t first, Repeats& repeats) {
   std::vector<std::uint64_t> needed;
   std::uint64_t found = 0;
   const bool one = strategy.starts_with("bounded");
-  for (std::uint64_t seed = 1; seed <= (one ? 1 : seeds); ++seed) {
+  for (std::uint64_t seed = first; seed < first + (one ? 1 : seeds); ++seed) {
     const auto failure = search.find(strategy, seed, schedules_max);
     found += failure.has_value();
     if (failure && strategy == "portfolio") {
@@ -52,6 +53,16 @@ std::string cell(waitpoint::zoo::Search& search, const std::string& strategy, Re
 }  // namespace
 
 int main(int count, char** arguments) {
+  constexpr std::string_view option = "--seed=";
+  std::uint64_t first = 1;
+  if (count > 1 && std::string_view(arguments[1]).starts_with(option)) {
+    if (!waitpoint::parse_number(std::string_view(arguments[1]).substr(option.size()), first)) {
+      std::fprintf(stderr, "zoo-table: expected a whole number, found '%s'\n", arguments[1]);
+      return 2;
+    }
+    --count;
+    ++arguments;
+  }
   std::printf("| specimen | kind | switches |");
   for (const char* strategy : strategies) std::printf(" %s |", strategy);
   std::printf("\n|---|---|---|");
@@ -64,7 +75,7 @@ int main(int count, char** arguments) {
     waitpoint::zoo::Search search(specimen.buggy);
     std::printf("| %s | %s | %u |", specimen.name, specimen.kind, specimen.switches);
     for (const char* strategy : strategies) {
-      std::printf(" %s |", cell(search, strategy, repeats).c_str());
+      std::printf(" %s |", cell(search, strategy, first, repeats).c_str());
       std::fflush(stdout);
     }
     std::printf("\n");
