@@ -61,7 +61,7 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   outcome.was_cut = explorer_.was_cut();
   if (!outcome.was_cut && outcome.failure.empty() && outcome.end == RunEnd::time_reached)
     outcome.failure = "it had not ended at " + to_string(until_) + " s";
-  if (outcome.failure.empty() && races::any_found()) outcome.failure = describe_races(places_);
+  if (heeds_races_ && outcome.failure.empty() && races::any_found()) outcome.failure = describe_races(places_);
   outcome.digest = simulation_.digest().value();
   outcome.end_time = simulation_.global_time();
   outcome.events = simulation_.scheduler().events();

@@ -47,6 +47,8 @@ class Body {
   /// As run(), up to the decision where `played` stops; then `look` is called, before all is unwound.
   void run_up_to(const Played& played, const std::function<void()>& look);
 
+  /// Data races are failures, unless this is called.
+  void ignore_races() { heeds_races_ = false; }
   /// Whether failures say where in the source tasks are: that takes a second. They do not, unless it is asked for.
   void tell(sync::Places places);
 
@@ -63,6 +65,7 @@ class Body {
   kernel::FaultReports reports_;  // once, not for each schedule
   Explorer explorer_;
   sync::Places places_ = sync::Places::left_out;
+  bool heeds_races_ = true;
   bool used_ = false;
 };
 

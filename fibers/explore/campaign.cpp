@@ -31,7 +31,9 @@ Campaign::Campaign(ForeignChecks* checks, std::function<void()> body, const Expl
     : checks_(checks),
       options_(options),
       call_(call),
-      body_(std::move(body), checks, options.until, options.steps_max) {}
+      body_(std::move(body), checks, options.until, options.steps_max) {
+  if (!options.races) body_.ignore_races();
+}
 
 ExploreReport Campaign::run() {
   const Clock::time_point start = Clock::now();

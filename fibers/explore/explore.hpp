@@ -40,6 +40,7 @@ struct ExploreOptions {
   std::uint64_t iterations = 10'000;  ///< schedules, at most
   double time_limit_s = 0;            ///< of the wall clock; 0: none
   std::string replay = {};            ///< a token or the name of a schedule's file: that one alone
+  bool races = true;                  ///< a data race is a failure, though it did no harm; see races/races.hpp
   bool minimize = true;               ///< what failed, to the fewest switches that still fail
   Time until = Time::max();           ///< a schedule that has not ended then fails
   std::uint32_t steps_max = 100'000;  ///< switch points at one instant, after which there is no progress

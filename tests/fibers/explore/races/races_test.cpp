@@ -82,6 +82,7 @@ ExploreReport explored(void (*body)(), std::uint64_t iterations) {
   ExploreOptions options;
   options.strategy = "random";
   options.iterations = iterations;
+  options.races = false;  // but the harm they do
   return explore_with(nullptr, body, options);
 }
 
