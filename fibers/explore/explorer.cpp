@@ -36,6 +36,8 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   strategy_ = &strategy;
   played_ = played;
   plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty();
+  switches_.assign(played.switches.begin(), played.switches.end());
+  std::sort(switches_.begin(), switches_.end());
   schedule_.decisions.clear();
   habits_.clear();
   stopped_before_.clear();
@@ -65,7 +67,7 @@ const Decision* Explorer::of_prefix(Choice choice, std::uint32_t count) {
 }
 
 bool Explorer::is_played(const Switch& change) const {
-  return std::find(played_.switches.begin(), played_.switches.end(), change) != played_.switches.end();
+  return std::binary_search(switches_.begin(), switches_.end(), change);
 }
 
 std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
@@ -110,7 +112,7 @@ std::uint32_t Explorer::give_up(Task& task) {
 std::uint32_t Explorer::choose(Task* const* ready, std::uint32_t count, std::uint32_t usual) {
   if (const Decision* decision = of_prefix(Choice::task, count)) return decision->chosen;
   if (const std::uint32_t chosen = of_deviations(count); chosen != count) return chosen;
-  if (!played_.switches.empty()) {
+  if (!switches_.empty()) {
     for (std::uint32_t i = 0; i < count; ++i)
       if (i != usual && is_played({Choice::task, event_of(*ready[usual]), event_of(*ready[i])})) return i;
   }
@@ -172,7 +174,7 @@ std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t cou
   if (plays_) {
     if (const Decision* decision = of_prefix(choice, count)) chosen = decision->chosen;
     if (chosen == count) chosen = of_deviations(count);
-    for (std::uint32_t i = 1; i < count && !played_.switches.empty() && chosen == count; ++i)
+    for (std::uint32_t i = 1; i < count && !switches_.empty() && chosen == count; ++i)
       if (is_played({choice, event_of(task), {i, 0}})) chosen = i;
   }
   if (chosen == count) chosen = strategy_->among(choice, task, count);

@@ -77,6 +77,7 @@ class Explorer final : public kernel::Decisions {
   Strategy* strategy_ = nullptr;
   Played played_;
   bool plays_ = false;
+  std::vector<Switch> switches_;  // of what is played, in order: a long run looks for many
   Schedule schedule_;
   std::vector<Habit> habits_;
   std::vector<Task*> offered_;  // of the ready, those that do not spin; and where they stand

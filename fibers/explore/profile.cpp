@@ -10,23 +10,6 @@
 namespace waitpoint::exploration {
 namespace {
 
-struct Counting : kernel::Watch {
-  explicit Counting(Profile& to) : profile(to) { event = &Counting::count; }
-
-  static void count(kernel::Watch& self, const kernel::EventRecord& record) {
-    Profile& profile = static_cast<Counting&>(self).profile;
-    const Task& task = *record.task;
-    Profile::TaskEvents* known = profile.find(task.id);
-    if (known == nullptr) known = &profile.tasks.emplace_back(Profile::TaskEvents{task.id, task.maker, 0, {}});
-    ++known->events;
-    // That somebody waits for a thread's end does not make its end an object that is worth an order of its own.
-    const bool meets = record.object != nullptr && record.operation != kernel::Operation::join;
-    known->objects.push_back(meets ? record.object->identity : 0);
-  }
-
-  Profile& profile;
-};
-
 // The objects of more than one task, in the order of their first use.
 std::vector<std::uint64_t> shared_objects(const Profile& profile) {
   std::vector<std::uint64_t> used, shared;
@@ -47,8 +30,28 @@ std::vector<std::uint64_t> shared_objects(const Profile& profile) {
 
 }  // namespace
 
+Profiling::Profiling(Profile& profile) : profile_(profile) {
+  profile_ = Profile();
+  event = &Profiling::count;
+}
+
+void Profiling::count(kernel::Watch& self, const kernel::EventRecord& record) {
+  Profile& profile = static_cast<Profiling&>(self).profile_;
+  const Task& task = *record.task;
+  Profile::TaskEvents* known = profile.find(task.id);
+  if (known == nullptr) known = &profile.tasks.emplace_back(Profile::TaskEvents{task.id, task.maker, 0, {}});
+  ++known->events;
+  // That somebody waits for a thread's end does not make its end an object that is worth an order of its own.
+  const bool meets = record.object != nullptr && record.operation != kernel::Operation::join;
+  known->objects.push_back(meets ? record.object->identity : 0);
+}
+
+void Profiling::finish(std::uint32_t steps) {
+  profile_.steps = steps;
+  profile_.shared = shared_objects(profile_);
+}
+
 Outcome take_profile(Body& body, Profile& profile) {
-  profile = Profile();
   Fifo fifo;
   if (races::present()) {
     races::forget_learned();
@@ -56,13 +59,12 @@ Outcome take_profile(Body& body, Profile& profile) {
     (void)body.run(fifo);
     races::learn(false);
   }
-  Counting counting(profile);
+  Profiling counting(profile);
   kernel::Scheduler& scheduler = body.simulation().scheduler();
   scheduler.set_watch(&counting);
   Outcome outcome = body.run(fifo);
   scheduler.set_watch(nullptr);
-  profile.steps = body.explorer().steps();
-  profile.shared = shared_objects(profile);
+  counting.finish(body.explorer().steps());
   return outcome;
 }
 

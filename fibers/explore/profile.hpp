@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::exploration {
 
@@ -30,6 +30,20 @@ struct Profile {
     return nullptr;
   }
   TaskEvents* find(std::uint64_t task) { return const_cast<TaskEvents*>(std::as_const(*this).find(task)); }
+};
+
+/// Counts the events of one run, as its scheduler's watch.
+class Profiling : public kernel::Watch {
+ public:
+  explicit Profiling(Profile& profile);
+
+  /// The run, of `steps` switch points, is over.
+  void finish(std::uint32_t steps);
+
+ private:
+  static void count(kernel::Watch& self, const kernel::EventRecord& record);
+
+  Profile& profile_;
 };
 
 class Body;

@@ -2,7 +2,6 @@
 #include "fibers/explore/timeline.hpp"
 
 #include <algorithm>
-#include <map>
 #include <ostream>
 
 #include "fibers/explore/strategies/fifo.hpp"
@@ -12,36 +11,6 @@ namespace waitpoint::exploration {
 namespace {
 
 using kernel::Operation;
-
-struct Recording : kernel::Watch {
-  Recording(Timeline& to, const Explorer& by) : timeline(to), explorer(by) { event = &Recording::record; }
-
-  static void record(kernel::Watch& watch, const kernel::EventRecord& record) {
-    Recording& self = static_cast<Recording&>(watch);
-    const Task& task = *record.task;
-    if (self.numbers.emplace(task.id, self.timeline.tasks.size()).second) self.timeline.tasks.push_back(title_of(task));
-    const std::vector<Decision>& decisions = self.explorer.schedule().decisions;
-    const bool is_switch = decisions.size() > self.decisions && decisions.back().is_switch() &&
-                           decisions.back().change.choice == Choice::task;
-    self.decisions = decisions.size();
-    std::int64_t woken_by = -1;
-    if (record.object != nullptr && record.operation == Operation::resume) {
-      const auto last = self.last_release.find(record.object->identity);
-      if (last != self.last_release.end()) woken_by = last->second;
-    } else if (record.object != nullptr && record.operation != Operation::timeout) {
-      self.last_release[record.object->identity] = static_cast<std::int64_t>(self.timeline.events.size());
-    }
-    self.timeline.events.push_back({record.time, static_cast<std::uint32_t>(self.numbers[task.id]), record.operation,
-                                    record.object != nullptr ? sync::describe(*record.object) : "", woken_by,
-                                    is_switch});
-  }
-
-  Timeline& timeline;
-  const Explorer& explorer;
-  std::map<std::uint64_t, std::size_t> numbers;        // of tasks, by id
-  std::map<std::uint64_t, std::int64_t> last_release;  // the last event at an object that may have woken another
-  std::size_t decisions = 0;
-};
 
 std::string quoted(const std::string& text) {
   std::string quoted = "\"";
@@ -59,9 +28,40 @@ std::string title_of(const Task& task) {
   return std::string_view(task.robot->name) == "environment" ? title : title + " of " + task.robot->name;
 }
 
+TimelineRecorder::TimelineRecorder(Timeline& timeline, const Explorer& explorer, Time from)
+    : timeline_(timeline), explorer_(explorer), from_(from) {
+  event = &TimelineRecorder::record;
+}
+
+std::uint32_t TimelineRecorder::number_of(const Task& task) {
+  const auto [known, is_new] = numbers_.emplace(task.id, static_cast<std::uint32_t>(timeline_.tasks.size()));
+  if (is_new) timeline_.tasks.push_back(title_of(task));
+  return known->second;
+}
+
+void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& record) {
+  TimelineRecorder& self = static_cast<TimelineRecorder&>(watch);
+  const std::vector<Decision>& decisions = self.explorer_.schedule().decisions;
+  const bool is_switch = decisions.size() > self.decisions_ && decisions.back().is_switch() &&
+                         decisions.back().change.choice == Choice::task;
+  self.decisions_ = decisions.size();
+  if (record.time < self.from_) return;
+  std::vector<TimelineEvent>& events = self.timeline_.events;
+  std::int64_t woken_by = -1;
+  if (record.object != nullptr && record.operation == Operation::resume) {
+    const auto last = self.last_release_.find(record.object->identity);
+    if (last != self.last_release_.end()) woken_by = last->second;
+  } else if (record.object != nullptr && record.operation != Operation::timeout) {
+    self.last_release_[record.object->identity] = static_cast<std::int64_t>(events.size());
+  }
+  const std::uint32_t task = self.number_of(*record.task);
+  events.push_back({record.time, task, record.operation, record.object != nullptr ? sync::describe(*record.object) : "",
+                    woken_by, is_switch});
+}
+
 Timeline take_timeline(Body& body, const Schedule& schedule) {
   Timeline timeline;
-  Recording recording(timeline, body.explorer());
+  TimelineRecorder recording(timeline, body.explorer());
   kernel::Scheduler& scheduler = body.simulation().scheduler();
   scheduler.set_watch(&recording);
   Fifo rest;

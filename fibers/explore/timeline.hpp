@@ -4,6 +4,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,23 @@ struct TimelineEvent {
 struct Timeline {
   std::vector<std::string> tasks;  ///< their titles, in the order of their first events
   std::vector<TimelineEvent> events;
+};
+
+/// Takes down the events of one run from `from` on, as its scheduler's watch.
+class TimelineRecorder : public kernel::Watch {
+ public:
+  TimelineRecorder(Timeline& timeline, const Explorer& explorer, Time from = Time());
+
+ private:
+  static void record(kernel::Watch& watch, const kernel::EventRecord& record);
+  std::uint32_t number_of(const Task& task);
+
+  Timeline& timeline_;
+  const Explorer& explorer_;
+  Time from_;
+  std::map<std::uint64_t, std::uint32_t> numbers_;      // of tasks, by id
+  std::map<std::uint64_t, std::int64_t> last_release_;  // the last event at an object that may have woken another
+  std::size_t decisions_ = 0;
 };
 
 /// Runs `body` once more by `schedule`, and looks.
