@@ -21,6 +21,8 @@ class Evaluation {
   /// After a step of the world, at `now`.
   void observe(Time now, const world::BodyState& truth);
 
+  /// Of the fused position, so far.
+  double position_error_max_m() const { return fused_error_max_m_; }
   /// Writes errors and paths.
   void write(RobotResult& result) const;
 

@@ -1,21 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/expectation.hpp"
 
+#include <fmt/format.h>
+
 namespace waitpoint::bridge {
+namespace {
+
+std::string goals_text(const RunTotals& sum) {
+  return fmt::format("{} of {} goals reached", sum.goals_reached, sum.goals);
+}
+
+}  // namespace
+
+std::initializer_list<std::string_view> expectation_keys() {
+  static const std::initializer_list<std::string_view> keys = {"goals_reached", "collisions", "position_error_max_m"};
+  return keys;
+}
+
+std::vector<std::string> broken(const Expectation& expect, const RunTotals& figures) {
+  std::vector<std::string> lines;
+  if (expect.goals_reached && figures.goals_reached > *expect.goals_reached)
+    lines.push_back(goals_text(figures) + ", expected " + std::to_string(*expect.goals_reached));
+  if (expect.collisions && figures.collisions > *expect.collisions)
+    lines.push_back(fmt::format("{} collisions, expected {}", figures.collisions, *expect.collisions));
+  if (expect.position_error_max_m && !(figures.position_error_max_m <= *expect.position_error_max_m))
+    lines.push_back(fmt::format("position error of {:.3f} m, expected at most {:g} m", figures.position_error_max_m,
+                                *expect.position_error_max_m));
+  return lines;
+}
 
 std::vector<std::string> unmet(const Expectation& expect, const RunResult& result) {
   std::vector<std::string> lines;
   const RunTotals sum = totals(result);
-  const std::string reached = std::to_string(sum.goals_reached) + " of " + std::to_string(sum.goals) + " goals reached";
   if (result.outcome == Outcome::deadlock) lines.push_back("the run ended in a deadlock");
   if (result.outcome == Outcome::no_progress) lines.push_back("the run made no progress");
-  if (expect.all_goals_reached && sum.goals_reached != sum.goals) lines.push_back(reached + ", expected all");
-  if (expect.goals_reached && *expect.goals_reached != sum.goals_reached) {
-    lines.push_back(reached + ", expected " + std::to_string(*expect.goals_reached));
-  }
-  if (expect.collisions && *expect.collisions != sum.collisions) {
-    lines.push_back(std::to_string(sum.collisions) + " collisions, expected " + std::to_string(*expect.collisions));
-  }
+  if (expect.all_goals_reached && sum.goals_reached != sum.goals) lines.push_back(goals_text(sum) + ", expected all");
+  if (expect.goals_reached && sum.goals_reached < *expect.goals_reached)
+    lines.push_back(goals_text(sum) + ", expected " + std::to_string(*expect.goals_reached));
+  if (expect.collisions && sum.collisions < *expect.collisions)
+    lines.push_back(fmt::format("{} collisions, expected {}", sum.collisions, *expect.collisions));
+  for (std::string& line : broken(expect, sum)) lines.push_back(std::move(line));
   return lines;
 }
 

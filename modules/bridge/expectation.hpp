@@ -2,7 +2,9 @@
 // Whether a run came to what its scenario expects.
 #pragma once
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "modules/bridge/run_result.hpp"
@@ -10,8 +12,14 @@
 
 namespace waitpoint::bridge {
 
+/// The keys of `expect`.
+std::initializer_list<std::string_view> expectation_keys();
+
 /// One line for each expectation that is not met: "5 of 6 goals reached, expected all"; empty if all are. A deadlock is
 /// never expected.
 std::vector<std::string> unmet(const Expectation& expect, const RunResult& result);
+
+/// The same in mid-run, of those that nothing can meet any more: "1 collisions, expected 0".
+std::vector<std::string> broken(const Expectation& expect, const RunTotals& figures);
 
 }  // namespace waitpoint::bridge

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/experiment.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "fibers/sync/thread.hpp"
 
@@ -20,6 +22,18 @@ Outcome outcome_of(RunEnd end) {
 }  // namespace
 
 namespace {
+
+/// In the explored order, until somebody else decides.
+class FirstInFirstOut final : public kernel::Decisions {
+  std::uint32_t next(kernel::Task* const*, std::uint32_t) override { return 0; }
+  std::uint32_t among(kernel::Choice, const kernel::Task&, std::uint32_t) override { return 0; }
+  Duration computing(const kernel::Task&, Duration, Duration greatest) override { return greatest; }
+};
+
+void decide_in_the_explored_order(kernel::Scheduler& scheduler) {
+  static FirstInFirstOut usual;  // it has no state
+  scheduler.set_decisions(usual);
+}
 
 /// Asks after each event whether it is enough, beside the watch that there is.
 class PauseWatch : private kernel::Watch {
@@ -54,6 +68,7 @@ class PauseWatch : private kernel::Watch {
 Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
                        const ExperimentOptions& options)
     : options_(options), simulation_({options.order, options.seed, options.replay}) {
+  if (options.order == kernel::Order::explored) decide_in_the_explored_order(simulation_.scheduler());
   make_network(scenario);
   assembly_.emplace(scenario, types, &*network_, options.seed);
   operator_.emplace(assembly_->world(), robots(), lanes_);
@@ -136,6 +151,17 @@ Time Experiment::intervene(Intervention intervention, std::optional<Time> date) 
   const Time at = date ? Time() + step * steps : next;
   operator_->add(at, std::move(intervention));
   return at;
+}
+
+RunTotals Experiment::figures() const {
+  RunTotals sum;
+  sum.goals = goals();
+  sum.goals_reached = goals_reached();
+  for (std::size_t i = 0; i < robots().size(); ++i) {
+    sum.collisions += world().body(world::BodyId(i)).collisions;
+    sum.position_error_max_m = std::max(sum.position_error_max_m, robots()[i]->position_error_max_m());
+  }
+  return sum;
 }
 
 RunResult Experiment::result() const {

@@ -52,6 +52,8 @@ class Experiment {
   std::size_t goals_reached() const { return assembly_->goals_reached(); }
   std::size_t goals() const { return assembly_->goals(); }
 
+  /// Of what has come out so far, the figures that expectations are about: at no cost.
+  RunTotals figures() const;
   /// What has come out so far.
   RunResult result() const;
 

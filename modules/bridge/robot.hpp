@@ -41,6 +41,8 @@ class Robot {
   /// Compares what the robot believes with the truth, after a step of the world.
   void observe(Time now) { evaluation_.observe(now, world_.body(body_)); }
 
+  double position_error_max_m() const { return evaluation_.position_error_max_m(); }
+
   const std::string& name() const { return scenario_.name; }
   genom::NameSpace& names() { return names_; }
   const genom::NameSpace& names() const { return names_; }

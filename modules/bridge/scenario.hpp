@@ -25,6 +25,7 @@ struct Expectation {
   bool all_goals_reached = false;
   std::optional<std::uint64_t> goals_reached;  ///< exactly so many, over all robots
   std::optional<std::uint64_t> collisions;     ///< exactly so many, over all robots
+  std::optional<double> position_error_max_m;  ///< of any robot's fused position, at most
 };
 
 /// A ROS map_server map, its occupied cells standing from the floor to a height.

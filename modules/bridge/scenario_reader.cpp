@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "modules/bridge/expectation.hpp"
 #include "modules/bridge/medium_reader.hpp"
 #include "modules/bridge/robot_reader.hpp"
 #include "modules/bridge/scenario_document.hpp"
@@ -19,7 +20,7 @@ constexpr std::uint64_t count_max = 1'000'000'000;
 constexpr double height_default_m = 2;
 
 Expectation read_expectation(const YamlNode& node) {
-  const YamlMap map(node, "expect", {"goals_reached", "collisions"});
+  const YamlMap map(node, "expect", expectation_keys());
   Expectation expect;
   if (const YamlNode* goals = map.find("goals_reached")) {
     expect.all_goals_reached = goals->kind == YamlNode::Kind::scalar && goals->text == "all";
@@ -31,6 +32,8 @@ Expectation read_expectation(const YamlNode& node) {
     if (!expect.all_goals_reached) expect.goals_reached = read_count(*goals, "goals_reached", 0, count_max);
   }
   if (map.has("collisions")) expect.collisions = map.count("collisions", 0, count_max, 0);
+  if (map.has("position_error_max_m"))
+    expect.position_error_max_m = map.number("position_error_max_m", number_from_zero);
   return expect;
 }
 
