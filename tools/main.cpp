@@ -6,6 +6,7 @@
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/scenario_reader.hpp"
 #include "tools/debug.hpp"
+#include "tools/explore/explore.hpp"
 #include "tools/options.hpp"
 #include "tools/papers_modules.hpp"
 #include "tools/run.hpp"
@@ -36,6 +37,7 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
     if (const auto* run = std::get_if<tools::RunOptions>(&options)) return tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
+    if (const auto* explored = std::get_if<tools::ExploreOptions>(&options)) return tools::explore(*explored, types);
     std::fputs(std::get<tools::ShownText>(options).text.c_str(), stdout);
     return 0;
   } catch (const BadInput& error) {

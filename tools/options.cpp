@@ -265,6 +265,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
                      "Starts gdb with commands that see the simulated threads (docs/gdb.md):\n"
                      "  waitpoint gdb [OPTIONS OF GDB] -- run SCENARIO ...\n"
                      "  waitpoint gdb [OPTIONS OF GDB] -- PROGRAM ...");
+  ExploreArguments explore(app);
   // After the commands are added, which would inherit it.
   app.footer(
       "waitpoint COMMAND --help tells more. Exit status: 0 as the scenario expects, 1 an expectation failed or a\n"
@@ -285,8 +286,9 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
     throw bad_argument(app, error);
   }
   if (run->parsed()) return run_options(arguments);
+  if (explore.parsed()) return explore.options();
   if (check->parsed()) return CheckOptions{arguments.scenario, arguments.assignments};
-  throw BadInput("command line", "expected a command, run or check; waitpoint --help tells more");
+  throw BadInput("command line", "expected a command, run, check or explore; waitpoint --help tells more");
 }
 
 }  // namespace waitpoint::tools

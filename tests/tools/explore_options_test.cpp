@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/explore_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "tools/options.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+Options read(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), {"waitpoint", "explore"});
+  return read_options(static_cast<int>(arguments.size()), arguments.data(), "waitpoint 1.2.3");
+}
+
+ExploreOptions explore(const std::vector<const char*>& arguments) { return std::get<ExploreOptions>(read(arguments)); }
+
+std::string message(const std::vector<const char*>& arguments) {
+  try {
+    read(arguments);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class ExploreCommandLine : public ::testing::Test {
+ protected:
+  void SetUp() override { clear(); }
+  void TearDown() override { clear(); }
+  static void clear() {
+    for (const char* name :
+         {"WAITPOINT_SEED", "WAITPOINT_STRATEGY", "WAITPOINT_ITERATIONS", "WAITPOINT_TIME_LIMIT", "WAITPOINT_REPLAY"})
+      unsetenv(name);
+  }
+};
+
+TEST_F(ExploreCommandLine, a_scenario_alone_has_the_defaults) {
+  const ExploreOptions options = explore({"office.yaml"});
+  EXPECT_EQ(options.scenario, "office.yaml");
+  EXPECT_EQ(options.strategy, "portfolio");
+  EXPECT_EQ(options.seed, 1u);
+  EXPECT_EQ(options.iterations, 1000u);
+  EXPECT_EQ(options.jobs, 1u);
+  EXPECT_EQ(options.shard.index, 1u);
+  EXPECT_EQ(options.shard.count, 1u);
+  EXPECT_TRUE(options.minimize);
+  EXPECT_TRUE(options.assignments.empty() && options.replay.empty());
+  EXPECT_FALSE(options.until || options.from || options.results || options.trace || options.schedule);
+}
+
+TEST_F(ExploreCommandLine, every_option_arrives) {
+  const ExploreOptions options = explore({"--strategy",    "pct:3",
+                                          "--iterations",  "7",
+                                          "--time-limit",  "1.5",
+                                          "--jobs",        "2",
+                                          "--seed",        "9",
+                                          "--property",    "collisions=0",
+                                          "--set",         "world.step_ms=5",
+                                          "--until",       "20",
+                                          "--from",        "10",
+                                          "--shard",       "2/3",
+                                          "--results",     "r",
+                                          "--schedule",    "s",
+                                          "--trace",       "t",
+                                          "--no-minimize", "office.yaml"});
+  EXPECT_EQ(options.strategy, "pct:3");
+  EXPECT_EQ(options.iterations, 7u);
+  EXPECT_EQ(options.time_limit_s, 1.5);
+  EXPECT_EQ(options.jobs, 2u);
+  EXPECT_EQ(options.seed, 9u);
+  EXPECT_EQ(options.assignments, (std::vector<std::string>{"world.step_ms=5", "expect.collisions=0"}));
+  EXPECT_EQ(options.until, Duration(std::chrono::seconds(20)));
+  EXPECT_EQ(options.from, Duration(std::chrono::seconds(10)));
+  EXPECT_EQ(options.shard.index, 2u);
+  EXPECT_EQ(options.shard.count, 3u);
+  EXPECT_EQ(options.results, "r");
+  EXPECT_EQ(options.schedule, "s");
+  EXPECT_EQ(options.trace, "t");
+  EXPECT_FALSE(options.minimize);
+}
+
+TEST_F(ExploreCommandLine, the_environment_says_what_the_command_line_does_not) {
+  setenv("WAITPOINT_SEED", "4", 1);
+  setenv("WAITPOINT_STRATEGY", "random", 1);
+  setenv("WAITPOINT_ITERATIONS", "11", 1);
+  setenv("WAITPOINT_REPLAY", "wx1.0.00000000.=1-1", 1);
+  const ExploreOptions options = explore({"a", "--seed", "5"});
+  EXPECT_EQ(options.seed, 5u);
+  EXPECT_EQ(options.strategy, "random");
+  EXPECT_EQ(options.iterations, 11u);
+  EXPECT_EQ(options.replay, "wx1.0.00000000.=1-1");
+  setenv("WAITPOINT_ITERATIONS", "many", 1);
+  EXPECT_EQ(message({"a"}), "WAITPOINT_ITERATIONS: expected a whole number, found 'many'");
+}
+
+TEST_F(ExploreCommandLine, a_time_limit_alone_is_the_only_limit) {
+  EXPECT_EQ(explore({"a", "--time-limit", "1"}).iterations, ~std::uint64_t{0});
+  EXPECT_EQ(explore({"a", "--time-limit", "1", "--iterations", "3"}).iterations, 3u);
+}
+
+TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
+  EXPECT_EQ(message({"a", "--property", "colisions=0"}),
+            "--property colisions=0: unknown key 'colisions', did you mean 'collisions'?; there are goals_reached, "
+            "collisions, position_error_max_m");
+  EXPECT_EQ(message({"a", "--property", "collisions"}), "--property collisions: expected key=value");
+  EXPECT_TRUE(message({"a", "--strategy", "pcd"}).starts_with("strategy: unknown strategy 'pcd', did you mean 'pct'?"));
+  EXPECT_EQ(message({"a", "--strategy", "dfs"}),
+            "--strategy: expected a strategy that draws its schedules, as a scenario has too many to try all of them, "
+            "found 'dfs'");
+  for (const char* shard : {"0/2", "3/2", "1", "1/0", "a/b", "1/2/3"})
+    EXPECT_EQ(message({"a", "--shard", shard}),
+              std::string("--shard: expected I/N with 1 <= I <= N, found '") + shard + "'");
+  EXPECT_EQ(message({"a", "--jobs", "0"}), "--jobs: expected a whole number from 1 to 1024, found '0'");
+  EXPECT_EQ(message({"a", "--from", "20", "--until", "10"}), "--from: expected a time before --until, found '20'");
+  EXPECT_EQ(message({"a", "--iterations", "-1"}), "--iterations: expected a whole number, found '-1'");
+  EXPECT_EQ(message({"a", "--replay", "wx1.0.zz"}),
+            "replay: expected eight hexadecimal digits of a digest, not 'zz', in the token 'wx1.0.zz'");
+  EXPECT_EQ(message({"a", "--replay", "f", "--results", "r"}), "--replay: cannot be used together with --results");
+}
+
+TEST_F(ExploreCommandLine, help_names_options_strategies_and_exit_statuses) {
+  const std::string help = std::get<ShownText>(read({"--help"})).text;
+  for (const char* word : {"--strategy", "--iterations", "--time-limit", "--jobs", "--seed", "--property", "--until",
+                           "--from", "--set", "--shard", "--results", "--replay", "--schedule", "--trace",
+                           "--no-minimize", "portfolio, fifo, random, pct:D", "Exit status: 0"})
+    EXPECT_NE(help.find(word), std::string::npos) << word;
+}
+
+}  // namespace
+}  // namespace waitpoint::tools

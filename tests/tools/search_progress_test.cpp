@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/search_progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace waitpoint::tools {
+namespace {
+
+double fake_now_s = 0;
+double fake_clock() { return fake_now_s; }
+
+/// What is shown of a minute with 10 schedules a second.
+std::string a_minute(bool terminal) {
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* const stream = open_memstream(&text, &size);
+  fake_now_s = 100;
+  SearchProgress progress(stream, terminal, &fake_clock);
+  for (std::uint64_t i = 1; i <= 600; ++i) {
+    fake_now_s += 0.1;
+    progress.update(i, i / 2, i / 100);
+  }
+  progress.finish();
+  std::fclose(stream);
+  const std::string output(text, size);
+  std::free(text);
+  return output;
+}
+
+TEST(SearchProgress, away_from_a_terminal_is_a_line_now_and_then) {
+  const std::string output = a_minute(false);
+  EXPECT_GE(std::count(output.begin(), output.end(), '\n'), 5);
+  EXPECT_LE(std::count(output.begin(), output.end(), '\n'), 6);
+  EXPECT_NE(output.find(" schedules, 10.0 a second, "), std::string::npos) << output;
+  EXPECT_EQ(output.find('\r'), std::string::npos);
+}
+
+TEST(SearchProgress, on_a_terminal_is_one_line_that_is_gone_at_the_end) {
+  const std::string output = a_minute(true);
+  EXPECT_EQ(output.find('\n'), std::string::npos);
+  EXPECT_GE(std::count(output.begin(), output.end(), '\r'), 100);
+  EXPECT_TRUE(output.ends_with("\r\x1b[K"));
+}
+
+}  // namespace
+}  // namespace waitpoint::tools

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much may be spent on understanding a failure: runs, and seconds of the wall clock.
+#pragma once
+
+#include <cstdint>
+
+#include "tools/progress.hpp"
+
+namespace waitpoint::tools {
+
+class Budget {
+ public:
+  Budget(std::uint64_t runs, double seconds) : runs_(runs), end_s_(wall_clock_s() + seconds) {}
+
+  /// One run more; false where it is used up.
+  bool take() {
+    if (used_ == runs_ || wall_clock_s() >= end_s_) return false;
+    ++used_;
+    return true;
+  }
+  std::uint64_t used() const { return used_; }
+
+ private:
+  std::uint64_t runs_, used_ = 0;
+  double end_s_;
+};
+
+}  // namespace waitpoint::tools

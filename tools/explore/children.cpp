@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/children.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr std::size_t errors_max = 4096;
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+void write_all(int pipe, const std::string& bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const ssize_t written = write(pipe, bytes.data() + at, bytes.size() - at);
+    if (written < 0 && errno != EINTR) _exit(127);
+    if (written > 0) at += static_cast<std::size_t>(written);
+  }
+}
+
+// In the child: nothing of the parent's is cleaned up.
+[[noreturn]] void carry_out(const std::function<std::string()>& work, int bytes_pipe, int errors_pipe) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  dup2(nowhere, STDIN_FILENO);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(errors_pipe, STDERR_FILENO);
+  // The parent decides when it is enough.
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_DFL);
+  try {
+    write_all(bytes_pipe, work());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    std::fflush(stderr);
+    _exit(1);
+  }
+  _exit(0);
+}
+
+}  // namespace
+
+void Children::start(std::uint64_t number, const std::function<std::string()>& work) {
+  int bytes[2], errors[2];
+  if (pipe2(bytes, O_CLOEXEC) != 0) fail("no pipe can be had");
+  if (pipe2(errors, O_CLOEXEC) != 0) fail("no pipe can be had");
+  std::fflush(nullptr);  // or what is buffered would be written twice
+  const pid_t process = fork();
+  if (process < 0) fail("no process can be had");
+  if (process == 0) carry_out(work, bytes[1], errors[1]);
+  close(bytes[1]);
+  close(errors[1]);
+  fcntl(bytes[0], F_SETFL, O_NONBLOCK);
+  fcntl(errors[0], F_SETFL, O_NONBLOCK);
+  running_.push_back({process, bytes[0], errors[0], {number, 0, "", ""}});
+}
+
+void Children::drain(int pipe, std::string& to, std::size_t most, bool& at_end) {
+  char part[65536];
+  for (;;) {
+    const ssize_t got = read(pipe, part, sizeof part);
+    if (got < 0 && errno == EINTR) continue;
+    at_end = got == 0;
+    if (got <= 0) return;
+    to.append(part, std::min(static_cast<std::size_t>(got), most - std::min(most, to.size())));
+  }
+}
+
+Children::Ended Children::reap(std::size_t index) {
+  Running running = std::move(running_[index]);
+  running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(index));
+  while (waitpid(running.process, &running.so_far.status, 0) < 0 && errno == EINTR) {
+  }
+  bool at_end = false;
+  drain(running.errors_pipe, running.so_far.errors, errors_max, at_end);
+  close(running.bytes_pipe);
+  close(running.errors_pipe);
+  return std::move(running.so_far);
+}
+
+std::optional<Children::Ended> Children::wait(int timeout_ms) {
+  std::vector<pollfd> pipes;
+  for (const Running& running : running_) {
+    pipes.push_back({running.bytes_pipe, POLLIN, 0});
+    pipes.push_back({running.errors_pipe, POLLIN, 0});
+  }
+  if (poll(pipes.data(), pipes.size(), timeout_ms) <= 0) return std::nullopt;
+  for (std::size_t i = 0; i < running_.size(); ++i) {
+    bool at_end = false, errors_end = false;
+    if (pipes[2 * i + 1].revents != 0)
+      drain(running_[i].errors_pipe, running_[i].so_far.errors, errors_max, errors_end);
+    if (pipes[2 * i].revents != 0) drain(running_[i].bytes_pipe, running_[i].so_far.bytes, std::string::npos, at_end);
+    if (at_end) return reap(i);
+  }
+  return std::nullopt;
+}
+
+void Children::kill_from(std::uint64_t number) {
+  for (std::size_t i = running_.size(); i-- > 0;) {
+    if (running_[i].so_far.number < number) continue;
+    kill(running_[i].process, SIGKILL);
+    (void)reap(i);
+  }
+}
+
+std::string death_of(const Children::Ended& ended) {
+  std::string text;
+  if (WIFSIGNALED(ended.status))
+    text = std::string("the process was killed by signal ") + std::to_string(WTERMSIG(ended.status)) + " (" +
+           strsignal(WTERMSIG(ended.status)) + ")";
+  else if (WEXITSTATUS(ended.status) != 0 || ended.bytes.empty())
+    text = "the process ended with status " + std::to_string(WEXITSTATUS(ended.status));
+  if (!text.empty() && !ended.errors.empty()) text += ", after saying:\n" + ended.errors;
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/explore.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "modules/bridge/scenario_reader.hpp"
+#include "tools/explore/failure_report.hpp"
+#include "tools/explore/replay.hpp"
+#include "tools/interruption.hpp"
+#include "tools/output_file.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+class Files {
+ public:
+  explicit Files(const ExploreOptions& options) {
+    if (options.results) results_.emplace(*options.results);
+    if (options.schedule) schedule_.emplace(*options.schedule);
+    if (options.trace) trace_.emplace(*options.trace);
+  }
+
+  bool has_results() const { return results_.has_value(); }
+  /// The same head from each shard, so that merged files have it once.
+  void write_results(const Scene& scene, const Search& search) {
+    if (!results_) return;
+    const ExploreOptions& options = scene.options();
+    results_->write(fmt::format("# waitpoint results 1: scenario {:016x}, strategy {}, seed {}\n",
+                                scene.scenario().fingerprint, options.strategy, options.seed));
+    for (const auto& [number, line] : search.lines()) results_->write(line);
+    results_->commit();
+  }
+  void write(const FailureReport& report) {
+    if (schedule_) {
+      schedule_->write(to_text(report.schedule));
+      schedule_->commit();
+    }
+    if (trace_) {
+      trace_->write(report.trace);
+      trace_->commit();
+    }
+  }
+
+ private:
+  std::optional<OutputFile> results_, schedule_, trace_;
+};
+
+void put(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw BadInput("standard output", "cannot be written");
+}
+
+void tell(const FailureReport& report, Files& files) {
+  files.write(report);
+  put(report.text);
+}
+
+std::string sum(const Scene& scene, const Search& search, double seconds) {
+  return fmt::format("{}: {}, {} distinct, {} failed, in {:.1f} s ({:.1f} a second){}\n", scene.scenario().name,
+                     counted(search.schedules(), "schedule"), search.distinct(), search.failures(), seconds,
+                     seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
+                     search.interrupted() ? "; stopped by a signal" : "");
+}
+
+}  // namespace
+
+int explore(const ExploreOptions& options, std::span<const genom::ModuleType> types) {
+  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  if (!options.replay.empty()) return replay(options, scenario, types);
+  heed_signals();
+  Files files(options);
+  Scene scene(scenario, types, options, replay_command(options));
+  scene.prepare();
+  SearchProgress progress(stderr, isatty(STDERR_FILENO) != 0);
+  std::optional<Finding> usual = run_apart(scene, {.drawn = false}, {.profile = true});
+  if (usual && !usual->passed() && !files.has_results()) {
+    tell(report_default(scene, *usual), files);
+    return 1;
+  }
+  if (usual) scene.set_profile(std::move(usual->profile));
+  Search search(scene, progress);
+  const double start_s = progress.seconds();
+  if (usual) search.run(files.has_results());
+  const double seconds = progress.seconds() - start_s;
+  files.write_results(scene, search);
+  put(sum(scene, search, seconds));
+  if (search.first()) tell(report(scene, progress, *search.first()), files);
+  return search.interrupted() || !usual ? 130 : search.first() ? 1 : 0;
+}
+
+}  // namespace waitpoint::tools

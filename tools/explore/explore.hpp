@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `waitpoint explore`: a scenario under many schedules, and what is to be told of the first that fails.
+#pragma once
+
+#include <span>
+
+#include "modules/genom/module_type.hpp"
+#include "tools/explore/explore_options.hpp"
+
+namespace waitpoint::tools {
+
+/// Returns the exit status: 0 if no schedule failed, 1 if one did, 130 if a signal ended the search. Throws BadInput
+/// before anything is run or written.
+int explore(const ExploreOptions& options, std::span<const genom::ModuleType> types);
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/explore_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
+#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/token.hpp"
+#include "modules/bridge/expectation.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr std::uint32_t jobs_max = 1024;
+
+[[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& found) {
+  throw BadInput(where, "expected " + expected + ", found '" + found + "'");
+}
+
+/// The option's text, else that of the environment's variable, where there is one; `where` becomes whose it is.
+std::string text_of(const std::string& option, const char* variable, std::string& where) {
+  if (!option.empty()) return option;
+  const char* const value = std::getenv(variable);
+  if (value == nullptr) return "";
+  where = variable;
+  return value;
+}
+
+template <class Number>
+void take(std::string where, const char* variable, const std::string& option, const char* expected, Number least,
+          Number& number) {
+  const std::string text = text_of(option, variable, where);
+  if (text.empty()) return;
+  if (!parse_number(text, number) || !(number >= least)) refuse(where, expected, text);
+}
+
+std::optional<Duration> seconds(const char* where, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  double seconds = 0;
+  if (!parse_number(text, seconds) || !(seconds >= 1e-9 && seconds <= 1e9))
+    refuse(where, "a positive number of seconds", text);
+  return Duration::from_seconds(seconds);
+}
+
+Shard shard_of(const std::string& text) {
+  Shard shard;
+  const std::size_t slash = text.find('/');
+  const bool good = slash != std::string::npos && parse_number(std::string_view(text).substr(0, slash), shard.index) &&
+                    parse_number(std::string_view(text).substr(slash + 1), shard.count) && shard.index >= 1 &&
+                    shard.index <= shard.count;
+  if (!good) refuse("--shard", "I/N with 1 <= I <= N", text);
+  return shard;
+}
+
+/// The same as an option --set.
+std::string assignment_of(const std::string& property) {
+  const std::string option = "--property " + property;
+  const std::size_t equals = property.find('=');
+  if (equals == std::string::npos || equals == 0) throw BadInput(option, "expected key=value");
+  const std::string key = property.substr(0, equals);
+  const auto known = bridge::expectation_keys();
+  if (std::find(known.begin(), known.end(), key) == known.end()) {
+    std::string all;
+    for (const std::string_view name : known) all.append(all.empty() ? "" : ", ").append(name);
+    throw BadInput(option, "unknown key '" + key + "'" + did_you_mean(key, known) + "; there are " + all);
+  }
+  return "expect." + property;
+}
+
+std::optional<std::filesystem::path> file(const std::string& name) {
+  return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
+}
+
+}  // namespace
+
+ExploreArguments::ExploreArguments(CLI::App& app)
+    : command_(app.add_subcommand(
+          "explore", "Runs a scenario under many schedules, durations and noises; tells the first failure.")) {
+  const auto add = [this](const char* name, std::string& value, const char* type, const std::string& description) {
+    command_->add_option(name, value, description)->type_name(type);
+  };
+  const auto add_all = [this](const char* name, std::vector<std::string>& values, const char* description) {
+    command_->add_option(name, values, description)->type_name("KEY=VALUE")->allow_extra_args(false);
+  };
+  command_->add_option("SCENARIO", scenario_, "the scenario file")->required()->type_name(" ");
+  add("--strategy", strategy_, "S",
+      "how schedules are drawn (default: $WAITPOINT_STRATEGY, or portfolio):\n" + exploration::strategy_names());
+  add("--iterations", iterations_, "N",
+      "schedules, at most (default: $WAITPOINT_ITERATIONS, or 1000, or no end\nwhere there is a time limit)");
+  add("--time-limit", time_limit_, "SECONDS", "no schedule is begun after that (default: $WAITPOINT_TIME_LIMIT)");
+  add("--jobs", jobs_, "J", "so many processes at once (default: 1)");
+  add("--seed", seed_, "N", "from which all else follows (default: $WAITPOINT_SEED, or 1)");
+  add_all("--property", properties_,
+          "what is to hold in every run, in place of the scenario's `expect`:\n"
+          "goals_reached, collisions, position_error_max_m");
+  add("--until", until_, "S", "runs end at this virtual time, in seconds (default: the scenario's until_s)");
+  add("--from", from_, "S", "up to this virtual time all runs are one, in the default order; they part there");
+  add_all("--set", assignments_, "set a value of the scenario, as in waitpoint run");
+  add("--shard", shard_, "I/N", "of the schedules, only each N-th, from the I-th on: for several machines");
+  add("--results", results_, "FILE", "try all, and write a line for each: number, digest, outcome");
+  add("--replay", replay_, "TOKEN|FILE", "run this schedule alone (default: $WAITPOINT_REPLAY)");
+  add("--schedule", schedule_, "FILE", "write the failing schedule, minimised, for --replay");
+  add("--trace", trace_, "FILE.json",
+      "write the last seconds before the failure for the viewers of Chrome and Perfetto");
+  command_->add_flag("--no-minimize", keep_all_, "tell the failure as it was found")->disable_flag_override();
+  command_->footer(
+      "Exit status: 0 no failure was found, 1 one was, 2 bad input, 130 stopped by a signal, after telling what was\n"
+      "done. docs/exploring-scenarios.md has the rest.");
+}
+
+bool ExploreArguments::parsed() const { return command_->parsed(); }
+
+ExploreOptions ExploreArguments::options() const {
+  ExploreOptions options;
+  options.scenario = scenario_;
+  options.assignments = assignments_;
+  options.properties = properties_;
+  for (const std::string& property : properties_) options.assignments.push_back(assignment_of(property));
+  std::string where = "--strategy";
+  if (const std::string strategy = text_of(strategy_, "WAITPOINT_STRATEGY", where); !strategy.empty())
+    options.strategy = strategy;
+  if (exploration::make_strategy(options.strategy)->is_exhaustive())
+    refuse(where, "a strategy that draws its schedules, as a scenario has too many to try all of them",
+           options.strategy);
+  take("--time-limit", "WAITPOINT_TIME_LIMIT", time_limit_, "a positive number of seconds", 0.0, options.time_limit_s);
+  if (options.time_limit_s > 0) options.iterations = ~std::uint64_t{0};
+  take<std::uint64_t>("--iterations", "WAITPOINT_ITERATIONS", iterations_, "a whole number", 0, options.iterations);
+  take<std::uint64_t>("--seed", "WAITPOINT_SEED", seed_, "a whole number from 0 to 2^64 - 1", 0, options.seed);
+  if (!jobs_.empty() && (!parse_number(jobs_, options.jobs) || options.jobs < 1 || options.jobs > jobs_max))
+    refuse("--jobs", "a whole number from 1 to " + std::to_string(jobs_max), jobs_);
+  options.until = seconds("--until", until_);
+  options.from = seconds("--from", from_);
+  if (options.from && options.until && *options.from >= *options.until)
+    refuse("--from", "a time before --until", from_);
+  if (!shard_.empty()) options.shard = shard_of(shard_);
+  options.results = file(results_);
+  options.trace = file(trace_);
+  options.schedule = file(schedule_);
+  options.minimize = !keep_all_;
+  where = "--replay";
+  options.replay = text_of(replay_, "WAITPOINT_REPLAY", where);
+  if (options.replay.empty()) return options;
+  if (exploration::is_token(options.replay)) (void)exploration::read_token(options.replay);
+  for (const auto& [name, value] : {std::pair<const char*, const std::string&>{"--shard", shard_},
+                                    {"--results", results_},
+                                    {"--jobs", jobs_},
+                                    {"--schedule", schedule_}})
+    if (!value.empty()) throw BadInput(where, std::string("cannot be used together with ") + name);
+  return options;
+}
+
+}  // namespace waitpoint::tools

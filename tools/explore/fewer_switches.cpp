@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/fewer_switches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace waitpoint::tools {
+namespace {
+
+using exploration::Switch;
+
+// With other switches the same may come somewhat later.
+constexpr Duration longer = std::chrono::seconds(5);
+
+// Of so few switches each is left out with the later ones moved, too.
+constexpr std::size_t few = 40;
+
+}  // namespace
+
+FewerSwitches::FewerSwitches(Scene& scene, SearchProgress& progress, Budget& budget, std::uint64_t number,
+                             const Finding& found)
+    : scene_(scene), progress_(progress), budget_(budget), number_(number), least_(found), until_(found.end + longer) {}
+
+bool FewerSwitches::fails(std::uint64_t number, const std::vector<Switch>& switches) {
+  if (interrupted_ || !budget_.take()) return false;
+  progress_.update(fmt::format("minimising: {} switches, run {}", least_.switches.size(), budget_.used()));
+  std::optional<Finding> tried =
+      run_apart(scene_, {.number = number, .drawn = false, .switches = switches, .until = until_});
+  interrupted_ = !tried;
+  if (!tried || !is_same_failure(least_, *tried)) return false;
+  // A switch that was left out may bring others about that were none before.
+  if (repeats_ && tried->switches.size() > least_.switches.size()) return false;
+  number_ = number;
+  least_ = std::move(*tried);
+  return true;
+}
+
+void FewerSwitches::run() {
+  if (least_.kind == Finding::Kind::killed) return;  // what it chose went with it
+  is_noise_ = fails(number_, {});
+  if (!is_noise_) {
+    repeats_ = fails(number_, least_.switches);
+    if (!repeats_) return;
+    leave_out();
+  }
+  if (number_ != 0 && !is_noise_) (void)fails(0, least_.switches);
+}
+
+// Complements of ever smaller parts.
+void FewerSwitches::leave_out() {
+  std::size_t parts = 2;
+  while (least_.switches.size() > 1) {
+    parts = std::min(parts, least_.switches.size());
+    if (leave_out_one_of(parts))
+      parts = std::max<std::size_t>(2, parts - 1);
+    else if (parts == least_.switches.size())
+      return;
+    else
+      parts *= 2;
+  }
+}
+
+// Without a switch its two tasks may have an event more or less, so that later switches stand at other numbers.
+bool FewerSwitches::leave_out_and_move(std::vector<Switch> others, const Switch& gone, std::size_t at) {
+  const std::vector<Switch> unmoved = others;
+  for (int variant = 0; variant < 9; ++variant) {
+    if (variant == 4) continue;  // neither is moved
+    const std::int64_t usual = variant % 3 - 1, instead = variant / 3 - 1;
+    for (std::size_t i = at; i < others.size(); ++i) {
+      others[i] = unmoved[i];
+      for (exploration::EventOf* event : {&others[i].usual, &others[i].instead}) {
+        if (event->task == gone.usual.task) event->sequence += static_cast<std::uint64_t>(usual);
+        if (event->task == gone.instead.task) event->sequence += static_cast<std::uint64_t>(instead);
+      }
+    }
+    if (fails(number_, others) && least_.switches.size() <= unmoved.size()) return true;
+  }
+  return false;
+}
+
+bool FewerSwitches::leave_out_one_of(std::size_t parts) {
+  const std::vector<Switch> all = least_.switches;
+  const std::size_t size = (all.size() + parts - 1) / parts;
+  for (std::size_t from = 0; from < all.size(); from += size) {
+    std::vector<Switch> others(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(from));
+    others.insert(others.end(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), from + size)),
+                  all.end());
+    if (fails(number_, others) && least_.switches.size() < all.size()) return true;
+    if (size == 1 && all.size() <= few && leave_out_and_move(others, all[from], from)) return true;
+  }
+  return false;
+}
+
+}  // namespace waitpoint::tools

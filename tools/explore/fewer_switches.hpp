@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A failing schedule of a scene with as few switches away from the default order as a budget finds: what is left is
+// what matters. Switches are left out by halves, quarters and so on as long as the rest fails in the same way, with the
+// same noise (Zeller, Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 2002); and at last the
+// noise too, if it can be.
+#pragma once
+
+#include "tools/explore/budget.hpp"
+#include "tools/explore/search.hpp"
+
+namespace waitpoint::tools {
+
+class FewerSwitches {
+ public:
+  /// Of what failed as `found` with the noise of schedule `number`.
+  FewerSwitches(Scene& scene, SearchProgress& progress, Budget& budget, std::uint64_t number, const Finding& found);
+
+  void run();
+
+  /// The least that fails alike: of these numbers' noise, with these switches.
+  const Finding& least() const { return least_; }
+  std::uint64_t number() const { return number_; }
+  /// The default order fails too.
+  bool is_noise() const { return is_noise_; }
+  /// Whether the schedule repeats by its switches alone; else nothing could be left out.
+  bool repeats() const { return repeats_; }
+
+ private:
+  bool fails(std::uint64_t number, const std::vector<exploration::Switch>& switches);
+  void leave_out();
+  bool leave_out_one_of(std::size_t parts);
+  bool leave_out_and_move(std::vector<exploration::Switch> others, const exploration::Switch& gone, std::size_t at);
+
+  Scene& scene_;
+  SearchProgress& progress_;
+  Budget& budget_;
+  std::uint64_t number_;
+  Finding least_;
+  Time until_;
+  bool is_noise_ = false, repeats_ = false, interrupted_ = false;
+};
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/finding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+#include "core/error.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+class Writer {
+ public:
+  template <class T>
+  void operator()(const T& value) requires std::is_trivially_copyable_v<T> {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void operator()(const std::string& text) { put(text); }
+  template <class T>
+  void operator()(const std::vector<T>& values) requires std::is_trivially_copyable_v<T> {
+    put(values);
+  }
+  std::string bytes;
+
+ private:
+  template <class Sequence>
+  void put(const Sequence& sequence) {
+    (*this)(sequence.size());
+    bytes.append(reinterpret_cast<const char*>(sequence.data()), sequence.size() * sizeof *sequence.data());
+  }
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : rest_(bytes) {}
+  template <class T>
+  void operator()(T& value) requires std::is_trivially_copyable_v<T> {
+    take(&value, sizeof value);
+  }
+  void operator()(std::string& text) { get(text); }
+  template <class T>
+  void operator()(std::vector<T>& values) requires std::is_trivially_copyable_v<T> {
+    get(values);
+  }
+
+ private:
+  void take(void* to, std::size_t size) {
+    WAITPOINT_CHECK(size <= rest_.size(), "a finding is shorter than it says");
+    if (size > 0) std::memcpy(to, rest_.data(), size);
+    rest_.remove_prefix(size);
+  }
+  template <class Sequence>
+  void get(Sequence& sequence) {
+    std::size_t size = 0;
+    (*this)(size);
+    sequence.resize(size);
+    take(sequence.data(), size * sizeof *sequence.data());
+  }
+  std::string_view rest_;
+};
+
+template <class Pass, class Task>
+void pass_task(Pass& pass, Task& task) {
+  pass(task.task);
+  pass(task.parent);
+  pass(task.events);
+  pass(task.objects);
+}
+
+// The fields in their order, for both ways.
+template <class Pass, class F>
+void pass_fields(Pass& pass, F& finding) {
+  pass(finding.kind);
+  pass(finding.words);
+  pass(finding.digest);
+  pass(finding.end);
+  pass(finding.events);
+  pass(finding.decisions);
+  pass(finding.switches);
+  pass(finding.deviations);
+  pass(finding.parted);
+  pass(finding.told);
+  pass(finding.trace);
+  pass(finding.profile.steps);
+  pass(finding.profile.shared);
+}
+
+// Numbers out of the way: those in the words differ from schedule to schedule.
+std::string without_digits(std::string text) {
+  std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+  return text;
+}
+
+}  // namespace
+
+bool is_same_failure(const Finding& a, const Finding& b) {
+  if (a.passed() || a.kind != b.kind) return false;
+  // A deadlock's tasks, and the places of a lack of progress, differ too.
+  if (a.kind == Finding::Kind::deadlock || a.kind == Finding::Kind::no_progress) return true;
+  return without_digits(a.headline()) == without_digits(b.headline());
+}
+
+std::string to_bytes(const Finding& finding) {
+  Writer writer;
+  pass_fields(writer, finding);
+  writer(finding.profile.tasks.size());
+  for (const auto& task : finding.profile.tasks) pass_task(writer, task);
+  return std::move(writer.bytes);
+}
+
+Finding finding_of(std::string_view bytes) {
+  Finding finding;
+  Reader reader(bytes);
+  pass_fields(reader, finding);
+  std::size_t tasks = 0;
+  reader(tasks);
+  finding.profile.tasks.resize(tasks);
+  for (auto& task : finding.profile.tasks) pass_task(reader, task);
+  return finding;
+}
+
+std::string digest_text(std::uint64_t digest) { return fmt::format("wp1:{:016x}", digest); }
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What one schedule of a scenario came to. It is made in a process of its own and goes through a pipe: as bytes of one
+// program to the same program.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/time.hpp"
+#include "fibers/explore/profile.hpp"
+#include "fibers/explore/schedule.hpp"
+
+namespace waitpoint::tools {
+
+struct Finding {
+  enum class Kind : std::uint8_t { passed, unmet, deadlock, no_progress, exception, killed };
+
+  Kind kind = Kind::passed;
+  std::string words;         ///< of a failure: what happened, its first line in short
+  std::uint64_t digest = 0;  ///< 0: not known, as the process was killed
+  Time end;                  ///< when it was over, or known to have failed
+  std::uint64_t events = 0;
+  std::uint64_t decisions = 0;
+  std::vector<exploration::Switch> switches;       ///< of a failure
+  std::vector<exploration::Deviation> deviations;  ///< the same
+  bool parted = false;                             ///< what was played did not fit the run
+  std::string told, trace;       ///< where asked for: the switches in words or the last events; the trace
+  exploration::Profile profile;  ///< where asked for
+
+  bool passed() const { return kind == Kind::passed; }
+  /// "2 collisions, expected 0".
+  std::string headline() const { return words.substr(0, words.find('\n')); }
+};
+
+/// Whether both failed in the same way: in the same words, but for numbers, which differ from schedule to schedule.
+bool is_same_failure(const Finding& a, const Finding& b);
+
+std::string to_bytes(const Finding& finding);
+/// Of what to_bytes() wrote, whole.
+Finding finding_of(std::string_view bytes);
+/// "wp1:0123456789abcdef".
+std::string digest_text(std::uint64_t digest);
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/scene.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/explore/strategies/random.hpp"
+#include "modules/bridge/expectation.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using exploration::Draws;
+
+// Between them expectations are looked at that a run cannot meet any more.
+constexpr Duration window = std::chrono::milliseconds(100);
+constexpr std::uint32_t steps_of_an_instant_max = 100'000;
+constexpr std::size_t lines_of_switches_max = 12;
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+bool is_of_goals(const std::string& property) { return property.starts_with("goals_reached="); }
+
+/// The default order up to some decision, then any.
+class RandomContinuation final : public exploration::Strategy {
+ public:
+  RandomContinuation(const exploration::Explorer& explorer, std::size_t from) : explorer_(explorer), from_(from) {}
+  void begin(std::uint64_t number, const Draws& draws, const exploration::Profile& profile) override {
+    random_.begin(number, draws, profile);
+  }
+  std::uint32_t next(const exploration::SwitchPoint& at) override {
+    return is_behind() ? random_.next(at) : usual_.next(at);
+  }
+  std::uint32_t among(kernel::Choice choice, const kernel::Task& task, std::uint32_t count) override {
+    return is_behind() ? random_.among(choice, task, count) : usual_.among(choice, task, count);
+  }
+
+ private:
+  bool is_behind() const { return explorer_.schedule().decisions.size() >= from_; }
+
+  const exploration::Explorer& explorer_;
+  std::size_t from_;
+  exploration::Random random_;
+  exploration::Fifo usual_;
+};
+
+}  // namespace
+
+struct Scene::Stage {
+  Stage(const bridge::Scenario& scenario, std::span<const genom::ModuleType> types,
+        const bridge::ExperimentOptions& options)
+      : experiment(scenario, types, options),
+        explorer(experiment.simulation().scheduler(), steps_of_an_instant_max),
+        narrator(experiment.simulation().scheduler(), explorer) {
+    experiment.simulation().scheduler().set_decisions(explorer);
+    explorer.begin(*strategy);
+  }
+  // While who decides is still there.
+  ~Stage() { experiment.simulation().unwind(); }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  bridge::Experiment experiment;
+  std::unique_ptr<exploration::Strategy> strategy = std::make_unique<exploration::Fifo>();
+  Plan plan;  // whose switches the explorer borrows
+  exploration::Explorer explorer;
+  Narrator narrator;
+};
+
+Scene::Scene(const bridge::Scenario& scenario, std::span<const genom::ModuleType> types, const ExploreOptions& options,
+             std::string replay)
+    : scenario_(scenario),
+      types_(types),
+      options_(options),
+      replay_(std::move(replay)),
+      judged_at_until_(options.limit(scenario.until) >= Time() + scenario.until ||
+                       std::any_of(options.properties.begin(), options.properties.end(), is_of_goals)) {}
+
+Scene::~Scene() = default;
+
+std::uint64_t Scene::noise(std::uint64_t number) const {
+  return number == 0 || options_.from ? options_.seed : Digest::mix(options_.seed ^ Digest::mix(number));
+}
+
+void Scene::prepare() {
+  // From the beginning it is made for each run, as the noise is each one's own; but what is wrong is to be told now.
+  stage_ =
+      std::make_unique<Stage>(scenario_, types_, bridge::ExperimentOptions{noise(0), kernel::Order::explored, replay_});
+  is_left_ = false;
+  if (!options_.from) return;
+  const RunEnd end = stage_->experiment.run_before(Time() + *options_.from);
+  if (end != RunEnd::time_reached)
+    throw BadInput("--from", "the run is over at " + to_string(stage_->experiment.simulation().global_time()) + " s");
+}
+
+bool Scene::needs_profile() const {
+  const std::string kind = options_.strategy.substr(0, options_.strategy.find(':'));
+  return kind != "random" && kind != "pos" && kind != "fifo";
+}
+
+Finding Scene::run(const Plan& plan, const Request& request) {
+  if (options_.from) {
+    WAITPOINT_CHECK(!is_left_, "a run sets out from mid-run twice in one process");
+  } else {
+    stage_ = std::make_unique<Stage>(scenario_, types_,
+                                     bridge::ExperimentOptions{noise(plan.number), kernel::Order::explored, replay_});
+  }
+  is_left_ = true;
+  exploration::Explorer& explorer = stage_->explorer;
+  std::unique_ptr<exploration::Strategy>& strategy = stage_->strategy;
+  if (plan.drawn)
+    strategy = exploration::make_strategy(options_.strategy);
+  else if (plan.at_random_from)
+    strategy = std::make_unique<RandomContinuation>(explorer, *plan.at_random_from);
+  const std::uint64_t draw = plan.at_random_from ? plan.attempt : plan.number;
+  strategy->begin(draw, Draws(options_.seed, plan.at_random_from ? "continuation" : options_.strategy, draw), profile_);
+  stage_->plan = plan;
+  explorer.begin(*strategy, {.switches = stage_->plan.switches, .deviations = stage_->plan.deviations});
+  Finding finding;
+  watch_and_carry_out(plan, request, finding);
+  if (!finding.passed()) {
+    finding.switches = explorer.schedule().switches();
+    finding.deviations = explorer.schedule().deviations();
+  }
+  finding.parted = explorer.parted();
+  return finding;
+}
+
+void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Finding& finding) {
+  Simulation& simulation = stage_->experiment.simulation();
+  kernel::Scheduler& scheduler = simulation.scheduler();
+  Narrator& narrator = stage_->narrator;
+  std::optional<exploration::Profiling> profiling;
+  std::optional<exploration::TimelineRecorder> recorder;
+  if (request.profile) scheduler.set_watch(&profiling.emplace(finding.profile));
+  if (request.timeline != nullptr)
+    scheduler.set_watch(&recorder.emplace(*request.timeline, stage_->explorer, request.timeline_from));
+  if (request.words || request.decision) scheduler.set_decisions(narrator);
+  if (request.decision) narrator.ask_for(*request.decision);
+  simulation.tell(request.places ? sync::Places::told : sync::Places::left_out);
+  carry_out(plan.until, finding);
+  scheduler.set_watch(nullptr);
+  scheduler.set_decisions(stage_->explorer);
+  if (profiling) profiling->finish(stage_->explorer.steps());
+  if (const auto& answer = narrator.answer(); request.decision && answer)
+    finding.told = "at " + to_string(answer->time) + " s: " + answer->words;
+  else if (request.words)
+    finding.told = to_text(narrator.switches(), lines_of_switches_max);
+}
+
+void Scene::carry_out(Time until, Finding& finding) {
+  bridge::Experiment& experiment = stage_->experiment;
+  const bool is_cut = until < options_.limit(scenario_.until);
+  until = std::min(until, options_.limit(scenario_.until));
+  Time reached = Time() + options_.from.value_or(Duration());
+  RunEnd end = RunEnd::time_reached;
+  try {
+    while (end == RunEnd::time_reached && reached < until && finding.passed()) {
+      reached = std::min(until, Time() + window * (reached.since_start() / window + 1));
+      end = experiment.run_before(reached);
+      finding.words = joined(bridge::broken(scenario_.expect, experiment.figures()));
+      if (!finding.words.empty()) finding.kind = Finding::Kind::unmet;
+    }
+    if (finding.passed()) judge(finding, end != RunEnd::time_reached || (judged_at_until_ && !is_cut));
+    if (end == RunEnd::deadlock) finding.kind = Finding::Kind::deadlock;
+    if (end == RunEnd::no_progress) finding.kind = Finding::Kind::no_progress;
+    if (end == RunEnd::deadlock || end == RunEnd::no_progress) finding.words = experiment.simulation().trouble();
+  } catch (const std::exception& error) {
+    finding.kind = Finding::Kind::exception;
+    finding.words = error.what();
+    end = RunEnd::ended;
+  }
+  finding.end = end == RunEnd::time_reached ? reached : experiment.simulation().global_time();
+  finding.digest = experiment.simulation().digest().value();
+  finding.events = experiment.simulation().scheduler().events();
+  finding.decisions = stage_->explorer.schedule().decisions.size();
+}
+
+void Scene::judge(Finding& finding, bool goals_too) const {
+  bridge::Expectation expect = scenario_.expect;
+  if (!goals_too) {
+    expect.all_goals_reached = false;
+    expect.goals_reached.reset();
+  }
+  finding.words = joined(bridge::unmet(expect, stage_->experiment.result()));
+  if (!finding.words.empty()) finding.kind = Finding::Kind::unmet;
+}
+
+bridge::RunResult Scene::result() const {
+  bridge::RunResult result = stage_->experiment.result();
+  result.simulated = stage_->experiment.simulation().global_time().since_start();
+  return result;
+}
+
+const std::vector<Told>& Scene::switches() const { return stage_->narrator.switches(); }
+
+const std::vector<exploration::Decision>& Scene::decisions() const { return stage_->explorer.schedule().decisions; }
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/schedule_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "tools/explore/finding.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using exploration::Switch;
+using kernel::Choice;
+
+constexpr std::string_view choices[] = {"task", "waiter", "spurious", "loss", "computing"};
+constexpr std::size_t words_of_task = 5, words_of_other = 4;
+
+class Lines {
+ public:
+  explicit Lines(const std::filesystem::path& file) : name_(file.string()), stream_(file) {
+    if (!stream_.is_open()) throw BadInput(name_, std::string("cannot be read: ") + std::strerror(errno));
+  }
+  /// The words of the next line; false at the end.
+  bool next() {
+    std::string line;
+    if (!std::getline(stream_, line)) return false;
+    ++number_;
+    words.clear();
+    for (std::size_t at = 0; at <= line.size();) {
+      const std::size_t end = std::min(line.find(' ', at), line.size());
+      words.push_back(line.substr(at, end - at));
+      at = end + 1;
+    }
+    return true;
+  }
+  /// The next line begins with `word` and has `count` words.
+  void expect(const std::string& word, std::size_t count, const std::string& form) {
+    const bool is_there = next();
+    if (!is_there) ++number_;
+    if (!is_there || words.front() != word || words.size() != count) refuse(form);
+  }
+  [[noreturn]] void refuse(const std::string& expected) const {
+    throw BadInput(name_, number_, "expected " + expected);
+  }
+  std::uint64_t number(std::size_t word, int base, const std::string& form) const {
+    std::uint64_t number = 0;
+    const std::string& text = words[word];
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+    if (error != std::errc() || end != text.data() + text.size()) refuse(form);
+    return number;
+  }
+  std::vector<std::string> words;
+
+ private:
+  std::string name_;
+  std::ifstream stream_;
+  int number_ = 0;
+};
+
+Switch read_switch(const Lines& line) {
+  const std::string form =
+      "a switch such as 'task 00000000000000aa 12 00000000000000bb 7' or 'computing "
+      "00000000000000aa 13 62'";
+  const auto known = std::find(std::begin(choices), std::end(choices), line.words.front());
+  if (known == std::end(choices)) line.refuse(form);
+  Switch change;
+  change.choice = static_cast<Choice>(known - std::begin(choices));
+  if (line.words.size() != (change.choice == Choice::task ? words_of_task : words_of_other)) line.refuse(form);
+  change.usual = {line.number(1, 16, form), line.number(2, 10, form)};
+  change.instead = change.choice == Choice::task
+                       ? exploration::EventOf{line.number(3, 16, form), line.number(4, 10, form)}
+                       : exploration::EventOf{line.number(3, 10, form), 0};
+  return change;
+}
+
+}  // namespace
+
+std::string to_text(const StoredSchedule& schedule) {
+  std::string text = fmt::format("waitpoint schedule 1\nscenario {:016x}\ndrawn {} {} {}\nfrom {}\ndigest {}\n",
+                                 schedule.fingerprint, schedule.strategy, schedule.seed, schedule.number,
+                                 to_string(schedule.from), digest_text(schedule.digest));
+  for (const Switch& change : schedule.switches) {
+    text += fmt::format("{} {:016x} {} ", choices[static_cast<std::size_t>(change.choice)], change.usual.task,
+                        change.usual.sequence);
+    text += change.choice == Choice::task ? fmt::format("{:016x} {}\n", change.instead.task, change.instead.sequence)
+                                          : fmt::format("{}\n", change.instead.task);
+  }
+  return text;
+}
+
+StoredSchedule read_schedule(const std::filesystem::path& file) {
+  Lines lines(file);
+  StoredSchedule schedule;
+  lines.expect("waitpoint", 3, "'waitpoint schedule 1'");
+  if (lines.words[1] != "schedule" || lines.words[2] != "1") lines.refuse("'waitpoint schedule 1'");
+  lines.expect("scenario", 2, "'scenario' and the digest of the scenario");
+  schedule.fingerprint = lines.number(1, 16, "the scenario's digest as hexadecimal digits");
+  const std::string drawn = "'drawn', a strategy, a seed and a number";
+  lines.expect("drawn", 4, drawn);
+  schedule.strategy = lines.words[1];
+  schedule.seed = lines.number(2, 10, drawn);
+  schedule.number = lines.number(3, 10, drawn);
+  lines.expect("from", 2, "'from' and a time in seconds");
+  double from_s = 0;
+  if (!parse_number(lines.words[1], from_s) || !(from_s >= 0 && from_s <= 1e9))
+    lines.refuse("'from' and a time in seconds");
+  schedule.from = Time() + Duration::from_seconds(from_s);
+  lines.expect("digest", 2, "'digest' and the digest of the run");
+  if (!lines.words[1].starts_with("wp1:")) lines.refuse("a digest that begins with wp1:");
+  lines.words[1].erase(0, 4);
+  schedule.digest = lines.number(1, 16, "'digest' and the digest of the run");
+  while (lines.next()) schedule.switches.push_back(read_switch(lines));
+  return schedule;
+}
+
+}  // namespace waitpoint::tools

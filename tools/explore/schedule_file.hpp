@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A schedule of a scenario as a file: what is too long for a token.
+//
+//   waitpoint schedule 1
+//   scenario 9f3a2c1b00112233                     of all that its files and the options say
+//   drawn portfolio 1 17                          strategy, seed, number: whose noise it is
+//   from 0.000000000                              up to there all was in the default order
+//   digest wp1:0123456789abcdef                   of the run
+//   task 00000000000000aa 12 00000000000000bb 7   in place of event 12 of task aa comes event 7 of task bb
+//   computing 00000000000000aa 13 62              what event 13 of task aa chooses is alternative 62
+//
+// From the sixth line on, the switches away from the default order, in any order: by tasks and their events, so that
+// the file keeps its meaning when code around them is edited.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/time.hpp"
+#include "fibers/explore/schedule.hpp"
+
+namespace waitpoint::tools {
+
+struct StoredSchedule {
+  std::uint64_t fingerprint = 0;
+  std::string strategy;
+  std::uint64_t seed = 0, number = 0;
+  Time from;
+  std::uint64_t digest = 0;
+  std::vector<exploration::Switch> switches;
+};
+
+/// The line of the file, counted from 1, on which switch number `index` stands.
+inline constexpr int line_of_switch(std::size_t index) { return static_cast<int>(index) + 6; }
+
+std::string to_text(const StoredSchedule& schedule);
+/// BadInput, which names file and line, for what is no such file.
+StoredSchedule read_schedule(const std::filesystem::path& file);
+
+}  // namespace waitpoint::tools

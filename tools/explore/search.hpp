@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Schedule after schedule of a scene, several at once, each in a process of its own, until one fails or it is enough.
+//
+// Numbers are dealt out in their order. When one fails, those below it are waited for and those above are given up: so
+// the failure that is told is the one of the lowest number, however many processes there are.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_set>
+
+#include "tools/explore/children.hpp"
+#include "tools/explore/scene.hpp"
+#include "tools/explore/search_progress.hpp"
+
+namespace waitpoint::tools {
+
+/// One run of the scene in a process of its own; nothing where a signal to this one came between.
+std::optional<Finding> run_apart(Scene& scene, const Plan& plan, const Scene::Request& request = {});
+/// The same for who asks for more than a run; `work` gives back the finding's bytes.
+std::optional<Finding> find_apart(const std::function<std::string()>& work);
+
+/// "00000000000000000017 wp1:0123456789abcdef failed: 2 collisions, expected 0": as wide as any number, so that text
+/// sorts as numbers do.
+std::string result_line(std::uint64_t number, const Finding& finding);
+
+class Search {
+ public:
+  struct Failed {
+    std::uint64_t number;
+    Finding finding;
+  };
+
+  Search(Scene& scene, SearchProgress& progress) : scene_(scene), progress_(progress) {}
+
+  /// Tries the schedules that the scene's options ask for. With `all`, failures do not end it.
+  void run(bool all);
+
+  std::uint64_t schedules() const { return schedules_; }
+  std::uint64_t distinct() const { return digests_.size(); }
+  std::uint64_t failures() const { return failures_; }
+  bool interrupted() const { return interrupted_; }
+  const std::optional<Failed>& first() const { return first_; }
+  /// With `all`: the lines of all, in their order.
+  const std::map<std::uint64_t, std::string>& lines() const { return lines_; }
+
+ private:
+  bool may_start(bool all) const;
+  void take(const Children::Ended& ended, bool all);
+
+  Scene& scene_;
+  SearchProgress& progress_;
+  Children children_;
+  std::uint64_t started_ = 0;
+  std::uint64_t schedules_ = 0, failures_ = 0;
+  std::unordered_set<std::uint64_t> digests_;
+  std::optional<Failed> first_;
+  std::map<std::uint64_t, std::string> lines_;
+  bool interrupted_ = false;
+};
+
+}  // namespace waitpoint::tools
