@@ -158,6 +158,33 @@ class TwoRobots(Installed):
         self.assertEqual([what for _, _, what, _, _ in self.outcome("--set", "medium=")[0]], ["cannot send: no route"] * 2)
 
 
+class LatePom(Installed):
+    """A module with a mistake that only other schedules show; `waitpoint explore` finds it."""
+
+    def explore(self, *options):
+        program = self.compile("late_pom", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"))
+        return subprocess.run([program, "explore", HERE / "late_pom/late_pom.yaml", "--until", "15", *options],
+                              capture_output=True, text=True, timeout=300)
+
+    def test_is_found_minimised_explained_and_replayed(self):
+        schedule = self.folder / "schedule"
+        found = self.explore("--jobs", "2", "--schedule", schedule)
+        self.assertEqual(found.returncode, 1, found.stdout + found.stderr)
+        self.assertIn("expected at most 0.06 m", found.stdout)
+        self.assertRegex(found.stdout, r"(?m)^\d switch(es)? away from the default order")
+        self.assertRegex(found.stdout, r"could still have passed: number \d+, at [\d.]+ s: ")
+        digest = re.search(r"(?m)^digest: (\S+)", found.stdout).group(1)
+        for record in [re.search(r"--replay (wx1\S+)", found.stdout).group(1), schedule]:
+            replayed = self.explore("--replay", record)
+            self.assertEqual(replayed.returncode, 1)
+            self.assertIn("the same run", replayed.stdout, replayed.stderr)
+        self.assertIn(digest, replayed.stdout)
+
+    def test_its_mended_twin_passes(self):
+        passed = self.explore("--jobs", "2", "--iterations", "40", "--set", "robots.0.modules.pom.type=mended_pom")
+        self.assertEqual(passed.returncode, 0, passed.stdout + passed.stderr)
+
+
 class Unrepeatable(Installed):
     """Whatever a module takes from outside the simulation, a self-check finds it and names the first event that differs."""
 
