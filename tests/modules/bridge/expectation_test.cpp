@@ -20,7 +20,7 @@ RunResult result_with(std::size_t reached, std::size_t goals, std::uint64_t coll
 TEST(Expectation, nothing_expected_is_always_met) { EXPECT_EQ(unmet({}, result_with(0, 3, 9)), Lines{}); }
 
 TEST(Expectation, all_goals_and_no_collisions) {
-  const Expectation expect{.all_goals_reached = true, .goals_reached = {}, .collisions = 0};
+  const Expectation expect{.all_goals_reached = true, .goals_reached = {}, .collisions = 0, .position_error_max_m = {}};
   EXPECT_EQ(unmet(expect, result_with(3, 3, 0)), Lines{});
   EXPECT_EQ(unmet(expect, result_with(2, 3, 0)), Lines{"2 of 3 goals reached, expected all"});
   EXPECT_EQ(unmet(expect, result_with(3, 3, 1)), Lines{"1 collisions, expected 0"});
@@ -28,7 +28,8 @@ TEST(Expectation, all_goals_and_no_collisions) {
 }
 
 TEST(Expectation, a_number_of_goals_is_exact) {
-  const Expectation expect{.all_goals_reached = false, .goals_reached = 2, .collisions = {}};
+  const Expectation expect{
+      .all_goals_reached = false, .goals_reached = 2, .collisions = {}, .position_error_max_m = {}};
   EXPECT_EQ(unmet(expect, result_with(2, 3, 5)), Lines{});
   EXPECT_EQ(unmet(expect, result_with(3, 3, 5)), Lines{"3 of 3 goals reached, expected 2"});
 }
