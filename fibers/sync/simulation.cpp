@@ -90,7 +90,8 @@ RunEnd Simulation::run_before(Time until) {
     trouble_ = sync::describe_spinning(scheduler_, places_);
     return RunEnd::no_progress;
   }
-  if (scheduler_.live_tasks() == 0) return RunEnd::ended;
+  // Services that wait for each other are a deadlock too, whoever else is left.
+  if (scheduler_.live_tasks() == 0 && scheduler_.stop_cause() != kernel::StopCause::deadlock) return RunEnd::ended;
   trouble_ = sync::describe_deadlock(scheduler_, places_);
   return RunEnd::deadlock;
 }

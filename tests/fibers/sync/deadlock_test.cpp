@@ -244,5 +244,17 @@ TEST(Deadlock, ServicesThatWaitAreNoDeadlock) {
   EXPECT_EQ(report.end_time, Time() + Duration(1ms));
 }
 
+TEST(Deadlock, OfServicesAloneIsOneToo) {
+  Simulation simulation;
+  mutex m;
+  simulation.spawn(simulation.environment(), {.name = "beacon", .service = true}, [&] {
+    m.lock();
+    m.lock();
+  });
+  EXPECT_EQ(simulation.run_before(), RunEnd::deadlock);
+  EXPECT_TRUE(contains(simulation.trouble(), "a task waits for itself")) << simulation.trouble();
+  simulation.unwind();
+}
+
 }  // namespace
 }  // namespace waitpoint
