@@ -39,7 +39,7 @@ struct ExploreOptions {
   std::uint64_t seed = 1;
   std::uint64_t iterations = 10'000;  ///< schedules, at most
   double time_limit_s = 0;            ///< of the wall clock; 0: none
-  std::string replay = {};            ///< a token or the name of a schedule's file: that one alone
+  std::string replay = {};            ///< a token: that schedule alone
   bool races = true;                  ///< a data race is a failure, though it did no harm; see races/races.hpp
   bool minimize = true;               ///< what failed, to the fewest switches that still fail
   Time until = Time::max();           ///< a schedule that has not ended then fails
