@@ -9,14 +9,11 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "tools/option_values.hpp"
 #include "tools/pacing.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-[[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& found) {
-  throw BadInput(where, "expected " + expected + ", found '" + found + "'");
-}
 
 std::uint64_t seed_of(const std::string& where, const std::string& text) {
   std::uint64_t seed = 0;
@@ -180,13 +177,7 @@ RunOptions run_options(const Arguments& arguments) {
   } else if (!arguments.order.empty() && arguments.order != "fifo") {
     refuse("--order", "fifo or seeded", arguments.order);
   }
-  if (!arguments.until.empty()) {
-    double until_s = 0;
-    if (!parse_number(arguments.until, until_s) || !(until_s >= 1e-9 && until_s <= 1e9)) {
-      refuse("--until", "a positive number of seconds", arguments.until);
-    }
-    options.until = Duration::from_seconds(until_s);
-  }
+  options.until = positive_seconds("--until", arguments.until);
   if (!arguments.speed.empty() && (!parse_number(arguments.speed, options.speed) || !is_speed(options.speed)))
     refuse("--speed", speeds, arguments.speed);
   check_distinct(arguments);

@@ -23,8 +23,6 @@ constexpr std::uint64_t runs_to_explain = 20'000;
 constexpr std::size_t events_shown = 40;
 constexpr std::uint64_t schedules_between_looks_at_the_clock = 64;
 
-std::uint32_t upper_half(std::uint64_t digest) { return static_cast<std::uint32_t>(digest >> 32); }
-
 }  // namespace
 
 Campaign::Campaign(ForeignChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call)
@@ -99,7 +97,7 @@ bool Campaign::fails(Strategy& strategy, std::uint64_t number) {
   if (outcome.passed()) return false;
   Failure failure{body_.explorer().schedule(), outcome};
   report_.failed_at = number;
-  Token token{call_, upper_half(outcome.digest), options_.strategy, options_.seed, number, {}};
+  Token token{call_, token_digest(outcome.digest), options_.strategy, options_.seed, number, {}};
   tell({std::move(failure), std::move(token),
         "schedule " + std::to_string(number) + " of strategy " + options_.strategy + ", seed " +
             std::to_string(options_.seed)});
@@ -132,7 +130,7 @@ void Campaign::search() {
 }
 
 Token Campaign::token_of(const Failure& failure) const {
-  return {call_, upper_half(failure.outcome.digest), "", 0, 0, failure.schedule.deviations()};
+  return {call_, token_digest(failure.outcome.digest), "", 0, 0, failure.schedule.deviations()};
 }
 
 void Campaign::tell(const Found& found) {
@@ -183,12 +181,12 @@ ExploreReport Campaign::replay(const Token& token) {
   report_.schedules = 1;
   report_.distinct = 1;
   report_.failed_at = token.number;
-  const bool is_it = token.digest == 0 || token.digest == upper_half(outcome.digest);
+  const bool is_it = token.digest == 0 || token.digest == token_digest(outcome.digest);
   const Failure failure{body_.explorer().schedule(), outcome};
   if (!outcome.passed()) tell({failure, token, "the replayed schedule"});
   if (!is_it)
     report_.text = "this is not the run of the token: its digest begins with " +
-                   to_text(Token{token.call, upper_half(outcome.digest), "", 0, 0, {}}).substr(4) +
+                   to_text(Token{token.call, token_digest(outcome.digest), "", 0, 0, {}}).substr(4) +
                    "; the program is another one now\n" + report_.text;
   report_.passed = report_.text.empty();
   return report_;

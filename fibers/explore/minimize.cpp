@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "fibers/explore/leave_out.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {
@@ -27,7 +28,7 @@ class Minimizer {
   Failure run() {
     // As switches by tasks and events it may come to another run: then it stays as it was found.
     if (const auto again = fails_with(least_.schedule.switches())) least_ = *again;
-    do leave_out();
+    do leave_out_switches();
     while (switches() > searched_max && replace_two_by_one());
     for (std::size_t count = 1; count <= searched_max && count < switches(); ++count)
       if (const auto fewer = search({}, 0, count)) least_ = *fewer;
@@ -50,30 +51,14 @@ class Minimizer {
   }
   std::optional<Failure> fails_with(const std::vector<Switch>& switches) { return failing({.switches = switches}); }
 
-  // Delta debugging: complements of ever smaller parts.
-  void leave_out() {
-    std::size_t parts = 2;
-    std::vector<Switch> kept = least_.schedule.switches();
-    while (kept.size() > 1 && left_ > 0) {
-      const std::size_t size = (kept.size() + parts - 1) / parts;
-      bool reduced = false;
-      for (std::size_t from = 0; from < kept.size() && !reduced; from += size) {
-        std::vector<Switch> others(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(from));
-        const std::size_t end = std::min(kept.size(), from + size);
-        others.insert(others.end(), kept.begin() + static_cast<std::ptrdiff_t>(end), kept.end());
-        if (const auto still = fails_with(others); still && still->schedule.switches().size() < kept.size()) {
-          least_ = *still;
-          kept = least_.schedule.switches();
-          reduced = true;
-        }
-      }
-      if (reduced)
-        parts = std::max<std::size_t>(2, parts - 1);
-      else if (size == 1)
-        return;
-      else
-        parts = std::min(kept.size(), parts * 2);
-    }
+  void leave_out_switches() {
+    leave_out([&] { return least_.schedule.switches(); },
+              [&](const auto& kept, const auto& others, std::size_t, std::size_t) {
+                const auto still = fails_with(others);
+                if (!still || still->schedule.switches().size() >= kept.size()) return false;
+                least_ = *still;
+                return true;
+              });
   }
 
   // One switch anywhere in the place of two: where none can be left out, one that comes earlier may do the work of

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A failing schedule with as few switches away from the default order as can be found: what is left is what matters.
 //
-// First switches are left out by halves, quarters and so on as long as the rest still fails in the same way (Zeller,
-// Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 2002), and replaced, two by one, wherever
-// that one may be; then all schedules with fewer switches than are left are tried, with one, with two, as far as the
-// budget goes.
+// First switches are left out as long as the rest still fails in the same way (leave_out.hpp), and replaced, two by
+// one, wherever that one may be; then all schedules with fewer switches than are left are tried, with one, with two, as
+// far as the budget goes.
 #pragma once
 
 #include <cstdint>

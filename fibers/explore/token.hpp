@@ -18,7 +18,7 @@ namespace waitpoint::exploration {
 
 struct Token {
   std::uint32_t call = 1;
-  std::uint32_t digest = 0;  ///< the upper half of the run's; 0: not known
+  std::uint32_t digest = 0;  ///< see token_digest(); 0: not known
   std::string strategy;      ///< empty: the deviations
   std::uint64_t seed = 0;
   std::uint64_t number = 0;
@@ -26,6 +26,9 @@ struct Token {
 
   friend bool operator==(const Token&, const Token&) = default;
 };
+
+/// What a token keeps of a run's digest.
+constexpr std::uint32_t token_digest(std::uint64_t digest) { return static_cast<std::uint32_t>(digest >> 32); }
 
 /// What a token can hold in a line; a schedule that needs more goes to a file.
 inline constexpr std::size_t token_length_max = 80;

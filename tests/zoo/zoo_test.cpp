@@ -85,7 +85,7 @@ TEST(Zoo, ATokenRepeatsTheFailure) {
     const Specimen& specimen = specimens()[i];
     const auto found = Search(specimen.buggy).find("portfolio", seeds[0], schedules_max);
     ASSERT_TRUE(found) << specimen.name;
-    const auto digest = static_cast<std::uint32_t>(found->failure.outcome.digest >> 32);
+    const std::uint32_t digest = exploration::token_digest(found->failure.outcome.digest);
     ExploreOptions options;
     options.minimize = false;
     Campaign campaign(nullptr, specimen.buggy, options, 1);

@@ -11,15 +11,12 @@
 #include "fibers/explore/strategy.hpp"
 #include "fibers/explore/token.hpp"
 #include "modules/bridge/expectation.hpp"
+#include "tools/option_values.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 constexpr std::uint32_t jobs_max = 1024;
-
-[[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& found) {
-  throw BadInput(where, "expected " + expected + ", found '" + found + "'");
-}
 
 /// The option's text, else that of the environment's variable, where there is one; `where` becomes whose it is.
 std::string text_of(const std::string& option, const char* variable, std::string& where) {
@@ -36,14 +33,6 @@ void take(std::string where, const char* variable, const std::string& option, co
   const std::string text = text_of(option, variable, where);
   if (text.empty()) return;
   if (!parse_number(text, number) || !(number >= least)) refuse(where, expected, text);
-}
-
-std::optional<Duration> seconds(const char* where, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  double seconds = 0;
-  if (!parse_number(text, seconds) || !(seconds >= 1e-9 && seconds <= 1e9))
-    refuse(where, "a positive number of seconds", text);
-  return Duration::from_seconds(seconds);
 }
 
 Shard shard_of(const std::string& text) {
@@ -132,8 +121,8 @@ ExploreOptions ExploreArguments::options() const {
   take<std::uint64_t>("--seed", "WAITPOINT_SEED", seed_, "a whole number from 0 to 2^64 - 1", 0, options.seed);
   if (!jobs_.empty() && (!parse_number(jobs_, options.jobs) || options.jobs < 1 || options.jobs > jobs_max))
     refuse("--jobs", "a whole number from 1 to " + std::to_string(jobs_max), jobs_);
-  options.until = seconds("--until", until_);
-  options.from = seconds("--from", from_);
+  options.until = positive_seconds("--until", until_);
+  options.from = positive_seconds("--from", from_);
   if (options.from && options.until && *options.from >= *options.until)
     refuse("--from", "a time before --until", from_);
   if (!shard_.empty()) options.shard = shard_of(shard_);

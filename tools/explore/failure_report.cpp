@@ -16,13 +16,12 @@ namespace waitpoint::tools {
 namespace {
 
 using exploration::Token;
+using exploration::token_digest;
 
 constexpr std::uint64_t runs_to_minimize = 2000, runs_to_explain = 200;
 constexpr double seconds_to_minimize = 90, seconds_to_explain = 60;
 constexpr std::size_t events_shown = 30;
 constexpr Duration traced = std::chrono::seconds(2);
-
-std::uint32_t upper_half(std::uint64_t digest) { return static_cast<std::uint32_t>(digest >> 32); }
 
 std::string headline(const std::string& which, const Finding& finding) {
   return fmt::format("{} failed at {} s: {}\n", which, to_string(finding.end), finding.words);
@@ -86,7 +85,7 @@ FailureReport report_default(Scene& scene, const Finding& finding) {
   tell_run(scene, {.drawn = false}, finding, report);
   report.text += "digest: " + digest_text(finding.digest) + "\n";
   report.text += "replay: " + replay_command(options) + " --replay " +
-                 to_text(Token{0, upper_half(finding.digest), "", 0, 0, {}}) + "\n";
+                 to_text(Token{0, token_digest(finding.digest), "", 0, 0, {}}) + "\n";
   return report;
 }
 
@@ -96,7 +95,7 @@ FailureReport report(Scene& scene, SearchProgress& progress, const Search::Faile
   report.text =
       headline(fmt::format("schedule {} of strategy {}, seed {},", failed.number, options.strategy, options.seed),
                failed.finding);
-  const Token found{0, upper_half(failed.finding.digest), options.strategy, options.seed, failed.number, {}};
+  const Token found{0, token_digest(failed.finding.digest), options.strategy, options.seed, failed.number, {}};
   std::string token = to_text(found);
   Plan plan{.number = failed.number};
   Finding least = failed.finding;
@@ -116,7 +115,7 @@ FailureReport report(Scene& scene, SearchProgress& progress, const Search::Faile
     if (fewer.is_noise() || fewer.repeats()) {
       least = fewer.least();
       plan = {.number = fewer.number(), .drawn = false, .switches = {}, .deviations = least.deviations};
-      const std::string deviating = to_text(Token{0, upper_half(least.digest), "", 0, 0, least.deviations});
+      const std::string deviating = to_text(Token{0, token_digest(least.digest), "", 0, 0, least.deviations});
       if (fewer.number() == 0 && deviating.size() <= exploration::token_length_max) token = deviating;
     }
     Budget explaining(runs_to_explain, seconds_to_explain);

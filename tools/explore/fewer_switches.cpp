@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "fibers/explore/leave_out.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -47,20 +47,6 @@ void FewerSwitches::run() {
   if (number_ != 0 && !is_noise_) (void)fails(0, least_.switches);
 }
 
-// Complements of ever smaller parts.
-void FewerSwitches::leave_out() {
-  std::size_t parts = 2;
-  while (least_.switches.size() > 1) {
-    parts = std::min(parts, least_.switches.size());
-    if (leave_out_one_of(parts))
-      parts = std::max<std::size_t>(2, parts - 1);
-    else if (parts == least_.switches.size())
-      return;
-    else
-      parts *= 2;
-  }
-}
-
 // Without a switch its two tasks may have an event more or less, so that later switches stand at other numbers.
 bool FewerSwitches::leave_out_and_move(std::vector<Switch> others, const Switch& gone, std::size_t at) {
   const std::vector<Switch> unmoved = others;
@@ -79,17 +65,12 @@ bool FewerSwitches::leave_out_and_move(std::vector<Switch> others, const Switch&
   return false;
 }
 
-bool FewerSwitches::leave_out_one_of(std::size_t parts) {
-  const std::vector<Switch> all = least_.switches;
-  const std::size_t size = (all.size() + parts - 1) / parts;
-  for (std::size_t from = 0; from < all.size(); from += size) {
-    std::vector<Switch> others(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(from));
-    others.insert(others.end(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), from + size)),
-                  all.end());
-    if (fails(number_, others) && least_.switches.size() < all.size()) return true;
-    if (size == 1 && all.size() <= few && leave_out_and_move(others, all[from], from)) return true;
-  }
-  return false;
+void FewerSwitches::leave_out() {
+  exploration::leave_out([&] { return least_.switches; },
+                         [&](const auto& all, const auto& others, std::size_t from, std::size_t size) {
+                           if (fails(number_, others) && least_.switches.size() < all.size()) return true;
+                           return size == 1 && all.size() <= few && leave_out_and_move(others, all[from], from);
+                         });
 }
 
 }  // namespace waitpoint::tools

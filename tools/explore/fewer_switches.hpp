@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A failing schedule of a scene with as few switches away from the default order as a budget finds: what is left is
-// what matters. Switches are left out by halves, quarters and so on as long as the rest fails in the same way, with the
-// same noise (Zeller, Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 2002); and at last the
-// noise too, if it can be.
+// what matters. Switches are left out as long as the rest fails in the same way, with the same noise
+// (fibers/explore/leave_out.hpp); and at last the noise too, if it can be.
 #pragma once
 
 #include "tools/explore/budget.hpp"
@@ -28,7 +27,6 @@ class FewerSwitches {
  private:
   bool fails(std::uint64_t number, const std::vector<exploration::Switch>& switches);
   void leave_out();
-  bool leave_out_one_of(std::size_t parts);
   bool leave_out_and_move(std::vector<exploration::Switch> others, const exploration::Switch& gone, std::size_t at);
 
   Scene& scene_;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the commands' options have in common: how their values are read, and refused.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/time.hpp"
+
+namespace waitpoint::tools {
+
+/// Throws BadInput: "WHERE: expected EXPECTED, found 'FOUND'".
+[[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& found);
+
+/// From 1 ns to 10^9 s; nothing where `text` is empty. BadInput for all else.
+std::optional<Duration> positive_seconds(const std::string& where, const std::string& text);
+
+}  // namespace waitpoint::tools
