@@ -4,11 +4,12 @@
 
 namespace waitpoint::tools {
 
-/// From now on SIGINT and SIGTERM are noted: the first one of each. A second one does what it does by default.
+/// From now on the first SIGINT or SIGTERM is noted. A second one, unless it is the first one's echo of the same
+/// moment, does what it does by default: whoever is in a hurry is heard.
 void heed_signals();
 /// The signal that came, or 0.
 int interruption();
-/// Forgets it, and heeds the next one as if it were the first.
+/// Forgets it: the next one is the first again.
 void forget_interruption();
 
 }  // namespace waitpoint::tools

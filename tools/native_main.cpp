@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // waitpoint::main() of the build on real threads: the same scenarios and modules, at the wall clock's speed.
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
 
 #include "modules/bridge/expectation.hpp"
 #include "modules/bridge/scenario_reader.hpp"
 #include "modules/bridge/threaded_experiment.hpp"
+#include "tools/interruption.hpp"
 #include "tools/main.hpp"
 #include "tools/papers_modules.hpp"
 
@@ -19,19 +19,6 @@ struct Arguments {
   std::uint64_t seed = 1;
   double until_s = 0;
 };
-
-volatile std::sig_atomic_t signalled = 0;
-
-void note_signal(int) { signalled = 1; }
-
-// The first signal stops the robots in good order, a second one the program.
-void heed_signals() {
-  struct sigaction action {};
-  action.sa_handler = note_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 void print(const bridge::RunResult& result) {
   const bridge::RunTotals sum = totals(result);
@@ -53,9 +40,9 @@ void print(const bridge::RunResult& result) {
 int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
   const bridge::Scenario scenario = bridge::read_scenario(arguments.scenario, arguments.assignments);
   bridge::ThreadedExperiment experiment(scenario, types, arguments.seed);
-  heed_signals();
+  tools::heed_signals();
   experiment.run_for(arguments.until_s > 0 ? Duration::from_seconds(arguments.until_s) : scenario.until,
-                     [] { return signalled != 0; });
+                     [] { return tools::interruption() != 0; });
   const bridge::RunResult result = experiment.result();
   print(result);
   if (result.outcome == bridge::Outcome::interrupted) return 130;

@@ -233,6 +233,13 @@ class Counting(InATemporaryFolder):
         result = self.run_program("echo '[ RUN      ] S.A'; echo '[       OK ] S.A (0 ms)'; echo '[ RUN      ] S.B'; kill -SEGV $$")
         self.assertEqual((result.passed, result.failed), (1, ["S.B: was ended by SIGSEGV"]))
 
+    def test_what_failed_cases_said_is_shown_alone(self):
+        output = ("before\n[ RUN      ] S.A\nfine\n[       OK ] S.A (0 ms)\n[ RUN      ] S.B\nbad\n[  FAILED  ] S.B (1 ms)\n"
+                  "[ RUN      ] S.C\nworse\n")
+        self.assertEqual(run_tests.excerpt(output, ["S.B"]), "S.B\nbad\n[  FAILED  ] S.B (1 ms)\n")
+        self.assertEqual(run_tests.excerpt(output, ["S.C: was ended by SIGSEGV"]), "S.C\nworse\n")
+        self.assertEqual(run_tests.excerpt(output, ["the program: holds no case"]), output)
+
     def test_a_crash_after_the_last_case_fails(self):
         result = self.run_program(self.xml(self.PASSED) + "; kill -ABRT $$")
         self.assertEqual((result.passed, result.failed), (1, ["the program: was ended by SIGABRT after its cases"]))

@@ -129,13 +129,20 @@ def run_one_case(command, timeout_s, environment=None, folder=None):
     return Result(failed=[explain(status, timeout_s)], output=output)
 
 
+def excerpt(output, failed):
+    """Of a GoogleTest program's output what its failed cases said; all of it where they cannot be told apart."""
+    said = re.findall(r"^\[ RUN      \] (\S+)\n(.*?)(?=^\[ (?:RUN|      OK|  SKIPPED) |\Z)", output, re.MULTILINE | re.DOTALL)
+    parts = [f"{name}\n{text}" for name, text in said if any(case.split(":")[0] == name for case in failed)]
+    return "".join(parts) or output
+
+
 def report_end(name, result, wall_s, total):
     """Prints a program's line as it ends, and its output if something failed; adds it to the total."""
     verdict = "FAILED" if result.failed else "ok"
     skipped = f", {len(result.skipped)} skipped" if result.skipped else ""
     print(f"{verdict:6}  {name}: {result.passed} passed, {len(result.failed)} failed{skipped}  ({wall_s:.1f} s)")
     if result.failed:
-        print("".join(f"    | {line}\n" for line in result.output.splitlines()), end="")
+        print("".join(f"    | {line}\n" for line in excerpt(result.output, result.failed).splitlines()), end="")
         for case in result.failed:
             print(f"    failed: {case}")
     sys.stdout.flush()
