@@ -145,7 +145,7 @@ void Campaign::tell(const Found& found) {
   report_.schedule = least.schedule;
   std::string& text = report_.text;
   text = found.which + " failed: " + least.outcome.failure + "\n";
-  const std::size_t switches = least.schedule.switches().size();
+  const std::size_t switches = least.schedule.switches.size();
   text += switches == 0   ? "it is the default order that fails\n"
           : switches == 1 ? "one switch away from the default order fails\n"
                           : std::to_string(switches) + " switches away from the default order fail\n";

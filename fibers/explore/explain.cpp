@@ -26,7 +26,7 @@ std::optional<Crossing> last_crossing(Body& body, const Failure& failure, std::u
   for (std::size_t i = decisions.size(); i-- > 0;) {
     std::vector<Decision> changed(decisions.begin(), decisions.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     // That a wait might have ended for nothing explains nothing.
-    if (decisions[i].change.choice == Choice::spurious && !decisions[i].is_switch()) continue;
+    if (decisions[i].choice == Choice::spurious && !decisions[i].is_switch()) continue;
     for (std::uint32_t other = 0; other < decisions[i].count; ++other) {
       if (other == decisions[i].chosen) continue;
       if (runs_max-- == 0) return std::nullopt;
@@ -80,8 +80,8 @@ std::string explain(Body& body, const Failure& failure, std::uint64_t runs_max) 
   if (!crossing) return "";
   const Decision& decision = failure.schedule.decisions[crossing->decision];
   std::string text = "the last choice from which it could still have passed: number " +
-                     std::to_string(crossing->decision) + ", " + description(decision.change.choice);
-  if (decision.change.choice != Choice::task)
+                     std::to_string(crossing->decision) + ", " + description(decision.choice);
+  if (decision.choice != Choice::task)
     return text + ": alternative " + std::to_string(decision.chosen) + " fails, " + std::to_string(crossing->instead) +
            " passes";
   Played played{.prefix = failure.schedule.decisions};

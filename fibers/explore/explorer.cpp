@@ -12,33 +12,30 @@ using kernel::Operation;
 
 constexpr std::uint8_t looks_max = 6;
 
-// What changes nothing for others, and what one does again and again who waits for them.
-bool is_look(Operation operation) {
-  switch (operation) {
-    case Operation::load:
-    case Operation::try_lock:
-    case Operation::try_lock_shared:
-    case Operation::try_acquire:
-    case Operation::try_wait:
-    case Operation::compare_exchange:
-    case Operation::exchange:
-    case Operation::stop_requested:
-    case Operation::poll:
-    case Operation::sleep:
-    case Operation::yield: return true;
-    default: return false;
-  }
+template <class... Operations>
+constexpr std::uint64_t set_of(Operations... operations) {
+  return (... | (std::uint64_t{1} << static_cast<unsigned>(operations)));
 }
+
+// What changes nothing for others, and what one does again and again who waits for them.
+constexpr std::uint64_t looks =
+    set_of(Operation::load, Operation::try_lock, Operation::try_lock_shared, Operation::try_acquire,
+           Operation::try_wait, Operation::compare_exchange, Operation::exchange, Operation::stop_requested,
+           Operation::poll, Operation::sleep, Operation::yield);
+
+bool is_look(Operation operation) { return (looks >> static_cast<unsigned>(operation) & 1) != 0; }
 
 }  // namespace
 
 void Explorer::begin(Strategy& strategy, const Played& played) {
   strategy_ = &strategy;
   played_ = played;
-  plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty();
+  plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty() ||
+           played.stop_at != Played().stop_at;
   switches_.assign(played.switches.begin(), played.switches.end());
   std::sort(switches_.begin(), switches_.end());
   schedule_.decisions.clear();
+  schedule_.switches.clear();
   habits_.clear();
   stopped_before_.clear();
   last_ = nullptr;
@@ -61,7 +58,7 @@ const Decision* Explorer::of_prefix(Choice choice, std::uint32_t count) {
   const std::size_t at = schedule_.decisions.size();
   if (parted_ || at >= played_.prefix.size()) return nullptr;
   const Decision& decision = played_.prefix[at];
-  if (decision.change.choice == choice && decision.count == count) return &decision;
+  if (decision.choice == choice && decision.count == count) return &decision;
   parted_ = true;
   return nullptr;
 }
@@ -77,28 +74,35 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
     step_of_instant_ = 0;
   }
   if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
-  std::uint32_t chosen = 0;
+  // Who was the last to go on mostly stands behind the others.
+  std::uint32_t usual = count;
+  while (usual > 0 && ready[usual - 1] != last_) --usual;
+  const bool may_go_on = usual > 0;
+  if (may_go_on) --usual;
+  std::uint32_t chosen = count;
+  if (__builtin_expect(plays_, 0) && count > 1) {
+    if (schedule_.decisions.size() == played_.stop_at) return stop(ready, count, usual);
+    chosen = choose(ready, count, usual);
+  }
+  if (chosen == count)
+    chosen = __builtin_expect(spinning_ != 0, 0) && count > 1
+                 ? offer_to_some(ready, count)
+                 : strategy_->next({{ready, count}, last_, may_go_on, step_});
+  if (__builtin_expect(chosen == Strategy::cut, 0)) return give_up(*ready[0]);
   if (count > 1) {
-    std::uint32_t usual = 0;
-    while (usual < count && ready[usual] != last_) ++usual;
-    const bool may_go_on = usual < count;
-    if (!may_go_on) usual = 0;
-    if (schedule_.decisions.size() == played_.stop_at) {
-      stopped_before_.assign(ready, ready + count);
-      scheduler_.stop_between_events(kernel::StopCause::requested, *ready[usual]);
-      return usual;
-    }
-    chosen = plays_ ? choose(ready, count, usual) : count;
-    if (chosen == count) chosen = offer(ready, count, may_go_on);
-    if (chosen == Strategy::cut) return give_up(*ready[usual]);
-    schedule_.decisions.push_back(
-        {count, chosen, usual, {Choice::task, event_of(*ready[usual]), event_of(*ready[chosen])}});
-  } else {
-    if (strategy_->next({{ready, 1}, last_, last_ == ready[0], step_}) == Strategy::cut) return give_up(*ready[0]);
+    schedule_.decisions.push_back({count, chosen, usual});
+    if (chosen != usual)
+      schedule_.switches.push_back({Choice::task, event_of(*ready[usual]), event_of(*ready[chosen])});
   }
   note(*ready[chosen]);
   ++step_;
   return chosen;
+}
+
+std::uint32_t Explorer::stop(Task* const* ready, std::uint32_t count, std::uint32_t usual) {
+  stopped_before_.assign(ready, ready + count);
+  scheduler_.stop_between_events(kernel::StopCause::requested, *ready[usual]);
+  return usual;
 }
 
 // The run ends here: whatever is returned is not entered.
@@ -125,9 +129,8 @@ void Explorer::stop_spinning() {
 }
 
 // Asks the strategy, which does not see those that spin as long as there are others.
-std::uint32_t Explorer::offer(Task* const* ready, std::uint32_t count, bool may_go_on) {
-  if (spinning_ == 0) return strategy_->next({{ready, count}, last_, may_go_on, step_});
-  may_go_on = false;
+std::uint32_t Explorer::offer_to_some(Task* const* ready, std::uint32_t count) {
+  bool may_go_on = false;
   offered_.clear();
   places_.clear();
   const auto add = [&](std::uint32_t at) {
@@ -148,25 +151,29 @@ std::uint32_t Explorer::offer(Task* const* ready, std::uint32_t count, bool may_
   return chosen == Strategy::cut ? chosen : places_[chosen];
 }
 
-void Explorer::note(const Task& task) {
-  if (task.number >= habits_.size()) habits_.resize(task.number + 1);
+inline void Explorer::note(const Task& task) {
+  if (__builtin_expect(task.number >= habits_.size(), 0)) habits_.resize(task.number + 1);
   Habit& habit = habits_[task.number];
-  if (!is_look(task.operation)) {
+  if (is_look(task.operation)) {
+    note_look(task, habit);
+  } else {
     habit.looks = 0;
     if (spinning_ != 0) stop_spinning();
-  } else if (task.operation == Operation::yield) {
-    spinning_ += !habit.spins;
-    habit.spins = true;
-  } else if (task.at != habit.at[0] && task.at != habit.at[1]) {
-    habit.looks = 0;
-  } else if (++habit.looks >= looks_max) {
-    spinning_ += !habit.spins;
-    habit.spins = true;
-    habit.looks = 0;
   }
   habit.at[1] = habit.at[0];
   habit.at[0] = task.at;
   last_ = &task;
+}
+
+void Explorer::note_look(const Task& task, Habit& habit) {
+  const bool is_another = task.at != habit.at[0] && task.at != habit.at[1];
+  if (task.operation != Operation::yield) {
+    habit.looks = is_another ? 0 : static_cast<std::uint8_t>(habit.looks + 1);
+    if (habit.looks < looks_max) return;
+    habit.looks = 0;
+  }
+  spinning_ += !habit.spins;
+  habit.spins = true;
 }
 
 std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {
@@ -179,7 +186,8 @@ std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t cou
   }
   if (chosen == count) chosen = strategy_->among(choice, task, count);
   WAITPOINT_CHECK(chosen < count, "a strategy chooses what there is not");
-  schedule_.decisions.push_back({count, chosen, 0, {choice, event_of(task), {chosen, 0}}});
+  schedule_.decisions.push_back({count, chosen, 0, choice});
+  if (chosen != 0) schedule_.switches.push_back({choice, event_of(task), {chosen, 0}});
   return chosen;
 }
 

@@ -64,9 +64,11 @@ class Explorer final : public kernel::Decisions {
   };
 
   std::uint32_t choose(Task* const* ready, std::uint32_t count, std::uint32_t usual);
+  std::uint32_t stop(Task* const* ready, std::uint32_t count, std::uint32_t usual);
   std::uint32_t give_up(Task& task);
-  std::uint32_t offer(Task* const* ready, std::uint32_t count, bool may_go_on);
+  std::uint32_t offer_to_some(Task* const* ready, std::uint32_t count);
   void note(const Task& task);
+  void note_look(const Task& task, Habit& habit);
   std::uint32_t of_deviations(std::uint32_t count);
   const Decision* of_prefix(Choice choice, std::uint32_t count);
   bool is_played(const Switch& change) const;

@@ -27,7 +27,7 @@ class Minimizer {
 
   Failure run() {
     // As switches by tasks and events it may come to another run: then it stays as it was found.
-    if (const auto again = fails_with(least_.schedule.switches())) least_ = *again;
+    if (const auto again = fails_with(least_.schedule.switches)) least_ = *again;
     do leave_out_switches();
     while (switches() > searched_max && replace_two_by_one());
     for (std::size_t count = 1; count <= searched_max && count < switches(); ++count)
@@ -36,7 +36,7 @@ class Minimizer {
   }
 
  private:
-  std::size_t switches() const { return least_.schedule.switches().size(); }
+  std::size_t switches() const { return least_.schedule.switches.size(); }
 
   std::optional<Failure> failing(const Played& played) {
     if (left_ == 0) return std::nullopt;
@@ -52,10 +52,10 @@ class Minimizer {
   std::optional<Failure> fails_with(const std::vector<Switch>& switches) { return failing({.switches = switches}); }
 
   void leave_out_switches() {
-    leave_out([&] { return least_.schedule.switches(); },
+    leave_out([&] { return least_.schedule.switches; },
               [&](const auto& kept, const auto& others, std::size_t, std::size_t) {
                 const auto still = fails_with(others);
-                if (!still || still->schedule.switches().size() >= kept.size()) return false;
+                if (!still || still->schedule.switches.size() >= kept.size()) return false;
                 least_ = *still;
                 return true;
               });
@@ -64,7 +64,7 @@ class Minimizer {
   // One switch anywhere in the place of two: where none can be left out, one that comes earlier may do the work of
   // both.
   bool replace_two_by_one() {
-    const std::vector<Switch> kept = least_.schedule.switches();
+    const std::vector<Switch> kept = least_.schedule.switches;
     for (std::size_t i = 0; i + 1 < kept.size(); ++i)
       for (std::size_t j = i + 1; j < kept.size(); ++j) {
         std::vector<Switch> others;
@@ -82,7 +82,7 @@ class Minimizer {
             if (other == path[at].chosen) continue;
             changed.back().chosen = other;
             const auto failed = failing({.prefix = changed, .switches = others});
-            if (!failed || failed->schedule.switches().size() >= kept.size()) continue;
+            if (!failed || failed->schedule.switches.size() >= kept.size()) continue;
             least_ = *failed;
             return true;
           }

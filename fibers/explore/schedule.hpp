@@ -37,7 +37,7 @@ struct Decision {
   std::uint32_t count;   ///< alternatives, at least two
   std::uint32_t chosen;  ///< below count
   std::uint32_t usual;   ///< what the default order would have chosen
-  Switch change;         ///< where and what, if it is not the usual
+  kernel::Choice choice = kernel::Choice::task;
 
   bool is_switch() const { return chosen != usual; }
 };
@@ -51,14 +51,9 @@ struct Deviation {
 
 struct Schedule {
   std::vector<Decision> decisions;
+  std::vector<Switch> switches;  ///< of those decisions that are switches, in their order
 
-  std::vector<Switch> switches() const {
-    std::vector<Switch> found;
-    for (const Decision& decision : decisions)
-      if (decision.is_switch()) found.push_back(decision.change);
-    return found;
-  }
-  /// The same by their numbers: shorter, and only of use in a program that is not edited.
+  /// The switches by their numbers: shorter, and only of use in a program that is not edited.
   std::vector<Deviation> deviations() const {
     std::vector<Deviation> found;
     for (std::size_t i = 0; i < decisions.size(); ++i)

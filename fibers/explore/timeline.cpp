@@ -42,8 +42,8 @@ std::uint32_t TimelineRecorder::number_of(const Task& task) {
 void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& record) {
   TimelineRecorder& self = static_cast<TimelineRecorder&>(watch);
   const std::vector<Decision>& decisions = self.explorer_.schedule().decisions;
-  const bool is_switch = decisions.size() > self.decisions_ && decisions.back().is_switch() &&
-                         decisions.back().change.choice == Choice::task;
+  const bool is_switch =
+      decisions.size() > self.decisions_ && decisions.back().is_switch() && decisions.back().choice == Choice::task;
   self.decisions_ = decisions.size();
   if (record.time < self.from_) return;
   std::vector<TimelineEvent>& events = self.timeline_.events;

@@ -56,7 +56,7 @@ TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
       if (!found) continue;
       const auto least = exploration::minimize(search.body(), found->failure, runs_to_minimize);
       EXPECT_TRUE(exploration::is_same_failure(least.outcome, found->failure.outcome)) << specimen.name;
-      const std::size_t switches = least.schedule.switches().size();
+      const std::size_t switches = least.schedule.switches.size();
       ++failures;
       longer += switches > specimen.switches + 1;
       EXPECT_GE(switches, specimen.switches) << specimen.name << " needs fewer than it says";

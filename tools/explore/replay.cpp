@@ -66,9 +66,7 @@ Record of_file(ExploreOptions& options, const bridge::Scenario& scenario) {
 /// Where the run left the record, in words; empty if it did not.
 std::string parting(const Record& record, const Scene& scene, const Finding& finding) {
   const std::string where = fmt::format("behind event {} at {} s", finding.events, to_string(finding.end));
-  std::vector<Switch> met;
-  for (const auto& decision : scene.decisions())
-    if (decision.is_switch()) met.push_back(decision.change);
+  std::vector<Switch> met = scene.schedule().switches;
   std::sort(met.begin(), met.end());
   for (std::size_t i = 0; i < record.plan.switches.size(); ++i) {
     const Switch& change = record.plan.switches[i];
@@ -80,7 +78,7 @@ std::string parting(const Record& record, const Scene& scene, const Finding& fin
         line_of_switch(i), change.usual.sequence, change.usual.task, i == 0 || told.size() < i ? 0 : told[i - 1].event);
   }
   for (const auto& deviation : record.plan.deviations)
-    if (deviation.decision >= scene.decisions().size())
+    if (deviation.decision >= scene.schedule().decisions.size())
       return fmt::format("choice {} was never come to: the run was over {}", deviation.decision, where);
   if (finding.parted) return "a choice had fewer alternatives than the one taken; the run was over " + where;
   return "";

@@ -124,7 +124,7 @@ Finding Scene::run(const Plan& plan, const Request& request) {
   Finding finding;
   watch_and_carry_out(plan, request, finding);
   if (!finding.passed()) {
-    finding.switches = explorer.schedule().switches();
+    finding.switches = explorer.schedule().switches;
     finding.deviations = explorer.schedule().deviations();
   }
   finding.parted = explorer.parted();
@@ -199,6 +199,6 @@ bridge::RunResult Scene::result() const {
 
 const std::vector<Told>& Scene::switches() const { return stage_->narrator.switches(); }
 
-const std::vector<exploration::Decision>& Scene::decisions() const { return stage_->explorer.schedule().decisions; }
+const exploration::Schedule& Scene::schedule() const { return stage_->explorer.schedule(); }
 
 }  // namespace waitpoint::tools

@@ -55,7 +55,7 @@ class Scene {
   /// After run().
   bridge::RunResult result() const;
   const std::vector<Told>& switches() const;
-  const std::vector<exploration::Decision>& decisions() const;
+  const exploration::Schedule& schedule() const;
 
   const bridge::Scenario& scenario() const { return scenario_; }
   const ExploreOptions& options() const { return options_; }

@@ -7,12 +7,15 @@ namespace waitpoint::exploration {
 
 std::uint32_t Pos::next(const SwitchPoint& at) {
   std::uint32_t best = 0;
+  std::uint64_t highest = 0;
   for (std::uint32_t i = 0; i < at.ready.size(); ++i) {
     const Task& task = *at.ready[i];
     if (pending_.size() <= task.number) pending_.resize(task.number + 1);
     Pending& pending = pending_[task.number];
     if (pending.sequence != task.sequence) pending = {task.sequence, draws_.bits()};
-    if (pending.priority > pending_[at.ready[best]->number].priority) best = i;
+    if (pending.priority <= highest) continue;
+    best = i;
+    highest = pending.priority;
   }
   const Task& chosen = *at.ready[best];
   for (const Task* other : at.ready)

@@ -23,13 +23,14 @@ std::uint64_t Urw::expected(const Profile::TaskEvents& task) const {
   return count;
 }
 
+bool Urw::has_met(const Task& task) const { return task.number < ids_.size() && ids_[task.number] != 0; }
+
 // A task that is seen for the first time: what it is to do is its maker's no longer.
 void Urw::meet(const Task& task) {
-  while (remaining_.size() <= task.number) {
-    remaining_.push_back(0);
-    ids_.push_back(0);
+  if (ids_.size() <= task.number) {
+    remaining_.resize(task.number + 1, 0);
+    ids_.resize(task.number + 1, 0);
   }
-  if (ids_[task.number] != 0) return;
   ids_[task.number] = task.id;
   const Profile::TaskEvents* known = profile_->find(task.id);
   if (known == nullptr) return;
@@ -66,7 +67,8 @@ std::uint32_t Urw::selected(const SwitchPoint& at) {
 }
 
 std::uint32_t Urw::next(const SwitchPoint& at) {
-  for (const Task* task : at.ready) meet(*task);
+  for (const Task* task : at.ready)
+    if (!has_met(*task)) meet(*task);
   const std::uint32_t chosen = at.ready.size() == 1 ? 0 : object_ == 0 ? weighted(at) : selected(at);
   const Task& task = *at.ready[chosen];
   if (counts(task)) {
