@@ -74,33 +74,37 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
     step_of_instant_ = 0;
   }
   if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
+  const bool chooses = count > 1;
+  const bool some_spin = __builtin_expect(spinning_ != 0, 0) && chooses;
+  const std::span<Task* const> offered = some_spin ? leave_spinning_out({ready, count}) : std::span(ready, count);
   // Who was the last to go on mostly stands behind the others.
-  std::uint32_t usual = count;
-  while (usual > 0 && ready[usual - 1] != last_) --usual;
+  std::size_t usual = offered.size();
+  while (usual > 0 && offered[usual - 1] != last_) --usual;
   const bool may_go_on = usual > 0;
   if (may_go_on) --usual;
+  const std::uint32_t usual_place = some_spin ? places_[usual] : static_cast<std::uint32_t>(usual);
   std::uint32_t chosen = count;
-  if (__builtin_expect(plays_, 0) && count > 1) {
-    if (schedule_.decisions.size() == played_.stop_at) return stop(ready, count, usual);
-    chosen = choose(ready, count, usual);
+  if (__builtin_expect(plays_, 0) && chooses) {
+    if (schedule_.decisions.size() == played_.stop_at) return stop({ready, count}, usual_place);
+    chosen = choose({ready, count}, usual_place);
   }
-  if (chosen == count)
-    chosen = __builtin_expect(spinning_ != 0, 0) && count > 1
-                 ? offer_to_some(ready, count)
-                 : strategy_->next({{ready, count}, last_, may_go_on, step_});
+  if (chosen == count) {
+    chosen = strategy_->next({offered, last_, may_go_on, step_});
+    if (some_spin && chosen != Strategy::cut) chosen = places_[chosen];
+  }
   if (__builtin_expect(chosen == Strategy::cut, 0)) return give_up(*ready[0]);
-  if (count > 1) {
-    schedule_.decisions.push_back({count, chosen, usual});
-    if (chosen != usual)
-      schedule_.switches.push_back({Choice::task, event_of(*ready[usual]), event_of(*ready[chosen])});
+  if (chooses) {
+    schedule_.decisions.push_back({count, chosen, usual_place});
+    if (chosen != usual_place)
+      schedule_.switches.push_back({Choice::task, event_of(*ready[usual_place]), event_of(*ready[chosen])});
   }
   note(*ready[chosen]);
   ++step_;
   return chosen;
 }
 
-std::uint32_t Explorer::stop(Task* const* ready, std::uint32_t count, std::uint32_t usual) {
-  stopped_before_.assign(ready, ready + count);
+std::uint32_t Explorer::stop(std::span<Task* const> ready, std::uint32_t usual) {
+  stopped_before_.assign(ready.begin(), ready.end());
   scheduler_.stop_between_events(kernel::StopCause::requested, *ready[usual]);
   return usual;
 }
@@ -112,8 +116,9 @@ std::uint32_t Explorer::give_up(Task& task) {
   return 0;
 }
 
-// What is played here; `count` if that is open.
-std::uint32_t Explorer::choose(Task* const* ready, std::uint32_t count, std::uint32_t usual) {
+// What is played here; as many as there are ready if that is open.
+std::uint32_t Explorer::choose(std::span<Task* const> ready, std::uint32_t usual) {
+  const auto count = static_cast<std::uint32_t>(ready.size());
   if (const Decision* decision = of_prefix(Choice::task, count)) return decision->chosen;
   if (const std::uint32_t chosen = of_deviations(count); chosen != count) return chosen;
   if (!switches_.empty()) {
@@ -128,27 +133,22 @@ void Explorer::stop_spinning() {
   spinning_ = 0;
 }
 
-// Asks the strategy, which does not see those that spin as long as there are others.
-std::uint32_t Explorer::offer_to_some(Task* const* ready, std::uint32_t count) {
-  bool may_go_on = false;
+// The strategy, and the default order, do not see those that spin as long as there are others.
+std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready) {
   offered_.clear();
   places_.clear();
   const auto add = [&](std::uint32_t at) {
     offered_.push_back(ready[at]);
     places_.push_back(at);
   };
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (ready[i]->number >= habits_.size() || !habits_[ready[i]->number].spins) {
-      add(i);
-      may_go_on |= ready[i] == last_;
-    }
+  for (std::uint32_t i = 0; i < ready.size(); ++i)
+    if (ready[i]->number >= habits_.size() || !habits_[ready[i]->number].spins) add(i);
   if (offered_.empty()) {  // all of them spin: one of the others has its turn
     stop_spinning();
-    for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t i = 0; i < ready.size(); ++i)
       if (ready[i] != last_) add(i);
   }
-  const std::uint32_t chosen = strategy_->next({offered_, last_, may_go_on, step_});
-  return chosen == Strategy::cut ? chosen : places_[chosen];
+  return offered_;
 }
 
 inline void Explorer::note(const Task& task) {

@@ -63,10 +63,10 @@ class Explorer final : public kernel::Decisions {
     bool spins = false;
   };
 
-  std::uint32_t choose(Task* const* ready, std::uint32_t count, std::uint32_t usual);
-  std::uint32_t stop(Task* const* ready, std::uint32_t count, std::uint32_t usual);
+  std::uint32_t choose(std::span<Task* const> ready, std::uint32_t usual);
+  std::uint32_t stop(std::span<Task* const> ready, std::uint32_t usual);
   std::uint32_t give_up(Task& task);
-  std::uint32_t offer_to_some(Task* const* ready, std::uint32_t count);
+  std::span<Task* const> leave_spinning_out(std::span<Task* const> ready);
   void note(const Task& task);
   void note_look(const Task& task, Habit& habit);
   std::uint32_t of_deviations(std::uint32_t count);

@@ -8,6 +8,8 @@ alone.
 import os
 import pathlib
 import re
+import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -171,7 +173,7 @@ class LatePom(Installed):
         found = self.explore("--jobs", "2", "--schedule", schedule)
         self.assertEqual(found.returncode, 1, found.stdout + found.stderr)
         self.assertIn("expected at most 0.06 m", found.stdout)
-        self.assertRegex(found.stdout, r"(?m)^\d switch(es)? away from the default order")
+        self.assertRegex(found.stdout, r"(?m)^1 switch away from the default order fails")
         self.assertRegex(found.stdout, r"could still have passed: number \d+, at [\d.]+ s: ")
         digest = re.search(r"(?m)^digest: (\S+)", found.stdout).group(1)
         for record in [re.search(r"--replay (wx1\S+)", found.stdout).group(1), schedule]:
@@ -179,6 +181,28 @@ class LatePom(Installed):
             self.assertEqual(replayed.returncode, 1)
             self.assertIn("the same run", replayed.stdout, replayed.stderr)
         self.assertIn(digest, replayed.stdout)
+
+    def test_is_stepped_through_in_gdb(self):
+        if shutil.which("gdb") is None or "exited normally" not in self.gdb("-ex", "run", "--", "true"):
+            self.skipTest("no process may be debugged here")
+        found = self.explore("--jobs", "2").stdout
+        words = shlex.split(re.search(r"(?m)^replay: (.*)$", found).group(1))
+        failed_s = float(re.search(r"failed at ([\d.]+) s", found).group(1))
+        told = self.gdb("-ex", f"break-time {failed_s - 0.2}", "-ex", "run", "-ex", "next-event-of pom.fusing",
+                        "-ex", "info fibers", "-ex", "back", "-ex", "tbreak Pom<true>::fuse", "-ex", "continue",
+                        "-ex", "delete", "-ex", "continue", "--", *words)
+        at = int(re.search(r"event (\d+) at [\d.]+ s: pom.fusing of rackham: resume timer", told).group(1))
+        self.assertIn(f"event {at - 1} at", told)
+        self.assertRegex(told, r"\n\* +\d+ +pom.fusing +rackham")
+        self.assertIn("Pom<true>::fuse", told)
+        self.assertIn("failed: position error of ", told)
+        self.assertIn(re.search(r"(?m)^digest: (\S+)", found).group(1), told)
+
+    def gdb(self, *words):
+        done = subprocess.run([BUILD / "tools/waitpoint", "gdb", "-nx", "-batch", "-ex", "set pagination off", *words],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120,
+                              env={**os.environ, "DEBUGINFOD_URLS": "", "LC_ALL": "C"})
+        return done.stdout
 
     def test_its_mended_twin_passes(self):
         passed = self.explore("--jobs", "2", "--iterations", "40", "--set", "robots.0.modules.pom.type=mended_pom")

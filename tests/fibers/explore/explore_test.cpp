@@ -82,6 +82,26 @@ TEST(Explore, ALostWakeUpIsFoundMinimizedAndExplained) {
   EXPECT_LE(report.replay.size(), 80U);
 }
 
+// That others are let go on while a task polls is the default order, not a switch away from it.
+TEST(Explore, WhoPollsAddsNoSwitchesToAFailure) {
+  const ExploreReport report = explore([] {
+    atomic<int> written{0}, done{0};
+    thread polling([&] {
+      while (done.load() < 2) this_thread::yield();
+    });
+    const auto increment = [&] {
+      const int read = written.load();
+      written.store(read + 1);
+      done.fetch_add(1);
+    };
+    thread first(increment), second(increment);
+    for (thread* each : {&polling, &first, &second}) each->join();
+    check(written.load() == 2, "a lost update");
+  });
+  EXPECT_FALSE(report.passed);
+  EXPECT_EQ(report.schedule.switches.size(), 1U) << report;
+}
+
 TEST(Explore, EveryWayToFailIsReportedInItsWords) {
   const auto words = [](std::function<void()> body) { return explore(std::move(body)).text; };
   EXPECT_TRUE(contains(words([] { count_to_three(3); }), ": an increment was lost"));
