@@ -3,9 +3,9 @@
 // is stored.
 //
 // Only what was a choice stands in it: two alternatives or more. The usual one is what the default order would have
-// done: the running task goes on, else the one that has been ready longest, of those that do not spin; the first waiter;
-// the longest computation. What differs from that, the switches, says by tasks and their events where it was made: so it
-// keeps its meaning when others are left out, or the code around it is edited.
+// done: the running task goes on, else the one that has been ready longest, of those that do not spin; the first
+// waiter; the longest computation. What differs from that, the switches, says by tasks and their events where it was
+// made: so it keeps its meaning when others are left out, or the code around it is edited.
 #pragma once
 
 #include <compare>
