@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An installed copy of a build folder, and programs that are compiled against it with the flags of pkg-config alone."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+
+
+def run(*command, **options):
+    """Runs a command that must succeed; returns its standard output."""
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, command))}\nended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def flags(prefix, *arguments):
+    """What pkg-config answers; the packages of the installed library say that they lie in `prefix`."""
+    folders = os.pathsep.join(str(path.parent) for path in prefix.rglob("*.pc"))
+    environment = {**os.environ, "PKG_CONFIG_PATH": folders}
+    return run("pkg-config", f"--define-variable=prefix={prefix}", *arguments, env=environment).split()
+
+
+class Installed(unittest.TestCase):
+    """Installs once for all; what is compiled is compiled once too."""
+
+    @classmethod
+    def setUpClass(cls):
+        if hasattr(Installed, "folder"):
+            return
+        folder = tempfile.TemporaryDirectory()
+        unittest.addModuleCleanup(folder.cleanup)
+        Installed.folder = pathlib.Path(folder.name)
+        run("meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", cls.folder / "root")
+        Installed.prefix = next((cls.folder / "root").rglob("include/waitpoint")).parents[1]
+
+    def compile(self, name, *more, program=None):
+        """Compiles NAME/NAME.cpp with the given flags, in a folder outside the tree; returns the program."""
+        program = self.folder / (program or name)
+        if not program.exists():
+            compiler = os.environ.get("CXX", "g++").split()
+            run(*compiler, "-std=c++20", "-O1", "-g", HERE / name / f"{name}.cpp", "-o", program, *more, cwd=self.folder)
+        return program
+
+
+def main():
+    if any((BUILD / "subprojects").glob("*")):
+        print("libraries of subprojects/ are not installed: nothing can be linked outside of the build")
+        sys.exit(77)
+    unittest.main(module="__main__")
