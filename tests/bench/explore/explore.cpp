@@ -1,92 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many distinct schedules of a test body a second, on one core, and what one switch point costs.
 //
-// The body has about a hundred switch points: four threads that take a mutex in turn. Each strategy runs it for some
-// time, the fastest of a few goes counts. Beside it, in the same run, the other ways to begin anew: a simulation made
-// for each schedule, and a process forked for each.
+// Each strategy runs the body for some time, the fastest of a few goes counts; time is the processor's. Beside it, in
+// the same run, the other ways to begin anew: a simulation made for each schedule, and a process forked for each (by
+// the wall clock: it is another process's time); and the body with its accesses to memory instrumented.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
-#include <unordered_set>
+#include <filesystem>
 
 #include "core/error.hpp"
-#include "fibers/explore/body.hpp"
-#include "fibers/explore/profile.hpp"
-#include "fibers/explore/strategy.hpp"
-#include "fibers/sync/mutex.hpp"
-#include "fibers/sync/thread.hpp"
+#include "fibers/sync/simulation.hpp"
+#include "tests/bench/explore/body.hpp"
+#include "tests/bench/explore/throughput.hpp"
+#include "tests/bench/kernel/measured.hpp"
 #include "tests/bench/rows.hpp"
 
 namespace waitpoint::bench {
 namespace {
 
 constexpr double must_per_s = 100'000;
-constexpr int goes = 5;
-
-void contend() {
-  constexpr int threads = 4, rounds = 7;
-  mutex m;
-  int count = 0;
-  std::vector<thread> contenders;
-  contenders.reserve(threads);
-  for (int i = 0; i < threads; ++i)
-    contenders.emplace_back([&] {
-      for (int k = 0; k < rounds; ++k) {
-        m.lock();
-        ++count;
-        m.unlock();
-      }
-    });
-  for (thread& contender : contenders) contender.join();
-}
-
-struct Speed {
-  double schedules = 0, distinct = 0, switch_points = 0, seconds = 0;
-};
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-/// For `seconds`, schedule after schedule; `run` does one of that number and says how many switch points it had, and
-/// its digest.
-template <class Run>
-Speed carry_on(double seconds, Run run) {
-  Speed speed;
-  std::unordered_set<std::uint64_t> seen;
-  const double start_s = now_s();
-  do {
-    for (int i = 0; i < 16; ++i, ++speed.schedules) {
-      const auto [switch_points, digest] = run(static_cast<std::uint64_t>(speed.schedules));
-      speed.switch_points += switch_points;
-      seen.insert(digest);
-    }
-    speed.seconds = now_s() - start_s;
-  } while (speed.seconds < seconds);
-  speed.distinct = static_cast<double>(seen.size());
-  return speed;
-}
-
-using Done = std::pair<double, std::uint64_t>;
-
-Speed by_strategy(const std::string& name, double seconds) {
-  exploration::Body body(contend, nullptr, Time::max(), 100'000);
-  exploration::Profile profile;
-  (void)exploration::take_profile(body, profile);
-  const auto strategy = exploration::make_strategy(name);
-  return carry_on(seconds, [&](std::uint64_t number) -> Done {
-    strategy->begin(number, exploration::Draws(1, name, number), profile);
-    const exploration::Outcome outcome = body.run(*strategy);
-    WAITPOINT_CHECK(outcome.passed(), "a body without bugs fails");
-    (void)strategy->end();
-    return {body.explorer().steps(), outcome.digest};
-  });
-}
 
 Speed with_new_simulations(double seconds) {
-  return carry_on(seconds, [](std::uint64_t number) -> Done {
+  return carry_on(seconds, Clock::processor, [](std::uint64_t number) -> Done {
     SimulationOptions options;
     options.order = kernel::Order::seeded;
     options.seed = number;
@@ -97,7 +35,7 @@ Speed with_new_simulations(double seconds) {
 
 // As tools do that cannot begin anew within a process. What the child saw does not come back: only its speed counts.
 Speed with_forks(double seconds) {
-  return carry_on(seconds, [](std::uint64_t number) -> Done {
+  return carry_on(seconds, Clock::wall, [](std::uint64_t number) -> Done {
     const pid_t child = fork();
     if (child == 0) {
       SimulationOptions options;
@@ -138,18 +76,26 @@ class Bench {
             speed.schedules / speed.seconds / (made.schedules / made.seconds), "x");
       }
     }
+    add_instrumented();
   }
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
   template <class Run>
   Speed best(Run run) const {
-    Speed best = run(seconds_ / goes);
-    for (int i = 1; i < goes; ++i) {
-      const Speed speed = run(seconds_ / goes);
-      if (speed.schedules / speed.seconds > best.schedules / best.seconds) best = speed;
-    }
-    return best;
+    return best_of_some(seconds_, run);
+  }
+  // Beside the accesses to memory that tasks share, the primitives are switch points as ever.
+  void add_instrumented() {
+    const auto program = std::filesystem::canonical("/proc/self/exe").parent_path() / "explore-instrumented";
+    if (!std::filesystem::exists(program)) return;
+    const auto limit_s = static_cast<int>(10 * seconds_ + 60);
+    const Measured measured = measure_once(program, "portfolio", 1, static_cast<int>(1000 * seconds_), false, limit_s);
+    if (measured.end != Measured::End::answered) throw BadInput("explore-instrumented", measured.why);
+    const auto value = [&](const char* name) { return measured.values.at(name); };
+    add("instrumented body, distinct", "waitpoint", value("distinct") / value("seconds"), "schedules/s", must_per_s);
+    add("instrumented body, a switch point", "waitpoint", 1e9 * value("seconds") / value("switch_points"), "ns");
+    add("instrumented body, switch points a schedule", "waitpoint", value("switch_points") / value("schedules"), "");
   }
   void add(const std::string& what, const char* who, double value, const char* unit, std::optional<double> must = {}) {
     rows_.push_back({"explore", what, who, value, unit, must});

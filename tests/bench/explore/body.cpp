@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/bench/explore/body.hpp"
+
+#include <vector>
+
+#include "fibers/sync/mutex.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint::bench {
+
+void contend() {
+  constexpr int threads = 4, rounds = 7;
+  mutex m;
+  int count = 0;
+  std::vector<thread> contenders;
+  contenders.reserve(threads);
+  for (int i = 0; i < threads; ++i)
+    contenders.emplace_back([&] {
+      for (int k = 0; k < rounds; ++k) {
+        m.lock();
+        ++count;
+        m.unlock();
+      }
+    });
+  for (thread& contender : contenders) contender.join();
+}
+
+}  // namespace waitpoint::bench

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How many schedules of the body are done in some time, and how many of them differ.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "tests/bench/kernel/meter.hpp"
+
+namespace waitpoint::bench {
+
+struct Speed {
+  double schedules = 0, distinct = 0, switch_points = 0, seconds = 0;
+};
+
+/// What one schedule came to: its switch points, and its digest.
+using Done = std::pair<double, std::uint64_t>;
+
+/// For `seconds` by that clock, schedule after schedule; `run` does the one of that number.
+template <class Run>
+Speed carry_on(double seconds, Clock clock, Run run) {
+  Speed speed;
+  std::unordered_set<std::uint64_t> seen;
+  const std::int64_t start_ns = clock_ns(clock);
+  do {
+    for (int i = 0; i < 16; ++i, ++speed.schedules) {
+      const auto [switch_points, digest] = run(static_cast<std::uint64_t>(speed.schedules));
+      speed.switch_points += switch_points;
+      seen.insert(digest);
+    }
+    speed.seconds = 1e-9 * static_cast<double>(clock_ns(clock) - start_ns);
+  } while (speed.seconds < seconds);
+  speed.distinct = static_cast<double>(seen.size());
+  return speed;
+}
+
+/// The fastest of a few goes of `run(seconds)`, of `seconds` in all.
+template <class Run>
+Speed best_of_some(double seconds, Run run) {
+  constexpr int goes = 5;
+  Speed best = run(seconds / goes);
+  for (int i = 1; i < goes; ++i) {
+    const Speed speed = run(seconds / goes);
+    if (speed.schedules / speed.seconds > best.schedules / best.seconds) best = speed;
+  }
+  return best;
+}
+
+/// contend() under the strategy of that name, in one place in memory.
+Speed by_strategy(const std::string& name, double seconds);
+
+}  // namespace waitpoint::bench
