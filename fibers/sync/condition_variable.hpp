@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Condition variable, in the names and semantics of std::condition_variable, over waitpoint::mutex.
 //
-// Releasing the mutex and starting to wait are one step. There are no spurious wake-ups. To wait without the mutex, or
-// with another one than those who wait already, is a bug, and so is destroying it while tasks wait; but as the standard
-// says, it may be destroyed as soon as all are notified.
+// Releasing the mutex and starting to wait are one step. There are no spurious wake-ups, but where exploration chooses
+// one. To wait without the mutex, or with another one than those who wait already, is a bug, and so is destroying it
+// while tasks wait; but as the standard says, it may be destroyed as soon as all are notified.
 #pragma once
 
 #include <condition_variable>

@@ -54,12 +54,13 @@ void condition_variable_any::leave(Waiter& waiter) {
 }
 
 bool condition_variable_any::sleep(Waiter& waiter, Time deadline) {
-  if (!waiter.notified) {
+  const bool is_spurious = !waiter.notified && kernel::running->scheduler->chooser().is_spurious(*kernel::running);
+  if (!waiter.notified && !is_spurious) {
     waiter.blocked = true;
     sync::block(object_, deadline);
   }
   leave(waiter);
-  return waiter.notified;
+  return waiter.notified || is_spurious;
 }
 
 }  // namespace waitpoint

@@ -2,8 +2,8 @@
 // Condition variable over any lock with lock() and unlock(), in the names and semantics of std::condition_variable_any.
 //
 // Who waits stands in its list before it unlocks, so that a notification between its unlock and its sleep is not lost.
-// Different tasks may wait with different locks. A wait with a stop token also ends when somebody asks to stop: that
-// wakes this wait alone.
+// Different tasks may wait with different locks. Only exploration chooses spurious wake-ups. A wait with a stop token
+// also ends when somebody asks to stop: that wakes this wait alone.
 #pragma once
 
 #include <condition_variable>

@@ -12,6 +12,7 @@
 #include "fibers/explore/explore.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/condition_variable.hpp"
+#include "fibers/sync/condition_variable_any.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
@@ -249,9 +250,8 @@ TEST(Explore, WhatIsChosenBesideTasks) {
     b.join();
     check(woken == 1, "the second waiter was served first");
   }));
-  EXPECT_TRUE(can_fail([] {
+  const auto trust_a_wake_up = [](auto& c) {
     mutex m;
-    condition_variable c;
     bool notified = false;
     thread notifier([&] {
       this_thread::sleep_for(1ms);
@@ -265,6 +265,14 @@ TEST(Explore, WhatIsChosenBesideTasks) {
     }
     check(notified, "woken for nothing");
     notifier.join();
+  };
+  EXPECT_TRUE(can_fail([&] {
+    condition_variable c;
+    trust_a_wake_up(c);
+  }));
+  EXPECT_TRUE(can_fail([&] {
+    condition_variable_any c;
+    trust_a_wake_up(c);
   }));
   for (const bool in_time : {true, false})
     EXPECT_TRUE(can_fail([&] {
