@@ -7,6 +7,7 @@
 
 #include "fibers/explore/minimize.hpp"
 #include "fibers/explore/profile.hpp"
+#include "fibers/explore/token.hpp"
 
 namespace waitpoint::zoo {
 
@@ -23,6 +24,8 @@ class Search {
   const exploration::Outcome& usual() const { return usual_; }
   /// The first failure among `most` schedules of `strategy`; nothing if there is none, or all are tried.
   std::optional<Found> find(const std::string& strategy, std::uint64_t seed, std::uint64_t most);
+  /// The run of that token.
+  exploration::Outcome play(const exploration::Token& token);
   exploration::Body& body() { return body_; }
 
  private:
