@@ -104,13 +104,12 @@ inline void Detector::record(std::uint32_t index, std::uint8_t bytes, std::uint8
   if (!cell.touched) {
     cell.touched = true;
     cell.owner = self.index;
-    cell.written = access.writes();
+    cell.written = access.writes() && access.is_atomic();
     cell.latest = access;
     return;
   }
-  cell.written |= access.writes();
   cell.several |= cell.owner != self.index;
-  if (learning_ && cell.several && cell.written) learn_from(cell, place);
+  cell.written |= access.writes() && (cell.several || access.is_atomic());
 
   // What the new access stands for makes room for it; what is left moves back.
   MemoryAccess kept[1 + more_max];
@@ -120,12 +119,14 @@ inline void Detector::record(std::uint32_t index, std::uint8_t bytes, std::uint8
     const bool ordered = earlier.task == self.index || earlier.epoch <= self.clock.of(earlier.task);
     const bool races = !ordered && earlier.conflicts_with(access);
     if (races) report(cell, earlier, access);
+    cell.written |= races;
     if ((ordered || races) && access.stands_for(earlier)) return;
     kept[count++] = earlier;
   };
   look_at(cell.latest);
   if (cell.more != no_more)
     for (const MemoryAccess& earlier : shadow_.more(cell).access) look_at(earlier);
+  if (learning_ && cell.several && cell.written) learn_from(cell, place);
   cell.latest = access;
   if (count == 0 && cell.more == no_more) return;
   MoreAccesses& more = shadow_.more(cell);

@@ -6,8 +6,8 @@
 // nothing to be found, and nothing is paid.
 //
 // Races are found by what happens before what in one schedule (vector clocks), so they are found in schedules in which
-// they did no harm; what another order of locks would show takes another schedule. Accesses to memory that tasks share
-// are switch points there, beside the primitives.
+// they did no harm; what another order of locks would show takes another schedule. Accesses to memory that tasks share,
+// and write while they do, are switch points there, beside the primitives.
 #pragma once
 
 #include <cstdint>

@@ -59,7 +59,7 @@ struct Cell {
   std::uint16_t owner;     ///< the task that touched it first
   bool touched;
   bool several;  ///< touched by others too
-  bool written;
+  bool written;  ///< while several touch it, or as an atomic, or in a race: its order may matter
   MemoryAccess latest;
 };
 
