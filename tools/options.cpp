@@ -33,7 +33,7 @@ SeedRange range_of(const std::string& text) {
 /// As the arguments are written, before their values are understood.
 struct Arguments {
   std::string scenario, seed, seeds, order, until, speed, journal, replay_journal;
-  std::string summary, picture, trajectory, digests, events;
+  std::string summary, picture, trajectory, record, digests, events;
   std::string record_durations, replay_durations;
   bool interactive = false;
   std::vector<std::string> assignments;
@@ -82,6 +82,8 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
   add("--trajectory", arguments.trajectory, "FILE.tum",
       "write the paths in TUM format: the true one to FILE.tum, beside it\n"
       "FILE.estimated.tum and FILE.odometry.tum; with the robots' names if several");
+  add("--record", arguments.record, "FILE.mcap",
+      "write scans, poses, frames and the world over time for Foxglove, or with\na name FILE.log for CARMEN's tools");
   add("--digests", arguments.digests, "FILE", "write a digest per robot and simulated second");
   add("--events", arguments.events, "FILE", "write every event as a line of text");
   add("--record-durations", arguments.record_durations, "FILE",
@@ -112,6 +114,7 @@ void check_of_many(const char* option, const Arguments& arguments) {
                               {"--replay-journal", arguments.replay_journal},
                               {"--picture", arguments.picture},
                               {"--trajectory", arguments.trajectory},
+                              {"--record", arguments.record},
                               {"--digests", arguments.digests},
                               {"--events", arguments.events},
                               {"--record-durations", arguments.record_durations}});
@@ -142,11 +145,15 @@ std::filesystem::path meant_by(const std::string& name) {
 /// Each file takes its name when it is complete: of two with one name, the first would be lost. So would be a journal
 /// that is read.
 void check_distinct(const Arguments& arguments) {
-  const std::pair<const char*, const std::string&> files[] = {
-      {"--summary", arguments.summary},       {"--picture", arguments.picture},
-      {"--trajectory", arguments.trajectory}, {"--digests", arguments.digests},
-      {"--events", arguments.events},         {"--record-durations", arguments.record_durations},
-      {"--journal", arguments.journal},       {"--replay-journal", arguments.replay_journal}};
+  const std::pair<const char*, const std::string&> files[] = {{"--summary", arguments.summary},
+                                                              {"--picture", arguments.picture},
+                                                              {"--trajectory", arguments.trajectory},
+                                                              {"--record", arguments.record},
+                                                              {"--digests", arguments.digests},
+                                                              {"--events", arguments.events},
+                                                              {"--record-durations", arguments.record_durations},
+                                                              {"--journal", arguments.journal},
+                                                              {"--replay-journal", arguments.replay_journal}};
   std::map<std::filesystem::path, const char*> options;
   for (const auto& [option, name] : files) {
     const std::filesystem::path path = name.empty() ? std::filesystem::path() : meant_by(name);
@@ -192,6 +199,7 @@ RunOptions run_options(const Arguments& arguments) {
   options.summary = file(arguments.summary);
   options.picture = file(arguments.picture);
   options.trajectory = file(arguments.trajectory);
+  options.record = file(arguments.record);
   options.digests = file(arguments.digests);
   options.events = file(arguments.events);
   options.record_durations = file(arguments.record_durations);

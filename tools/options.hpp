@@ -32,7 +32,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> journal;         ///< to write
   std::optional<std::filesystem::path> replay_journal;  ///< to carry out again
   bool check = false;  ///< whether it is the same run again, instead of what it came to
-  std::optional<std::filesystem::path> summary, picture, trajectory, digests, events;
+  std::optional<std::filesystem::path> summary, picture, trajectory, record, digests, events;
   std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
 
   /// When a run ends at the latest, of a scenario that says `own`.

@@ -18,6 +18,7 @@
 #include "tools/picture.hpp"
 #include "tools/prompt.hpp"
 #include "tools/recorders.hpp"
+#include "tools/recording/recording.hpp"
 #include "tools/self_check.hpp"
 #include "tools/session.hpp"
 #include "tools/summary.hpp"
@@ -34,14 +35,16 @@ class Outputs {
     if (options.picture) picture_.emplace(*options.picture);
     if (options.digests) digests_.emplace(*options.digests);
     if (options.events) events_.emplace(*options.events);
+    if (options.record) recording_ = make_recording(*options.record, scenario);
     if (!options.trajectory) return;
     std::vector<std::string> names;
     for (const bridge::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
     trajectory_.emplace(*options.trajectory, names);
   }
 
-  void watch(Simulation& simulation) {
-    if (events_) events_->watch(simulation);
+  void watch(bridge::Experiment& experiment) {
+    if (events_) events_->watch(experiment.simulation());
+    if (recording_) experiment.set_observer([this, &experiment](Time now) { recording_->observe(experiment, now); });
   }
   void second(const Simulation& simulation, std::int64_t second) {
     if (digests_) digests_->record(simulation, second);
@@ -56,6 +59,7 @@ class Outputs {
       picture_->commit();
     }
     if (trajectory_) trajectory_->write(result);
+    if (recording_) recording_->finish(result);
     if (digests_) digests_->finish();
     if (events_) events_->finish();
   }
@@ -65,6 +69,7 @@ class Outputs {
   std::optional<TrajectoryFiles> trajectory_;
   std::optional<DigestRecorder> digests_;
   std::optional<EventRecorder> events_;
+  std::unique_ptr<Recording> recording_;
 };
 
 void flush_stdout() {
@@ -90,7 +95,7 @@ bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool int
 }
 
 Session session_of(const RunOptions& options, bridge::Experiment& experiment, Outputs& outputs, Time until) {
-  outputs.watch(experiment.simulation());
+  outputs.watch(experiment);
   return {experiment, until, options.speed,
           [&](std::int64_t second) { outputs.second(experiment.simulation(), second); }};
 }

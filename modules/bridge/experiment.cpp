@@ -118,6 +118,7 @@ void Experiment::run_world() {
       if (!lanes_[i]->ended) robots()[i]->observe(now());
       robots()[i]->bridge().stepped();
     }
+    if (observer_) observer_(now());
   }
 }
 

@@ -42,6 +42,8 @@ class Experiment {
   /// To be carried out at a step of the world: the next one, or the first not before `date`. Returns when that is. What
   /// this run does not have, or a date that is past, is BadInput. What came of it: outcomes().
   Time intervene(Intervention intervention, std::optional<Time> date = std::nullopt);
+  /// To be called after each step of the world; must only look and not throw.
+  void set_observer(std::function<void(Time now)> observer) { observer_ = std::move(observer); }
   const std::vector<InterventionOutcome>& outcomes() const { return operator_->outcomes(); }
 
   Simulation& simulation() { return simulation_; }
@@ -68,6 +70,7 @@ class Experiment {
   std::optional<Assembly> assembly_;
   std::vector<kernel::Robot*> lanes_;  // of each robot
   std::optional<Operator> operator_;
+  std::function<void(Time now)> observer_;
   Simulation simulation_;  // after what its tasks use: it goes first
   RunEnd end_ = RunEnd::time_reached;
   bool paused_ = false;

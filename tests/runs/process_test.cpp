@@ -53,6 +53,7 @@ TEST(Process, what_is_written_on_the_side_does_not_change_a_run) {
     EXPECT_GT(std::filesystem::file_size(folder / ("one." + option)), 100u) << option;
     all.insert(all.end(), {"--" + option, folder / ("all." + option)});
   }
+  all.insert(all.end(), {"--record", folder / "all.mcap"});
   expect_digest(outcome_of(run_command("office.yaml", "20", all)), expected, "all");
   for (const char* option : {"picture", "trajectory", "digests", "events"})
     EXPECT_EQ(folder.read("all." + std::string(option)), folder.read("one." + std::string(option))) << option;

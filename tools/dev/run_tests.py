@@ -33,6 +33,7 @@ OWN_CASES = {
     "clang++ -O0 and this build are one run": [str(ROOT / "tools/dev/builds.sh"), "build", "clang++-O0"],
     "gdb": [sys.executable, str(ROOT / "tests/programs/gdb_test.py"), BUILD],
     "mistakes": [sys.executable, str(ROOT / "tests/programs/mistakes_test.py"), BUILD],
+    "recordings": [sys.executable, str(ROOT / "tests/programs/recordings_test.py"), BUILD],
     "programs": [sys.executable, str(ROOT / "tests/programs/programs_test.py"), BUILD],
 }
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/recording/carmen_recording.hpp"
+
+#include <fmt/format.h>
+
+namespace waitpoint::tools {
+namespace {
+
+std::string text(const Pose& pose) { return fmt::format("{:.6f} {:.6f} {:.6f}", pose.x, pose.y, pose.heading); }
+
+// When it happened, on which robot, and when it was logged: the same.
+std::string ending(Time time, const std::string& robot) {
+  return fmt::format(" {0:.6f} {1} {0:.6f}\n", time.since_start().seconds(), robot);
+}
+
+}  // namespace
+
+CarmenRecording::CarmenRecording(const std::filesystem::path& path, const bridge::Scenario& scenario)
+    : scenario_(scenario), file_(path) {
+  file_.write("# CARMEN Logfile\n");
+}
+
+// Nothing may be thrown through the world's task: what fails here is told at the end.
+void CarmenRecording::observe(const bridge::Experiment& experiment, Time) {
+  if (failure_ != nullptr) return;
+  try {
+    if (robots_.empty())
+      for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
+        robots_.push_back({RobotPosters(scenario_.robots[i], *experiment.robots()[i]), std::nullopt});
+    for (std::size_t i = 0; i < robots_.size(); ++i) record(experiment, i);
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
+
+void CarmenRecording::record(const bridge::Experiment& experiment, std::size_t i) {
+  OfRobot& robot = robots_[i];
+  const std::string& name = scenario_.robots[i].name;
+  if (const auto odometry = robot.posters.odometry()) {
+    robot.odometry = odometry->position.pose;
+    file_.write(fmt::format("ODOM {} {:.6f} {:.6f} 0", text(*robot.odometry), odometry->v_m_s, odometry->w_rad_s) +
+                ending(odometry->position.date, name));
+  }
+  if (!robot.odometry || robot.posters.lasers.empty()) return;
+  RobotPosters::Laser& laser = robot.posters.lasers.front();
+  const auto scan = robot.posters.scan(laser);
+  if (!scan) return;
+  std::string line = fmt::format("FLASER {}", scan->range_m.size());
+  for (const float range : scan->range_m) line += fmt::format(" {:.3f}", range);
+  const Pose device = compose(*robot.odometry, laser.description.mount);
+  file_.write(line + fmt::format(" {} {}", text(device), text(*robot.odometry)) + ending(scan->date, name));
+  const Pose& truth = experiment.world().body(world::BodyId(static_cast<std::uint32_t>(i))).pose;
+  file_.write(fmt::format("TRUEPOS {} {}", text(truth), text(*robot.odometry)) + ending(scan->date, name));
+}
+
+void CarmenRecording::finish(const bridge::RunResult&) {
+  if (failure_ != nullptr) std::rethrow_exception(failure_);
+  file_.commit();
+}
+
+}  // namespace waitpoint::tools

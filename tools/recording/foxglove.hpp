@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Messages as Foxglove's viewers know them (docs.foxglove.dev, "Foxglove schemas"), in JSON: their schemas, and what
+// they look like. Lengths in metres, angles in radians, rotations as quaternions; times are virtual, from 0 on.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "modules/bridge/run_result.hpp"
+#include "modules/posters/laser.hpp"
+
+namespace waitpoint::tools::foxglove {
+
+/// A schema's name, and its text as a JSON Schema.
+struct Schema {
+  std::string name, text;
+};
+Schema frame_transform();
+Schema laser_scan();
+Schema log();
+Schema pose_in_frame();
+Schema scene_update();
+
+/// Where `child` is in `parent`.
+std::string frame_transform(Time time, const std::string& parent, const std::string& child, const Pose& pose,
+                            double z_m = 0);
+/// A scan in its device's frame.
+std::string laser_scan(const posters::LaserReading& scan, const std::string& frame);
+/// A line of text, of severity "information".
+std::string log(Time time, const std::string& who, const std::string& text);
+std::string pose_in_frame(Time time, const std::string& frame, const Pose& pose);
+/// Boxes and cylinders that stay.
+std::string scene_update(Time time, const std::string& frame, std::span<const world::Obstacle> obstacles);
+
+}  // namespace waitpoint::tools::foxglove

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/recording/recording.hpp"
+
+#include "core/error.hpp"
+#include "tools/recording/carmen_recording.hpp"
+#include "tools/recording/mcap_recording.hpp"
+
+namespace waitpoint::tools {
+
+std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const bridge::Scenario& scenario) {
+  if (path.extension() == ".mcap") return std::make_unique<McapRecording>(path, scenario);
+  if (path.extension() == ".log") return std::make_unique<CarmenRecording>(path, scenario);
+  throw BadInput("--record", "expected a file .mcap (Foxglove) or .log (CARMEN), found '" + path.string() + "'");
+}
+
+}  // namespace waitpoint::tools

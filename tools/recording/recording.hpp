@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What happens in a run, for viewers: `--record FILE.mcap` for Foxglove, `--record FILE.log` for CARMEN's tools.
+//
+// A recording looks at the world and at the robots' posters after each step of the world. Looking is no event: a run is
+// the same whether it is recorded or not, and the same run gives the same bytes.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "modules/bridge/experiment.hpp"
+
+namespace waitpoint::tools {
+
+class Recording {
+ public:
+  virtual ~Recording() = default;
+  /// After a step of the world, at `now`.
+  virtual void observe(const bridge::Experiment& experiment, Time now) = 0;
+  /// The run is over: gives the file its name. Throws BadInput where it could not be written.
+  virtual void finish(const bridge::RunResult& result) = 0;
+};
+
+/// Of the kind that the file's extension says; BadInput for another one, or where the file cannot be written.
+std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const bridge::Scenario& scenario);
+
+}  // namespace waitpoint::tools
