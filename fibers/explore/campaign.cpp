@@ -9,9 +9,8 @@
 #include "core/error.hpp"
 #include "fibers/explore/environment.hpp"
 #include "fibers/explore/explain.hpp"
+#include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/explore/supervisor.hpp"
-#include "fibers/explore/timeline.hpp"
 
 namespace waitpoint::exploration {
 namespace {
@@ -21,7 +20,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t runs_to_minimize = 200'000;
 constexpr std::uint64_t runs_to_explain = 20'000;
 constexpr std::size_t events_shown = 40;
-constexpr std::uint64_t schedules_between_looks_at_the_clock = 64;
 
 }  // namespace
 
@@ -29,7 +27,9 @@ Campaign::Campaign(ForeignChecks* checks, std::function<void()> body, const Expl
     : checks_(checks),
       options_(options),
       call_(call),
-      body_(std::move(body), checks, options.until, options.steps_max) {
+      body_(std::move(body), checks, options.until, options.steps_max),
+      supervisor_({call, 0, options.strategy, options.seed, 0, {}},
+                  "replay: WAITPOINT_REPLAY=", " " + command_line(checks)) {
   if (!options.races) body_.ignore_races();
 }
 
@@ -44,16 +44,19 @@ ExploreReport Campaign::run() {
 
 // In the default order, twice: that is the profile, and shows whether the body is the same a second time.
 bool Campaign::begins_well() {
+  supervisor_.begin_default();
   const Outcome first = take_profile(body_, profile_);
   usual_digest_ = first.digest;
   seen_.insert(first.digest);
   report_.schedules = 1;
   if (!first.passed()) {
-    tell({{body_.explorer().schedule(), first}, token_of({{}, first}), "the default schedule"});
+    tell({{body_.explorer().schedule(), first}, token_of({{}, first}), "the default schedule", true});
     return false;
   }
-  report_.text = difference_between_repeats();
+  usual_ = take_timeline(body_, {});
+  report_.text = difference_to_the_first();
   look_for_leaks();
+  supervisor_.pause();
   return report_.text.empty();
 }
 
@@ -73,8 +76,9 @@ void Campaign::look_for_leaks() {
   if (after > before) report_.leaked_bytes = (after - before) / repeats;
 }
 
-std::string Campaign::difference_between_repeats() {
-  const Timeline before = take_timeline(body_, {});
+// Of the default order, run once more.
+std::string Campaign::difference_to_the_first() {
+  const Timeline& before = usual_;
   const Timeline after = take_timeline(body_, {});
   for (std::size_t i = 0; i < before.events.size() || i < after.events.size(); ++i) {
     const auto text = [&](const Timeline& timeline) {
@@ -107,26 +111,37 @@ bool Campaign::fails(Strategy& strategy, std::uint64_t number) {
 void Campaign::search() {
   const std::unique_ptr<Strategy> strategy = make_strategy(options_.strategy);
   const Clock::time_point start = Clock::now();
-  const Token token{call_, 0, options_.strategy, options_.seed, 0, {}};
-  Supervisor supervisor(token, "replay: WAITPOINT_REPLAY=", " " + command_line(checks_));
   for (std::uint64_t number = 0; number < options_.iterations; ++number) {
-    if (options_.time_limit_s > 0 && number % schedules_between_looks_at_the_clock == 0 &&
+    if (options_.time_limit_s > 0 &&
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.time_limit_s)
       break;
-    supervisor.begin(number);
+    supervisor_.begin(number);
     if (fails(*strategy, number)) return;
     if (!strategy->end()) {
-      report_.complete = true;
+      say_scope(*strategy);
       break;
     }
   }
-  supervisor.pause();
+  supervisor_.pause();
   Fifo usual;
   if (body_.run(usual).digest != usual_digest_) {
-    report_.text = difference_between_repeats();
+    report_.text = difference_to_the_first();
     if (report_.text.empty())
       report_.text = "the body leaks state from one schedule into the next: the default schedule is another one now";
   }
+}
+
+void Campaign::say_scope(const Strategy& strategy) {
+  const LeftOut& left_out = body_.explorer().left_out();
+  std::string but;
+  const auto add = [&](bool is_left_out, const char* what) {
+    if (is_left_out) but += (but.empty() ? ", but for " : " and ") + std::string(what);
+  };
+  add(left_out.turns, "turns of tasks that spin");
+  add(left_out.costs, "computing costs between the least and the greatest");
+  add(left_out.spurious, "waits that end for nothing");
+  report_.scope = "all there are" + strategy.scope() + but;
+  report_.complete = strategy.scope().empty() && !left_out.turns && !left_out.costs;
 }
 
 Token Campaign::token_of(const Failure& failure) const {
@@ -135,7 +150,8 @@ Token Campaign::token_of(const Failure& failure) const {
 
 void Campaign::tell(const Found& found) {
   Failure least = found.failure;
-  if (options_.minimize) least = minimize(body_, found.failure, runs_to_minimize);
+  supervisor_.begin_minimizing(found.token.number, found.failure.outcome.failure);
+  if (options_.minimize) least = minimize(body_, found.failure, {runs_to_minimize});
   Fifo rest;
   body_.tell(sync::Places::told);
   if (const Outcome told = body_.run(rest, {.prefix = least.schedule.decisions}); !told.passed()) least.outcome = told;
@@ -146,48 +162,68 @@ void Campaign::tell(const Found& found) {
   std::string& text = report_.text;
   text = found.which + " failed: " + least.outcome.failure + "\n";
   const std::size_t switches = least.schedule.switches.size();
+  if (switches == 0 && !found.is_default && usual_digest_ != 0)
+    text +=
+        "the default order, which passed at first, fails now: the body leaks state from one schedule into the next\n";
   text += switches == 0   ? "it is the default order that fails\n"
           : switches == 1 ? "one switch away from the default order fails\n"
                           : std::to_string(switches) + " switches away from the default order fail\n";
-  if (const std::string why = explain(body_, least, runs_to_explain); !why.empty()) text += why + "\n";
+  if (const std::string why = explain(body_, least, {runs_to_explain}); !why.empty()) text += why + "\n";
   const Timeline timeline = take_timeline(body_, least.schedule);
   text += "what the tasks did (*: in place of one that could have gone on):\n" + to_text(timeline, events_shown);
   if (const std::string file = trace_file(); !file.empty()) {
     std::ofstream out(file);
     write_trace(out, timeline);
-    if (!out.flush()) throw BadInput("WAITPOINT_TRACE", "cannot write to '" + file + "'");
+    if (!out.flush()) text += "waitpoint: WAITPOINT_TRACE: cannot write to '" + file + "'\n";
   }
+  supervisor_.pause();
   text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_line(checks_);
 }
 
-ExploreReport Campaign::replay(const Token& token) {
-  const Outcome first = take_profile(body_, profile_);
-  options_.minimize = false;
-  Outcome outcome;
-  Fifo rest;
+Outcome Campaign::play(const Token& token) {
   if (token.strategy.empty()) {
-    outcome = token.deviations.empty() ? first : body_.run(rest, {.deviations = token.deviations});
-  } else {
-    const std::unique_ptr<Strategy> strategy = make_strategy(token.strategy);
-    // An exhaustive one comes to a schedule by those before it.
-    for (std::uint64_t number = strategy->is_exhaustive() ? 0 : token.number; number <= token.number; ++number) {
-      strategy->begin(number, Draws(token.seed, token.strategy, number), profile_);
-      outcome = body_.run(*strategy);
-      if (number < token.number && !strategy->end())
-        throw BadInput("replay", "expected schedule " + std::to_string(token.number) + ", but there are only " +
-                                     std::to_string(number + 1));
-    }
+    // Nothing but that schedule is run, so that a debugger stops in no other; but which memory tasks share is learned.
+    if (races::present()) (void)take_profile(body_, profile_);
+    Fifo rest;
+    return body_.run(rest, {.deviations = token.deviations});
   }
+  (void)take_profile(body_, profile_);
+  const std::unique_ptr<Strategy> strategy = make_strategy(token.strategy);
+  // An exhaustive one comes to a schedule by those before it.
+  for (std::uint64_t number = strategy->is_exhaustive() ? 0 : token.number;; ++number) {
+    strategy->begin(number, Draws(token.seed, token.strategy, number), profile_);
+    const Outcome outcome = body_.run(*strategy);
+    if (number == token.number) return outcome;
+    if (!strategy->end())
+      throw BadInput("replay", "expected schedule " + std::to_string(token.number) + ", but there are only " +
+                                   std::to_string(number + 1));
+  }
+}
+
+// What is wrong with it as the run of that token; empty if nothing is.
+std::string Campaign::difference_to(const Token& token, const Outcome& outcome) const {
+  std::string why;
+  const std::size_t decisions = body_.explorer().schedule().decisions.size();
+  if (!token.deviations.empty() && token.deviations.back().decision >= decisions)
+    why = "it has " + std::to_string(decisions) + " choices, none of the number " +
+          std::to_string(token.deviations.back().decision);
+  else if (body_.explorer().parted())
+    why = "a choice has fewer alternatives than the one taken";
+  else if (token.digest != 0 && token.digest != token_digest(outcome.digest))
+    why = "its digest begins with " + digest_text(token_digest(outcome.digest));
+  return why.empty() ? "" : "this is not the run of the token: " + why + "; the program is another one now\n";
+}
+
+ExploreReport Campaign::replay(const Token& token) {
+  options_.minimize = false;
+  const Outcome outcome = play(token);
   report_.schedules = 1;
   report_.distinct = 1;
   report_.failed_at = token.number;
-  const bool is_it = token.digest == 0 || token.digest == token_digest(outcome.digest);
+  const std::string difference = difference_to(token, outcome);
   const Failure failure{body_.explorer().schedule(), outcome};
-  if (!outcome.passed()) tell({failure, token, "the replayed schedule"});
-  if (!is_it)
-    report_.text = "this is not the run of the token: its digest begins with " +
-                   to_text(Token{token.call, token_digest(outcome.digest), "", 0, 0, {}}).substr(4) +
-                   "; the program is another one now\n" + report_.text;
+  if (!outcome.passed()) tell({failure, token, "the replayed schedule", false});
+  report_.text = difference + report_.text;
   report_.passed = report_.text.empty();
   return report_;
 }

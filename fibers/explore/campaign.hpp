@@ -7,6 +7,8 @@
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/minimize.hpp"
 #include "fibers/explore/profile.hpp"
+#include "fibers/explore/supervisor.hpp"
+#include "fibers/explore/timeline.hpp"
 #include "fibers/explore/token.hpp"
 
 namespace waitpoint::exploration {
@@ -24,15 +26,19 @@ class Campaign {
   struct Found {
     Failure failure;
     Token token;
-    std::string which;  // schedule, in words
+    std::string which;        // schedule, in words
+    bool is_default = false;  // its order
   };
 
   bool begins_well();
   void search();
   void look_for_leaks();
   bool fails(Strategy& strategy, std::uint64_t number);
-  std::string difference_between_repeats();
+  std::string difference_to_the_first();
+  void say_scope(const Strategy& strategy);
   void tell(const Found& found);
+  Outcome play(const Token& token);
+  std::string difference_to(const Token& token, const Outcome& outcome) const;
   Token token_of(const Failure& failure) const;
 
   ForeignChecks* checks_;
@@ -40,7 +46,9 @@ class Campaign {
   std::uint32_t call_;
   Body body_;
   Profile profile_;
+  Supervisor supervisor_;
   std::uint64_t usual_digest_ = 0;  // of the default schedule
+  Timeline usual_;                  // when it was run first
   std::unordered_set<std::uint64_t> seen_;
   ExploreReport report_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/environment.hpp"
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -22,25 +23,56 @@ void take(const char* name, Number& number, const char* expected) {
     throw BadInput(name, std::string("expected ") + expected + ", found '" + text + "'");
 }
 
+bool came_to_replay = false;
+
+void check_replayed() {
+  if (came_to_replay) return;
+  std::fflush(nullptr);
+  std::fprintf(stderr,
+               "waitpoint: WAITPOINT_REPLAY: expected a token of this program, found '%s': there was no such call\n",
+               variable("WAITPOINT_REPLAY").c_str());
+  std::_Exit(2);
+}
+
+// As a shell takes it for one.
+std::string as_word(const std::string& word) {
+  constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%^";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char letter : word) letter == '\'' ? quoted += "'\\''" : quoted += letter;
+  return quoted + "'";
+}
+
 }  // namespace
+
+void replay_was_come_to() { came_to_replay = true; }
 
 ExploreOptions with_environment(ExploreOptions options) {
   if (const std::string strategy = variable("WAITPOINT_STRATEGY"); !strategy.empty()) options.strategy = strategy;
   take("WAITPOINT_SEED", options.seed, "a whole number from 0 to 2^64 - 1");
   take("WAITPOINT_ITERATIONS", options.iterations, "a whole number");
   take("WAITPOINT_TIME_LIMIT", options.time_limit_s, "a number of seconds");
-  if (const std::string replay = variable("WAITPOINT_REPLAY"); !replay.empty()) options.replay = replay;
+  if (const std::string replay = variable("WAITPOINT_REPLAY"); !replay.empty()) {
+    options.replay = replay;
+    [[maybe_unused]] static const int registered = std::atexit(check_replayed);
+  }
   return options;
 }
 
 std::string trace_file() { return variable("WAITPOINT_TRACE"); }
 
 std::string command_line(const ForeignChecks* checks) {
-  std::string program;
-  std::getline(std::ifstream("/proc/self/cmdline"), program, '\0');
-  if (program.empty()) program = "and the same program again";
   const std::string name = checks != nullptr ? checks->name() : "";
-  return name.empty() ? program : program + " " + checks->option_for(name);
+  const std::string own = name.empty() ? "" : checks->option_for(name);
+  const std::string own_key = own.substr(0, own.find('='));
+  std::string line;
+  std::ifstream words("/proc/self/cmdline");
+  for (std::string word; std::getline(words, word, '\0');) {
+    if (!own_key.empty() && word.substr(0, word.find('=')) == own_key) continue;
+    line += (line.empty() ? "" : " ") + as_word(word);
+  }
+  if (line.empty()) line = "and the same program again";
+  return own.empty() ? line : line + " " + as_word(own);
 }
 
 }  // namespace waitpoint::exploration

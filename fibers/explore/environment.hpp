@@ -10,10 +10,14 @@ namespace waitpoint::exploration {
 /// `options`, but for what the environment says. Throws BadInput, which names the variable.
 ExploreOptions with_environment(ExploreOptions options);
 
+/// The run that WAITPOINT_REPLAY asks for is about to be replayed. A program that ends without, says so and ends with
+/// status 2.
+void replay_was_come_to();
+
 /// The file for a trace of what failed; empty where none is asked for.
 std::string trace_file();
 
-/// The command that runs this program again, the test `name` of it alone.
+/// The command that runs this program again, with its arguments, and of its tests the running one alone.
 std::string command_line(const ForeignChecks* checks);
 
 }  // namespace waitpoint::exploration

@@ -20,7 +20,7 @@ struct Crossing {
 };
 
 // From the end backwards: where another choice, and the default order from there on, passes.
-std::optional<Crossing> last_crossing(Body& body, const Failure& failure, std::uint64_t runs_max) {
+std::optional<Crossing> last_crossing(Body& body, const Failure& failure, Effort effort) {
   const std::vector<Decision>& decisions = failure.schedule.decisions;
   Fifo rest;
   for (std::size_t i = decisions.size(); i-- > 0;) {
@@ -29,9 +29,11 @@ std::optional<Crossing> last_crossing(Body& body, const Failure& failure, std::u
     if (decisions[i].choice == Choice::spurious && !decisions[i].is_switch()) continue;
     for (std::uint32_t other = 0; other < decisions[i].count; ++other) {
       if (other == decisions[i].chosen) continue;
-      if (runs_max-- == 0) return std::nullopt;
+      if (!effort.is_left()) return std::nullopt;
       changed.back().chosen = other;
-      if (body.run(rest, {.prefix = changed}).passed()) return Crossing{i, other};
+      const bool passed = body.run(rest, {.prefix = changed}).passed();
+      effort.spend(body);
+      if (passed) return Crossing{i, other};
     }
   }
   return std::nullopt;
@@ -75,8 +77,8 @@ const char* description(Choice choice) {
 
 }  // namespace
 
-std::string explain(Body& body, const Failure& failure, std::uint64_t runs_max) {
-  const std::optional<Crossing> crossing = last_crossing(body, failure, runs_max);
+std::string explain(Body& body, const Failure& failure, Effort effort) {
+  const std::optional<Crossing> crossing = last_crossing(body, failure, effort);
   if (!crossing) return "";
   const Decision& decision = failure.schedule.decisions[crossing->decision];
   std::string text = "the last choice from which it could still have passed: number " +

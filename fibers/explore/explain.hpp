@@ -9,7 +9,7 @@
 
 namespace waitpoint::exploration {
 
-/// In words, some lines; empty where no single choice decides. At most `runs_max` runs of `body`.
-std::string explain(Body& body, const Failure& failure, std::uint64_t runs_max);
+/// In words, some lines; empty where no single choice decides, or none was found with that effort.
+std::string explain(Body& body, const Failure& failure, Effort effort);
 
 }  // namespace waitpoint::exploration

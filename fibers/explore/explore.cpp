@@ -28,7 +28,12 @@ ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<voi
   const std::uint32_t call = count_call(checks != nullptr ? checks->name() : "");
   if (options.replay.empty()) return exploration::Campaign(checks, std::move(body), options, call).run();
   const exploration::Token token = exploration::read_token(options.replay);
-  if (token.call == call) return exploration::Campaign(checks, std::move(body), options, call).replay(token);
+  if (token.call == 0)
+    throw BadInput("replay", "expected a test's token, found a scenario's: '" + options.replay + "'");
+  if (token.call == call) {
+    exploration::replay_was_come_to();
+    return exploration::Campaign(checks, std::move(body), options, call).replay(token);
+  }
   options.iterations = 0;  // the token is another call's: this one has to be passed to come there
   return exploration::Campaign(checks, std::move(body), options, call).run();
 }
@@ -36,7 +41,7 @@ ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<voi
 std::ostream& operator<<(std::ostream& out, const ExploreReport& report) {
   if (!report.passed) return out << report.text;
   out << "passed " << report.schedules << " schedules, " << report.distinct << " distinct";
-  if (report.complete) out << ", which are all there are";
+  if (!report.scope.empty()) out << ", which are " << report.scope;
   if (report.leaked_bytes > 0) out << "; each leaves " << report.leaked_bytes << " bytes on the heap";
   return out;
 }

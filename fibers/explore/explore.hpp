@@ -18,6 +18,7 @@
 // allows. With compute(least, greatest) between them, only those that the times allow.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,8 +43,8 @@ struct ExploreOptions {
   std::string replay = {};            ///< a token: that schedule alone
   bool races = true;                  ///< a data race is a failure, though it did no harm; see races/races.hpp
   bool minimize = true;               ///< what failed, to the fewest switches that still fail
-  Time until = Time::max();           ///< a schedule that has not ended then fails
-  std::uint32_t steps_max = 100'000;  ///< switch points at one instant, after which there is no progress
+  Time until = Time() + std::chrono::hours(1);  ///< a schedule that has not ended then fails
+  std::uint32_t steps_max = 100'000;            ///< switch points at one instant, after which there is no progress
 };
 
 struct ExploreReport {
@@ -51,7 +52,8 @@ struct ExploreReport {
   std::string text;  ///< of a failure: what happened, where, why, and the line that repeats it; else empty
   std::uint64_t schedules = 0;
   std::uint64_t distinct = 0;
-  bool complete = false;         ///< all there are were tried, as an exhaustive strategy knows
+  bool complete = false;   ///< all there are were tried, as an exhaustive strategy knows, but for spurious wake-ups
+  std::string scope = {};  ///< where an exhaustive strategy came to its end: of what it tried all, in words
   std::size_t leaked_bytes = 0;  ///< of the heap, that the default schedule leaves in use each time
   double seconds = 0;
   std::uint64_t failed_at = 0;     ///< the number of the schedule that failed

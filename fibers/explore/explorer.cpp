@@ -39,7 +39,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   habits_.clear();
   stopped_before_.clear();
   last_ = nullptr;
-  spinning_ = step_ = step_of_instant_ = 0;
+  spinning_ = step_ = step_of_instant_ = instants_ = 0;
   instant_ = Time();
   deviated_ = 0;
   parted_ = was_cut_ = false;
@@ -72,6 +72,9 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
   if (now != instant_) {
     instant_ = now;
     step_of_instant_ = 0;
+    ++instants_;
+    last_ = nullptr;  // its time has moved on like the others': it has no claim to go on
+    if (spinning_ != 0) stop_spinning();
   }
   if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
   const bool chooses = count > 1;
@@ -148,12 +151,14 @@ std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready
     for (std::uint32_t i = 0; i < ready.size(); ++i)
       if (ready[i] != last_) add(i);
   }
+  left_out_.turns |= offered_.size() < ready.size();
   return offered_;
 }
 
 inline void Explorer::note(const Task& task) {
   if (__builtin_expect(task.number >= habits_.size(), 0)) habits_.resize(task.number + 1);
   Habit& habit = habits_[task.number];
+  if (habit.instant != instants_) habit = {.at = {}, .instant = instants_};
   if (is_look(task.operation)) {
     note_look(task, habit);
   } else {
@@ -177,6 +182,7 @@ void Explorer::note_look(const Task& task, Habit& habit) {
 }
 
 std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {
+  left_out_.spurious |= choice == Choice::spurious;
   std::uint32_t chosen = count;
   if (plays_) {
     if (const Decision* decision = of_prefix(choice, count)) chosen = decision->chosen;
@@ -194,6 +200,7 @@ std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t cou
 Duration Explorer::computing(const Task& task, Duration least, Duration greatest) {
   const std::int64_t span = (greatest - least).ns();
   const std::uint32_t count = span < computing_steps ? static_cast<std::uint32_t>(span) + 1 : computing_steps + 1;
+  left_out_.costs |= count > 2;
   const std::uint32_t less = among(Choice::computing, task, count);
   __extension__ using Wide = __int128;
   return greatest - Duration::from_ns(static_cast<std::int64_t>(static_cast<Wide>(span) * less / (count - 1)));

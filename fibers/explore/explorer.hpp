@@ -2,9 +2,9 @@
 // What stands between the kernel and a strategy: it writes down what is chosen, lets spinning tasks wait for the
 // others, ends schedules that do not end, and plays what was chosen before.
 //
-// A task that looks at the same one or two objects again and again without changing anything (load, try_lock, a look at
-// the clock, yield) waits for others to do something; while any of them can, it is not offered to the strategy. So
-// loops that wait for a flag end, whatever the strategy prefers.
+// A task that looks at the same one or two objects again and again, at one instant and without changing anything (load,
+// try_lock, yield, sleeping for no time), waits for others to do something; while any of them can, it is not offered to
+// the strategy. So loops that wait for a flag end, whatever the strategy prefers.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +32,13 @@ struct Played {
   std::size_t stop_at = ~std::size_t{0};
 };
 
+/// What an exhaustive strategy never tried, as none could.
+struct LeftOut {
+  bool turns = false;     ///< of tasks that spin, while others could go on
+  bool costs = false;     ///< of computations, between the values that were offered
+  bool spurious = false;  ///< waits that end for nothing
+};
+
 class Explorer final : public kernel::Decisions {
  public:
   /// Schedules of `scheduler` end for lack of progress after `steps_max` switch points at one instant.
@@ -48,6 +55,8 @@ class Explorer final : public kernel::Decisions {
   bool parted() const { return parted_; }
   /// The strategy had it end where nothing new could follow.
   bool was_cut() const { return was_cut_; }
+  /// In all schedules so far.
+  const LeftOut& left_out() const { return left_out_; }
   /// The tasks between which the run was stopped to choose.
   std::span<Task* const> stopped_before() const { return stopped_before_; }
 
@@ -59,6 +68,7 @@ class Explorer final : public kernel::Decisions {
   // What a task did lately, by Task::number.
   struct Habit {
     kernel::Object* at[2] = {};
+    std::uint32_t instant = 0;  // of which the rest is
     std::uint8_t looks = 0;
     bool spins = false;
   };
@@ -90,9 +100,11 @@ class Explorer final : public kernel::Decisions {
   std::uint32_t step_ = 0;
   std::uint32_t step_of_instant_ = 0;
   Time instant_;
+  std::uint32_t instants_ = 0;
   std::size_t deviated_ = 0;  // how many of what is played are past
   bool parted_ = false;
   bool was_cut_ = false;
+  LeftOut left_out_;
 };
 
 }  // namespace waitpoint::exploration

@@ -27,8 +27,8 @@ int fuzz_target::run(const std::uint8_t* data, std::size_t size) {
   const exploration::Outcome outcome = body_.run(bytes);
   if (outcome.passed()) return 0;
   const exploration::Failure failure{body_.explorer().schedule(), outcome};
-  const exploration::Failure least = exploration::minimize(body_, failure, runs_to_minimize);
-  const std::string text = least.outcome.failure + "\n" + exploration::explain(body_, least, runs_to_explain) + "\n" +
+  const exploration::Failure least = exploration::minimize(body_, failure, {runs_to_minimize});
+  const std::string text = least.outcome.failure + "\n" + exploration::explain(body_, least, {runs_to_explain}) + "\n" +
                            to_text(exploration::take_timeline(body_, least.schedule), events_shown);
   std::fputs(text.c_str(), stderr);
   std::abort();

@@ -23,7 +23,7 @@ std::string_view words_of(std::string_view text) {
 
 class Minimizer {
  public:
-  Minimizer(Body& body, const Failure& found, std::uint64_t runs_max) : body_(body), least_(found), left_(runs_max) {}
+  Minimizer(Body& body, const Failure& found, Effort effort) : body_(body), least_(found), effort_(effort) {}
 
   Failure run() {
     // As switches by tasks and events it may come to another run: then it stays as it was found.
@@ -39,11 +39,11 @@ class Minimizer {
   std::size_t switches() const { return least_.schedule.switches.size(); }
 
   std::optional<Failure> failing(const Played& played) {
-    if (left_ == 0) return std::nullopt;
-    --left_;
+    if (!effort_.is_left()) return std::nullopt;
     Fifo rest;
     Failure tried;
     tried.outcome = body_.run(rest, played);
+    effort_.spend(body_);
     tried.schedule = body_.explorer().schedule();
     passed_ = tried.schedule;
     if (!is_same_failure(tried.outcome, least_.outcome)) return std::nullopt;
@@ -78,7 +78,7 @@ class Minimizer {
         for (std::size_t at = 0; at < path.size(); ++at) {
           std::vector<Decision> changed(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(at) + 1);
           for (std::uint32_t other = 0; other < path[at].count; ++other) {
-            if (left_ == 0) return false;
+            if (!effort_.is_left()) return false;
             if (other == path[at].chosen) continue;
             changed.back().chosen = other;
             const auto failed = failing({.prefix = changed, .switches = others});
@@ -96,7 +96,7 @@ class Minimizer {
     prefix.resize(from);
     if (const auto failed = failing({.prefix = prefix})) return failed;
     const std::vector<Decision> path = passed_.decisions;
-    for (std::size_t i = from; i < path.size() && left_ > 0; ++i) {
+    for (std::size_t i = from; i < path.size() && effort_.is_left(); ++i) {
       std::vector<Decision> changed(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       for (std::uint32_t other = 0; other < path[i].count; ++other) {
         if (other == path[i].chosen) continue;
@@ -113,7 +113,7 @@ class Minimizer {
 
   Body& body_;
   Failure least_;
-  std::uint64_t left_;
+  Effort effort_;
   Schedule passed_;  // of the last run
 };
 
@@ -127,8 +127,6 @@ bool is_same_failure(const Outcome& a, const Outcome& b) {
   return words_of(a.failure) == words_of(b.failure);
 }
 
-Failure minimize(Body& body, const Failure& found, std::uint64_t runs_max) {
-  return Minimizer(body, found, runs_max).run();
-}
+Failure minimize(Body& body, const Failure& found, Effort effort) { return Minimizer(body, found, effort).run(); }
 
 }  // namespace waitpoint::exploration

@@ -6,6 +6,7 @@
 // far as the budget goes.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "fibers/explore/body.hpp"
@@ -21,7 +22,21 @@ struct Failure {
 /// Whether two outcomes are the same failure: of one kind, and where it has words of its own, in the same words.
 bool is_same_failure(const Outcome& a, const Outcome& b);
 
-/// At most `runs_max` runs of `body`. What it returns fails as `found` does.
-Failure minimize(Body& body, const Failure& found, std::uint64_t runs_max);
+/// How much may be spent on running a body. Not in time, so that the same failure always comes to the same report.
+struct Effort {
+  std::uint64_t runs;
+  std::uint64_t steps = 30'000'000;  ///< switch points in all: some seconds
+
+  /// Whether there is enough left for another run.
+  bool is_left() const { return runs > 0 && steps > 0; }
+  /// A run was done.
+  void spend(const Body& body) {
+    --runs;
+    steps -= std::min<std::uint64_t>(steps, body.explorer().steps());
+  }
+};
+
+/// What it returns fails as `found` does.
+Failure minimize(Body& body, const Failure& found, Effort effort);
 
 }  // namespace waitpoint::exploration

@@ -25,7 +25,7 @@ using kernel::Task;
 /// A switch point.
 struct SwitchPoint {
   std::span<Task* const> ready;  ///< at least one, in the order in which they came to be so
-  const Task* last;              ///< whose event was executed last; null at the first
+  const Task* last;              ///< whose event was executed last; null at the first of an instant
   bool may_go_on;                ///< it is among the ready, and does not spin
   std::uint32_t step;            ///< switch points before this one
 };
@@ -45,6 +45,8 @@ class Strategy {
   virtual std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) = 0;
   /// The schedule is over; false if there is no other left to try.
   virtual bool end() { return true; }
+  /// Of an exhaustive one: " with at most 2 preemptions", or nothing if it tries all.
+  virtual std::string scope() const { return ""; }
   /// Whether end() will tell when all schedules have been tried.
   virtual bool is_exhaustive() const { return false; }
 };

@@ -12,10 +12,17 @@
 
 namespace waitpoint::exploration {
 
+namespace {
+
+enum class Doing : std::uint8_t { nothing, default_schedule, schedule, minimizing };
+
+}  // namespace
+
 struct Supervisor::Shared {
   std::atomic<std::uint64_t> number;
-  std::atomic<bool> under_way;
+  std::atomic<Doing> doing;
   std::atomic<bool> done;
+  char failure[400];
 };
 
 Supervisor::Supervisor(const Token& token, const std::string& replay, const std::string& after) {
@@ -45,26 +52,48 @@ Supervisor::~Supervisor() {
   if (shared_ != nullptr) munmap(shared_, sizeof(Shared));
 }
 
+void Supervisor::begin_default() {
+  if (shared_ != nullptr) shared_->doing.store(Doing::default_schedule, std::memory_order_relaxed);
+}
+
 void Supervisor::begin(std::uint64_t number) {
   if (shared_ == nullptr) return;
   shared_->number.store(number, std::memory_order_relaxed);
-  shared_->under_way.store(true, std::memory_order_relaxed);
+  shared_->doing.store(Doing::schedule, std::memory_order_relaxed);
+}
+
+void Supervisor::begin_minimizing(std::uint64_t number, const std::string& failure) {
+  if (shared_ == nullptr) return;
+  shared_->number.store(number, std::memory_order_relaxed);
+  std::snprintf(shared_->failure, sizeof shared_->failure, "%s", failure.c_str());
+  shared_->doing.store(Doing::minimizing, std::memory_order_relaxed);
 }
 
 void Supervisor::pause() {
-  if (shared_ != nullptr) shared_->under_way.store(false, std::memory_order_relaxed);
+  if (shared_ != nullptr) shared_->doing.store(Doing::nothing, std::memory_order_relaxed);
 }
 
 // In the supervisor: it is told, or the pipe's other end is closed when the explored process is gone, however it went.
 void Supervisor::wait_for_the_end(int pipe, const Token& token, const std::string& replay, const std::string& after) {
+  setsid();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
   char byte = 0;
   (void)!read(pipe, &byte, 1);
-  if (!shared_->done && shared_->under_way) {
+  const Doing doing = shared_->doing;
+  if (!shared_->done && doing != Doing::nothing) {
     Token failed = token;
     failed.number = shared_->number;
-    std::string text = "waitpoint: the process ended within schedule " + std::to_string(failed.number) + "\n" + replay;
-    text += to_text(failed) + after + "\n";
+    std::string text = "waitpoint: the process ended ";
+    if (doing == Doing::default_schedule) {
+      text += "within the default schedule";
+      failed.strategy.clear();
+    } else if (doing == Doing::schedule) {
+      text += "within schedule " + std::to_string(failed.number);
+    } else {
+      text += "while the failure of schedule " + std::to_string(failed.number) +
+              " was cut down, by a run of it with fewer switches. It had failed: " + shared_->failure;
+    }
+    text += "\n" + replay + to_text(failed) + after + "\n";
     (void)!write(STDERR_FILENO, text.data(), text.size());
   }
   _exit(0);

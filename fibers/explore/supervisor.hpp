@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sees to it that a schedule which takes the whole process down still says how to repeat it: a process of its own,
-// which does nothing but wait for the explored one to end. What it would have to say lies in memory that both share,
-// and is written there before each schedule and at each switch away from the default order.
+// which does nothing but wait for the explored one to end, in a session of its own, so that what kills a whole process
+// group does not find it. What it would have to say lies in memory that both share, and is written there before each
+// schedule.
 //
 //   explored process   ===|schedule 1|===|schedule 2|== killed
 //   supervisor             ............................ waits ... prints the line that repeats schedule 2
@@ -26,8 +27,12 @@ class Supervisor {
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
+  /// The default schedule begins.
+  void begin_default();
   /// Schedule `number` begins.
   void begin(std::uint64_t number);
+  /// Schedule `number` has failed, in these words, and is cut down and explained by running others.
+  void begin_minimizing(std::uint64_t number, const std::string& failure);
   /// Nothing of a schedule is under way.
   void pause();
 

@@ -43,20 +43,20 @@ std::uint32_t take_digest(std::string_view part, const std::string& text) {
   return digest;
 }
 
-std::string hexadecimal(std::uint32_t digest) {
+}  // namespace
+
+std::string digest_text(std::uint32_t digest) {
   std::array<char, digest_digits> digits{};
   const auto [end, error] = std::to_chars(digits.begin(), digits.end(), digest, 16);
   const auto count = static_cast<std::size_t>(end - digits.begin());
   return std::string(digest_digits - count, '0') + std::string(digits.data(), count);
 }
 
-}  // namespace
-
 bool is_token(const std::string& text) { return text.starts_with("wx") && text.find('/') == std::string::npos; }
 
 std::string to_text(const Token& token) {
   std::string text(version);
-  text += "." + std::to_string(token.call) + "." + hexadecimal(token.digest) + ".";
+  text += "." + std::to_string(token.call) + "." + digest_text(token.digest) + ".";
   if (!token.strategy.empty())
     return text + token.strategy + "." + std::to_string(token.seed) + "." + std::to_string(token.number);
   text += "=";
@@ -79,6 +79,8 @@ Token read_token(const std::string& text) {
     while (!rest.empty()) {
       std::string_view part = take(rest, ',');
       const auto decision = take_number<std::uint32_t>(take(part, '-'), text, "the number of a choice");
+      if (!token.deviations.empty() && decision <= token.deviations.back().decision)
+        refuse(text, "numbers of choices that ascend");
       token.deviations.push_back({decision, take_number<std::uint32_t>(part, text, "the number of an alternative")});
     }
     return token;

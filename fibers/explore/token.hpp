@@ -30,6 +30,9 @@ struct Token {
 /// What a token keeps of a run's digest.
 constexpr std::uint32_t token_digest(std::uint64_t digest) { return static_cast<std::uint32_t>(digest >> 32); }
 
+/// Its eight digits.
+std::string digest_text(std::uint32_t digest);
+
 /// What a token can hold in a line; a schedule that needs more goes to a file.
 inline constexpr std::size_t token_length_max = 80;
 

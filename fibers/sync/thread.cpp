@@ -114,7 +114,15 @@ thread::~thread() {
   WAITPOINT_CHECK(let_go, "a thread that is joinable is destroyed");
 }
 
+namespace {
+
+// When the run is over its threads end as they can, in no order of the program's: nothing is a misuse then.
+bool run_is_over() { return kernel::running != nullptr && kernel::running->scheduler->unwinding(); }
+
+}  // namespace
+
 void thread::join() {
+  if (run_is_over()) return sync::unwind();
   WAITPOINT_CHECK(joinable(), "a thread that is not joinable is joined");
   if (sync::before_blocking(kernel::Operation::join, state_->ended) && state_->task != nullptr) {
     state_->ended.owner = state_->task;
@@ -124,6 +132,10 @@ void thread::join() {
 }
 
 bool thread::join_before(Time deadline) {
+  if (run_is_over()) {
+    sync::unwind();
+    return false;
+  }
   WAITPOINT_CHECK(joinable(), "a thread that is not joinable is joined");
   if (!sync::before_blocking(kernel::Operation::join, state_->ended)) return false;
   if (state_->task != nullptr) {
@@ -146,7 +158,7 @@ void thread::await_end() noexcept {
 }
 
 void thread::detach() {
-  WAITPOINT_CHECK(joinable(), "a thread that is not joinable is detached");
+  WAITPOINT_CHECK(run_is_over() || joinable(), "a thread that is not joinable is detached");
   state_ = nullptr;
 }
 

@@ -54,7 +54,7 @@ TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
       const auto found = search.find("portfolio", seed, schedules_max);
       EXPECT_TRUE(found) << specimen.name << ", seed " << seed;
       if (!found) continue;
-      const auto least = exploration::minimize(search.body(), found->failure, runs_to_minimize);
+      const auto least = exploration::minimize(search.body(), found->failure, {runs_to_minimize});
       EXPECT_TRUE(exploration::is_same_failure(least.outcome, found->failure.outcome)) << specimen.name;
       const std::size_t switches = least.schedule.switches.size();
       ++failures;

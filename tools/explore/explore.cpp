@@ -56,8 +56,8 @@ void put(const std::string& text) {
 }
 
 void tell(const FailureReport& report, Files& files) {
+  put(report.text);  // whatever becomes of the files
   files.write(report);
-  put(report.text);
 }
 
 std::string sum(const Scene& scene, const Search& search, double seconds) {

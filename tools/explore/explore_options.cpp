@@ -137,6 +137,7 @@ ExploreOptions ExploreArguments::options() const {
   for (const auto& [name, value] : {std::pair<const char*, const std::string&>{"--shard", shard_},
                                     {"--results", results_},
                                     {"--jobs", jobs_},
+                                    {"--strategy", strategy_},
                                     {"--schedule", schedule_}})
     if (!value.empty()) throw BadInput(where, std::string("cannot be used together with ") + name);
   return options;

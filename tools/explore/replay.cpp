@@ -39,6 +39,8 @@ Record of_token(ExploreOptions& options) {
   if (token.strategy.empty()) {
     record.plan = {.drawn = false, .deviations = token.deviations};
   } else {
+    if (exploration::make_strategy(token.strategy)->is_exhaustive())
+      throw BadInput("--replay", "expected a strategy that draws its schedules in the token '" + options.replay + "'");
     options.strategy = token.strategy;
     options.seed = token.seed;
     record.plan = {.number = token.number};
@@ -84,6 +86,16 @@ std::string parting(const Record& record, const Scene& scene, const Finding& fin
   return "";
 }
 
+// Throws BadInput if the run is another one than that of the record.
+void check_is(const Record& record, const Scene& scene, const Finding& finding, const std::string& name) {
+  const int shift = 64 - record.digest_bits;
+  const std::string where = parting(record, scene, finding);
+  const bool is_same = record.digest_bits == 0 ? where.empty() : finding.digest >> shift == record.digest >> shift;
+  if (!is_same)
+    throw BadInput(exploration::is_token(name) ? "--replay" : name,
+                   "this is not the run of the record" + (where.empty() ? "" : ": " + where));
+}
+
 }  // namespace
 
 int replay(const ExploreOptions& asked, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types) {
@@ -104,6 +116,7 @@ int replay(const ExploreOptions& asked, const bridge::Scenario& scenario, std::s
   exploration::Timeline timeline;
   const Finding finding = scene.run(
       record.plan, {.words = record.plan.switches.size() > 0, .places = true, .timeline = trace ? &timeline : nullptr});
+  check_is(record, scene, finding, options.replay);
   bridge::RunResult result = scene.result();
   result.wall_s = wall_clock_s() - start_s;
   result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
@@ -114,17 +127,10 @@ int replay(const ExploreOptions& asked, const bridge::Scenario& scenario, std::s
     trace->write(text.str());
     trace->commit();
   }
-  const int shift = 64 - record.digest_bits;
-  const bool is_same = record.digest_bits == 0 || finding.digest >> shift == record.digest >> shift;
-  if (is_same && record.digest_bits > 0) std::puts("\nthe same run as in the record");
+  if (record.digest_bits > 0) std::puts("\nthe same run as in the record");
   if (std::fflush(stdout) != 0) throw BadInput("standard output", "cannot be written");
   if (!finding.passed()) std::fprintf(stderr, "waitpoint: failed: %s\n", finding.words.c_str());
-  if (!is_same) {
-    const std::string where = parting(record, scene, finding);
-    std::fprintf(stderr, "waitpoint: this is not the run of the record%s%s\n", where.empty() ? "" : ": ",
-                 where.c_str());
-  }
-  return finding.passed() && is_same ? 0 : 1;
+  return finding.passed() ? 0 : 1;
 }
 
 }  // namespace waitpoint::tools

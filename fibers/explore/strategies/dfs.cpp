@@ -48,4 +48,9 @@ bool Dfs::end() {
   return true;
 }
 
+std::string Dfs::scope() const {
+  if (preemptions_ == unbounded) return "";
+  return " with at most " + std::to_string(preemptions_) + (preemptions_ == 1 ? " preemption" : " preemptions");
+}
+
 }  // namespace waitpoint::exploration

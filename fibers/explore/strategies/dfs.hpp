@@ -21,6 +21,7 @@ class Dfs final : public Strategy {
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
   bool end() override;
   bool is_exhaustive() const override { return true; }
+  std::string scope() const override;
 
  private:
   struct Level {

@@ -170,6 +170,24 @@ TEST(Explore, ATokenOfAnotherProgramIsKnownAsSuch) {
   token[4] = '2';
   const ExploreReport other = explore(lose_a_wake_up, {.replay = token});
   EXPECT_TRUE(contains(other.text, "this is not the run of the token")) << other;
+  // Choices that the run does not have, and a number that no loop may count up to.
+  for (const char* unfit : {"wx1.3.00000000.=9999-1", "wx1.4.00000000.=0-99"})
+    EXPECT_TRUE(contains(explore(lose_a_wake_up, {.replay = unfit}).text, "this is not the run of the token")) << unfit;
+  EXPECT_TRUE(explore([] {}, {.replay = "wx1.5.00000000.random.1.18446744073709551615"}).passed);
+}
+
+TEST(Explore, ATraceThatCannotBeWrittenLosesNoReport) {
+  setenv("WAITPOINT_TRACE", "/no/such/folder/trace", 1);
+  const ExploreReport report = explore(lose_a_wake_up);
+  unsetenv("WAITPOINT_TRACE");
+  EXPECT_TRUE(contains(report.text, "WAITPOINT_TRACE: cannot write to '/no/such/folder/trace'")) << report;
+  EXPECT_TRUE(contains(report.text, "replay: ")) << report;
+}
+
+TEST(Explore, ABodyThatFailsInTheDefaultOrderOnlyLaterIsSaidToLeak) {
+  int runs = 0;
+  const ExploreReport report = explore([&] { check(++runs < 200, "too many"); });
+  EXPECT_TRUE(contains(report.text, "which passed at first, fails now: the body leaks state")) << report;
 }
 
 TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
@@ -186,6 +204,10 @@ TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
   EXPECT_EQ(message({.strategy = "pct:0"}), "strategy: expected pct:D, a whole number from 1 to 1000, found 'pct:0'");
   EXPECT_EQ(message({.strategy = "pos:3"}), "strategy: expected pos without a parameter, found 'pos:3'");
   EXPECT_EQ(message({.replay = "wx2.1.0"}), "replay: expected the version wx1, not 'wx2', in the token 'wx2.1.0'");
+  EXPECT_EQ(message({.replay = "wx1.0.00000000.="}),
+            "replay: expected a test's token, found a scenario's: 'wx1.0.00000000.='");
+  EXPECT_EQ(message({.replay = "wx1.1.00000000.=5-0,2-1"}),
+            "replay: expected numbers of choices that ascend in the token 'wx1.1.00000000.=5-0,2-1'");
   EXPECT_EQ(message({.replay = "wx1.1.12"}),
             "replay: expected eight hexadecimal digits of a digest, not '12', in the token 'wx1.1.12'");
   EXPECT_EQ(message({.replay = "wx1.1.00000000.random.7.x"}),

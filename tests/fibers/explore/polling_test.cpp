@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tasks that poll, sleep or spin: their ties are explored, exhaustive strategies claim no more than they tried, and a
+// schedule that does not end is told in some seconds.
+#include <gtest/gtest.h>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/atomic.hpp"
+#include "fibers/sync/mutex.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint {
+namespace {
+
+using namespace std::chrono_literals;
+
+// The default order lets the writer, who set out first, come first at the instant at which both have slept enough.
+void meet_after_many_sleeps() {
+  atomic<int> written{0};
+  thread writer([&] {
+    this_thread::sleep_for(12ms);
+    written.store(1);
+  });
+  thread reader([&] {
+    for (int i = 0; i < 12; ++i) this_thread::sleep_for(1ms);
+    check(written.load() == 1, "read before it was written");
+  });
+  writer.join();
+  reader.join();
+}
+
+TEST(Polling, WhoSleepsAgainAndAgainIsInTheOrderLikeAllOthers) {
+  EXPECT_TRUE(simulate(meet_after_many_sleeps).passed);
+  EXPECT_TRUE(explore(meet_after_many_sleeps, {.strategy = "fifo", .iterations = 1}).passed);
+  for (const char* strategy : {"portfolio", "random", "pos", "dfs", "dpor"}) {
+    const ExploreReport report = explore(meet_after_many_sleeps, {.strategy = strategy});
+    EXPECT_FALSE(report.passed) << strategy << ": " << report;
+    EXPECT_EQ(report.schedule.switches.size(), 1U) << strategy;
+  }
+}
+
+TEST(Polling, ExhaustiveStrategiesSayWhatTheyNeverTried) {
+  const auto look_often = [] {
+    atomic<int> page{0};
+    thread reader([&] {
+      for (int i = 0; i < 12; ++i) (void)page.load();
+    });
+    page.store(1);
+    page.store(2);
+    reader.join();
+  };
+  const ExploreReport spun = explore(look_often, {.strategy = "dpor", .iterations = 1'000'000});
+  EXPECT_TRUE(spun.passed) << spun;
+  EXPECT_FALSE(spun.complete);
+  EXPECT_EQ(spun.scope, "all there are, but for turns of tasks that spin");
+  const auto compute_something = [] {
+    thread other([] { compute(1ms, 3ms); });
+    other.join();
+  };
+  const ExploreReport timed = explore(compute_something, {.strategy = "dfs"});
+  EXPECT_FALSE(timed.complete);
+  EXPECT_EQ(timed.scope, "all there are, but for computing costs between the least and the greatest");
+  const auto take_in_turn = [] {
+    mutex m;
+    thread other([&] { const std::lock_guard guard(m); });
+    { const std::lock_guard guard(m); }
+    other.join();
+  };
+  const ExploreReport bounded = explore(take_in_turn, {.strategy = "bounded:2"});
+  EXPECT_FALSE(bounded.complete);
+  EXPECT_EQ(bounded.scope, "all there are with at most 2 preemptions");
+  EXPECT_TRUE(explore(take_in_turn, {.strategy = "dfs"}).complete);
+}
+
+TEST(Polling, WhatDoesNotEndIsToldInSeconds) {
+  const ExploreReport sleeping = explore([] {
+    for (;;) this_thread::sleep_for(100ms);
+  });
+  EXPECT_NE(sleeping.text.find("had not ended at 3600.000000000 s"), std::string::npos) << sleeping;
+  const ExploreReport spinning = explore([] {
+    atomic<bool> mine{false}, yours{false};
+    thread other([&] {
+      while (!mine.load()) this_thread::yield();
+      yours.store(true);
+    });
+    while (!yours.load()) this_thread::yield();
+    mine.store(true);
+    other.join();
+  });
+  EXPECT_NE(spinning.text.find("no progress"), std::string::npos) << spinning;
+}
+
+// What a release began before the run was over goes on behind it, up to the next call that waits.
+TEST(Polling, AFailureWhileAnotherTaskIsOnItsWayToAJoinIsReported) {
+  const ExploreReport report = explore([] {
+    atomic<bool> there{false};
+    thread other([&] { check(there.load(), "not there"); });
+    there.store(true);
+    other.join();
+  });
+  EXPECT_NE(report.text.find("not there"), std::string::npos) << report;
+  EXPECT_FALSE(simulate([] {
+                 atomic<bool> there{false};
+                 thread other([&] { check(false, "never there"); });
+                 there.store(true);
+                 other.join();
+               }).passed);
+}
+
+}  // namespace
+}  // namespace waitpoint
