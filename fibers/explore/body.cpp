@@ -86,4 +86,11 @@ void Body::run_up_to(const Played& played, const std::function<void()>& look) {
   if (checks_ != nullptr) (void)checks_->end();
 }
 
+void Body::run_watched_by(kernel::Decisions& decisions, const Schedule& schedule) {
+  Fifo rest;
+  simulation_.scheduler().set_decisions(decisions);
+  (void)run(rest, {.prefix = schedule.decisions});
+  simulation_.scheduler().set_decisions(explorer_);
+}
+
 }  // namespace waitpoint::exploration

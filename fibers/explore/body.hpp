@@ -47,12 +47,16 @@ class Body {
   /// As run(), up to the decision where `played` stops; then `look` is called, before all is unwound.
   void run_up_to(const Played& played, const std::function<void()>& look);
 
+  /// As run() with that schedule, with `decisions` between the kernel and the explorer.
+  void run_watched_by(kernel::Decisions& decisions, const Schedule& schedule);
+
   /// Data races are failures, unless this is called.
   void ignore_races() { heeds_races_ = false; }
   /// Whether failures say where in the source tasks are: that takes a second. They do not, unless it is asked for.
   void tell(sync::Places places);
 
   const Explorer& explorer() const { return explorer_; }
+  Explorer& explorer() { return explorer_; }
   Simulation& simulation() { return simulation_; }
 
  private:

@@ -19,7 +19,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t runs_to_minimize = 200'000;
 constexpr std::uint64_t runs_to_explain = 20'000;
-constexpr std::size_t events_shown = 40;
 
 }  // namespace
 
@@ -152,28 +151,19 @@ void Campaign::tell(const Found& found) {
   Failure least = found.failure;
   supervisor_.begin_minimizing(found.token.number, found.failure.outcome.failure);
   if (options_.minimize) least = minimize(body_, found.failure, {runs_to_minimize});
-  Fifo rest;
-  body_.tell(sync::Places::told);
-  if (const Outcome told = body_.run(rest, {.prefix = least.schedule.decisions}); !told.passed()) least.outcome = told;
-  body_.tell(sync::Places::left_out);
+  least = with_places(body_, least);
   const std::string deviating = to_text(token_of(least));
   report_.replay = deviating.size() <= token_length_max ? deviating : to_text(found.token);
   report_.schedule = least.schedule;
   std::string& text = report_.text;
   text = found.which + " failed: " + least.outcome.failure + "\n";
-  const std::size_t switches = least.schedule.switches.size();
-  if (switches == 0 && !found.is_default && usual_digest_ != 0)
+  if (least.schedule.switches.empty() && !found.is_default && usual_digest_ != 0)
     text +=
         "the default order, which passed at first, fails now: the body leaks state from one schedule into the next\n";
-  text += switches == 0   ? "it is the default order that fails\n"
-          : switches == 1 ? "one switch away from the default order fails\n"
-                          : std::to_string(switches) + " switches away from the default order fail\n";
-  if (const std::string why = explain(body_, least, {runs_to_explain}); !why.empty()) text += why + "\n";
-  const Timeline timeline = take_timeline(body_, least.schedule);
-  text += "what the tasks did (*: in place of one that could have gone on):\n" + to_text(timeline, events_shown);
+  text += explain(body_, least, {runs_to_explain});
   if (const std::string file = trace_file(); !file.empty()) {
     std::ofstream out(file);
-    write_trace(out, timeline);
+    write_trace(out, take_timeline(body_, least.schedule));
     if (!out.flush()) text += "waitpoint: WAITPOINT_TRACE: cannot write to '" + file + "'\n";
   }
   supervisor_.pause();

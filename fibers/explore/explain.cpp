@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "fibers/explore/choice_words.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/explore/timeline.hpp"
 #include "fibers/sync/object_names.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::size_t frames_searched = 24;
 constexpr std::size_t frames_shown = 4;
+constexpr std::size_t others_shown = 4;
+constexpr std::size_t events_shown = 40;
 
 struct Crossing {
   std::size_t decision;
@@ -37,12 +40,6 @@ std::optional<Crossing> last_crossing(Body& body, const Failure& failure, Effort
     }
   }
   return std::nullopt;
-}
-
-std::string about_to(const Task& task) {
-  std::string text = title_of(task) + ", about to " + name(task.operation);
-  if (task.at != nullptr) text += " " + sync::describe(*task.at);
-  return text;
 }
 
 // At a choice between tasks: the one that came, and the one that should have.
@@ -75,17 +72,18 @@ const char* description(Choice choice) {
   return "";
 }
 
-}  // namespace
-
-std::string explain(Body& body, const Failure& failure, Effort effort) {
+// In words; empty where there is none.
+std::string describe_last_crossing(Body& body, const Failure& failure, Effort effort) {
   const std::optional<Crossing> crossing = last_crossing(body, failure, effort);
   if (!crossing) return "";
   const Decision& decision = failure.schedule.decisions[crossing->decision];
   std::string text = "the last choice from which it could still have passed: number " +
                      std::to_string(crossing->decision) + ", " + description(decision.choice);
-  if (decision.choice != Choice::task)
-    return text + ": alternative " + std::to_string(decision.chosen) + " fails, " + std::to_string(crossing->instead) +
-           " passes";
+  if (decision.choice != Choice::task) {
+    ChoiceWords words(body.explorer(), crossing->decision, crossing->instead);
+    body.run_watched_by(words, failure.schedule);
+    return text + ", " + words.text();
+  }
   Played played{.prefix = failure.schedule.decisions};
   played.stop_at = crossing->decision;
   body.run_up_to(played, [&] {
@@ -95,6 +93,44 @@ std::string explain(Body& body, const Failure& failure, Effort effort) {
             describe_pair(body, decision, ready, crossing->instead);
   });
   return text;
+}
+
+// Waits that end for nothing, waiters out of their order, costs: what no order of tasks shows.
+std::string describe_other_switches(Body& body, const Schedule& schedule) {
+  std::string text;
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < schedule.decisions.size() && shown < others_shown; ++i) {
+    const Decision& decision = schedule.decisions[i];
+    if (decision.choice == Choice::task || !decision.is_switch()) continue;
+    ChoiceWords words(body.explorer(), i, decision.usual);
+    body.run_watched_by(words, schedule);
+    text += "  " + words.chosen() + "\n";
+    ++shown;
+  }
+  return text;
+}
+
+}  // namespace
+
+Failure with_places(Body& body, const Failure& failure) {
+  Fifo rest;
+  Failure placed = failure;
+  body.tell(sync::Places::told);
+  if (Outcome told = body.run(rest, {.prefix = failure.schedule.decisions}); !told.passed())
+    placed.outcome = std::move(told);
+  body.tell(sync::Places::left_out);
+  return placed;
+}
+
+std::string explain(Body& body, const Failure& failure, Effort effort) {
+  const std::size_t switches = failure.schedule.switches.size();
+  std::string text = switches == 0   ? "it is the default order that fails\n"
+                     : switches == 1 ? "one switch away from the default order fails\n"
+                                     : std::to_string(switches) + " switches away from the default order fail\n";
+  text += describe_other_switches(body, failure.schedule);
+  if (const std::string why = describe_last_crossing(body, failure, effort); !why.empty()) text += why + "\n";
+  return text + "what the tasks did (*: in place of one that could have gone on):\n" +
+         to_text(take_timeline(body, failure.schedule), events_shown);
 }
 
 }  // namespace waitpoint::exploration

@@ -9,7 +9,11 @@
 
 namespace waitpoint::exploration {
 
-/// In words, some lines; empty where no single choice decides, or none was found with that effort.
+/// The same failure with the places in the source where tasks are, which takes a second.
+Failure with_places(Body& body, const Failure& failure);
+
+/// In words, some lines: how many switches it has, and which of them are none between tasks; the last choice from which
+/// it could still have passed, where one was found with that effort; and the last events.
 std::string explain(Body& body, const Failure& failure, Effort effort);
 
 }  // namespace waitpoint::exploration

@@ -197,13 +197,26 @@ std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t cou
   return chosen;
 }
 
-Duration Explorer::computing(const Task& task, Duration least, Duration greatest) {
+namespace {
+
+std::uint32_t costs_between(Duration least, Duration greatest) {
   const std::int64_t span = (greatest - least).ns();
-  const std::uint32_t count = span < computing_steps ? static_cast<std::uint32_t>(span) + 1 : computing_steps + 1;
-  left_out_.costs |= count > 2;
-  const std::uint32_t less = among(Choice::computing, task, count);
+  return span < computing_steps ? static_cast<std::uint32_t>(span) + 1 : computing_steps + 1;
+}
+
+}  // namespace
+
+Duration Explorer::cost(Duration least, Duration greatest, std::uint32_t chosen) {
   __extension__ using Wide = __int128;
-  return greatest - Duration::from_ns(static_cast<std::int64_t>(static_cast<Wide>(span) * less / (count - 1)));
+  const std::uint32_t count = costs_between(least, greatest);
+  const auto less = static_cast<Wide>((greatest - least).ns()) * chosen / (count - 1);
+  return greatest - Duration::from_ns(static_cast<std::int64_t>(less));
+}
+
+Duration Explorer::computing(const Task& task, Duration least, Duration greatest) {
+  const std::uint32_t count = costs_between(least, greatest);
+  left_out_.costs |= count > 2;
+  return cost(least, greatest, among(Choice::computing, task, count));
 }
 
 }  // namespace waitpoint::exploration

@@ -60,6 +60,9 @@ class Explorer final : public kernel::Decisions {
   /// The tasks between which the run was stopped to choose.
   std::span<Task* const> stopped_before() const { return stopped_before_; }
 
+  /// What alternative number `chosen` of a computation costs.
+  static Duration cost(Duration least, Duration greatest, std::uint32_t chosen);
+
   std::uint32_t next(Task* const* ready, std::uint32_t count) override;
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
   Duration computing(const Task& task, Duration least, Duration greatest) override;

@@ -14,12 +14,11 @@ namespace {
 
 constexpr std::uint64_t runs_to_minimize = 20'000;
 constexpr std::uint64_t runs_to_explain = 5'000;
-constexpr std::size_t events_shown = 40;
 
 }  // namespace
 
 fuzz_target::fuzz_target(std::function<void()> body)
-    : body_(std::move(body), nullptr, Time::max(), ExploreOptions().steps_max) {}
+    : body_(std::move(body), nullptr, ExploreOptions().until, ExploreOptions().steps_max) {}
 
 int fuzz_target::run(const std::uint8_t* data, std::size_t size) {
   exploration::Bytes bytes({data, size});
@@ -27,9 +26,9 @@ int fuzz_target::run(const std::uint8_t* data, std::size_t size) {
   const exploration::Outcome outcome = body_.run(bytes);
   if (outcome.passed()) return 0;
   const exploration::Failure failure{body_.explorer().schedule(), outcome};
-  const exploration::Failure least = exploration::minimize(body_, failure, {runs_to_minimize});
-  const std::string text = least.outcome.failure + "\n" + exploration::explain(body_, least, {runs_to_explain}) + "\n" +
-                           to_text(exploration::take_timeline(body_, least.schedule), events_shown);
+  const exploration::Failure least =
+      exploration::with_places(body_, exploration::minimize(body_, failure, {runs_to_minimize}));
+  const std::string text = least.outcome.failure + "\n" + exploration::explain(body_, least, {runs_to_explain});
   std::fputs(text.c_str(), stderr);
   std::abort();
 }

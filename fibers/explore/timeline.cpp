@@ -28,6 +28,12 @@ std::string title_of(const Task& task) {
   return std::string_view(task.robot->name) == "environment" ? title : title + " of " + task.robot->name;
 }
 
+std::string about_to(const Task& task) {
+  std::string text = title_of(task) + ", about to " + name(task.operation);
+  if (task.at != nullptr) text += " " + sync::describe(*task.at);
+  return text;
+}
+
 TimelineRecorder::TimelineRecorder(Timeline& timeline, const Explorer& explorer, Time from)
     : timeline_(timeline), explorer_(explorer), from_(from) {
   event = &TimelineRecorder::record;

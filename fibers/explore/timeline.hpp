@@ -14,6 +14,8 @@ namespace waitpoint::exploration {
 
 /// "consumer#2 of r1": tasks of one name are told apart by their numbers. The robot is left out where there are none.
 std::string title_of(const Task& task);
+/// "consumer#2, about to lock mutex #1".
+std::string about_to(const Task& task);
 
 struct TimelineEvent {
   Time time;

@@ -25,6 +25,29 @@ bool is_ours(const std::string& line) {
   return false;
 }
 
+// "function at file:line" for people: a lambda that was compiled into what std::function calls has its own name there,
+// as the first argument of some template; and long names go without their template arguments.
+std::string readable(const std::string& line) {
+  constexpr std::size_t long_name = 100;
+  const std::size_t end = line.rfind(" at ");
+  const std::string name = line.substr(0, end);
+  const std::string place = end == std::string::npos ? "" : line.substr(end);
+  const std::size_t lambda = name.find("{lambda");
+  if (name.starts_with("std::_Function_handler<") && lambda != std::string::npos) {
+    const std::size_t begin = name.find_last_of("<,", lambda) + 1;
+    return name.substr(begin, name.find('}', lambda) + 1 - begin) + place;
+  }
+  if (name.size() <= long_name) return line;
+  std::string kept;
+  int depth = 0;
+  for (const char letter : name) {
+    if (letter == '<' && depth++ == 0) kept += "<...";
+    if (letter == '>' && depth > 0) --depth;
+    if (depth == 0) kept += letter;
+  }
+  return kept + place;
+}
+
 bool is_entry(const std::string& line) {
   return contains(line, "waitpoint::sync::(anonymous namespace)::run_thread") ||
          contains(line, "waitpoint::kernel::Scheduler::task_main");
@@ -98,7 +121,7 @@ std::vector<std::string> user_lines(std::span<const Place> places, const std::st
     for (const std::string& line : place.lines.empty() ? without : place.lines) {
       if (is_entry(line)) return found;
       if (is_ours(line)) continue;
-      found.push_back(line);
+      found.push_back(readable(line));
       if (found.size() == most) return found;
     }
   }

@@ -249,6 +249,38 @@ TEST(Explore, TheEnvironmentSaysWhatToDoInAnyProgram) {
   with("WAITPOINT_SEED", "nine", [] { EXPECT_THROW(explore([] {}), BadInput); });
 }
 
+TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
+  const ExploreReport slow = explore([] {
+    thread worker({.name = "worker"}, [] {
+      compute(1ms, 3ms);
+      check(now() >= Time() + 2ms, "too early");
+    });
+    worker.join();
+  });
+  EXPECT_TRUE(
+      contains(slow.text, "how long a computation takes, at 0.000000000 s: worker#1, about to start, computes "))
+      << slow;
+  EXPECT_TRUE(contains(slow.text, "; it passes if it computes 0.003000000 s")) << slow;
+  const ExploreReport woken = explore([] {
+    mutex m;
+    condition_variable arrived;
+    bool there = false;
+    thread waiter({.name = "waiter"}, [&] {
+      std::unique_lock lock(m);
+      if (!there) arrived.wait(lock);
+      check(there, "woken for nothing");
+    });
+    this_thread::sleep_for(1ms);
+    {
+      const std::lock_guard guard(m);
+      there = true;
+      arrived.notify_one();
+    }
+    waiter.join();
+  });
+  EXPECT_TRUE(contains(woken.text, "waiter#1, about to wait condition variable #2, goes on for nothing")) << woken;
+}
+
 TEST(Explore, WhatIsChosenBesideTasks) {
   // Who is woken; that a wait ends for nothing; a timeout against a wake-up at one instant; what a computation costs.
   const auto can_fail = [](std::function<void()> body) { return !explore(std::move(body)).passed; };
