@@ -17,6 +17,7 @@
 #include "tests/bench/explore/throughput.hpp"
 #include "tests/bench/kernel/measured.hpp"
 #include "tests/bench/rows.hpp"
+#include "tests/project.hpp"
 
 namespace waitpoint::bench {
 namespace {
@@ -77,6 +78,7 @@ class Bench {
       }
     }
     add_instrumented();
+    add_branches();
   }
   const std::vector<Row>& rows() const { return rows_; }
 
@@ -84,6 +86,22 @@ class Bench {
   template <class Run>
   Speed best(Run run) const {
     return best_of_some(seconds_, run);
+  }
+  // Of the office in mid-run, each in a process forked there, and carried on for a second of virtual time.
+  void add_branches() {
+    const auto build = std::filesystem::canonical("/proc/self/exe").parent_path().parent_path().parent_path();
+    const std::string command = fmt::format(
+        "'{}' explore '{}' --from 60 --until 61 --strategy random --time-limit {} 2>/dev/null",
+        (build / "tools/waitpoint").string(), (test::project_root() / "scenarios/office.yaml").string(), seconds_);
+    FILE* const output = popen(command.c_str(), "r");
+    WAITPOINT_CHECK(output != nullptr, "no process can be had");
+    double schedules = 0, distinct = 0, spent = 0, rate = 0;
+    const int found = std::fscanf(output, "office: %lf schedules, %lf distinct, 0 failed, in %lf s (%lf a second)",
+                                  &schedules, &distinct, &spent, &rate);
+    pclose(output);
+    if (found != 4) throw BadInput("waitpoint explore", "expected schedules without a failure");
+    add("branches of the office in mid-run", "waitpoint", rate, "branches/s");
+    add("branches of the office in mid-run, share distinct", "waitpoint", 100 * distinct / schedules, "%");
   }
   // Beside the accesses to memory that tasks share, the primitives are switch points as ever.
   void add_instrumented() {
