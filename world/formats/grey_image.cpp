@@ -4,32 +4,25 @@
 #include <png.h>
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "core/error.hpp"
 #include "core/occupancy_grid.hpp"
+#include "world/formats/file_contents.hpp"
+#include "world/formats/limits.hpp"
 #include "world/formats/pgm.hpp"
 
 namespace waitpoint::world {
 namespace {
 
+// Of the compression that PNG uses: a file cannot hold more bytes than so many times its own.
+constexpr std::uint64_t deflate_ratio_max = 1032;
 constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
-
-std::string contents_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  // A folder opens, but cannot be read.
-  if (!in || in.peek() == std::ifstream::traits_type::eof()) {
-    throw BadInput(file, "expected an image (PGM or PNG), found no file or an empty one");
-  }
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // libpng's simplified reader; what it holds is freed whether or not the image can be read.
 class PngReader {
  public:
-  PngReader(const std::string& contents, const std::string& file) : file_(file) {
+  PngReader(const std::string& contents, const std::string& file) : contents_(contents), file_(file) {
     std::memset(&image_, 0, sizeof image_);
     image_.version = PNG_IMAGE_VERSION;
     png_image_begin_read_from_memory(&image_, contents.data(), contents.size());
@@ -39,28 +32,41 @@ class PngReader {
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
-  // The pixels as red, green, blue, opacity.
+  // The pixels as grey and opacity, or where the image has colours as red, green, blue and opacity.
   std::vector<std::uint8_t> pixels() {
     if (std::uint64_t{image_.width} * image_.height > static_cast<std::uint64_t>(OccupancyGrid::cells_max)) {
       throw BadInput(file_, "expected at most " + std::to_string(OccupancyGrid::cells_max) + " pixels, found " +
                                 std::to_string(image_.width) + " x " + std::to_string(image_.height));
     }
-    if ((image_.format & PNG_FORMAT_FLAG_LINEAR) != 0) throw BadInput(file_, "expected an image of 8 bits, found 16");
-    image_.format = PNG_FORMAT_RGBA;
+    if (bytes_least() > deflate_ratio_max * contents_.size()) throw BadInput(file_, "the PNG image is cut short");
+    // Without this, 16 bits would be taken for linear light, and 8 for what a screen shows.
+    image_.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
+    image_.format = has_colours() ? PNG_FORMAT_RGBA : PNG_FORMAT_GA;
     std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image_));
     png_image_finish_read(&image_, nullptr, pixels.data(), 0, nullptr);
     check();
     return pixels;
   }
+  bool has_colours() const { return (image_.format & PNG_FORMAT_FLAG_COLOR) != 0; }
   int width() const { return static_cast<int>(image_.width); }
   int height() const { return static_cast<int>(image_.height); }
 
  private:
+  // What the pixels come to before they are compressed, by what the file's first chunk says; at least that.
+  std::uint64_t bytes_least() const {
+    constexpr std::size_t at_depth = 24;  // behind magic, length, type, width and height; the colour type is next
+    const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(contents_[i]); };
+    if (contents_.size() <= at_depth + 1) return 0;
+    const std::uint64_t channels = byte(at_depth + 1) == 2 ? 3 : byte(at_depth + 1) == 6 ? 4 : 1;
+    return (image_.width * channels * byte(at_depth) + 7) / 8 * image_.height;
+  }
+
   void check() const {
     if (PNG_IMAGE_FAILED(image_)) throw BadInput(file_, std::string("the PNG image cannot be read: ") + image_.message);
   }
 
   png_image image_;
+  const std::string& contents_;
   const std::string& file_;
 };
 
@@ -68,11 +74,17 @@ GreyImage parse_png(const std::string& contents, const std::string& file) {
   PngReader reader(contents, file);
   const std::vector<std::uint8_t> pixels = reader.pixels();
   GreyImage image = {reader.width(), reader.height(), {}, {}};
+  const std::size_t channels = reader.has_colours() ? 4 : 2;
+  const std::size_t count = pixels.size() / channels;
+  image.grey.reserve(count);
+  image.transparency.reserve(count);
   bool opaque = true;
-  for (std::size_t i = 0; i < pixels.size(); i += 4) {
-    image.grey.push_back(static_cast<std::uint8_t>((pixels[i] + pixels[i + 1] + pixels[i + 2]) / 3));
-    image.transparency.push_back(pixels[i + 3] == 0 ? 255 : 0);
-    opaque = opaque && pixels[i + 3] != 0;
+  for (std::size_t i = 0; i < pixels.size(); i += channels) {
+    const int sum = channels == 4 ? pixels[i] + pixels[i + 1] + pixels[i + 2] : 3 * pixels[i];
+    const bool hidden = pixels[i + channels - 1] == 0;
+    image.grey.push_back(static_cast<std::uint8_t>(sum / 3));
+    image.transparency.push_back(hidden ? 255 : 0);
+    opaque = opaque && !hidden;
   }
   if (opaque) image.transparency.clear();
   return image;
@@ -81,7 +93,10 @@ GreyImage parse_png(const std::string& contents, const std::string& file) {
 }  // namespace
 
 GreyImage read_grey_image(const std::string& file) {
-  const std::string contents = contents_of(file);
+  return parse_grey_image(file_contents(file, "an image (PGM or PNG)", image_bytes_max), file);
+}
+
+GreyImage parse_grey_image(const std::string& contents, const std::string& file) {
   const std::string_view view = contents;
   if (view.starts_with(png_magic)) return parse_png(contents, file);
   if (view.starts_with("P")) return parse_pgm(contents, file);

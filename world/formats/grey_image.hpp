@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grey images of 8 bits, as maps are drawn in: PGM (plain P2 and raw P5) and PNG.
+// Grey images of 8 bits, as maps are drawn in: PGM (plain P2 and raw P5) and PNG, of all depths (scaled to 8 bits),
+// with and without palette, transparency, interlacing.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,9 @@ struct GreyImage {
 };
 
 /// Reads an image, whose kind is told by its first bytes. BadInput, naming the file, if it is missing, of another kind,
-/// cut short, deeper than 8 bits, or larger than OccupancyGrid::cells_max pixels.
+/// cut short, or larger than OccupancyGrid::cells_max pixels.
 GreyImage read_grey_image(const std::string& file);
+/// Reads the contents of an image; `file` is its name, for messages.
+GreyImage parse_grey_image(const std::string& contents, const std::string& file);
 
 }  // namespace waitpoint::world

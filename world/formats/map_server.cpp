@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
+#include "world/formats/file_contents.hpp"
 #include "world/formats/grey_image.hpp"
+#include "world/formats/limits.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -35,7 +34,7 @@ constexpr std::array<std::string_view, 7> known_keys = {"image",           "reso
 
 class MapFileReader {
  public:
-  explicit MapFileReader(const std::string& file) : file_(file) {}
+  MapFileReader(const std::string& contents, const std::string& file) : contents_(contents), file_(file) {}
 
   MapFile read() {
     const YAML::Node root = load();
@@ -62,13 +61,12 @@ class MapFileReader {
   }
 
   YAML::Node load() const {
-    std::ifstream in(file_, std::ios::binary);
-    if (!in || in.peek() == std::ifstream::traits_type::eof()) {
-      throw BadInput(file_, "expected a map_server YAML file, found no file or an empty one");
+    if (contents_.size() > yaml_bytes_max) {
+      throw BadInput(file_,
+                     "expected a map_server YAML file of at most " + std::to_string(yaml_bytes_max >> 20) + " MiB");
     }
-    const std::string contents{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     try {
-      return YAML::Load(contents);
+      return YAML::Load(contents_);
     } catch (const YAML::Exception& e) {
       throw BadInput(file_, std::max(e.mark.line + 1, 1), "expected YAML: " + e.msg);
     }
@@ -133,6 +131,7 @@ class MapFileReader {
     fail(node, "mode: expected trinary, scale or raw");
   }
 
+  const std::string& contents_;
   const std::string& file_;
 };
 
@@ -147,9 +146,12 @@ Cell cell_of(const MapFile& map, int grey) {
 }  // namespace
 
 OccupancyGrid read_map_server_map(const std::string& yaml_file) {
-  const MapFile map = MapFileReader(yaml_file).read();
-  const GreyImage image =
-      read_grey_image((std::filesystem::path(yaml_file).parent_path() / map.image).lexically_normal().string());
+  return parse_map_server_map(file_contents(yaml_file, "a map_server YAML file", yaml_bytes_max), yaml_file);
+}
+
+OccupancyGrid parse_map_server_map(const std::string& contents, const std::string& yaml_file) {
+  const MapFile map = MapFileReader(contents, yaml_file).read();
+  const GreyImage image = read_grey_image(beside(yaml_file, map.image));
   std::array<Cell, 256> cells;
   for (int grey = 0; grey < 256; ++grey) cells[static_cast<std::size_t>(grey)] = cell_of(map, grey);
   OccupancyGrid grid(image.width, image.height, map.resolution_m, map.origin);

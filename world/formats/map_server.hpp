@@ -24,5 +24,7 @@ namespace waitpoint::world {
 /// parse, an unknown, doubled or missing key, a value out of range; and naming the image for an image that cannot be
 /// used.
 OccupancyGrid read_map_server_map(const std::string& yaml_file);
+/// Reads the contents of such a file; `yaml_file` is its name, for messages and for where the image is.
+OccupancyGrid parse_map_server_map(const std::string& contents, const std::string& yaml_file);
 
 }  // namespace waitpoint::world

@@ -3,19 +3,28 @@
 
 #include <cstdint>
 
+#include "core/error.hpp"
+#include "world/formats/limits.hpp"
+
 namespace waitpoint::world {
 namespace {
 
 class Merger {
  public:
-  explicit Merger(const OccupancyGrid& grid)
-      : grid_(grid), covered_(static_cast<std::size_t>(grid.width()) * static_cast<std::size_t>(grid.height()), 0) {}
+  Merger(const OccupancyGrid& grid, const std::string& file)
+      : grid_(grid),
+        file_(file),
+        covered_(static_cast<std::size_t>(grid.width()) * static_cast<std::size_t>(grid.height()), 0) {}
 
   std::vector<CellBlock> run() {
     std::vector<CellBlock> blocks;
     for (int y = 0; y < grid_.height(); ++y) {
       for (int x = 0; x < grid_.width(); ++x) {
         if (!open(x, y)) continue;
+        if (blocks.size() == obstacle_count_max) {
+          throw BadInput(file_, "expected a map of at most " + std::to_string(obstacle_count_max) +
+                                    " blocks of occupied cells, found more");
+        }
         const CellBlock wide = grown_wide(x, y), tall = grown_tall(x, y);
         const bool prefer_wide = area(wide) >= area(tall);
         blocks.push_back(prefer_wide ? wide : tall);
@@ -67,18 +76,21 @@ class Merger {
   }
 
   const OccupancyGrid& grid_;
+  const std::string& file_;
   std::vector<std::uint8_t> covered_;
 };
 
 }  // namespace
 
-std::vector<CellBlock> merged_occupied_cells(const OccupancyGrid& grid) { return Merger(grid).run(); }
+std::vector<CellBlock> merged_occupied_cells(const OccupancyGrid& grid, const std::string& file) {
+  return Merger(grid, file).run();
+}
 
-std::vector<Obstacle> obstacles_of(const OccupancyGrid& grid, const std::string& name, double z_low_m,
-                                   double z_high_m) {
+std::vector<Obstacle> obstacles_of(const OccupancyGrid& grid, const std::string& name, double z_low_m, double z_high_m,
+                                   const std::string& file) {
   std::vector<Obstacle> obstacles;
   const double cell = grid.resolution_m();
-  for (const CellBlock& block : merged_occupied_cells(grid)) {
+  for (const CellBlock& block : merged_occupied_cells(grid, file)) {
     Obstacle obstacle;
     obstacle.name = name + " " + std::to_string(obstacles.size());
     const Pose centre = {(block.x + 0.5 * block.width) * cell, (block.y + 0.5 * block.height) * cell, 0};

@@ -16,10 +16,12 @@ struct CellBlock {
 };
 
 /// Blocks that cover every occupied cell once and no other. Greedy: from each cell not yet covered, in row order, the
-/// larger of the block that grows first along the row and the one that grows first along the column.
-std::vector<CellBlock> merged_occupied_cells(const OccupancyGrid& grid);
+/// larger of the block that grows first along the row and the one that grows first along the column. BadInput, naming
+/// the map by its `file`, for more than obstacle_count_max of them.
+std::vector<CellBlock> merged_occupied_cells(const OccupancyGrid& grid, const std::string& file = "the map");
 
 /// The merged blocks as obstacles from z_low_m to z_high_m, named "<name> 0", "<name> 1", ...
-std::vector<Obstacle> obstacles_of(const OccupancyGrid& grid, const std::string& name, double z_low_m, double z_high_m);
+std::vector<Obstacle> obstacles_of(const OccupancyGrid& grid, const std::string& name, double z_low_m, double z_high_m,
+                                   const std::string& file = "the map");
 
 }  // namespace waitpoint::world

@@ -59,23 +59,39 @@ class Reader {
   const std::string& file_;
 };
 
-void read_raw(Reader& in, std::size_t count, std::vector<std::uint8_t>& grey) {
-  in.take(1);  // the single white space after the head
-  if (in.left() < count) {
-    in.fail("the image is cut short: expected " + std::to_string(count) + " bytes of pixels, found " +
-            std::to_string(in.left()));
-  }
-  for (const char c : in.take(count)) grey.push_back(static_cast<std::uint8_t>(c));
+// A value of 0 to `value_max` as one of 0 to 255, rounded.
+std::uint8_t scaled(std::int64_t value, std::int64_t value_max) {
+  return static_cast<std::uint8_t>((510 * value + value_max) / (2 * value_max));
 }
 
-void read_plain(Reader& in, std::size_t count, std::vector<std::uint8_t>& grey) {
+[[noreturn]] void refuse_pixel(const Reader& in, std::int64_t value, std::int64_t value_max) {
+  in.fail("expected pixels from 0 to " + std::to_string(value_max) + ", found " + std::to_string(value));
+}
+
+void read_raw(Reader& in, std::size_t count, std::int64_t value_max, std::vector<std::uint8_t>& grey) {
+  in.take(1);  // the single white space after the head
+  const std::size_t bytes = value_max > 255 ? 2 * count : count;
+  if (in.left() < bytes) {
+    in.fail("the image is cut short: expected " + std::to_string(bytes) + " bytes of pixels, found " +
+            std::to_string(in.left()));
+  }
+  const auto byte = [](char c) { return std::int64_t{static_cast<std::uint8_t>(c)}; };
+  const std::string_view pixels = in.take(bytes);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t value = value_max > 255 ? 256 * byte(pixels[2 * i]) + byte(pixels[2 * i + 1]) : byte(pixels[i]);
+    if (value > value_max) refuse_pixel(in, value, value_max);
+    grey.push_back(scaled(value, value_max));
+  }
+}
+
+void read_plain(Reader& in, std::size_t count, std::int64_t value_max, std::vector<std::uint8_t>& grey) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t value = in.number("a pixel");
     if (value < 0) {
       in.fail("the image is cut short: expected " + std::to_string(count) + " pixels, found " + std::to_string(i));
     }
-    if (value > 255) in.fail("expected pixels from 0 to 255, found " + std::to_string(value));
-    grey.push_back(static_cast<std::uint8_t>(value));
+    if (value > value_max) refuse_pixel(in, value, value_max);
+    grey.push_back(scaled(value, value_max));
   }
 }
 
@@ -92,15 +108,17 @@ GreyImage parse_pgm(std::string_view contents, const std::string& file) {
     in.fail("expected 1 to " + std::to_string(OccupancyGrid::cells_max) + " pixels, found " + std::to_string(width) +
             " x " + std::to_string(height));
   }
-  if (value_max != 255) in.fail("expected a greatest value of 255 (8 bits), found " + std::to_string(value_max));
+  if (value_max < 1 || value_max > 65535) {
+    in.fail("expected a greatest value from 1 to 65535, found " + std::to_string(value_max));
+  }
   GreyImage image = {static_cast<int>(width), static_cast<int>(height), {}, {}};
   const std::size_t count = static_cast<std::size_t>(width * height);
   // No more than the file can hold, whatever its head promises.
   image.grey.reserve(count < contents.size() ? count : contents.size());
   if (magic == "P5") {
-    read_raw(in, count, image.grey);
+    read_raw(in, count, value_max, image.grey);
   } else {
-    read_plain(in, count, image.grey);
+    read_plain(in, count, value_max, image.grey);
   }
   return image;
 }

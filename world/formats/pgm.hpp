@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Netpbm grey maps: "P5" or "P2", width, height, greatest value (255), then the pixels; '#' starts a comment in the
-// head of either and anywhere in P2.
+// Netpbm grey maps: "P5" or "P2", width, height, greatest value (1 to 65535, scaled to 255), then the pixels, in P5 of
+// two bytes, the high one first, if that is above 255; '#' starts a comment in the head of either and anywhere in P2.
 #pragma once
 
 #include <string>

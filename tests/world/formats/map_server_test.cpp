@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include <cstdio>
 #include <cstring>
 #include <vector>
 
@@ -102,6 +103,93 @@ TEST(MapServer, ATurnedOriginTurnsTheMap) {
   EXPECT_NEAR(grid.centre({2, 0}).y, 2 + 1.25, 1e-12);
 }
 
+TEST(MapServer, APgmOfAnyDepthIsRead) {
+  const Folder folder;
+  const std::string yaml = folder.write("map.yaml", head);
+  const auto read = [&](const std::string& image) {
+    folder.write("map.pgm", image);
+    return drawn(read_map_server_map(yaml));
+  };
+  const std::string shallow = read("P2 4 1 255  0 80 140 255");
+  EXPECT_EQ(shallow, "##?.");
+  EXPECT_EQ(read("P5 4 1 65535\n" + std::string("\0\0\x50\x50\x8c\x8c\xff\xff", 8)), shallow);
+  EXPECT_EQ(read("P2 4 1 65535  0 20560 35980 65535"), shallow);
+  EXPECT_EQ(read("P5 4 1 100\n" + std::string("\0\x1f\x37\x64", 4)), shallow);
+  EXPECT_EQ(read("P2 4 1 1  0 0 1 1"), "##..");
+}
+
+// A PNG written line by line, of any depth and kind.
+void write_any_png(const std::string& file, png_uint_32 width, int depth, int colour_type, int interlacing,
+                   std::vector<std::uint8_t> row) {
+  std::FILE* out = std::fopen(file.c_str(), "wb");
+  ASSERT_NE(out, nullptr);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, out);
+  png_set_IHDR(png, info, width, 2, depth, colour_type, interlacing, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  const png_color palette[] = {{0, 0, 0}, {80, 80, 80}, {140, 140, 140}, {255, 255, 255}};
+  if (colour_type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette, 4);
+  png_write_info(png, info);
+  png_bytep rows[] = {row.data(), row.data()};
+  png_write_image(png, rows);
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  std::fclose(out);
+}
+
+TEST(MapServer, APngOfAnyKindIsRead) {
+  const Folder folder;
+  const std::string yaml = folder.write("map.yaml", "image: map.png\nresolution: 0.5\norigin: [1, 2, 0]\n");
+  const auto read = [&](int depth, int colour_type, const std::vector<std::uint8_t>& row, png_uint_32 width = 4) {
+    std::string both;
+    for (const int interlacing : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
+      write_any_png(folder.path("map.png"), width, depth, colour_type, interlacing, row);
+      both += drawn(read_map_server_map(yaml)) + (interlacing == PNG_INTERLACE_NONE ? " " : "");
+    }
+    return both;
+  };
+  const std::string expected = "##?./##?. ##?./##?.";
+  EXPECT_EQ(read(8, PNG_COLOR_TYPE_GRAY, {0, 80, 140, 255}), expected);
+  EXPECT_EQ(read(16, PNG_COLOR_TYPE_GRAY, {0, 0, 80, 80, 140, 140, 255, 255}), expected);
+  EXPECT_EQ(read(16, PNG_COLOR_TYPE_RGB, {0,   0,   0,   0,   0,   0,   80,  80,  80,  80,  80,  80,
+                                          140, 140, 140, 140, 140, 140, 255, 255, 255, 255, 255, 255}),
+            expected);
+  EXPECT_EQ(read(8, PNG_COLOR_TYPE_PALETTE, {0, 1, 2, 3}), expected);
+  EXPECT_EQ(read(2, PNG_COLOR_TYPE_PALETTE, {0b00011011}), expected);
+  EXPECT_EQ(read(1, PNG_COLOR_TYPE_GRAY, {0b00110000}), "##../##.. ##../##..");
+  EXPECT_EQ(read(4, PNG_COLOR_TYPE_GRAY, {0x05, 0x8f}), expected);
+}
+
+// The checksum of a chunk: CRC-32 of its type and data.
+std::uint32_t png_checksum(const std::string& chunk) {
+  std::uint32_t crc = 0xFFFFFFFF;
+  for (const char c : chunk) {
+    crc ^= static_cast<std::uint8_t>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1) != 0 ? (crc >> 1) ^ 0xEDB88320 : crc >> 1;
+  }
+  return ~crc;
+}
+
+TEST(MapServer, APngThatPromisesMoreThanItHoldsTakesNoMemory) {
+  const Folder folder;
+  const std::string yaml = folder.write("map.yaml", "image: map.png\nresolution: 0.5\norigin: [1, 2, 0]\n");
+  write_any_png(folder.path("map.png"), 16000, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+                std::vector<std::uint8_t>(16000));
+  std::fstream file(folder.path("map.png"), std::ios::in | std::ios::out | std::ios::binary);
+  // The height becomes 16 000; with it the checksum of the first chunk.
+  std::string head(33, ' ');
+  file.read(head.data(), 33);
+  head[22] = '\x3e';
+  head[23] = '\x80';
+  const std::uint32_t crc = png_checksum(head.substr(12, 17));
+  for (int i = 0; i < 4; ++i) head[29 + static_cast<std::size_t>(i)] = static_cast<char>(crc >> (24 - 8 * i));
+  file.seekp(0);
+  file.write(head.data(), 33);
+  file.close();
+  EXPECT_TRUE(refuses(yaml, folder.path("map.png") + ": ", "the PNG image is cut short"));
+}
+
 struct BadYaml {
   const char* contents;
   int line;
@@ -129,6 +217,8 @@ TEST(MapServer, EveryBadYamlIsNamedByFileAndLine) {
       {"image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: binary\n", 4, "trinary, scale or raw"},
       {"image: [a, b]\nresolution: 0.05\norigin: [0, 0, 0]\n", 1, "expected a text"},
       {"- image\n- resolution\n", 1, "expected a map's keys"},
+      {"image: map.pgm\nresolution: 0.05\norigin: &a [*a, 0, 0]\n", 3, "expected"},
+      {"&a image: map.pgm\nresolution: 0.05\norigin: [0, 0, *a]\n", 1, "expected a number"},
       {"image: map.pgm\nresolution: [0.05\norigin: 3\n", 3, "expected YAML"},
       {"image: map.pgm\n  resolution: 0.05\n", 2, "expected YAML"},
   };
@@ -140,6 +230,10 @@ TEST(MapServer, EveryBadYamlIsNamedByFileAndLine) {
   EXPECT_TRUE(refuses(none, none + ": ", "no file"));
   const std::string empty = folder.write("empty.yaml", "");
   EXPECT_TRUE(refuses(empty, empty + ": ", "an empty one"));
+  const std::string deep = folder.write("deep.yaml", "origin: " + std::string(100000, '['));
+  EXPECT_TRUE(refuses(deep, deep + ":1: ", "expected YAML"));
+  const std::string large = folder.write("large.yaml", head + std::string(2 << 20, '#'));
+  EXPECT_TRUE(refuses(large, large + ": ", "of at most 1 MiB"));
 }
 
 struct BadImage {
@@ -161,7 +255,10 @@ TEST(MapServer, EveryBadImageIsNamed) {
       {"P5\nthree 2\n255\n", "expected the width"},
       {"P5\n-3 2\n255\n", "expected the width"},
       {"P5\n0 2\n255\n", "pixels, found 0 x 2"},
-      {"P5\n3 2\n65535\n" + std::string(12, 'x'), "greatest value of 255 (8 bits), found 65535"},
+      {"P5\n3 2\n65536\n" + std::string(24, 'x'), "greatest value from 1 to 65535, found 65536"},
+      {"P5\n3 2\n0\nxxxxxx", "greatest value from 1 to 65535, found 0"},
+      {"P5\n3 2\n65535\n" + std::string(11, 'x'), "expected 12 bytes of pixels, found 11"},
+      {"P5\n3 2\n100\nxxxxxx", "from 0 to 100, found 120"},
       {"P5\n3 2\n255\nxxxxx", "expected 6 bytes of pixels, found 5"},
       {"P5\n100000 100000\n255\nxxxxx", "pixels, found 100000 x 100000"},
       {"P5\n99999999999999999999 1\n255\nxxxxx", "expected"},
@@ -192,7 +289,7 @@ TEST(MapServer, ATruncatedPngIsNamed) {
 
 TEST(MapServer, AFolderIsNoMap) {
   const Folder folder;
-  EXPECT_TRUE(refuses(folder.path(""), folder.path(""), "expected a map_server YAML file"));
+  EXPECT_TRUE(refuses(folder.path(""), folder.path(""), "found what is no file"));
 }
 
 }  // namespace

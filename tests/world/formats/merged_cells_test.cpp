@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/project.hpp"
+#include "tests/world/formats/files.hpp"
 #include "tests/world/scenes.hpp"
 #include "world/fcl/scene.hpp"
 #include "world/formats/map_server.hpp"
@@ -31,6 +32,14 @@ void expect_exact_cover(const OccupancyGrid& grid, const std::vector<CellBlock>&
       ASSERT_EQ(covered[offset(x, y)], (grid[{x, y}] == Cell::occupied ? 1 : 0)) << x << ", " << y;
     }
   }
+}
+
+TEST(MergedCells, AMapOfNothingButSpecksIsRefused) {
+  OccupancyGrid grid(2100, 1000, 0.05, {}, Cell::free);
+  for (int y = 0; y < grid.height(); ++y)
+    for (int x = y % 2; x < grid.width(); x += 2) grid[{x, y}] = Cell::occupied;
+  EXPECT_TRUE(complains([&] { merged_occupied_cells(grid, "specks.yaml"); },
+                        "specks.yaml: ", "at most 1048576 blocks of occupied cells"));
 }
 
 TEST(MergedCells, CoverRandomGridsExactly) {

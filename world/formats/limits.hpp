@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much a file may ask for. What is beyond is bad input, so that no file, however short, takes all memory.
+#pragma once
+
+#include <cstddef>
+
+namespace waitpoint::world {
+
+/// Obstacles of one file, after merging.
+inline constexpr std::size_t obstacle_count_max = std::size_t{1} << 20;
+/// Coordinates and sizes.
+inline constexpr double coordinate_m_max = 1e5;
+/// Bytes of a file that is read line by line, and of those whose parsers make a tree many times as large: XML and
+/// worlds of Stage's, with all that they include, and a map's YAML.
+inline constexpr std::size_t text_bytes_max = std::size_t{1} << 26;
+inline constexpr std::size_t tree_bytes_max = std::size_t{1} << 24;
+inline constexpr std::size_t stage_bytes_max = std::size_t{1} << 22;
+inline constexpr std::size_t yaml_bytes_max = std::size_t{1} << 20;
+/// Bytes of an image.
+inline constexpr std::size_t image_bytes_max = std::size_t{1} << 30;
+
+}  // namespace waitpoint::world
