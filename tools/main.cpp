@@ -23,6 +23,7 @@ int check(const tools::CheckOptions& options, std::span<const genom::ModuleType>
     for (const bridge::ModuleScenario& module : robot.modules) modules += module.enabled ? 1 : 0;
   std::printf("%s: good: %zu robots, %zu modules, %zu goals, %zu obstacles\n", options.scenario.c_str(),
               scenario.robots.size(), modules, experiment.goals(), experiment.world().description().obstacles.size());
+  for (const std::string& warning : experiment.result().warnings) std::printf("warning: %s\n", warning.c_str());
   return 0;
 }
 

@@ -3,11 +3,10 @@
 
 #include <optional>
 
+#include "core/number_text.hpp"
 #include "modules/bridge/known_map.hpp"
 #include "modules/bridge/scenario_checks.hpp"
 #include "world/fcl/fcl_world.hpp"
-#include "world/formats/map_server.hpp"
-#include "world/formats/merged_cells.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -24,13 +23,12 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
                    std::uint64_t seed)
     : scenario_(scenario) {
   world::WorldDescription description = scenario.world_without_map();
-  std::optional<OccupancyGrid> map_file;
+  std::optional<world::WorldFile> file;
   if (scenario.map) {
-    map_file = world::read_map_server_map(scenario.map->file.string());
-    for (world::Obstacle& obstacle : world::obstacles_of(*map_file, "map", 0, scenario.map->height_m))
-      description.obstacles.push_back(std::move(obstacle));
+    file = load(*scenario.map);
+    description.obstacles.insert(description.obstacles.end(), file->obstacles.begin(), file->obstacles.end());
   }
-  const OccupancyGrid map = known_map(scenario, map_file ? &*map_file : nullptr);
+  const OccupancyGrid map = known_map(scenario, file ? &*file : nullptr);
   check_goals(scenario, [&](const RobotScenario&, Point goal) { return place_on(map, goal); });
   check_starts(scenario, world::start_overlaps(description));
   world_ = world::make_fcl_world(description, seed);
@@ -38,6 +36,17 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
     robots_.push_back(
         std::make_unique<Robot>(scenario.robots[i], types, map, *world_, world::BodyId(i), network, seed));
   check_step();
+}
+
+world::WorldFile Assembly::load(const MapFile& map) {
+  world::WorldFile file = world::read_world_file(map.file.string(), map.height_m.value_or(MapFile::height_default_m));
+  if (map.height_m && file.has_heights)
+    throw map.written.bad("expected no height_m: '" + map.file.string() + "' says how high things are");
+  warnings_ = file.warnings;
+  if (!file.bodies.empty())
+    warnings_.push_back(map.file.string() + ": " + counted(file.bodies.size(), "robot") +
+                        " of the file left out: the robots are the scenario's");
+  return file;
 }
 
 // A coarse step is a legitimate choice, but rarely meant.

@@ -12,6 +12,7 @@
 #include "core/occupancy_grid.hpp"
 #include "modules/bridge/robot.hpp"
 #include "modules/bridge/scenario.hpp"
+#include "world/formats/world_file.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::bridge {
@@ -36,6 +37,7 @@ class Assembly {
   RunResult result() const;
 
  private:
+  world::WorldFile load(const MapFile& map);
   void check_step();
 
   const Scenario& scenario_;

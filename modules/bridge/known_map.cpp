@@ -5,46 +5,71 @@
 #include <cmath>
 
 #include "world/formats/drawn_cells.hpp"
+#include "world/planar/outline.hpp"
 
 namespace waitpoint::bridge {
 namespace {
 
-OccupancyGrid grid_around(const Scenario& scenario) {
-  double low_x = 0, low_y = 0, high_x = 1, high_y = 1;
-  bool first = true;
-  for (const world::Obstacle& obstacle : scenario.shapes) {
-    const Pose& at = obstacle.shape.pose;
-    const double radius = obstacle.shape.radius_m;
-    const auto [s, c] = exact::sincos(at.heading);
-    const bool box = obstacle.shape.kind == world::Shape::Kind::box;
-    const double half_x =
-        box ? 0.5 * (std::fabs(c) * obstacle.shape.length_m + std::fabs(s) * obstacle.shape.width_m) : radius;
-    const double half_y =
-        box ? 0.5 * (std::fabs(s) * obstacle.shape.length_m + std::fabs(c) * obstacle.shape.width_m) : radius;
-    low_x = first ? at.x - half_x : std::min(low_x, at.x - half_x);
-    low_y = first ? at.y - half_y : std::min(low_y, at.y - half_y);
-    high_x = first ? at.x + half_x : std::max(high_x, at.x + half_x);
-    high_y = first ? at.y + half_y : std::max(high_y, at.y + half_y);
-    first = false;
+/// What a floor must hold.
+class Extent {
+ public:
+  void hold(const world::Bounds& bounds) {
+    bounds_ = empty_
+                  ? bounds
+                  : world::Bounds{{std::min(bounds_.low.x, bounds.low.x), std::min(bounds_.low.y, bounds.low.y)},
+                                  {std::max(bounds_.high.x, bounds.high.x), std::max(bounds_.high.y, bounds.high.y)}};
+    empty_ = false;
   }
+  void hold(Point point, double margin_m) {
+    hold({{point.x - margin_m, point.y - margin_m}, {point.x + margin_m, point.y + margin_m}});
+  }
+  world::Bounds bounds() const { return empty_ ? world::Bounds{{0, 0}, {1, 1}} : bounds_; }
+
+ private:
+  world::Bounds bounds_;
+  bool empty_ = true;
+};
+
+OccupancyGrid grid_around(const Scenario& scenario, const world::WorldFile* map) {
+  Extent extent;
+  for (const world::Obstacle& obstacle : scenario.shapes) extent.hold(bounds_of(outline_of(obstacle.shape)));
+  if (map != nullptr) {
+    for (const world::Obstacle& obstacle : map->obstacles) extent.hold(bounds_of(outline_of(obstacle.shape)));
+    for (const RobotScenario& robot : scenario.robots) {
+      extent.hold(robot.body.start.position(), drawn_margin_m);
+      for (const Goal& goal : robot.goals) extent.hold(goal.position, drawn_margin_m);
+    }
+  }
+  const auto [low, high] = extent.bounds();
   // The map is drawn in cells: the floor that shapes span must be one that can be.
   const double floor_m2_max = static_cast<double>(OccupancyGrid::cells_max) * drawn_resolution_m * drawn_resolution_m;
-  if (!((high_x - low_x + 1) * (high_y - low_y + 1) < floor_m2_max))
-    throw BadInput(scenario.file,
+  if (!((high.x - low.x + 1) * (high.y - low.y + 1) < floor_m2_max))
+    throw BadInput(map != nullptr ? scenario.map->file.string() : scenario.file,
                    "the shapes span more than " + std::to_string(static_cast<long>(floor_m2_max)) + " m2");
   const auto cells = [](double length_m) {
     return std::max(1, static_cast<int>(std::ceil(length_m / drawn_resolution_m - 1e-9)));
   };
-  return OccupancyGrid(cells(high_x - low_x), cells(high_y - low_y), drawn_resolution_m, {low_x, low_y, 0}, Cell::free);
+  return OccupancyGrid(cells(high.x - low.x), cells(high.y - low.y), drawn_resolution_m, {low.x, low.y, 0}, Cell::free);
+}
+
+/// Whether a robot could meet it, by its heights.
+bool is_in_the_way(const world::Shape& shape, const Scenario& scenario) {
+  return std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                     [&](const RobotScenario& robot) { return heights_overlap(robot.body.shape, shape); });
 }
 
 }  // namespace
 
-OccupancyGrid known_map(const Scenario& scenario, const OccupancyGrid* map) {
-  OccupancyGrid grid = map != nullptr ? *map : grid_around(scenario);
+OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map) {
+  const bool has_cells = map != nullptr && map->grid;
+  OccupancyGrid grid = has_cells ? *map->grid : grid_around(scenario, map);
   std::vector<world::Shape> known;
-  for (const world::Obstacle& obstacle : scenario.shapes)
-    if (obstacle.known) known.push_back(obstacle.shape);
+  const auto add = [&](const std::vector<world::Obstacle>& obstacles) {
+    for (const world::Obstacle& obstacle : obstacles)
+      if (obstacle.known && is_in_the_way(obstacle.shape, scenario)) known.push_back(obstacle.shape);
+  };
+  add(scenario.shapes);
+  if (map != nullptr && !has_cells) add(map->obstacles);
   world::draw(known, grid);
   return grid;
 }

@@ -4,14 +4,20 @@
 
 #include "core/occupancy_grid.hpp"
 #include "modules/bridge/scenario.hpp"
+#include "world/formats/world_file.hpp"
 
 namespace waitpoint::bridge {
 
 /// Edge of a cell where the world is drawn by shapes alone.
 inline constexpr double drawn_resolution_m = 0.05;
 
-/// The scenario's map with the known shapes drawn onto it; without a map, a free grid that just holds all shapes. `map`
-/// is what the map file says, if there is one.
-OccupancyGrid known_map(const Scenario& scenario, const OccupancyGrid* map);
+/// Room around starts and goals where a map file has no cells that say where its floor ends.
+inline constexpr double drawn_margin_m = 2;
+
+/// The cells of the map file, if it is one of cells, with what is known drawn onto them; else a free grid that just
+/// holds all shapes, and with a map file of shapes also every start and goal, with a margin. `map` is what the map file
+/// says, null if there is none. What ends below the robots or begins above all of them is in nobody's way and is not
+/// drawn.
+OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map);
 
 }  // namespace waitpoint::bridge

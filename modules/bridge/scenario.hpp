@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scenario as values: what is to be run, what is expected of it, and where each part was written.
 //
-// What the files say is all here, except what a map file holds: the world's loader adds its obstacles. Module
+// What the files say is all here, except what a map file holds: the assembly adds its obstacles. Module
 // parameters stay text (core/setting.hpp): only the module knows their types.
 #pragma once
 
@@ -28,10 +28,12 @@ struct Expectation {
   std::optional<double> position_error_max_m;  ///< of any robot's fused position, at most
 };
 
-/// A ROS map_server map, its occupied cells standing from the floor to a height.
+/// A file of another's making that says what stands in the world: world/formats/world_file.hpp lists the kinds.
 struct MapFile {
-  std::filesystem::path file;  ///< the YAML file, resolved
-  double height_m = 2;
+  static constexpr double height_default_m = 2;
+
+  std::filesystem::path file;      ///< resolved
+  std::optional<double> height_m;  ///< of what the file gives no height; where it is left out, the default
   Location written;
 };
 

@@ -38,10 +38,12 @@ Expectation read_expectation(const YamlNode& node) {
 }
 
 MapFile read_map(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::scalar) return {node.written.resolve(read_text(node, "map")), {}, node.written};
   const YamlMap map(node, "the map", {"file", "height_m"});
   const YamlNode& file = map.require("file");
-  return {file.written.resolve(read_text(file, "file")), map.number("height_m", positive_number, height_default_m),
-          file.written};
+  MapFile result = {file.written.resolve(read_text(file, "file")), {}, file.written};
+  if (map.has("height_m")) result.height_m = map.number("height_m", positive_number);
+  return result;
 }
 
 void read_shapes(const YamlNode& list, double height_m, Scenario& scenario) {

@@ -148,6 +148,10 @@ TEST_F(ScenarioReader, paths_are_relative_to_the_file_that_names_them) {
   EXPECT_EQ(scenario.map->file, folder_.path() / "maps/m.yaml");
   EXPECT_EQ(scenario.map->height_m, 1.5);
   EXPECT_EQ(scenario.map->written.line, 6);
+  const Scenario in_short = read(changed("  step_ms: 5", "  map: maps/m.world"));
+  EXPECT_EQ(in_short.map->file, folder_.path() / "maps/m.world");
+  EXPECT_FALSE(in_short.map->height_m.has_value());
+  EXPECT_EQ(in_short.map->written.line, 6);
 }
 
 TEST_F(ScenarioReader, a_medium_has_its_values_and_defaults) {
