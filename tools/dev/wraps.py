@@ -29,6 +29,7 @@ SOURCE_PACKAGES = {
     "gtest": "googletest",
     "libpng": "libpng1.6",
     "nlohmann_json": "nlohmann-json3",
+    "tinyxml2": "tinyxml2",
     "yaml-cpp": "yaml-cpp",
     "zlib": "zlib",
 }

@@ -8,6 +8,7 @@
 #include "world/formats/limits.hpp"
 #include "world/formats/map_server.hpp"
 #include "world/formats/merged_cells.hpp"
+#include "world/formats/sdf.hpp"
 #include "world/formats/segments.hpp"
 
 namespace waitpoint::world {
@@ -64,6 +65,9 @@ WorldFile read_world_file(const std::string& file, double height_m) {
       world.obstacles = obstacles_of(*world.grid, "map", 0, height_m, file);
       break;
     case WorldFormat::sdf:
+      world.obstacles = parse_sdf(contents, file, left_out);
+      world.has_heights = true;
+      break;
     case WorldFormat::stage: throw BadInput(file, 1, "expected " + std::string(expectation));
   }
   world.warnings = left_out.warnings();

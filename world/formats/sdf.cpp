@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/formats/sdf.hpp"
+
+#include <tinyxml2.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "world/formats/file_contents.hpp"
+#include "world/formats/included_files.hpp"
+#include "world/formats/limits.hpp"
+#include "world/formats/upright.hpp"
+#include "world/formats/xml_reader.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+using Element = XmlReader::Element;
+
+constexpr double angle_rad_max = 1e4;
+
+class SdfReader {
+ public:
+  SdfReader(IncludedFiles& included, LeftOut& left_out) : included_(included), left_out_(left_out) {}
+
+  // A file's first world, or the models that stand in it without one.
+  void read(const std::string& contents, const std::string& file, const SpacePose& outer, const std::string& name) {
+    const XmlReader document(contents, file, "sdf");
+    const XmlReader* const above = std::exchange(xml_, &document);
+    const Element* root = &document.root();
+    const Element* world = root->FirstChildElement("world");
+    for (const Element* child = root->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+      if (child == world) {
+        read_parts(*world, outer, name);
+      } else if (!read_part(*child, outer, name)) {
+        leave_out(*child);
+      }
+    }
+    xml_ = above;
+  }
+
+  std::vector<Obstacle> obstacles() { return std::move(obstacles_); }
+
+ private:
+  void leave_out(const Element& element) {
+    left_out_.add(xml_->file(), element.GetLineNum(), "<" + std::string(element.Name()) + ">", "is left out");
+  }
+  void tell(const Element& element, std::string_view what, std::string_view consequence) {
+    left_out_.add(xml_->file(), element.GetLineNum(), what, consequence);
+  }
+
+  void read_parts(const Element& holder, const SpacePose& outer, const std::string& name) {
+    for (const Element* child = holder.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+      if (!read_part(*child, outer, name)) leave_out(*child);
+  }
+
+  // False for what is neither a model nor an include. `name` is what an include calls its models; may be empty.
+  bool read_part(const Element& element, const SpacePose& outer, const std::string& name) {
+    const std::string_view kind = element.Name();
+    if (kind == "model") {
+      read_model(element, outer, name);
+    } else if (kind == "include") {
+      read_include(element, outer);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void read_model(const Element& model, const SpacePose& outer, const std::string& given) {
+    SpacePose pose;
+    if (!read_pose(model, outer, pose)) return;
+    const char* own = model.Attribute("name");
+    const std::string name = !given.empty() ? given : own != nullptr ? own : "model";
+    const std::string above = std::exchange(model_, name);
+    const std::size_t count_above = std::exchange(count_, 0);
+    bool is_static = false;
+    for (const Element* child = model.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+      const std::string_view kind = child->Name();
+      if (kind == "static") {
+        is_static = xml_->flag(*child);
+      } else if (kind == "link") {
+        read_link(*child, pose);
+      } else if (kind != "pose" && !read_part(*child, pose, "")) {
+        leave_out(*child);
+      }
+    }
+    if (!is_static && count_ > 0) tell(model, "a model that is not <static>", "stands still here");
+    model_ = above;
+    count_ = count_above;
+  }
+
+  void read_link(const Element& link, const SpacePose& outer) {
+    SpacePose pose;
+    if (!read_pose(link, outer, pose)) return;
+    for (const Element* child = link.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+      const std::string_view kind = child->Name();
+      if (kind == "collision") {
+        read_collision(*child, pose);
+      } else if (kind != "pose") {
+        leave_out(*child);
+      }
+    }
+  }
+
+  void read_collision(const Element& collision, const SpacePose& outer) {
+    SpacePose pose;
+    if (!read_pose(collision, outer, pose)) return;
+    for (const Element* child = collision.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+      const std::string_view kind = child->Name();
+      if (kind == "geometry") {
+        const Element* shape = child->FirstChildElement();
+        if (shape == nullptr) xml_->fail(*child, "expected a shape in <geometry>");
+        read_shape(*shape, pose);
+      } else if (kind != "pose") {
+        leave_out(*child);
+      }
+    }
+  }
+
+  void read_shape(const Element& shape, const SpacePose& pose) {
+    const std::string_view kind = shape.Name();
+    if (kind == "box") {
+      const Element& size = xml_->required(shape, "size");
+      const std::array<double, 3> edges = xml_->numbers<3>(size);
+      for (const double edge : edges)
+        if (!(edge > 0)) xml_->fail(size, "expected <size> to be positive");
+      add(shape, upright_box(pose, {edges[0], edges[1], edges[2]}));
+    } else if (kind == "cylinder") {
+      const double radius = xml_->positive(xml_->required(shape, "radius"));
+      add(shape, upright_cylinder(pose, radius, xml_->positive(xml_->required(shape, "length"))));
+    } else if (kind == "sphere") {
+      add(shape, upright_sphere(pose, xml_->positive(xml_->required(shape, "radius"))));
+    } else if (kind == "plane") {
+      read_plane(shape, pose);
+    } else {
+      leave_out(shape);
+    }
+  }
+
+  void read_plane(const Element& plane, const SpacePose& pose) {
+    SpaceVector normal = {0, 0, 1};
+    if (const Element* given = plane.FirstChildElement("normal")) {
+      const std::array<double, 3> n = xml_->numbers<3>(*given);
+      normal = {n[0], n[1], n[2]};
+    }
+    normal = pose.turned(normal);
+    const bool level = std::fabs(normal.z) > 0 && std::hypot(normal.x, normal.y) < tilt_max_rad * std::fabs(normal.z);
+    tell(plane, level ? "a level <plane>" : "a <plane> that is not level",
+         level ? "is left out: robots drive on the floor, at height 0" : "is left out");
+  }
+
+  void add(const Element& element, const UprightSolid& solid) {
+    if (solid.shape.z_high_m <= 0) {
+      tell(element, "what ends below the floor", "is left out");
+      return;
+    }
+    const std::string_view kind = element.Name();
+    if (!solid.exact && kind == "sphere") {
+      tell(element, "a <sphere>", "is taken as the upright cylinder about it");
+    } else if (!solid.exact) {
+      tell(element, "a tilted <" + std::string(kind) + ">", "is taken as the upright box about it");
+    }
+    if (obstacles_.size() == obstacle_count_max) {
+      xml_->fail(element, "expected at most " + std::to_string(obstacle_count_max) + " obstacles");
+    }
+    obstacles_.push_back({count_ == 0 ? model_ : model_ + " " + std::to_string(count_), solid.shape, true});
+    ++count_;
+  }
+
+  void read_include(const Element& include, const SpacePose& outer) {
+    SpacePose pose;
+    if (!read_pose(include, outer, pose)) return;
+    std::string name;
+    for (const Element* child = include.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+      const std::string_view kind = child->Name();
+      if (kind == "name") {
+        name = xml_->text(*child);
+      } else if (kind == "static") {
+        xml_->flag(*child);
+      } else if (kind != "uri" && kind != "pose") {
+        leave_out(*child);
+      }
+    }
+    const Element& uri = xml_->required(include, "uri");
+    const std::string file = included_file(uri);
+    if (file.empty()) return;
+    const std::string from = xml_->file();
+    read(included_.enter(file, from, uri.GetLineNum()), file, pose, name);
+    included_.leave();
+  }
+
+  // The file that a <uri> names; empty for what may be missing.
+  std::string included_file(const Element& element) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const std::string uri = xml_->text(element);
+    constexpr std::string_view file_scheme = "file://", model_scheme = "model://";
+    if (!uri.starts_with(model_scheme)) {
+      const std::string path = uri.starts_with(file_scheme) ? uri.substr(file_scheme.size()) : uri;
+      const std::string file = beside(xml_->file(), path);
+      return fs::is_directory(file, error) ? (fs::path(file) / "model.sdf").string() : file;
+    }
+    const std::string model = uri.substr(model_scheme.size());
+    for (const char* folder : {"", "models", "../models", ".."}) {
+      const fs::path path = beside(xml_->file(), (fs::path(folder) / model).string());
+      if (fs::is_regular_file(path, error)) return path.string();
+      if (fs::is_regular_file(path / "model.sdf", error)) return (path / "model.sdf").string();
+    }
+    if (model != "sun" && model != "ground_plane") {
+      xml_->fail(element, "there is no '" + uri + "': expected it beside the file, in 'models' or in '../models'");
+    }
+    tell(element, "'" + uri + "'", "is left out");
+    return "";
+  }
+
+  // The element's own <pose> in the outer frame. False, and told, if it is given in a frame of another name.
+  bool read_pose(const Element& holder, const SpacePose& outer, SpacePose& pose) {
+    const Element* element = holder.FirstChildElement("pose");
+    pose = outer;
+    if (element == nullptr) return true;
+    for (const char* attribute : {"frame", "relative_to"}) {
+      const char* frame = element->Attribute(attribute);
+      if (frame == nullptr || *frame == '\0') continue;
+      tell(*element, "what has a <pose> in a named frame", "is left out");
+      return false;
+    }
+    if (const char* degrees = element->Attribute("degrees");
+        degrees != nullptr && std::string_view(degrees) == "true") {
+      tell(*element, "what has a <pose> in degrees", "is left out");
+      return false;
+    }
+    if (XmlReader::text_or_nothing(*element).empty()) return true;
+    const std::array<double, 6> p = xml_->numbers<6>(*element);
+    for (std::size_t i = 3; i < 6; ++i)
+      if (std::fabs(p[i]) > angle_rad_max) xml_->fail(*element, "expected angles in radians in <pose>");
+    pose = compose(outer, space_pose({p[0], p[1], p[2]}, p[3], p[4], p[5]));
+    const auto far = [](double coordinate) { return !(std::fabs(coordinate) <= coordinate_m_max); };
+    if (far(pose.position.x) || far(pose.position.y) || far(pose.position.z)) {
+      xml_->fail(*element, "expected a <pose> within 100 km of the world's origin");
+    }
+    return true;
+  }
+
+  IncludedFiles& included_;
+  LeftOut& left_out_;
+  const XmlReader* xml_ = nullptr;  // of the file that is being read
+  std::string model_;               // whose solids are being added,
+  std::size_t count_ = 0;           // and so many of them are there
+  std::vector<Obstacle> obstacles_;
+};
+
+}  // namespace
+
+std::vector<Obstacle> parse_sdf(const std::string& contents, const std::string& file, LeftOut& left_out) {
+  IncludedFiles included(file, contents, tree_bytes_max);
+  SdfReader reader(included, left_out);
+  reader.read(contents, file, {}, "");
+  return reader.obstacles();
+}
+
+}  // namespace waitpoint::world

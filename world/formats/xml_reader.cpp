@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/formats/xml_reader.hpp"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "world/formats/limits.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\n";
+
+std::string in_brackets(const char* name) { return "<" + std::string(name) + ">"; }
+
+}  // namespace
+
+XmlReader::XmlReader(const std::string& contents, const std::string& file, const char* root)
+    : file_(file), document_(std::make_unique<tinyxml2::XMLDocument>()) {
+  if (contents.size() > tree_bytes_max) {
+    throw BadInput(file, "expected XML of at most " + std::to_string(tree_bytes_max >> 20) + " MiB");
+  }
+  // tinyxml2 would take the text to end there.
+  if (contents.find('\0') != std::string::npos) throw BadInput(file, 1, "expected XML, found a zero byte");
+  if (document_->Parse(contents.data(), contents.size()) != tinyxml2::XML_SUCCESS) {
+    throw BadInput(file, std::max(document_->ErrorLineNum(), 1),
+                   std::string("expected XML, found ") + document_->ErrorName());
+  }
+  const Element* outermost = document_->RootElement();
+  if (outermost == nullptr || std::string_view(outermost->Name()) != root) {
+    throw BadInput(file, outermost == nullptr ? 1 : outermost->GetLineNum(),
+                   "expected the outermost element to be " + in_brackets(root));
+  }
+}
+
+XmlReader::~XmlReader() = default;
+
+const XmlReader::Element& XmlReader::root() const { return *document_->RootElement(); }
+
+void XmlReader::fail(const Element& at, const std::string& message) const {
+  throw BadInput(file_, at.GetLineNum(), message);
+}
+
+const XmlReader::Element& XmlReader::required(const Element& holder, const char* name) const {
+  const Element* element = holder.FirstChildElement(name);
+  if (element == nullptr) fail(holder, "expected " + in_brackets(name) + " in " + in_brackets(holder.Name()));
+  return *element;
+}
+
+std::string XmlReader::text_or_nothing(const Element& element) {
+  const char* given = element.GetText();
+  const std::string_view view = given == nullptr ? "" : given;
+  const std::size_t first = view.find_first_not_of(blanks);
+  if (first == view.npos) return "";
+  return std::string(view.substr(first, view.find_last_not_of(blanks) + 1 - first));
+}
+
+std::string XmlReader::text(const Element& element) const {
+  std::string found = text_or_nothing(element);
+  if (found.empty()) fail(element, "expected a text in " + in_brackets(element.Name()));
+  return found;
+}
+
+bool XmlReader::flag(const Element& element) const {
+  const std::string value = text(element);
+  if (value == "1" || value == "true") return true;
+  if (value == "0" || value == "false") return false;
+  fail(element, "expected " + in_brackets(element.Name()) + " to be true or false");
+}
+
+double XmlReader::positive(const Element& element) const {
+  const double number = numbers<1>(element)[0];
+  if (!(number > 0)) fail(element, "expected " + in_brackets(element.Name()) + " to be positive");
+  return number;
+}
+
+void XmlReader::read_numbers(const Element& element, std::span<double> values) const {
+  const std::string all = text_or_nothing(element);
+  std::string_view rest = all;
+  const auto next_word = [&] {
+    rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+    const std::string_view word = rest.substr(0, rest.find_first_of(blanks));
+    rest.remove_prefix(word.size());
+    return word;
+  };
+  bool good = true;
+  for (double& value : values) {
+    std::string_view word = next_word();
+    if (word.starts_with('+')) word.remove_prefix(1);
+    good = good && parse_number(word, value) && std::fabs(value) <= coordinate_m_max;
+  }
+  if (good && next_word().empty()) return;
+  fail(element, "expected " + counted(values.size(), "number") + " within 100 km in " + in_brackets(element.Name()));
+}
+
+}  // namespace waitpoint::world

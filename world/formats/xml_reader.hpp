@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values of XML elements, read strictly: what is not what was expected is BadInput at the element's line.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace tinyxml2 {
+class XMLDocument;
+class XMLElement;
+}  // namespace tinyxml2
+
+namespace waitpoint::world {
+
+/// The document in `contents`, for as long as this lives; `file` is its name, for messages.
+class XmlReader {
+ public:
+  using Element = tinyxml2::XMLElement;
+
+  /// BadInput for what is no XML, or whose outermost element is not called `root`.
+  XmlReader(const std::string& contents, const std::string& file, const char* root);
+  ~XmlReader();
+  XmlReader(const XmlReader&) = delete;
+  XmlReader& operator=(const XmlReader&) = delete;
+
+  const std::string& file() const { return file_; }
+  const Element& root() const;
+
+  [[noreturn]] void fail(const Element& at, const std::string& message) const;
+  const Element& required(const Element& holder, const char* name) const;
+
+  /// Without the blanks at both ends; may be empty.
+  static std::string text_or_nothing(const Element& element);
+  std::string text(const Element& element) const;
+  /// "true", "1", "false" or "0".
+  bool flag(const Element& element) const;
+  /// As many numbers, none beyond coordinate_m_max.
+  template <std::size_t count>
+  std::array<double, count> numbers(const Element& element) const {
+    std::array<double, count> values{};
+    read_numbers(element, values);
+    return values;
+  }
+  /// Above 0, at most coordinate_m_max.
+  double positive(const Element& element) const;
+
+ private:
+  void read_numbers(const Element& element, std::span<double> values) const;
+
+  std::string file_;
+  std::unique_ptr<tinyxml2::XMLDocument> document_;
+};
+
+}  // namespace waitpoint::world
