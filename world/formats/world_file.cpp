@@ -2,6 +2,7 @@
 #include "world/formats/world_file.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.hpp"
 #include "world/formats/file_contents.hpp"
@@ -10,6 +11,7 @@
 #include "world/formats/merged_cells.hpp"
 #include "world/formats/sdf.hpp"
 #include "world/formats/segments.hpp"
+#include "world/formats/stage.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -68,7 +70,13 @@ WorldFile read_world_file(const std::string& file, double height_m) {
       world.obstacles = parse_sdf(contents, file, left_out);
       world.has_heights = true;
       break;
-    case WorldFormat::stage: throw BadInput(file, 1, "expected " + std::string(expectation));
+    case WorldFormat::stage: {
+      StageWorld stage = parse_stage(contents, file, left_out);
+      world.obstacles = std::move(stage.obstacles);
+      world.bodies = std::move(stage.bodies);
+      world.has_heights = true;
+      break;
+    }
   }
   world.warnings = left_out.warnings();
   return world;

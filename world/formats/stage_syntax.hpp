@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The text of a world of Stage's, and of what it includes, as a tree.
+//
+//   include "pioneer.inc"            the text of another file, relative to this one
+//   define NAME TYPE ( ... )         a type: what TYPE has, and this
+//   TYPE ( ... )                     a thing of a type; `size [1 2 3]`, `color "red"`, `fov 180` in it are its
+//   properties # ...                            a comment, to the end of the line
+//
+// Types are built in or defined before. A thing has the properties of its type where it gives none of its own, and the
+// things in its type beside its own: they are looked up, not copied, so that a tree is never larger than its text.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace waitpoint::world {
+
+/// A line of a file.
+struct StagePlace {
+  const std::string* file = nullptr;
+  int line = 0;
+};
+
+/// The properties that mean something here.
+enum class StageKey {
+  acceleration_bounds,
+  bitmap,
+  boundary,
+  drive,
+  fov,
+  name,
+  obstacle_return,
+  origin,
+  points,
+  pose,
+  range,
+  ranger_return,
+  samples,
+  size,
+  update_interval,
+  velocity_bounds,
+  z,
+};
+inline constexpr std::array<std::string_view, 17> stage_keys = {"acceleration_bounds",
+                                                                "bitmap",
+                                                                "boundary",
+                                                                "drive",
+                                                                "fov",
+                                                                "name",
+                                                                "obstacle_return",
+                                                                "origin",
+                                                                "points",
+                                                                "pose",
+                                                                "range",
+                                                                "ranger_return",
+                                                                "samples",
+                                                                "size",
+                                                                "update_interval",
+                                                                "velocity_bounds",
+                                                                "z"};
+
+struct StageProperty {
+  std::string_view name;
+  std::vector<std::string_view> values;  ///< one, or those of a list
+  StagePlace place;
+};
+
+struct StageThing {
+  std::string_view type;             ///< as written
+  std::string_view built_in;         ///< what it is at last: "model", "position", "ranger", ...
+  const StageThing* base = nullptr;  ///< the definition of its type; null for a built-in one
+  int depth = 0;                     ///< of definitions below it
+  int nesting = 0;                   ///< of things within it, those of its type included
+  std::array<const StageProperty*, stage_keys.size()> known{};  ///< the last mention of each, here or in its type
+  StagePlace place;
+  std::vector<StageProperty> properties;
+  std::vector<StageThing> things;
+
+  /// Null for what is not given.
+  const StageProperty* find(StageKey key) const { return known[static_cast<std::size_t>(key)]; }
+};
+
+/// Must stay where it is made: its parts refer to each other.
+class StageText {
+ public:
+  /// Parses the contents of `file`. BadInput, naming file and line.
+  StageText(const std::string& contents, const std::string& file);
+  StageText(const StageText&) = delete;
+  StageText& operator=(const StageText&) = delete;
+
+  /// The world's own properties, and what is in it.
+  const StageThing& world() const { return world_; }
+
+ private:
+  friend class StageParser;
+
+  std::deque<std::string> names_, texts_;  // of the files
+  std::deque<StageThing> definitions_;
+  std::map<std::string_view, const StageThing*> types_;
+  StageThing world_;
+};
+
+}  // namespace waitpoint::world
