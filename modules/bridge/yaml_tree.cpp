@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "core/digest.hpp"
 
@@ -16,6 +15,7 @@ namespace {
 
 constexpr int depth_max = 32;
 constexpr std::size_t node_count_max = 200'000;
+constexpr std::size_t bytes_max = std::size_t{1} << 22;
 
 /// Copies a document of yaml-cpp, where anchors are shared nodes, into values.
 class Copier {
@@ -72,7 +72,12 @@ std::string read_text(const std::filesystem::path& file) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw BadInput(file.string(), std::string("cannot be read: ") + std::strerror(errno));
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::string text(bytes_max + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > bytes_max)
+    throw BadInput(file.string(), "is longer than 4 MiB, expected a file that a person wrote");
+  return text;
 }
 
 }  // namespace

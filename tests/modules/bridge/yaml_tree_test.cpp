@@ -74,6 +74,26 @@ TEST(YamlTree, a_folder_is_no_file) {
             folder.path().string() + ": is a folder, expected a file");
 }
 
+TEST(YamlTree, a_file_nested_deeply_cut_short_or_of_junk_is_refused) {
+  for (const char* open : {"[", "{a: ", "- ", "? "})
+    EXPECT_THROW(parse([&] {
+                   std::string text;
+                   for (int i = 0; i < 20000; ++i) text += open;
+                   return text;
+                 }()),
+                 BadInput)
+        << open;
+  EXPECT_THROW(parse("a: [1, 2"), BadInput);
+  EXPECT_THROW(parse("a: \"cut"), BadInput);
+  EXPECT_THROW(parse(std::string("a: \0\x01\xff\n b", 10)), BadInput);
+}
+
+TEST(YamlTree, a_file_without_end_is_refused) {
+  if (!std::filesystem::exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero";
+  EXPECT_EQ(message_of<BadInput>([] { load_yaml("/dev/zero"); }),
+            "/dev/zero: is longer than 4 MiB, expected a file that a person wrote");
+}
+
 TEST(YamlOverride, maps_are_merged_key_by_key) {
   EXPECT_EQ(flat(laid_over(parse("{a: 1, b: {c: 2, d: 3}}"), parse("{b: {d: 4}, e: 5}"))),
             "{a: 1, b: {c: 2, d: 4}, e: 5}");
