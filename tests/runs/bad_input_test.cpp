@@ -110,6 +110,27 @@ TEST_F(BadInputTest, ATruncatedMap) {
   EXPECT_TRUE(says(complaint_of_run(), {"small.pgm"}));
 }
 
+TEST_F(BadInputTest, AWorldFileOfAnyKind) {
+  edit("office.yaml", "include: office-floor.yaml", "map: floor");
+  const auto complaint_about = [&](const std::string& floor) {
+    write("floor", floor);
+    return complaint_of_run();
+  };
+  EXPECT_TRUE(says(complaint_about("0 0 1 1\n0 0 1 nan\n"), {at("floor", 2), "'nan'"}));
+  EXPECT_TRUE(says(complaint_about("<sdf>\n<world>\n"), {at("floor", 2), "expected XML"}));
+  EXPECT_TRUE(says(complaint_about("\nmodle()\n"), {at("floor", 2), "'modle'", "'model'"}));
+  EXPECT_TRUE(says(complaint_about("include \"floor\"\n"), {at("floor", 1), "includes itself"}));
+  EXPECT_TRUE(says(complaint_about("image: floor\nresolution: .nan\norigin: [0, 0, 0]\n"), {at("floor", 2), "number"}));
+  EXPECT_TRUE(says(complaint_about("\x7f"
+                                   "ELF\x01"),
+                   {"floor:1", "expected a world"}));
+}
+
+TEST_F(BadInputTest, AFloorThatIncludesItself) {
+  const int line = edit("office-floor.yaml", "format: 1", "format: 1\ninclude: office-floor.yaml");
+  EXPECT_TRUE(says(complaint_of_run(), {at("office-floor.yaml", line + 1), "include"}));
+}
+
 TEST_F(BadInputTest, AGoalOutsideTheMap) {
   const int line = edit("office.yaml", "x_m: 28.4, y_m: 24", "x_m: 128.4, y_m: 24");
   EXPECT_TRUE(says(complaint_of_run(), {at("office.yaml", line), "goal"}));
