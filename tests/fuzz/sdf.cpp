@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Worlds in SDF.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "tests/fuzz/refusal.hpp"
+#include "world/formats/sdf.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string contents(reinterpret_cast<const char*>(data), size);
+  waitpoint::fuzz::reads_or_refuses([&] {
+    waitpoint::world::LeftOut left_out;
+    waitpoint::world::parse_sdf(contents, "sdf", left_out);
+    left_out.warnings();
+  });
+  return 0;
+}
