@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/yaml_tree.hpp"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <sstream>
 
 #include "core/digest.hpp"
 
@@ -66,6 +69,48 @@ class Copier {
   bool file_has_lines_;
   std::size_t count_ = 0;
 };
+
+/// Where the document that was read last begins, and whether there is anything in it.
+class Documents : public YAML::EventHandler {
+ public:
+  YAML::Mark begin;
+  bool empty = true;
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    begin = mark;
+    empty = true;
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { fill(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override { fill(mark); }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    fill(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    fill(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void fill(const YAML::Mark& mark) {
+    if (empty) begin = mark;
+    empty = false;
+  }
+};
+
+/// Where the text's second document begins, if it has one; an empty one at its end is none. Not by YAML::LoadAll, which
+/// goes on for ever where the parser does not: it takes what it cannot read, as in ",1", for empty documents.
+std::optional<YAML::Mark> second_document(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Documents documents;
+  if (!parser.HandleNextDocument(documents) || !parser.HandleNextDocument(documents)) return std::nullopt;
+  const YAML::Mark second = documents.begin;
+  if (documents.empty && !parser.HandleNextDocument(documents)) return std::nullopt;
+  return second;
+}
 
 std::string read_text(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file)) throw BadInput(file.string(), "is a folder, expected a file");
@@ -128,11 +173,10 @@ YamlNode load_yaml(const std::filesystem::path& file) { return parse_yaml(read_t
 YamlNode parse_yaml(const std::string& text, const std::string& file, bool file_has_lines) {
   Copier copier(file, file_has_lines);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw copier.location(documents[1].Mark()).bad("expected one YAML document, found a second");
+    if (const std::optional<YAML::Mark> second = second_document(text)) {
+      throw copier.location(*second).bad("expected one YAML document, found a second");
     }
-    return documents.empty() ? copier.copy(YAML::Node(), 0) : copier.copy(documents[0], 0);
+    return copier.copy(YAML::Load(text), 0);
   } catch (const YAML::Exception& error) {
     throw copier.location(error.mark).bad("this is not valid YAML: " + error.msg);
   }

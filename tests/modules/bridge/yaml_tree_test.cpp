@@ -62,6 +62,11 @@ TEST(YamlTree, a_document_that_contains_itself_is_refused) {
 TEST(YamlTree, a_second_document_is_refused) {
   EXPECT_EQ(message_of<BadInput>([] { parse("a: 1\n---\nb: 2\n"); }),
             "f.yaml:3: expected one YAML document, found a second");
+  EXPECT_EQ(flat(parse("---\na: 1\n---\n")), "{a: 1}") << "nothing is in the second";
+}
+
+TEST(YamlTree, text_that_the_parser_takes_for_documents_without_end_is_refused) {
+  EXPECT_EQ(message_of<BadInput>([] { parse(",1"); }), "f.yaml:1: expected one YAML document, found a second");
 }
 
 TEST(YamlTree, a_key_that_is_no_word_is_refused) {
