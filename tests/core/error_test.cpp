@@ -7,7 +7,7 @@ namespace waitpoint {
 namespace {
 
 TEST(BadInput, IsOneLineWhateverStoodInTheFile) {
-  EXPECT_STREQ(BadInput("a\nb", 3, "found '\x1b[31m\r\n\x7f'").what(), "a?b:3: found '?[31m???'");
+  EXPECT_STREQ(BadInput("a\nb", 3, "found '\x1b[31m\r\n\x7f'").what(), "a?b:3: found '?[31m??\?'");
   EXPECT_STREQ(BadInput("a", 0, "pas trouv\xc3\xa9").what(), "a: pas trouv\xc3\xa9");
 }
 
