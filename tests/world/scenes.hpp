@@ -2,10 +2,14 @@
 // Worlds for tests, in few words.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/random.hpp"
 #include "world/fcl/fcl_world.hpp"
+#include "world/planar/outline.hpp"
 
 namespace waitpoint::world {
 
@@ -70,6 +74,31 @@ inline Shape random_shape(Draws& draw, double half_square_m, double size_max_m) 
   const double heading = draw(0, 1) < 0.4 ? 0 : draw(-3, 3);
   const double length = draw(0.05, size_max_m), width = draw(0.05, size_max_m);
   return box({x, y, heading}, length, width);
+}
+
+/// Shapes of at most 2.5 m in such a square; some are lower than 0.5 m, some begin above 0.45 m.
+inline std::vector<Shape> random_shapes(std::uint64_t seed, int count, double half_square_m) {
+  Draws draw(seed);
+  std::vector<Shape> shapes;
+  for (int i = 0; i < count; ++i) {
+    Shape shape = random_shape(draw, half_square_m, 2.5);
+    if (i % 7 == 0) shape.z_high_m = 0.5;
+    if (i % 11 == 0) shape.z_low_m = 0.45;
+    shapes.push_back(shape);
+  }
+  return shapes;
+}
+
+/// A direction from `origin` that only just touches the outline: to a corner, or along a tangent.
+inline Point grazing_direction(const Outline& outline, Point origin, Draws& draw) {
+  if (outline.is_box) {
+    const Point d = core_points(outline).points[draw.below(4)] - origin;
+    return (1 / length(d)) * d;
+  }
+  const Point d = outline.centre - origin;
+  const double distance = length(d), sine = std::min(outline.radius_m / distance, 1.0);
+  const double cosine = std::sqrt(1 - sine * sine), side = draw.below(2) == 0 ? sine : -sine;
+  return (1 / distance) * Point{cosine * d.x - side * d.y, side * d.x + cosine * d.y};
 }
 
 }  // namespace waitpoint::world

@@ -20,9 +20,7 @@ static_assert(sizeof(fcl::CollisionObjectd) == 224, "Eigen is aligned otherwise 
 
 using Node = fcl::detail::NodeBase<fcl::AABBd>;
 
-// Far above the rounding of coordinates (1e-10 m even a thousand kilometres from the origin) and of a ray's entry into
-// a bounding box, far below anything that would cost time.
-constexpr double padding_m = 1e-7;
+constexpr double padding_m = Scene::padding_m;
 
 // Neighbouring rays meet much the same boxes: this many walk the tree together.
 constexpr std::size_t rays_together = 16;

@@ -23,6 +23,9 @@ namespace waitpoint::world {
 class Scene {
  public:
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
+  /// Bounding boxes are wider by this: far above the rounding of coordinates (1e-10 m even a thousand kilometres from
+  /// the origin) and of a ray's entry into a bounding box, far below anything that would cost time.
+  static constexpr double padding_m = 1e-7;
 
   /// Solids numbered from 0. `roam_m` widens the bounding boxes of a scene whose solids move, so that most moves leave
   /// the tree as it is.

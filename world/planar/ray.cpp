@@ -7,10 +7,6 @@
 namespace waitpoint::world {
 namespace {
 
-// Boxes that share an edge (a map's cells, merged) each round it in their own way. Sealed by this much, no ray slips
-// between them; a range is shorter by this much over the cosine of its incidence.
-constexpr double seal_m = 1e-12;
-
 double hit_box(const Outline& box, const Ray& ray) {
   const Point o = box.local(ray.origin);
   const Point d = {box.axis_cos * ray.direction.x + box.axis_sin * ray.direction.y,

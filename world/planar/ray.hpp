@@ -16,6 +16,10 @@ struct Ray {
 
 inline constexpr double no_hit = std::numeric_limits<double>::infinity();
 
+/// Boxes that share an edge (a map's cells, merged) each round it in their own way. Sealed by this much, no ray slips
+/// between them; a range is shorter by this much over the cosine of its incidence.
+inline constexpr double seal_m = 1e-12;
+
 /// The distance along the ray to the outline: 0 if it starts inside, `no_hit` if it passes.
 double hit_distance(const Outline& outline, const Ray& ray);
 

@@ -15,17 +15,7 @@ namespace {
 
 constexpr double half_square_m = 12;
 
-std::vector<Shape> random_scene(std::uint64_t seed, int count) {
-  Draws draw(seed);
-  std::vector<Shape> shapes;
-  for (int i = 0; i < count; ++i) {
-    Shape shape = random_shape(draw, half_square_m, 2.5);
-    if (i % 7 == 0) shape.z_high_m = 0.5;
-    if (i % 11 == 0) shape.z_low_m = 0.45;
-    shapes.push_back(shape);
-  }
-  return shapes;
-}
+std::vector<Shape> random_scene(std::uint64_t seed, int count) { return random_shapes(seed, count, half_square_m); }
 
 WorldDescription robots_among_shapes() {
   WorldDescription description;
@@ -96,18 +86,6 @@ double asking_all(const Scene& scene, const Ray& ray, double height_m, double li
     if (scene.reaches(i, height_m)) best = std::min(best, hit_distance(scene.outline(i), ray));
   }
   return best;
-}
-
-// A direction from `origin` that only just touches the outline: to a corner, or along a tangent.
-Point grazing_direction(const Outline& outline, Point origin, Draws& draw) {
-  if (outline.is_box) {
-    const Point d = core_points(outline).points[draw.below(4)] - origin;
-    return (1 / length(d)) * d;
-  }
-  const Point d = outline.centre - origin;
-  const double distance = length(d), sine = std::min(outline.radius_m / distance, 1.0);
-  const double cosine = std::sqrt(1 - sine * sine), side = draw.below(2) == 0 ? sine : -sine;
-  return (1 / distance) * Point{cosine * d.x - side * d.y, side * d.x + cosine * d.y};
 }
 
 TEST(LaserScan, GrazingBeamsAreThoseOfAskingEveryShapeToTheLastBit) {

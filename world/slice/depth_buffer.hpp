@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A planar scan as a depth buffer of one dimension: for each beam the nearest hit so far.
+//
+//   begin        every range is the limit
+//   lower(slice) one walk of its tree, near to far: a rectangle's corners give its interval of beams; where nearer hits
+//                already fill that, it is dropped, else its children are looked at, or the solid is asked about each
+//                beam
+//   lower(moving) the same for a flat list
+//
+// Floats cull, with margins; hits are those of hit_distance(), so the ranges are those of asking every solid, to the
+// last bit, in whatever order. A buffer is used again and again: only a scan of more beams than any before allocates.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "world/slice/kernels.hpp"
+#include "world/slice/moving_solids.hpp"
+#include "world/slice/slice.hpp"
+
+namespace waitpoint::world {
+
+/// Beams from one point, counter-clockwise, at equal angles.
+struct Fan {
+  Point origin;
+  Point axis;                         ///< unit vector towards the middle
+  double angle_step_rad = 0;          ///< a fan spans at most a full turn
+  std::span<const Point> directions;  ///< unit vectors in the frame whose x axis is `axis`; at most 2^20
+};
+
+class DepthBuffer {
+ public:
+  explicit DepthBuffer(const Kernels& of = kernels()) : kernels_(&of) {}
+
+  /// A new scan of beams that end at `range_max_m` (which may be infinite). `identify`: solids are wanted, too.
+  void begin(const Fan& fan, double range_max_m, bool identify = false);
+
+  void lower(const Slice& slice);
+  /// Without the solid numbered `except`.
+  void lower(const MovingSolids& solids, double height_m, std::uint32_t except = no_solid);
+
+  /// The distance of each beam to what it hits; range_max_m where that is not nearer.
+  std::span<const double> ranges_m() const { return {ranges_m_.data(), beams_}; }
+  /// What each beam hits: of equally near solids the one of the least number; no_solid if nothing within range_max_m.
+  /// Only of a scan that identifies.
+  std::span<const std::uint32_t> solids() const { return {solids_.data(), identify_ ? beams_ : 0}; }
+
+ private:
+  struct Pending {
+    float near_m2;
+    std::int32_t child, first, last;
+  };
+
+  View view(Point middle, double extent_m) const;
+  bool hidden(const Pending& what) const;
+  bool hidden(float near_m2, std::int32_t first, std::int32_t last) const;
+  void push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children);
+  void ask(const Outline& outline, std::uint32_t solid, const Pending& where);
+  Beams beams();
+
+  const Kernels* kernels_;
+  Point origin_, axis_;
+  double half_rad_ = 0, per_rad_ = 0;
+  double range_max_m_ = 0;
+  bool identify_ = false;
+  std::size_t beams_ = 0;
+  // Of each beam; the last is repeated to the end of its block.
+  std::vector<double> x_, y_, ranges_m_;
+  std::vector<std::uint32_t> solids_;
+  std::vector<float> farthest_m2_;  // of each block
+  std::vector<Pending> pending_;
+};
+
+}  // namespace waitpoint::world

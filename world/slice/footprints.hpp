@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Standing upright solids seen from above, all heights together: what an upright body is near to, or collides with.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "world/planar/outline.hpp"
+#include "world/slice/kernels.hpp"
+#include "world/slice/tree.hpp"
+
+namespace waitpoint::world {
+
+class Footprints {
+ public:
+  /// Of solids that are numbered from 0.
+  explicit Footprints(std::span<const Shape> shapes, const Kernels& of = kernels());
+
+  /// The solids whose bounds, grown by `margin_m`, overlap the given ones and whose open height intervals overlap
+  /// (z_low_m, z_high_m), in ascending order; `found` is overwritten.
+  void near(const Bounds& bounds, double margin_m, double z_low_m, double z_high_m,
+            std::vector<std::uint32_t>& found) const;
+
+  /// Whether a solid that stands there would overlap any (see separation()).
+  bool collides(const Outline& outline, double z_low_m, double z_high_m) const;
+
+ private:
+  struct Solid {
+    Outline outline;
+    Bounds bounds;
+    double z_low_m, z_high_m;
+    bool shares_height(double z_low, double z_high) const { return z_low_m < z_high && z_low < z_high_m; }
+  };
+
+  template <class Visit>
+  void visit(const Bounds& bounds, Visit visit) const;
+
+  const Kernels* kernels_;
+  std::vector<Solid> solids_;
+  Tree tree_;
+};
+
+}  // namespace waitpoint::world

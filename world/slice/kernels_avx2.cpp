@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compiled with -mavx2, and called only where the processor has it.
+#include "world/slice/kernels.hpp"
+#include "world/slice/vector_asking.hpp"
+#include "world/slice/vector_culling.hpp"
+
+namespace waitpoint::world {
+
+constinit const Kernels kernels_avx2 = {
+    "AVX2",
+    &VectorCulling<4>::turn,
+    &VectorCulling<4>::look,
+    &VectorCulling<4>::all_nearer,
+    &VectorCulling<4>::overlap,
+    &VectorAsking<4>::ask_box,
+    &VectorAsking<4>::ask_disc,
+};
+
+}  // namespace waitpoint::world

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// For any processor: of x86, SSE2.
+#include "world/slice/kernels.hpp"
+#include "world/slice/vector_asking.hpp"
+#include "world/slice/vector_culling.hpp"
+
+namespace waitpoint::world {
+
+constinit const Kernels kernels_baseline = {
+    "baseline",
+    &VectorCulling<2>::turn,
+    &VectorCulling<2>::look,
+    &VectorCulling<2>::all_nearer,
+    &VectorCulling<2>::overlap,
+    &VectorAsking<2>::ask_box,
+    &VectorAsking<2>::ask_disc,
+};
+
+}  // namespace waitpoint::world

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/slice/slice.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+std::vector<std::uint32_t> reaching(std::span<const Shape> shapes, double height_m) {
+  std::vector<std::uint32_t> solids;
+  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+    if (reaches(shapes[i], height_m)) solids.push_back(i);
+  }
+  return solids;
+}
+
+std::vector<Outline> outlines_of(std::span<const Shape> shapes, std::span<const std::uint32_t> solids) {
+  std::vector<Outline> outlines;
+  for (const std::uint32_t solid : solids) outlines.push_back(outline_of(shapes[solid]));
+  return outlines;
+}
+
+std::vector<Bounds> bounds_of_all(std::span<const Outline> outlines) {
+  std::vector<Bounds> bounds;
+  for (const Outline& outline : outlines) bounds.push_back(bounds_of(outline));
+  return bounds;
+}
+
+}  // namespace
+
+Slice::Slice(std::span<const Shape> shapes, double height_m)
+    : height_m_(height_m),
+      outlines_(outlines_of(shapes, reaching(shapes, height_m))),
+      solids_(reaching(shapes, height_m)),
+      tree_(bounds_of_all(outlines_)) {}
+
+}  // namespace waitpoint::world

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/slice/tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace waitpoint::world {
+namespace {
+
+// Below this many levels solids are halved by number: however they lie, the tree ends.
+constexpr int swept_levels_max = 24;
+
+Bounds united(const Bounds& a, const Bounds& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+double half_perimeter(const Bounds& b) { return (b.high.x - b.low.x) + (b.high.y - b.low.y); }
+
+}  // namespace
+
+EightBounds EightBounds::nowhere() {
+  // So far away that the square of the distance is infinite.
+  constexpr float far = 1e30f;
+  EightBounds bounds;
+  for (float* side : {bounds.low_x, bounds.low_y, bounds.high_x, bounds.high_y}) std::fill_n(side, width, far);
+  return bounds;
+}
+
+void EightBounds::set(int at, const Bounds& bounds, Point middle, double margin_m) {
+  const Bounds b = Bounds{bounds.low - middle, bounds.high - middle}.grown(margin_m);
+  low_x[at] = static_cast<float>(b.low.x);
+  low_y[at] = static_cast<float>(b.low.y);
+  high_x[at] = static_cast<float>(b.high.x);
+  high_y[at] = static_cast<float>(b.high.y);
+}
+
+struct Tree::Builder {
+  using Group = std::span<std::uint32_t>;
+
+  Tree& tree;
+  std::span<const Bounds> solids;
+  std::vector<double> perimeters = {};  // of what is right of a division, by its place
+
+  Bounds bounds(Group group) const {
+    Bounds all = solids[group.front()];
+    for (const std::uint32_t solid : group) all = united(all, solids[solid]);
+    return all;
+  }
+
+  void sort(Group group, bool by_x) const {
+    std::sort(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const Bounds &p = solids[a], &q = solids[b];
+      const double at_p = by_x ? p.low.x + p.high.x : p.low.y + p.high.y;
+      const double at_q = by_x ? q.low.x + q.high.x : q.low.y + q.high.y;
+      return std::tie(at_p, a) < std::tie(at_q, b);
+    });
+  }
+
+  /// How many of the sorted group belong to its first part, and what that division costs. Of equal ones the most even.
+  std::pair<double, std::size_t> best_division(Group group) {
+    const std::size_t n = group.size();
+    perimeters.resize(n);
+    Bounds right = solids[group.back()];
+    for (std::size_t i = n - 1; i > 0; --i) {
+      right = united(right, solids[group[i]]);
+      perimeters[i] = half_perimeter(right);
+    }
+    const auto unevenness = [n](std::size_t i) { return i > n - i ? i - (n - i) : n - i - i; };
+    std::pair<double, std::size_t> best = {std::numeric_limits<double>::infinity(), n / 2};
+    Bounds left = solids[group.front()];
+    for (std::size_t i = 1; i < n; ++i) {
+      left = united(left, solids[group[i - 1]]);
+      const double cost = half_perimeter(left) * static_cast<double>(i) + perimeters[i] * static_cast<double>(n - i);
+      if (cost < best.first || (cost == best.first && unevenness(i) < unevenness(best.second))) best = {cost, i};
+    }
+    return best;
+  }
+
+  std::size_t divide(Group group, int level) {
+    if (level > swept_levels_max) return group.size() / 2;
+    sort(group, false);
+    const auto by_y = best_division(group);
+    sort(group, true);
+    const auto by_x = best_division(group);
+    if (by_x.first <= by_y.first) return by_x.second;
+    sort(group, false);
+    return by_y.second;
+  }
+
+  std::int32_t build(Group group, int level) {
+    const std::size_t number = tree.nodes_.size();
+    tree.nodes_.emplace_back();
+    tree.depth_ = std::max(tree.depth_, level + 1);
+
+    std::array<Group, EightBounds::width> parts = {group};
+    std::size_t count = 1;
+    while (count < parts.size()) {
+      Group* largest = nullptr;
+      double most = -1;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double cost = parts[i].size() > 1 ? half_perimeter(bounds(parts[i])) : -1;
+        if (cost > most) largest = &parts[i], most = cost;
+      }
+      if (largest == nullptr) break;
+      const std::size_t first = divide(*largest, level);
+      parts[count++] = largest->subspan(first);
+      *largest = largest->first(first);
+    }
+
+    TreeNode node = {EightBounds::nowhere(), {}};
+    for (std::size_t i = 0; i < count; ++i) {
+      node.bounds.set(static_cast<int>(i), bounds(parts[i]), tree.middle_, float_margin_m(tree.extent_m_));
+      node.child[i] = parts[i].size() == 1 ? ~static_cast<std::int32_t>(parts[i].front()) : build(parts[i], level + 1);
+    }
+    tree.nodes_[number] = node;
+    return static_cast<std::int32_t>(number);
+  }
+};
+
+Tree::Tree(std::span<const Bounds> solids) {
+  if (solids.empty()) return;
+  std::vector<std::uint32_t> all(solids.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  Builder builder{*this, solids};
+  const Bounds around = builder.bounds(all);
+  middle_ = 0.5 * (around.low + around.high);
+  extent_m_ = std::max(around.high.x - middle_.x, around.high.y - middle_.y);
+  builder.build(all, 0);
+}
+
+}  // namespace waitpoint::world

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bounding-volume tree, eight children wide, over solids that stand still.
+//
+// Its rectangles are of floats, relative to the middle of all, and a little too large: they only cull. The tree is
+// built from above: what is largest is divided again, by the sweep that makes perimeter times count least, until a node
+// has its eight.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "world/planar/outline.hpp"
+
+namespace waitpoint::world {
+
+/// Eight rectangles, as a walk looks at them: all at once.
+struct alignas(32) EightBounds {
+  static constexpr int width = 8;
+  float low_x[width], low_y[width], high_x[width], high_y[width];
+
+  /// Rectangles that nobody sees.
+  static EightBounds nowhere();
+  /// Sets one to `bounds` relative to `middle`, grown by `margin_m`, which must exceed the rounding to float.
+  void set(int at, const Bounds& bounds, Point middle, double margin_m);
+};
+
+struct TreeNode {
+  EightBounds bounds;
+  /// Of each rectangle: another node, or ~number of a solid. Where there is none, its rectangle is nowhere.
+  std::array<std::int32_t, EightBounds::width> child;
+};
+
+/// How far coordinates of at most `extent_m`, rounded to float, can lie beside themselves, and much more than doubles
+/// and sealed boxes (world/planar/ray.cpp) can.
+constexpr double float_margin_m(double extent_m) { return extent_m * 0x1p-22 + 1e-6; }
+
+class Tree {
+ public:
+  /// Over solids with these bounds, numbered from 0.
+  explicit Tree(std::span<const Bounds> solids);
+
+  bool empty() const { return nodes_.empty(); }
+  /// The root is node 0.
+  const TreeNode& node(std::int32_t number) const { return nodes_[static_cast<std::size_t>(number)]; }
+  /// What the rectangles are relative to, and the greatest coordinate there.
+  Point middle() const { return middle_; }
+  double extent_m() const { return extent_m_; }
+  /// Nodes above each other, at most.
+  int depth() const { return depth_; }
+
+ private:
+  struct Builder;
+
+  std::vector<TreeNode> nodes_;
+  Point middle_;
+  double extent_m_ = 0;
+  int depth_ = 0;
+};
+
+}  // namespace waitpoint::world

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What hit_distance() says, for some beams at once, in doubles and to the last bit (see kernels.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include "world/planar/ray.hpp"
+#include "world/slice/kernels.hpp"
+#include "world/slice/vectors.hpp"
+
+namespace waitpoint::world {
+
+template <int lanes>
+struct VectorAsking {
+  using V = Vectors<lanes>;
+  using Doubles = typename V::Doubles;
+  using Longs = typename V::Longs;
+
+  // Takes the hits at `distance` for the beams from `at` on; gives what their ranges are now.
+  static Doubles lower(const Beams& beams, int at, Doubles distance, Longs hit, std::uint32_t solid) {
+    const Doubles range = V::template load<Doubles>(beams.range_m + at);
+    const Longs nearer = hit & (Longs)(distance < range);
+    if (beams.solid_of != nullptr) {
+      const unsigned won = V::bits(nearer);
+      for (unsigned rest = won | V::bits(hit & (Longs)(distance == range)); rest != 0; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        std::uint32_t& holder = beams.solid_of[at + lane];
+        // A hit at the limit is none, and is not told from one.
+        if ((won >> lane & 1) != 0 || (holder != no_solid && solid < holder)) holder = solid;
+      }
+    }
+    const Doubles lowered = nearer ? distance : range;
+    V::store(beams.range_m + at, lowered);
+    return lowered;
+  }
+
+  // Asks `answer(first beam, distances, hits)` for all blocks in which the solid could be nearest.
+  template <class Answer>
+  static void ask(const Question& question, const Beams& beams, Answer answer) {
+    for (std::int32_t block = question.first_block; block <= question.last_block; ++block) {
+      if (beams.farthest_m2[block] < question.near_m2) continue;
+      Doubles farthest{};
+      for (int i = 0; i < Beams::block; i += lanes) {
+        const int at = block * Beams::block + i;
+        Doubles distance;
+        Longs hit;
+        answer(at, distance, hit);
+        farthest = V::greatest(farthest, lower(beams, at, distance, hit, question.solid));
+      }
+      double most = farthest[0];
+      for (int i = 1; i < lanes; ++i) most = farthest[i] > most ? farthest[i] : most;
+      const float rounded = static_cast<float>(most);
+      beams.farthest_m2[block] = rounded * rounded * (1 + 1e-6f);
+    }
+  }
+
+  // hit_distance() asks how far along the ray its entry and its exit are by x and by y:
+  //
+  //   near_x / |dx|, near_y / |dy|, far_x / |dx|, far_y / |dy|     for an origin outside, |d| in the box's own frame
+  //
+  // and has a hit where the greater entry comes before the lesser exit. Which is which is plain from products, without
+  // a quotient, unless they are equal but for rounding; those few beams are asked one by one. `far` is negative where
+  // the beam leads away, and then by more than any rounding before the entry.
+  static void ask_box(const Question& question, const Beams& beams) {
+    const Outline& box = question.outline;
+    const double from_x = beams.origin.x - box.centre.x, from_y = beams.origin.y - box.centre.y;
+    const double o_x = box.axis_cos * from_x + box.axis_sin * from_y;
+    const double o_y = box.axis_cos * from_y - box.axis_sin * from_x;
+    const double half_x = box.half_length_m + seal_m, half_y = box.half_width_m + seal_m;
+    const double beside_x = (o_x < 0 ? -o_x : o_x) - half_x, beside_y = (o_y < 0 ? -o_y : o_y) - half_y;
+    if (beside_x <= 0 && beside_y <= 0) return hit_all(question, beams);
+    const Doubles cosine = V::all(box.axis_cos), sine = V::all(box.axis_sin);
+    const Doubles near_x = V::all(beside_x > 0 ? beside_x : 0), near_y = V::all(beside_y > 0 ? beside_y : 0);
+    const Doubles forth_x = V::all(half_x - o_x), back_x = V::all(half_x + o_x);
+    const Doubles forth_y = V::all(half_y - o_y), back_y = V::all(half_y + o_y);
+    ask(
+        question, beams, [&](int at, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
+          const Doubles x = V::template load<Doubles>(beams.x + at), y = V::template load<Doubles>(beams.y + at);
+          const Doubles d_x = cosine * x + sine * y, d_y = cosine * y - sine * x;
+          const Doubles along_x = V::absolute(d_x), along_y = V::absolute(d_y);
+          const Doubles far_x = d_x < 0 ? back_x : forth_x, far_y = d_y < 0 ? back_y : forth_y;
+          const Doubles enter_x = near_x * along_y, enter_y = near_y * along_x;
+          const Doubles spare = V::least(far_y * along_x - enter_x, far_x * along_y - enter_y);
+          const Doubles rounding = 1e-14 * (enter_x + enter_y) + 1e-290;
+          const Longs by_x = enter_x > enter_y;
+          hit = spare > rounding;
+          distance = (by_x ? near_x : near_y) / (by_x ? along_x : along_y);
+          const unsigned undecided = V::bits((Longs)(V::absolute(spare) <= rounding) |
+                                             (hit & (Longs)(V::absolute(enter_x - enter_y) <= rounding)));
+          for (unsigned rest = undecided; rest != 0; rest &= rest - 1) {
+            const int lane = __builtin_ctz(rest);
+            const double exact = hit_distance(box, Ray{beams.origin, Point{x[lane], y[lane]}});
+            distance[lane] = exact;
+            hit[lane] = exact < no_hit ? -1 : 0;
+          }
+        });
+  }
+
+  static void ask_disc(const Question& question, const Beams& beams) {
+    const Outline& disc = question.outline;
+    const double to_x = disc.centre.x - beams.origin.x, to_y = disc.centre.y - beams.origin.y;
+    const double square = disc.radius_m * disc.radius_m;
+    if (to_x * to_x + to_y * to_y <= square) return hit_all(question, beams);
+    ask(
+        question, beams, [&](int at, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
+          const Doubles x = V::template load<Doubles>(beams.x + at), y = V::template load<Doubles>(beams.y + at);
+          const Doubles along = to_x * x + to_y * y, offset = to_x * y - to_y * x;
+          const Doubles rest = square - offset * offset;
+          hit = (along > 0) & (rest >= 0);
+          distance = V::greatest(along - V::root(rest), Doubles{});
+        });
+  }
+
+  static void hit_all(const Question& question, const Beams& beams) {
+    ask(
+        question, beams, [](int, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
+          distance = Doubles{};
+          hit = ~Longs{};
+        });
+  }
+};
+
+}  // namespace waitpoint::world

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is in view of a fan, and what is hidden, in floats with margins (see kernels.hpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "world/slice/kernels.hpp"
+#include "world/slice/vectors.hpp"
+
+namespace waitpoint::world {
+
+template <int lanes>
+struct VectorCulling {
+  using V = Vectors<lanes>;
+  using Doubles = typename V::Doubles;
+  using Floats = typename V::Floats;
+  using Ints = typename V::Ints;
+
+  // atan2 to 2.1e-5: a polynomial of the fifth degree in the square, through Chebyshev's points.
+  static Floats angle(Floats y, Floats x) {
+    const Floats ax = V::absolute(x), ay = V::absolute(y);
+    const Floats q = V::least(ax, ay) / V::greatest(ax, ay), s = q * q;
+    Floats a = q * (0.99996477f + s * (-0.33154461f + s * (0.18446356f + s * (-0.09075202f + s * 0.02328601f))));
+    a = ay > ax ? 1.57079633f - a : a;
+    a = x < 0 ? 3.14159265f - a : a;
+    return y < 0 ? -a : a;
+  }
+  // More than that, than the roundings of what it is asked of, and than that of a beam's number (at most 2^20).
+  static constexpr float margin_rad = 5e-5f;
+  static constexpr float pi = 3.14159265f;
+
+  static unsigned look(const EightBounds& bounds, const View& view, Sight& sight) {
+    unsigned seen = 0;
+    for (int at = 0; at < EightBounds::width; at += V::float_lanes) seen |= look_at(bounds, view, sight, at) << at;
+    return seen;
+  }
+
+  static unsigned look_at(const EightBounds& bounds, const View& view, Sight& sight, int at) {
+    const Floats low_x = V::template load<Floats>(bounds.low_x + at) - view.high_x;
+    const Floats low_y = V::template load<Floats>(bounds.low_y + at) - view.high_y;
+    const Floats high_x = V::template load<Floats>(bounds.high_x + at) - view.low_x;
+    const Floats high_y = V::template load<Floats>(bounds.high_y + at) - view.low_y;
+
+    const Floats beside_x = V::greatest(V::greatest(low_x, -high_x), Floats{});
+    const Floats beside_y = V::greatest(V::greatest(low_y, -high_y), Floats{});
+    const Floats near_m2 = (beside_x * beside_x + beside_y * beside_y) * (1 - 1e-6f);
+    const unsigned in_reach = V::bits((Ints)(near_m2 <= view.reach_m2));
+    if (in_reach == 0) return 0;
+
+    // The rightmost and the leftmost corner as seen from the origin.
+    const Ints west = high_x < 0, south = high_y < 0;
+    const Ints east = low_x > 0, north = low_y > 0;
+    const Floats right_x = (north | (west & ~south)) ? high_x : low_x;
+    const Floats right_y = (west | (south & ~east)) ? high_y : low_y;
+    const Floats left_x = (south | (west & ~north)) ? high_x : low_x;
+    const Floats left_y = (west | (north & ~east)) ? low_y : high_y;
+    const Floats right =
+        angle(right_y * view.axis_x - right_x * view.axis_y, right_x * view.axis_x + right_y * view.axis_y) -
+        margin_rad;
+    Floats left =
+        angle(left_y * view.axis_x - left_x * view.axis_y, left_x * view.axis_x + left_y * view.axis_y) + margin_rad;
+    // Each margin exceeds the error of its angle: the left one comes first only if the line behind lies between.
+    left = left < right ? left + 2 * pi : left;
+
+    const Ints first = numbers((right + view.half_rad) * view.per_rad, view) + 1;
+    const Ints last_any = numbers((left + view.half_rad) * view.per_rad, view), last_beam = Ints{} + (view.beams - 1);
+    const Ints last = last_any > last_beam ? last_beam : last_any;
+    V::store(sight.near_m2 + at, near_m2);
+    V::store(sight.first + at, first);
+    V::store(sight.last + at, last);
+    const unsigned around = ~V::bits(west | east | south | north),
+                   behind = V::bits((Ints)((left > pi) | (right < -pi)));
+    unsigned seen = in_reach & V::bits((Ints)(first <= last));
+    for (unsigned rest = in_reach & (around | behind); rest != 0; rest &= rest - 1) {
+      const int lane = __builtin_ctz(rest);
+      std::int32_t &first_of_it = sight.first[at + lane], &last_of_it = sight.last[at + lane];
+      seen |= 1u << lane;
+      if ((around >> lane & 1) != 0) {
+        first_of_it = 0;
+        last_of_it = view.beams - 1;
+      } else if (!look_behind(right[lane], left[lane], view, first_of_it, last_of_it)) {
+        seen &= ~(1u << lane);
+      }
+    }
+    return seen;
+  }
+
+  // The whole parts, between -1 and the number of beams.
+  static Ints numbers(Floats at, const View& view) {
+    const Floats within = V::least(V::greatest(at, V::all(-1.0f)), V::all(static_cast<float>(view.beams)));
+    return __builtin_convertvector(within + 2, Ints) - 2;
+  }
+  static std::int32_t number(float at, const View& view) {
+    const float end = static_cast<float>(view.beams);
+    return static_cast<std::int32_t>((at < -1 ? -1 : at > end ? end : at) + 2) - 2;
+  }
+
+  // For what reaches over the line behind the fan's middle, where its ends may be: beams at both ends can meet it.
+  static bool look_behind(float right, float left, const View& view, std::int32_t& first, std::int32_t& last) {
+    const std::int32_t from_start = number((left - 2 * pi + view.half_rad) * view.per_rad, view);
+    const std::int32_t to_end = number((right + 2 * pi + view.half_rad) * view.per_rad, view) + 1;
+    const bool meets = first <= last;
+    if (left > pi && from_start >= 0) {
+      if (!meets) first = 0;
+      last = from_start;
+    } else if (right < -pi && to_end < view.beams) {
+      if (!meets) last = view.beams - 1;
+      first = to_end;
+    } else {
+      return meets;
+    }
+    if (meets && first <= last) {  // the two parts overlap
+      first = 0;
+      last = view.beams - 1;
+    }
+    return true;
+  }
+
+  static unsigned overlap(const EightBounds& bounds, const FloatBounds& wanted) {
+    unsigned met = 0;
+    for (int at = 0; at < EightBounds::width; at += V::float_lanes) {
+      const Ints apart = (V::template load<Floats>(bounds.low_x + at) > wanted.high_x) |
+                         (V::template load<Floats>(bounds.high_x + at) < wanted.low_x) |
+                         (V::template load<Floats>(bounds.low_y + at) > wanted.high_y) |
+                         (V::template load<Floats>(bounds.high_y + at) < wanted.low_y);
+      met |= (~V::bits(apart) & ((1u << V::float_lanes) - 1)) << at;
+    }
+    return met;
+  }
+
+  static bool all_nearer(const float* farthest_m2, std::int32_t first, std::int32_t last, float than_m2) {
+    Ints place;
+    for (int i = 0; i < V::float_lanes; ++i) place[i] = i;
+    for (std::int32_t at = first; at <= last; at += V::float_lanes) {
+      const Ints farther = (Ints)(V::template load<Floats>(farthest_m2 + at) >= than_m2);
+      if (V::bits(farther & (Ints)(place <= last - at)) != 0) return false;
+    }
+    return true;
+  }
+
+  // So many directions at a time; gives how many of them it has turned.
+  static std::size_t turn(const Point* directions, std::size_t count, Point axis, double* x, double* y) {
+    std::size_t at = 0;
+    for (; at + lanes <= count; at += lanes) {
+      const Doubles low = V::template load<Doubles>(&directions[at].x),
+                    high = V::template load<Doubles>(&directions[at + lanes / 2].x);
+      Doubles d_x, d_y;
+      if constexpr (lanes == 2) {
+        d_x = __builtin_shufflevector(low, high, 0, 2);
+        d_y = __builtin_shufflevector(low, high, 1, 3);
+      } else {
+        d_x = __builtin_shufflevector(low, high, 0, 2, 4, 6);
+        d_y = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+      }
+      V::store(x + at, axis.x * d_x - axis.y * d_y);
+      V::store(y + at, axis.y * d_x + axis.x * d_y);
+    }
+    return at;
+  }
+};
+
+}  // namespace waitpoint::world

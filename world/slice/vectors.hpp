@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vectors of a few numbers, on which processors compute at once; written for each width, in the compilers' own
+// extension.
+//
+// Each instruction set has a source of its own, compiled for it (kernels_*.cpp). What such a source emits must not be
+// what the linker then gives to others: it names no inline function from elsewhere, and its own are told apart by
+// `lanes`.
+#pragma once
+
+#include <cstdint>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace waitpoint::world {
+
+/// Vectors of so many doubles, and of integers and floats in the same space.
+template <int lanes>
+struct VectorTypes;
+template <>
+struct VectorTypes<2> {
+  typedef double Doubles __attribute__((vector_size(16)));
+  typedef std::int64_t Longs __attribute__((vector_size(16)));
+  typedef float Floats __attribute__((vector_size(16)));
+  typedef std::int32_t Ints __attribute__((vector_size(16)));
+};
+template <>
+struct VectorTypes<4> {
+  typedef double Doubles __attribute__((vector_size(32)));
+  typedef std::int64_t Longs __attribute__((vector_size(32)));
+  typedef float Floats __attribute__((vector_size(32)));
+  typedef std::int32_t Ints __attribute__((vector_size(32)));
+};
+
+/// What is done to such vectors.
+template <int lanes>
+struct Vectors {
+  using Doubles = typename VectorTypes<lanes>::Doubles;
+  using Longs = typename VectorTypes<lanes>::Longs;
+  using Floats = typename VectorTypes<lanes>::Floats;
+  using Ints = typename VectorTypes<lanes>::Ints;
+  static constexpr int float_lanes = 2 * lanes;
+
+  template <class Vector, class Element>
+  static Vector load(const Element* from) {
+    Vector v;
+    __builtin_memcpy(&v, from, sizeof v);
+    return v;
+  }
+  template <class Vector, class Element>
+  static void store(Element* to, Vector v) {
+    __builtin_memcpy(to, &v, sizeof v);
+  }
+
+  static Doubles all(double value) { return value - Doubles{}; }
+  static Floats all(float value) { return value - Floats{}; }
+  static Doubles absolute(Doubles v) { return (Doubles)((Longs)v & 0x7FFFFFFFFFFFFFFF); }
+  static Floats absolute(Floats v) { return (Floats)((Ints)v & 0x7FFFFFFF); }
+  template <class Vector>
+  static Vector least(Vector a, Vector b) {
+    return b < a ? b : a;
+  }
+  template <class Vector>
+  static Vector greatest(Vector a, Vector b) {
+    return a < b ? b : a;
+  }
+
+  static Doubles root(Doubles v) {
+#if defined(__AVX__)
+    if constexpr (lanes == 4) return (Doubles)_mm256_sqrt_pd((__m256d)v);
+#endif
+#if defined(__SSE2__)
+    if constexpr (lanes == 2) return (Doubles)_mm_sqrt_pd((__m128d)v);
+#endif
+    for (int i = 0; i < lanes; ++i) v[i] = __builtin_sqrt(v[i]);
+    return v;
+  }
+
+  // A bit for each lane that is all ones.
+  static unsigned bits(Longs mask) {
+#if defined(__AVX__)
+    if constexpr (lanes == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
+#endif
+#if defined(__SSE2__)
+    if constexpr (lanes == 2) return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask));
+#endif
+    unsigned set = 0;
+    for (int i = 0; i < lanes; ++i) set |= mask[i] != 0 ? 1u << i : 0u;
+    return set;
+  }
+  static unsigned bits(Ints mask) {
+#if defined(__AVX__)
+    if constexpr (lanes == 4) return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
+#endif
+#if defined(__SSE2__)
+    if constexpr (lanes == 2) return static_cast<unsigned>(_mm_movemask_ps((__m128)mask));
+#endif
+    unsigned set = 0;
+    for (int i = 0; i < float_lanes; ++i) set |= mask[i] != 0 ? 1u << i : 0u;
+    return set;
+  }
+};
+
+}  // namespace waitpoint::world
