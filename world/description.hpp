@@ -87,8 +87,13 @@ struct BodyDescription {
   std::vector<SonarRingDescription> sonars;
 };
 
+/// What finds the hits of planar beams and the obstacles that a body is near to: FCL's trees, or own ones over exact
+/// slices at the heights of the sensors, and over footprints (world/slice). The world is the same to the last bit.
+enum class Engine : std::uint8_t { fcl, slice };
+
 struct WorldDescription {
   Duration step = std::chrono::milliseconds(10);
+  Engine engine = Engine::fcl;
   std::vector<Obstacle> obstacles;  ///< a map's occupied cells are here too, merged into boxes
   std::vector<BodyDescription> bodies;
 };

@@ -60,12 +60,13 @@ void read_shapes(const YamlNode& list, double height_m, Scenario& scenario) {
 }
 
 void read_world(const YamlNode& node, Scenario& scenario) {
-  const YamlMap map(node, "the world", {"step_ms", "include", "map", "shape_height_m", "shapes"});
+  const YamlMap map(node, "the world", {"step_ms", "engine", "include", "map", "shape_height_m", "shapes"});
   if (const YamlNode* step = map.find("step_ms")) {
     scenario.step = map.duration("step_ms", 1ms, scenario.step);
     if (scenario.step > Duration(1s))
       throw step->written.bad("expected step_ms to be at most 1000, found " + described(*step));
   }
+  scenario.engine = map.one_of("engine", {"fcl", "slice"}, 0) == 0 ? world::Engine::fcl : world::Engine::slice;
   if (const YamlNode* map_file = map.find("map")) scenario.map = read_map(*map_file);
   const double height_m = map.number("shape_height_m", positive_number, height_default_m);
   if (const YamlNode* shapes = map.find("shapes")) read_shapes(*shapes, height_m, scenario);
@@ -88,6 +89,7 @@ void read_robots(const YamlNode& list, const YamlNode* types, Scenario& scenario
 world::WorldDescription Scenario::world_without_map() const {
   world::WorldDescription world;
   world.step = step;
+  world.engine = engine;
   world.obstacles = shapes;
   for (const RobotScenario& robot : robots) world.bodies.push_back(robot.body);
   return world;

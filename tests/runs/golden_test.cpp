@@ -34,6 +34,12 @@ TEST_P(Golden, the_first_seconds_have_the_digest_that_they_had) {
       << "if the run was meant to change, write its new digest into tests/golden/digests.txt";
 }
 
+TEST_P(Golden, beams_through_slices_are_the_same_run) {
+  const std::map<std::string, std::string> golden = golden_digests();
+  ASSERT_TRUE(golden.contains(GetParam()));
+  EXPECT_EQ(to_string(run(shipped(GetParam(), {"world.engine=slice"})).digest), golden.at(GetParam()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenario, Golden,
                          ::testing::Values("office.yaml", "office-10.yaml", "office-one-processor.yaml"),
                          [](const auto& info) {

@@ -7,10 +7,12 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "world/fcl/beam_caster.hpp"
 #include "world/fcl/scene.hpp"
 #include "world/motion/contact_loop.hpp"
 #include "world/sensors/laser.hpp"
 #include "world/sensors/sonar.hpp"
+#include "world/slice/footprints.hpp"
 #include "world/start_check.hpp"
 #include "world/vehicles/base.hpp"
 #include "world/vehicles/odometer.hpp"
@@ -34,6 +36,10 @@ std::vector<Shape> shapes_of(const std::vector<BodyDescription>& bodies) {
     shapes.back().pose = compose(body.start, body.shape.pose);
   }
   return shapes;
+}
+
+Footprints footprints_of(const WorldDescription& description) {
+  return Footprints(description.engine == Engine::slice ? shapes_of(description.obstacles) : std::vector<Shape>{});
 }
 
 /// A concave corner of an obstacle with another one.
@@ -101,7 +107,9 @@ class FclWorld final : public World {
   std::uint64_t steps_ = 0;
   std::vector<Body> bodies_;
   Scene obstacle_scene_;
-  Scene body_scene_;                          // bodies as published at the last step but one: where the last step began
+  Footprints footprints_;  // the same obstacles; none where FCL finds neighbours
+  Scene body_scene_;       // bodies as published at the last step but one: where the last step began
+  BeamCaster caster_;
   std::vector<std::vector<Corner>> corners_;  // of each obstacle with later ones; only if there are sonars
 
   // Buffers of one call, kept so that steps and scans allocate nothing.
@@ -109,7 +117,6 @@ class FclWorld final : public World {
   std::vector<Arc> arcs_;
   std::vector<Mover> movers_;
   mutable std::vector<std::uint32_t> near_, near_bodies_;
-  mutable std::vector<Point> directions_;
   mutable std::vector<Echo> echoes_;
 };
 
@@ -117,7 +124,9 @@ FclWorld::FclWorld(const WorldDescription& description, std::uint64_t seed)
     : description_(description),
       step_s_(description.step.seconds()),
       obstacle_scene_(shapes_of(description.obstacles)),
-      body_scene_(shapes_of(description.bodies), roam_m) {
+      footprints_(footprints_of(description)),
+      body_scene_(shapes_of(description.bodies), roam_m),
+      caster_(description, obstacle_scene_, body_scene_) {
   WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
   WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
   find_corners();
@@ -132,7 +141,7 @@ void FclWorld::reset(std::uint64_t seed) {
   }
   bodies_.clear();
   for (const BodyDescription& body : description_.bodies) bodies_.emplace_back(body, seed);
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) body_scene_.place(i, bodies_[i].outline);
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) caster_.place(i, bodies_[i].outline);
 }
 
 void FclWorld::command(BodyId id, Velocity velocity) {
@@ -153,7 +162,7 @@ void FclWorld::latch() {
     Body& body = bodies_[i];
     body.state.velocity = next_velocity(body.description->base, body.state.velocity, body.wanted, step_s_);
     arcs_.push_back({body.state.pose, body.state.velocity.v_m_s * step_s_, body.state.velocity.w_rad_s * step_s_});
-    if (body.state.arc.distance_m != 0 || body.state.arc.turn_rad != 0) body_scene_.place(i, body.outline);
+    if (body.state.arc.distance_m != 0 || body.state.arc.turn_rad != 0) caster_.place(i, body.outline);
   }
 }
 
@@ -175,7 +184,10 @@ void FclWorld::move() {
 void FclWorld::find_meetings(std::uint32_t body, double path_max_m) {
   const Shape& shape = bodies_[body].description->shape;
   const Bounds swept = bounds_of(bodies_[body].outline).grown(movers_[body].path_m() + 2 * contact_gap_m);
-  obstacle_scene_.near(swept, shape.z_low_m, shape.z_high_m, near_);
+  if (description_.engine == Engine::slice)
+    footprints_.near(swept, Scene::padding_m, shape.z_low_m, shape.z_high_m, near_);
+  else
+    obstacle_scene_.near(swept, shape.z_low_m, shape.z_high_m, near_);
   for (const std::uint32_t obstacle : near_) contacts_.add_obstacle(body, obstacle_scene_.outline(obstacle));
   if (bodies_.size() == 1) return;
   body_scene_.near(swept.grown(path_max_m), shape.z_low_m, shape.z_high_m, near_);
@@ -224,7 +236,7 @@ std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
   body.state.stalled = false;
   body.outline = outline;
   // To the others' sensors it stands there already, as if it had been published so at the last step but one.
-  body_scene_.place(own, outline);
+  caster_.place(own, outline);
   return std::nullopt;
 }
 
@@ -268,7 +280,10 @@ bool FclWorld::remove_obstacle(const std::string& name) {
 void FclWorld::change_obstacles(std::vector<Obstacle> obstacles) {
   if (!first_obstacles_) first_obstacles_ = description_.obstacles;
   description_.obstacles = std::move(obstacles);
-  obstacle_scene_ = Scene(shapes_of(description_.obstacles));
+  const std::vector<Shape> shapes = shapes_of(description_.obstacles);
+  obstacle_scene_ = Scene(shapes);
+  footprints_ = footprints_of(description_);
+  caster_.stand(shapes);
   find_corners();
 }
 
@@ -283,25 +298,19 @@ void FclWorld::scan(BodyId id, std::size_t laser_number, std::uint64_t scan_numb
   const LaserDescription& device = body.description->lasers[laser_number];
   const Pose at = compose(body.state.pose, device.mount);
   const auto [s, c] = exact::sincos(at.heading);
-  directions_.clear();
-  for (const Point& d : laser.directions()) directions_.push_back({c * d.x - s * d.y, s * d.x + c * d.y});
   out.first_angle_rad = laser.first_angle_rad();
   out.angle_step_rad = laser.angle_step_rad();
   out.range_max_m = device.range_max_m;
-  out.range_m.assign(directions_.size(), device.range_max_m);
-  obstacle_scene_.cast(at.position(), directions_, device.height_m, Scene::none, out.range_m);
-  body_scene_.cast(at.position(), directions_, device.height_m, static_cast<std::uint32_t>(id), out.range_m);
+  out.range_m.resize(laser.directions().size());
+  caster_.cast({at.position(), {c, s}, laser.angle_step_rad(), laser.directions()}, device.height_m,
+               static_cast<std::uint32_t>(id), device.range_max_m, out.range_m);
   laser.measure(scan_number, out.range_m);
 }
 
 double FclWorld::cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const {
   const auto [s, c] = exact::sincos(beam.heading_rad);
-  const Point direction = {c, s};
-  double range = range_max_m;
-  obstacle_scene_.cast(beam.origin, {&direction, 1}, beam.height_m, Scene::none, {&range, 1});
-  body_scene_.cast(beam.origin, {&direction, 1}, beam.height_m, own ? static_cast<std::uint32_t>(*own) : Scene::none,
-                   {&range, 1});
-  return range;
+  return caster_.cast(beam.origin, {c, s}, beam.height_m, own ? static_cast<std::uint32_t>(*own) : Scene::none,
+                      range_max_m);
 }
 
 void FclWorld::find_corners() {
@@ -361,9 +370,7 @@ double FclWorld::nearest_echo(const SonarCone& cone, Point origin, double height
     return std::tie(a.distance_m, a.direction.x, a.direction.y) < std::tie(b.distance_m, b.direction.x, b.direction.y);
   });
   for (const Echo& echo : echoes_) {
-    double clear_m = echo.distance_m;
-    obstacle_scene_.cast(origin, {&echo.direction, 1}, height_m, Scene::none, {&clear_m, 1});
-    body_scene_.cast(origin, {&echo.direction, 1}, height_m, own, {&clear_m, 1});
+    const double clear_m = caster_.cast(origin, echo.direction, height_m, own, echo.distance_m);
     // What answers is itself hit at its own distance, but for rounding.
     if (clear_m >= echo.distance_m - 1e-9) return echo.distance_m;
   }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/fcl/beam_caster.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+std::vector<double> sliced_heights(const WorldDescription& description) {
+  std::vector<double> heights;
+  if (description.engine != Engine::slice) return heights;
+  for (const BodyDescription& body : description.bodies) {
+    for (const LaserDescription& laser : body.lasers) heights.push_back(laser.height_m);
+    for (const SonarRingDescription& ring : body.sonars) heights.push_back(ring.height_m);
+  }
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  return heights;
+}
+
+std::vector<Shape> moving_shapes(const WorldDescription& description) {
+  std::vector<Shape> shapes;
+  if (description.engine != Engine::slice) return shapes;
+  for (const BodyDescription& body : description.bodies) shapes.push_back(body.shape);
+  return shapes;
+}
+
+}  // namespace
+
+BeamCaster::BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& bodies)
+    : obstacles_(obstacles),
+      bodies_(bodies),
+      heights_m_(sliced_heights(description)),
+      moving_(moving_shapes(description)) {
+  std::vector<Shape> shapes;
+  for (const Obstacle& obstacle : description.obstacles) shapes.push_back(obstacle.shape);
+  stand(shapes);
+  for (std::uint32_t i = 0; i < moving_.size(); ++i) moving_.place(i, bodies.outline(i));
+}
+
+void BeamCaster::stand(std::span<const Shape> obstacles) {
+  slices_.clear();
+  for (const double height_m : heights_m_) slices_.emplace_back(obstacles, height_m);
+}
+
+void BeamCaster::place(std::uint32_t body, const Outline& outline) {
+  bodies_.place(body, outline);
+  if (moving_.size() > 0) moving_.place(body, outline);
+}
+
+const Slice* BeamCaster::slice_at(double height_m) const {
+  const auto found = std::lower_bound(heights_m_.begin(), heights_m_.end(), height_m);
+  return found == heights_m_.end() || *found != height_m
+             ? nullptr
+             : &slices_[static_cast<std::size_t>(found - heights_m_.begin())];
+}
+
+void BeamCaster::cast(const Fan& fan, double height_m, std::uint32_t own, double range_max_m,
+                      std::span<double> ranges_m) const {
+  WAITPOINT_CHECK(fan.directions.size() == ranges_m.size(), "as many directions as ranges");
+  if (const Slice* slice = slice_at(height_m)) {
+    buffer_.begin(fan, range_max_m);
+    buffer_.lower(*slice);
+    buffer_.lower(moving_, height_m, own);
+    std::copy(buffer_.ranges_m().begin(), buffer_.ranges_m().end(), ranges_m.begin());
+    return;
+  }
+  directions_.clear();
+  for (const Point& d : fan.directions)
+    directions_.push_back({fan.axis.x * d.x - fan.axis.y * d.y, fan.axis.y * d.x + fan.axis.x * d.y});
+  std::fill(ranges_m.begin(), ranges_m.end(), range_max_m);
+  obstacles_.cast(fan.origin, directions_, height_m, Scene::none, ranges_m);
+  bodies_.cast(fan.origin, directions_, height_m, own, ranges_m);
+}
+
+double BeamCaster::cast(Point origin, Point direction, double height_m, std::uint32_t own, double range_max_m) const {
+  const Point ahead = {1, 0};
+  double range_m = range_max_m;
+  cast({origin, direction, 0, {&ahead, 1}}, height_m, own, range_max_m, {&range_m, 1});
+  return range_m;
+}
+
+}  // namespace waitpoint::world

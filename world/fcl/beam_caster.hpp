@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What planar beams hit of a world, found by the engine that its description names: by walks of FCL's trees, or by
+// exact slices where a sensor of the description has its height. Ranges are the same bits either way.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "world/description.hpp"
+#include "world/fcl/scene.hpp"
+#include "world/slice/depth_buffer.hpp"
+
+namespace waitpoint::world {
+
+class BeamCaster {
+ public:
+  /// The scenes must outlive it; solids are numbered as there.
+  BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& bodies);
+
+  /// Tells it what the scene of obstacles was made of anew.
+  void stand(std::span<const Shape> obstacles);
+  /// Moves a body, in the scene of bodies too.
+  void place(std::uint32_t body, const Outline& outline);
+
+  /// The distance of each beam to the first obstacle, or body other than `own` (Scene::none: all count); range_max_m
+  /// where none is nearer. As many ranges as directions.
+  void cast(const Fan& fan, double height_m, std::uint32_t own, double range_max_m, std::span<double> ranges_m) const;
+  /// The same for one beam.
+  double cast(Point origin, Point direction, double height_m, std::uint32_t own, double range_max_m) const;
+
+ private:
+  const Slice* slice_at(double height_m) const;
+
+  const Scene& obstacles_;
+  Scene& bodies_;
+  std::vector<double> heights_m_;  // at which there are slices: all different
+  std::vector<Slice> slices_;
+  MovingSolids moving_;  // none without slices
+
+  // Of one call, kept so that scans allocate nothing.
+  mutable DepthBuffer buffer_;
+  mutable std::vector<Point> directions_;
+};
+
+}  // namespace waitpoint::world
