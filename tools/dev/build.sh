@@ -27,8 +27,8 @@ configure() {
 # Peers of the benchmarks that were installed since build/ was set up: Meson looks for libraries only then.
 look_for_peers() {
   local peer
-  for peer in boost-fiber simgrid systemc; do
-    if ! grep -qF "tests/bench/kernel-$peer:" "$build/build.ninja"; then
+  for peer in kernel-boost-fiber: kernel-simgrid: kernel-systemc: world.p/world_of_embree world.p/world_of_box2d; do
+    if ! grep -qF "tests/bench/$peer" "$build/build.ninja"; then
       meson setup --reconfigure "$build" "$root" >&2
       return
     fi

@@ -12,8 +12,8 @@
 #include "core/error.hpp"
 #include "tests/bench/kernel/cases.hpp"
 #include "tests/bench/kernel/measured.hpp"
-#include "tests/bench/kernel/surroundings.hpp"
 #include "tests/bench/rows.hpp"
+#include "tests/bench/surroundings.hpp"
 
 namespace waitpoint::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/bench/kernel/surroundings.hpp"
+#include "tests/bench/surroundings.hpp"
 
 #include <fmt/format.h>
 #include <sys/utsname.h>

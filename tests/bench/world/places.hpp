@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The places that scans are measured in, the same at every run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "world/description.hpp"
+
+namespace waitpoint::bench {
+
+struct Place {
+  std::string name;
+  double length_m = 0, width_m = 0;  ///< from the origin
+  std::vector<world::Shape> obstacles;
+  std::vector<world::Shape> robots;  ///< discs, apart from each other and from what stands there
+  std::vector<Pose> stations;        ///< in free space: the first are the robots' own
+};
+
+/// 40 x 30 m: rooms of 10 x 10 m with doors, furnished, 300 obstacles in all.
+Place office(std::size_t robots);
+/// 200 x 200 m: racks, pallets and columns, 5 000 obstacles.
+Place warehouse(std::size_t robots);
+
+}  // namespace waitpoint::bench
