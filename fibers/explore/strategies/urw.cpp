@@ -23,8 +23,6 @@ std::uint64_t Urw::expected(const Profile::TaskEvents& task) const {
   return count;
 }
 
-bool Urw::has_met(const Task& task) const { return task.number < ids_.size() && ids_[task.number] != 0; }
-
 // A task that is seen for the first time: what it is to do is its maker's no longer.
 void Urw::meet(const Task& task) {
   if (ids_.size() <= task.number) {
@@ -45,11 +43,12 @@ bool Urw::counts(const Task& task) const {
 }
 
 std::uint32_t Urw::weighted(const SwitchPoint& at) {
+  const std::uint64_t* const remaining = remaining_.data();
   std::uint64_t sum = 0;
-  for (const Task* task : at.ready) sum += remaining_[task->number] + 1;
+  for (const Task* task : at.ready) sum += remaining[task->number] + 1;
   std::uint64_t drawn = draws_.below(sum);
   std::uint32_t chosen = 0;
-  for (; drawn > remaining_[at.ready[chosen]->number]; ++chosen) drawn -= remaining_[at.ready[chosen]->number] + 1;
+  for (; drawn > remaining[at.ready[chosen]->number]; ++chosen) drawn -= remaining[at.ready[chosen]->number] + 1;
   return chosen;
 }
 

@@ -20,7 +20,7 @@ class Urw final : public Drawn {
  private:
   void start(const Profile& profile) override;
   std::uint64_t expected(const Profile::TaskEvents& task) const;
-  bool has_met(const Task& task) const;
+  bool has_met(const Task& task) const { return task.number < ids_.size() && ids_[task.number] != 0; }
   void meet(const Task& task);
   bool counts(const Task& task) const;
   std::uint32_t weighted(const SwitchPoint& at);
