@@ -107,6 +107,10 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
             "--property colisions=0: unknown key 'colisions', did you mean 'collisions'?; there are goals_reached, "
             "collisions, position_error_max_m");
   EXPECT_EQ(message({"a", "--property", "collisions"}), "--property collisions: expected key=value");
+  EXPECT_EQ(message({"a", "--property", "collisions=x"}),
+            "--property collisions=x: expected a whole number, found 'x'");
+  EXPECT_EQ(message({"a", "--replay", "wx1.0.00000000.=", "--strategy", "random"}),
+            "--replay: cannot be used together with --strategy");
   EXPECT_TRUE(message({"a", "--strategy", "pcd"}).starts_with("strategy: unknown strategy 'pcd', did you mean 'pct'?"));
   EXPECT_EQ(message({"a", "--strategy", "dfs"}),
             "--strategy: expected a strategy that draws its schedules, as a scenario has too many to try all of them, "

@@ -57,6 +57,14 @@ std::string assignment_of(const std::string& property) {
     for (const std::string_view name : known) all.append(all.empty() ? "" : ", ").append(name);
     throw BadInput(option, "unknown key '" + key + "'" + did_you_mean(key, known) + "; there are " + all);
   }
+  const std::string value = property.substr(equals + 1);
+  std::uint64_t count = 0;
+  double length_m = 0;
+  if (key == "position_error_max_m" && (!parse_number(value, length_m) || !(length_m > 0)))
+    refuse(option, "a positive number of metres", value);
+  if (key == "collisions" && !parse_number(value, count)) refuse(option, "a whole number", value);
+  if (key == "goals_reached" && value != "all" && !parse_number(value, count))
+    refuse(option, "a whole number or all", value);
   return "expect." + property;
 }
 
