@@ -5,27 +5,22 @@
 
 #include <cstdlib>
 
-#include "core/error.hpp"
-#include "tools/options.hpp"
+#include "tests/tools/command_line.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-Options read(std::vector<const char*> arguments) {
-  arguments.insert(arguments.begin(), {"waitpoint", "explore"});
-  return read_options(static_cast<int>(arguments.size()), arguments.data(), "waitpoint 1.2.3");
+// Of `waitpoint explore`.
+std::vector<const char*> words(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "explore");
+  return arguments;
 }
 
-ExploreOptions explore(const std::vector<const char*>& arguments) { return std::get<ExploreOptions>(read(arguments)); }
-
-std::string message(const std::vector<const char*>& arguments) {
-  try {
-    read(arguments);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+ExploreOptions explore(const std::vector<const char*>& arguments) {
+  return std::get<ExploreOptions>(read(words(arguments)));
 }
+
+std::string refusal(const std::vector<const char*>& arguments) { return message(words(arguments)); }
 
 class ExploreCommandLine : public ::testing::Test {
  protected:
@@ -94,7 +89,7 @@ TEST_F(ExploreCommandLine, the_environment_says_what_the_command_line_does_not) 
   EXPECT_EQ(options.iterations, 11u);
   EXPECT_EQ(options.replay, "wx1.0.00000000.=1-1");
   setenv("WAITPOINT_ITERATIONS", "many", 1);
-  EXPECT_EQ(message({"a"}), "WAITPOINT_ITERATIONS: expected a whole number, found 'many'");
+  EXPECT_EQ(refusal({"a"}), "WAITPOINT_ITERATIONS: expected a whole number, found 'many'");
 }
 
 TEST_F(ExploreCommandLine, a_time_limit_alone_is_the_only_limit) {
@@ -103,31 +98,31 @@ TEST_F(ExploreCommandLine, a_time_limit_alone_is_the_only_limit) {
 }
 
 TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
-  EXPECT_EQ(message({"a", "--property", "colisions=0"}),
+  EXPECT_EQ(refusal({"a", "--property", "colisions=0"}),
             "--property colisions=0: unknown key 'colisions', did you mean 'collisions'?; there are goals_reached, "
             "collisions, position_error_max_m");
-  EXPECT_EQ(message({"a", "--property", "collisions"}), "--property collisions: expected key=value");
-  EXPECT_EQ(message({"a", "--property", "collisions=x"}),
+  EXPECT_EQ(refusal({"a", "--property", "collisions"}), "--property collisions: expected key=value");
+  EXPECT_EQ(refusal({"a", "--property", "collisions=x"}),
             "--property collisions=x: expected a whole number, found 'x'");
-  EXPECT_EQ(message({"a", "--replay", "wx1.0.00000000.=", "--strategy", "random"}),
+  EXPECT_EQ(refusal({"a", "--replay", "wx1.0.00000000.=", "--strategy", "random"}),
             "--replay: cannot be used together with --strategy");
-  EXPECT_TRUE(message({"a", "--strategy", "pcd"}).starts_with("strategy: unknown strategy 'pcd', did you mean 'pct'?"));
-  EXPECT_EQ(message({"a", "--strategy", "dfs"}),
+  EXPECT_TRUE(refusal({"a", "--strategy", "pcd"}).starts_with("strategy: unknown strategy 'pcd', did you mean 'pct'?"));
+  EXPECT_EQ(refusal({"a", "--strategy", "dfs"}),
             "--strategy: expected a strategy that draws its schedules, as a scenario has too many to try all of them, "
             "found 'dfs'");
   for (const char* shard : {"0/2", "3/2", "1", "1/0", "a/b", "1/2/3"})
-    EXPECT_EQ(message({"a", "--shard", shard}),
+    EXPECT_EQ(refusal({"a", "--shard", shard}),
               std::string("--shard: expected I/N with 1 <= I <= N, found '") + shard + "'");
-  EXPECT_EQ(message({"a", "--jobs", "0"}), "--jobs: expected a whole number from 1 to 1024, found '0'");
-  EXPECT_EQ(message({"a", "--from", "20", "--until", "10"}), "--from: expected a time before --until, found '20'");
-  EXPECT_EQ(message({"a", "--iterations", "-1"}), "--iterations: expected a whole number, found '-1'");
-  EXPECT_EQ(message({"a", "--replay", "wx1.0.zz"}),
+  EXPECT_EQ(refusal({"a", "--jobs", "0"}), "--jobs: expected a whole number from 1 to 1024, found '0'");
+  EXPECT_EQ(refusal({"a", "--from", "20", "--until", "10"}), "--from: expected a time before --until, found '20'");
+  EXPECT_EQ(refusal({"a", "--iterations", "-1"}), "--iterations: expected a whole number, found '-1'");
+  EXPECT_EQ(refusal({"a", "--replay", "wx1.0.zz"}),
             "replay: expected eight hexadecimal digits of a digest, not 'zz', in the token 'wx1.0.zz'");
-  EXPECT_EQ(message({"a", "--replay", "f", "--results", "r"}), "--replay: cannot be used together with --results");
+  EXPECT_EQ(refusal({"a", "--replay", "f", "--results", "r"}), "--replay: cannot be used together with --results");
 }
 
 TEST_F(ExploreCommandLine, help_names_options_strategies_and_exit_statuses) {
-  const std::string help = std::get<ShownText>(read({"--help"})).text;
+  const std::string help = std::get<ShownText>(read(words({"--help"}))).text;
   for (const char* word : {"--strategy", "--iterations", "--time-limit", "--jobs", "--seed", "--property", "--until",
                            "--from", "--set", "--shard", "--results", "--replay", "--schedule", "--trace",
                            "--no-minimize", "portfolio, fifo, random, pct:D", "Exit status: 0"})

@@ -6,28 +6,14 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "core/error.hpp"
+#include "tests/tools/command_line.hpp"
 #include "tests/tools/folder.hpp"
 #include "tools/version.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-Options read(std::vector<const char*> arguments) {
-  arguments.insert(arguments.begin(), "waitpoint");
-  return read_options(static_cast<int>(arguments.size()), arguments.data(), "waitpoint 1.2.3");
-}
-
 RunOptions run(const std::vector<const char*>& arguments) { return std::get<RunOptions>(read(arguments)); }
-
-std::string message(const std::vector<const char*>& arguments) {
-  try {
-    read(arguments);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
-}
 
 class CommandLine : public ::testing::Test {
  protected:
