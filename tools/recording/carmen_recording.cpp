@@ -20,20 +20,14 @@ CarmenRecording::CarmenRecording(const std::filesystem::path& path, const bridge
   file_.write("# CARMEN Logfile\n");
 }
 
-// Nothing may be thrown through the world's task: what fails here is told at the end.
-void CarmenRecording::observe(const bridge::Experiment& experiment, Time) {
-  if (failure_ != nullptr) return;
-  try {
-    if (robots_.empty())
-      for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
-        robots_.push_back({RobotPosters(scenario_.robots[i], *experiment.robots()[i]), std::nullopt});
-    for (std::size_t i = 0; i < robots_.size(); ++i) record(experiment, i);
-  } catch (...) {
-    failure_ = std::current_exception();
-  }
+void CarmenRecording::record(const bridge::Experiment& experiment, Time) {
+  if (robots_.empty())
+    for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
+      robots_.push_back({RobotPosters(scenario_.robots[i], *experiment.robots()[i]), std::nullopt});
+  for (std::size_t i = 0; i < robots_.size(); ++i) record_robot(experiment, i);
 }
 
-void CarmenRecording::record(const bridge::Experiment& experiment, std::size_t i) {
+void CarmenRecording::record_robot(const bridge::Experiment& experiment, std::size_t i) {
   OfRobot& robot = robots_[i];
   const std::string& name = scenario_.robots[i].name;
   if (const auto odometry = robot.posters.odometry()) {
@@ -53,9 +47,6 @@ void CarmenRecording::record(const bridge::Experiment& experiment, std::size_t i
   file_.write(fmt::format("TRUEPOS {} {}", text(truth), text(*robot.odometry)) + ending(scan->date, name));
 }
 
-void CarmenRecording::finish(const bridge::RunResult&) {
-  if (failure_ != nullptr) std::rethrow_exception(failure_);
-  file_.commit();
-}
+void CarmenRecording::commit(const bridge::RunResult&) { file_.commit(); }
 
 }  // namespace waitpoint::tools

@@ -8,8 +8,6 @@
 // The laser's pose is in the odometry's frame. The format has one laser: of each robot the first one.
 #pragma once
 
-#include <exception>
-
 #include "tools/output_file.hpp"
 #include "tools/recording/recording.hpp"
 #include "tools/recording/robot_posters.hpp"
@@ -21,21 +19,19 @@ class CarmenRecording final : public Recording {
   /// Throws BadInput if the file cannot be written.
   CarmenRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
 
-  void observe(const bridge::Experiment& experiment, Time now) override;
-  void finish(const bridge::RunResult& result) override;
-
  private:
   struct OfRobot {
     RobotPosters posters;
     std::optional<Pose> odometry;
   };
 
-  void record(const bridge::Experiment& experiment, std::size_t robot);
+  void record(const bridge::Experiment& experiment, Time now) override;
+  void commit(const bridge::RunResult& result) override;
+  void record_robot(const bridge::Experiment& experiment, std::size_t i);
 
   const bridge::Scenario& scenario_;
   OutputFile file_;
   std::vector<OfRobot> robots_;
-  std::exception_ptr failure_;
 };
 
 }  // namespace waitpoint::tools

@@ -49,18 +49,8 @@ void McapRecording::begin(const bridge::Experiment& experiment) {
   }
 }
 
-// Nothing may be thrown through the world's task: what fails here is told at the end.
-void McapRecording::observe(const bridge::Experiment& experiment, Time now) {
-  if (failure_ != nullptr) return;
-  try {
-    if (robots_.empty()) begin(experiment);
-    record(experiment, now);
-  } catch (...) {
-    failure_ = std::current_exception();
-  }
-}
-
 void McapRecording::record(const bridge::Experiment& experiment, Time now) {
+  if (robots_.empty()) begin(experiment);
   const world::World& world = experiment.world();
   const bool is_sampled = !sampled_ || now - *sampled_ >= sampling;
   if (is_sampled) {
@@ -77,11 +67,11 @@ void McapRecording::record(const bridge::Experiment& experiment, Time now) {
       file_.write(frames_, now, foxglove::frame_transform(now, root, name, truth));
       file_.write(robots_[i].truth, now, foxglove::pose_in_frame(now, root, truth));
     }
-    record(robots_[i], name, now);
+    record_robot(robots_[i], name, now);
   }
 }
 
-void McapRecording::record(OfRobot& robot, const std::string& name, Time now) {
+void McapRecording::record_robot(OfRobot& robot, const std::string& name, Time now) {
   const std::string believed = name + "/position";
   if (const auto odometry = robot.posters.odometry())
     file_.write(robot.odometry, now, foxglove::pose_in_frame(odometry->position.date, root, odometry->position.pose));
@@ -102,8 +92,7 @@ void McapRecording::record(OfRobot& robot, const std::string& name, Time now) {
   }
 }
 
-void McapRecording::finish(const bridge::RunResult& result) {
-  if (failure_ != nullptr) std::rethrow_exception(failure_);
+void McapRecording::commit(const bridge::RunResult& result) {
   for (const bridge::RobotResult& robot : result.robots) {
     const std::uint16_t goals = file_.add_channel(log_, "/" + robot.name + "/goals");
     for (const bridge::GoalResult& goal : robot.goals) {

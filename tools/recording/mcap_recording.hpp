@@ -10,8 +10,6 @@
 //   /ROBOT/goals      what became of its goals, in words
 #pragma once
 
-#include <exception>
-
 #include "tools/recording/mcap_file.hpp"
 #include "tools/recording/recording.hpp"
 #include "tools/recording/robot_posters.hpp"
@@ -23,9 +21,6 @@ class McapRecording final : public Recording {
   /// Throws BadInput if the file cannot be written.
   McapRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
 
-  void observe(const bridge::Experiment& experiment, Time now) override;
-  void finish(const bridge::RunResult& result) override;
-
  private:
   struct OfRobot {
     RobotPosters posters;
@@ -34,8 +29,9 @@ class McapRecording final : public Recording {
   };
 
   void begin(const bridge::Experiment& experiment);
-  void record(const bridge::Experiment& experiment, Time now);
-  void record(OfRobot& robot, const std::string& name, Time now);
+  void record(const bridge::Experiment& experiment, Time now) override;
+  void commit(const bridge::RunResult& result) override;
+  void record_robot(OfRobot& robot, const std::string& name, Time now);
 
   const bridge::Scenario& scenario_;
   McapFile file_;
@@ -44,7 +40,6 @@ class McapRecording final : public Recording {
   std::vector<OfRobot> robots_;
   std::string drawn_;  // of the world, as it was recorded last
   std::optional<Time> sampled_;
-  std::exception_ptr failure_;
 };
 
 }  // namespace waitpoint::tools

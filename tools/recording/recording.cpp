@@ -7,6 +7,20 @@
 
 namespace waitpoint::tools {
 
+void Recording::observe(const bridge::Experiment& experiment, Time now) {
+  if (failure_ != nullptr) return;
+  try {
+    record(experiment, now);
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
+
+void Recording::finish(const bridge::RunResult& result) {
+  if (failure_ != nullptr) std::rethrow_exception(failure_);
+  commit(result);
+}
+
 std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const bridge::Scenario& scenario) {
   if (path.extension() == ".mcap") return std::make_unique<McapRecording>(path, scenario);
   if (path.extension() == ".log") return std::make_unique<CarmenRecording>(path, scenario);

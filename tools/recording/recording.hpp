@@ -5,6 +5,7 @@
 // the same whether it is recorded or not, and the same run gives the same bytes.
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <memory>
 
@@ -15,10 +16,17 @@ namespace waitpoint::tools {
 class Recording {
  public:
   virtual ~Recording() = default;
-  /// After a step of the world, at `now`.
-  virtual void observe(const bridge::Experiment& experiment, Time now) = 0;
+  /// After a step of the world, at `now`. Throws nothing, as it would be through the world's task: what fails is told
+  /// by finish().
+  void observe(const bridge::Experiment& experiment, Time now);
   /// The run is over: gives the file its name. Throws BadInput where it could not be written.
-  virtual void finish(const bridge::RunResult& result) = 0;
+  void finish(const bridge::RunResult& result);
+
+ private:
+  virtual void record(const bridge::Experiment& experiment, Time now) = 0;
+  virtual void commit(const bridge::RunResult& result) = 0;
+
+  std::exception_ptr failure_;
 };
 
 /// Of the kind that the file's extension says; BadInput for another one, or where the file cannot be written.
