@@ -76,13 +76,12 @@ std::uint32_t Calendar::detach_all() {
   return chain;
 }
 
-std::uint64_t Calendar::next_occupied() const {
-  if (in_ring_ == 0) return limit_;
-  // The buckets before the limit, once around the ring at most.
-  for (std::uint64_t number = cursor_;; number = (number | 63) + 1) {
+std::uint64_t Calendar::next_occupied(std::uint64_t number) const {
+  for (; number < limit_; number = (number | 63) + 1) {
     const std::uint64_t word = occupied_[(number & mask_) / 64] >> number % 64;
     if (word != 0) return number + static_cast<std::uint64_t>(std::countr_zero(word));
   }
+  return limit_;
 }
 
 void Calendar::move_limit() {
@@ -110,7 +109,7 @@ std::uint32_t Calendar::take_next(EventEntry* to) {
     move_limit();
     sort_far_out();
   }
-  cursor_ = next_occupied();
+  cursor_ = next_occupied(cursor_);
   const std::uint32_t bucket = static_cast<std::uint32_t>(cursor_) & mask_;
   std::uint32_t count = 0;
   for (std::uint32_t slot = heads_[bucket]; slot != none; ++count) {
@@ -128,10 +127,16 @@ std::uint32_t Calendar::take_next(EventEntry* to) {
     sort_far_out();
   }
   sort(to, to + count);
-  // By the time it is asked for, the bucket after is in the cache.
-  const std::uint64_t next = next_occupied();
-  if (next != limit_) fetch(&slots_[heads_[static_cast<std::uint32_t>(next) & mask_]]);
   return count;
+}
+
+void Calendar::prepare_next(std::uint32_t buckets) const {
+  std::uint64_t number = cursor_;
+  for (std::uint32_t i = 0; i < buckets; ++i, ++number) {
+    number = next_occupied(number);
+    if (number == limit_) return;
+    fetch(&slots_[heads_[static_cast<std::uint32_t>(number) & mask_]]);
+  }
 }
 
 }  // namespace waitpoint::kernel

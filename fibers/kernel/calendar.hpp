@@ -66,6 +66,8 @@ class Calendar {
   /// Returns how many; 0 only if there is none at all. They keep their places until they are released: their nodes,
   /// which lie in as many pages, are not touched.
   std::uint32_t take_next(EventEntry* to);
+  /// Has the next `buckets` in the cache by the time they are asked for.
+  void prepare_next(std::uint32_t buckets) const;
   bool was_taken(const EventNode& node) const { return slots_[node.index()].previous == taken; }
   const EventKey& key(const EventNode& node) const { return slots_[node.index()].key; }
   /// Ends an event that was taken.
@@ -119,8 +121,8 @@ class Calendar {
   }
   // All slots as one chain.
   std::uint32_t detach_all();
-  // The first bucket from the cursor on that has events; the limit if there is none.
-  std::uint64_t next_occupied() const;
+  // The first bucket from `number` on that has events; the limit if there is none.
+  std::uint64_t next_occupied(std::uint64_t number) const;
   void move_limit();
   void sort_far_out();
 

@@ -54,6 +54,7 @@ void Scheduler::unwind() {
   // they may be gone with the frames that own them, and read as fresh in the next run.
   while (!events_.empty()) events_.pop();
   ready_.clear();
+  present_.clear();
   // Each entry ends its task, which unlinks it.
   while (last_task_ != nullptr) {
     Task& task = *last_task_;

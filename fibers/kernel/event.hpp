@@ -37,7 +37,8 @@ struct EventKey {
 
 struct EventNode {
   static constexpr std::uint32_t absent = 0xFFFFFFFF;
-  static constexpr std::uint32_t ready = 0xFFFFFFFE;  // with others of its instant, see ready_set.hpp
+  static constexpr std::uint32_t ready =
+      0xFFFFFFFE;  // with others of its instant, see ready_set.hpp and present_queue.hpp
 
   // Which part of the event list has the event, and where.
   enum class Part : std::uint32_t { heap = 0, run = 1, calendar = 2 };

@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "core/error.hpp"
+#include "fibers/kernel/fetch.hpp"
 
 namespace waitpoint::kernel {
 namespace {
@@ -57,7 +58,7 @@ void EventList::remove(EventNode& node) {
   WAITPOINT_CHECK(node.in_list(), "an event to remove is not in the list");
   switch (node.part()) {
     case EventNode::Part::heap: heap_.remove(node.index()); break;
-    case EventNode::Part::run: remove_from_run(node.index()); break;
+    case EventNode::Part::run: remove_from_run(find_from(node.index(), node)); break;
     case EventNode::Part::calendar:
       if (!calendar_.was_taken(node)) {
         calendar_.remove(node);
@@ -81,8 +82,13 @@ std::uint32_t EventList::find_in_run(const EventNode& node) const {
   const EventEntry* entry =
       std::lower_bound(run_ + run_head_, run_ + run_end_, calendar_.key(node),
                        [](const EventEntry& entry, const EventKey& key) { return entry.key < key; });
-  while (entry->node != &node) ++entry;
-  return static_cast<std::uint32_t>(entry - run_);
+  return find_from(static_cast<std::uint32_t>(entry - run_), node);
+}
+
+// A node knows where it was put; since then it may have been moved up, once by each that came before it near the end.
+std::uint32_t EventList::find_from(std::uint32_t index, const EventNode& node) const {
+  while (run_[index].node != &node) ++index;
+  return index;
 }
 
 void EventList::put_elsewhere(EventNode& node, const EventKey& key) {
@@ -122,15 +128,21 @@ void EventList::move_run_down() {
 
 void EventList::refill() {
   if (size_ < few) return close_calendar();
+  // What is left is little, and would wander through the memory.
+  if (run_head_ >= run_length_min) move_run_down();
+  const std::uint32_t known = run_end_;
   do {
-    // What is left is little, and would wander through the memory.
-    if (run_head_ >= run_length_min) move_run_down();
     const std::uint32_t count = calendar_.take_next(run_ + run_end_);
-    if (count == 0) return;
+    if (count == 0) break;
     run_end_ += count;
-    passed_ += count;
-    run_[run_end_].key = EventKey::never();
-  } while (run_end_ - run_head_ < lookahead_);
+  } while (run_end_ - run_head_ < lookahead_ + batch);
+  passed_ += run_end_ - known;
+  run_[run_end_].key = EventKey::never();
+  // Each is in a page of its own, which the processor has not seen for long. The looks for where the pages are take the
+  // time of one only where they follow each other closely.
+  for (std::uint32_t i = known; i < run_end_; ++i) fetch(run_[i].node);
+  for (std::uint32_t i = known; i < run_end_; ++i) fetch(reinterpret_cast<const char*>(run_[i].node) + 64);
+  calendar_.prepare_next(batch);
 }
 
 void EventList::keep_up() {

@@ -75,10 +75,11 @@ class EventList {
   void advance(Time time) { present_ns_ = static_cast<std::uint64_t>(time.ns()); }
 
  private:
-  static constexpr std::uint32_t few = 12;   // events below which a calendar is given up
-  static constexpr std::uint32_t many = 32;  // from which on one is taken
-  static constexpr std::uint32_t lookahead = 4;
-  static constexpr std::uint32_t reach = 12;           // entries of the run that an event may come before
+  static constexpr std::uint32_t few = 12;       // events below which a calendar is given up
+  static constexpr std::uint32_t many = 32;      // from which on one is taken
+  static constexpr std::uint32_t lookahead = 8;  // where there is a calendar, events that are known ahead at least
+  static constexpr std::uint32_t batch = 8;      // and how many more are made known at once then
+  static constexpr std::uint32_t reach = 12;     // entries of the run that an event may come before
   static constexpr std::uint32_t run_length_min = 64;  // the run begins anew when so much was passed
   static constexpr std::uint32_t calibration_period_min = 512;
 
@@ -89,20 +90,15 @@ class EventList {
   }
   // Into its place in the run, if that is near its end; else to the others.
   [[gnu::always_inline]] void put(EventNode& node, const EventKey& key) {
-    EventEntry* const end = run_ + run_end_;
-    EventEntry* at = end;
-    const EventEntry* const farthest = run_end_ - run_head_ <= reach ? run_ + run_head_ : end - reach;
-    while (at != farthest && key < at[-1].key) --at;
-    const bool is_near = at != farthest || at == run_ + run_head_;
-    if (__builtin_expect(!is_near || key.due_ns() >= calendar_.horizon() || run_end_ >= run_bound_, 0))
+    EventEntry* at = run_ + run_end_;
+    const bool is_far = run_end_ - run_head_ > reach && key < at[-std::ptrdiff_t{reach}].key;
+    if (__builtin_expect(is_far || key.due_ns() >= calendar_.horizon() || run_end_ >= run_bound_, 0))
       return put_elsewhere(node, key);
-    for (EventEntry* to = end; to != at; --to) {
-      *to = to[-1];
-      note_place_in_run(*to);
-    }
+    at[1].key = EventKey::never();
+    // Those that are moved up are not told: see find_from().
+    for (const EventEntry* const head = run_ + run_head_; at != head && key < at[-1].key; --at) *at = at[-1];
     *at = {key, &node};
     node.place = EventNode::in_run(static_cast<std::uint32_t>(at - run_));
-    end[1].key = EventKey::never();
     ++run_end_;
   }
   // Events that came from the calendar keep their places there.
@@ -151,6 +147,7 @@ class EventList {
   void tidy_run();
   void remove_from_run(std::uint32_t index);
   std::uint32_t find_in_run(const EventNode& node) const;
+  std::uint32_t find_from(std::uint32_t index, const EventNode& node) const;
   void refill();
   void keep_up();
   void calibrate();

@@ -29,7 +29,7 @@ void copy_name(char (&to)[name_size], const char* from) {
 }
 
 // A parked task's registers, and the frames from its switch up to its own code.
-constexpr int stack_lines_fetched = 6;
+constexpr int stack_lines_fetched = 5;
 
 }  // namespace
 
@@ -130,7 +130,7 @@ RunState Scheduler::run_before(Time until) {
   if (cause_ != StopCause::none) return RunState::stopped;
   if (paused_ != nullptr) {
     Task& task = *paused_;
-    if (precedes(task, events_.least().key)) {
+    if (precedes(task, next_key())) {
       if (task.local_time >= until_) return RunState::reached;
       paused_ = nullptr;
       switch_to(task);
@@ -148,8 +148,10 @@ RunState Scheduler::run_before(Time until) {
 Fiber& Scheduler::next_fiber() {
   if (__builtin_expect(is_explored(), 0)) return next_explored();
   for (;;) {
+    if (!present_.empty() && now_ < until_ && !(events_.least().key < EventKey{now_, present_.order()}))
+      return go(present_.take()).fiber;
     EventNode* node = events_.pop_before(until_);
-    if (node == nullptr) return outside(events_.empty() ? RunState::idle : RunState::reached);
+    if (node == nullptr) return outside(pending_events() == 0 ? RunState::idle : RunState::reached);
     if (Task* task = due(*node, events_.present())) return task->fiber;
   }
 }
@@ -172,10 +174,6 @@ inline void Scheduler::prepare_coming() const {
   if (soon == nullptr || soon->fire != nullptr) return;
   const char* stack = static_cast<const char*>(reinterpret_cast<const Task*>(soon)->fiber.context);
   for (std::ptrdiff_t line = 0; line < stack_lines_fetched; ++line) fetch(stack + 64 * line);
-  if (const EventNode* later = events_.coming(2)) {
-    fetch(later);
-    fetch(reinterpret_cast<const char*>(later) + 64);
-  }
 }
 
 void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
@@ -238,6 +236,10 @@ Fiber& Scheduler::give_way(Task& task, Time time) {
   if (time >= until_) {
     events_.insert(task.event, own);
     return outside(RunState::reached);
+  }
+  if (!present_.empty()) {
+    events_.insert(task.event, own);
+    return next_fiber();
   }
   EventNode& least = events_.pop();
   events_.insert(task.event, own);

@@ -17,6 +17,7 @@
 #include "core/time.hpp"
 #include "fibers/kernel/chooser.hpp"
 #include "fibers/kernel/event_list.hpp"
+#include "fibers/kernel/present_queue.hpp"
 #include "fibers/kernel/ready_set.hpp"
 #include "fibers/kernel/stack_arena.hpp"
 #include "fibers/kernel/task.hpp"
@@ -190,7 +191,7 @@ class Scheduler {
   Duration lookahead() const { return lookahead_; }
 
   /// Events in the list: those of tasks that can go on or wait with a finite timeout, and those of timers.
-  std::uint32_t pending_events() const { return events_.size() + ready_.size(); }
+  std::uint32_t pending_events() const { return events_.size() + ready_.size() + present_.size(); }
 
   Time global_time() const { return now_; }
   Chooser& chooser() { return chooser_; }
@@ -237,6 +238,7 @@ class Scheduler {
   bool waitpoint_in_the_list(Task& task, Operation operation, Object* object);
   bool look_at_clock_slowly(Task& task, Time& local);
   bool arrive(Task& task);
+  bool take_place(Task& task, Operation operation, Object* object);
   bool arrive_after_signal(Task& task);
   bool end_segment(Task& task);
   void start_waiting(Task& task, Object& object);
@@ -271,6 +273,8 @@ class Scheduler {
   Task& go(Task& task);
   bool is_explored() const { return chooser_.order() == Order::explored; }
   void place(Task& task, Time time);
+  void place_timeout(Task& task, Time time);
+  EventKey next_key() const;
   void prepare_coming() const;
   void resume(Task& task);
   void hash_events_of(Robot& robot);
@@ -291,7 +295,8 @@ class Scheduler {
   bool closes_a_cycle(Task& task);
 
   EventList events_;
-  ReadySet ready_;  // of the events of the present instant, where somebody else decides
+  PresentQueue present_;  // of the events of the present instant: those put in at it, first-in-first-out
+  ReadySet ready_;        // or all, where somebody else decides
   StackArena arena_;
   Chooser chooser_;
   Fiber main_;

@@ -43,10 +43,25 @@ inline void Scheduler::put(EventNode& node, const EventKey& key) {
 
 // The task's event at `time`.
 inline void Scheduler::place(Task& task, Time time) {
-  if (__builtin_expect(is_explored(), 0) && time <= now_ && task.phase == Phase::tasks)
-    ready_.add(task);
-  else
-    events_.insert(task.event, key(task, time));
+  if (time <= now_ && task.phase == Phase::tasks) {
+    if (chooser_.order() == Order::fifo) return present_.add(task, key(task, time).order);
+    if (is_explored()) return ready_.add(task);
+  }
+  events_.insert(task.event, key(task, time));
+}
+
+// The same, of a task that waits until then at the longest, and may be taken out again.
+inline void Scheduler::place_timeout(Task& task, Time time) {
+  if (__builtin_expect(is_explored(), 0)) return place(task, time);
+  events_.insert(task.event, key(task, time));
+}
+
+// Of the least event.
+inline EventKey Scheduler::next_key() const {
+  const EventKey& least = events_.least().key;
+  if (present_.empty()) return least;
+  const EventKey first{now_, present_.order()};
+  return first < least ? first : least;
 }
 
 // The one place where fibers are switched. What is decided before is decided in functions that have returned: a parked

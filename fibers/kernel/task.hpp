@@ -97,15 +97,14 @@ struct WaitSearch {
 };
 
 struct Task {
-  // What every event touches, in the first cache lines. The event comes first: an event's node is its task.
+  // What every event touches, in the first two cache lines. The event comes first: an event's node is its task.
   EventNode event;
   Time local_time;
   Robot* robot = nullptr;
   std::uint64_t id = 0;        ///< from robot and creation path
   std::uint64_t sequence = 0;  ///< its events so far
   Object* at = nullptr;        ///< the object of its last waitpoint, if any
-  Fiber fiber;
-  std::uint32_t turns = 0;  ///< waitpoints passed at its local time
+  std::uint32_t turns = 0;     ///< waitpoints passed at its local time
   Phase phase = Phase::tasks;
   TaskState state = TaskState::ready;
   Operation operation = Operation::start;
@@ -115,11 +114,13 @@ struct Task {
   bool finite_wait = false;  ///< blocked with a finite timeout
   bool shared_wait = false;  ///< blocked where it would hold the object together with others
   bool describe = false;     ///< asked to write down its own call stack and to switch back
+  Fiber fiber;
 
   Object* blocked_on = nullptr;
-  Object* held = nullptr;  ///< what it owns: the latest, then by Object::next_held
-  Task* next_waiter = nullptr;
+  Object* held = nullptr;       ///< what it owns: the latest, then by Object::next_held
+  Task* next_waiter = nullptr;  // or, of those that are ready at the present instant, see present_queue.hpp
   Task* previous_waiter = nullptr;
+  std::uint64_t queue_order = 0;  // its event's, while it is in that queue
   Scheduler* scheduler = nullptr;
   Task* next = nullptr;  // all tasks of the run in the order of their making, in an intrusive list
   Task* previous = nullptr;

@@ -23,8 +23,10 @@ bool waits_behind_a_writer(const Object& object) {
   return false;
 }
 
+bool waits_for_ever(const Task& task) { return task.state == TaskState::blocked && !task.finite_wait; }
+
 Tasks awaited_by(const Task& task) {
-  if (task.state != TaskState::blocked || task.finite_wait) return {};
+  if (!waits_for_ever(task)) return {};
   const Object& object = *task.blocked_on;
   if (object.owner != nullptr) return {&object.owner, 1};
   if (object.holder_count == 0 || (task.shared_wait && !waits_behind_a_writer(object))) return {};
@@ -34,6 +36,9 @@ Tasks awaited_by(const Task& task) {
 }  // namespace
 
 bool Scheduler::closes_a_cycle(Task& task) {
+  // Mostly who holds it goes on.
+  const Task* owner = task.blocked_on->owner;
+  if (owner != nullptr && !waits_for_ever(*owner)) return false;
   ++searches_;
   Task* at = &task;
   at->search = {searches_, nullptr, nullptr, 0, true};

@@ -26,7 +26,7 @@ Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
   task.state = TaskState::blocked;
   task.finite_wait = deadline != Time::max();
   if (task.finite_wait) {
-    place(task, deadline < now_ ? now_ : deadline);
+    place_timeout(task, deadline < now_ ? now_ : deadline);
   } else if ((object.owner != nullptr || object.holder_count != 0) && closes_a_cycle(task)) {
     cause_ = StopCause::deadlock;
     return outside(RunState::stopped);

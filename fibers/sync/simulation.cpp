@@ -73,7 +73,7 @@ void Simulation::add(kernel::Robot& robot, const char* name) {
 }
 
 void Simulation::spawn(kernel::Robot& robot, const kernel::SpawnOptions& options, std::function<void()> body) {
-  sync::start_thread(scheduler_, robot, options, std::move(body));
+  sync::start_thread(scheduler_, robot, options, sync::make_call(std::move(body)));
 }
 
 RunEnd Simulation::run_before(Time until) {

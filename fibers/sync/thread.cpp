@@ -20,16 +20,16 @@ struct LocalsEnd {
 };
 
 void run_thread(void* argument) {
-  // The task's own share of the state; the handle may be gone before.
-  const std::unique_ptr<std::shared_ptr<ThreadState>> share(static_cast<std::shared_ptr<ThreadState>*>(argument));
-  ThreadState& state = **share;
+  // The handle may be gone before.
+  const std::shared_ptr<ThreadState> share = std::move(static_cast<ThreadState*>(argument)->share);
+  ThreadState& state = *share;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   try {
     const LocalsEnd locals_end{state};
-    const std::function<void()> body = std::move(state.body);
+    const std::unique_ptr<Call> call = std::move(state.call);
     // What the function owns is let go while an exception is under way, so that its destructors need not wait.
     if (scheduler.unwinding()) throw Unwind();
-    body();
+    call->run();
     if (!scheduler.unwinding()) check_holds_nothing(*kernel::running);
   } catch (const Unwind&) {
   } catch (...) {
@@ -65,7 +65,7 @@ void run_thread(void* argument) {
 
 ThreadState* thread_of(const kernel::Task& task) {
   if (task.entry != run_thread || task.argument == nullptr) return nullptr;
-  return static_cast<std::shared_ptr<ThreadState>*>(task.argument)->get();
+  return static_cast<ThreadState*>(task.argument);
 }
 
 LocalValues& values_of_running_task() {
@@ -75,30 +75,30 @@ LocalValues& values_of_running_task() {
 }
 
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
-                                          kernel::SpawnOptions options, std::function<void()> body,
+                                          kernel::SpawnOptions options, std::unique_ptr<Call> call,
                                           const Computing& computing) {
   auto state = std::make_shared<ThreadState>();
-  state->body = std::move(body);
+  state->call = std::move(call);
   if (!computing.clock.plain()) options.clock = &state->clock.emplace(computing.clock);
   if (computing.on != nullptr) options.seat = &state->seat.emplace(computing.on->core(), computing.priority);
-  auto share = std::make_unique<std::shared_ptr<ThreadState>>(state);
-  state->task = scheduler.spawn(robot, options, run_thread, share.get());
+  state->task = scheduler.spawn(robot, options, run_thread, state.get());
   if (state->task == nullptr) {
     if (!scheduler.unwinding()) refuse(scheduler, robot, options);
     return state;
   }
-  (void)share.release();  // run_thread has it now
+  state->share = state;
   state->id = state->task->id;
   return state;
 }
 
 }  // namespace sync
 
-std::shared_ptr<sync::ThreadState> thread::start(const thread_attributes& attributes, std::function<void()> body) {
+std::shared_ptr<sync::ThreadState> thread::start(const thread_attributes& attributes,
+                                                 std::unique_ptr<sync::Call> call) {
   kernel::Task& parent = sync::running_task();
   const kernel::SpawnOptions options{attributes.name, attributes.stack, parent.phase, attributes.service};
   const sync::Computing computing{attributes.clock, attributes.on, attributes.priority};
-  return sync::start_thread(*parent.scheduler, *parent.robot, options, std::move(body), computing);
+  return sync::start_thread(*parent.scheduler, *parent.robot, options, std::move(call), computing);
 }
 
 thread& thread::operator=(thread&& other) noexcept {

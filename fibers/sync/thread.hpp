@@ -10,11 +10,11 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "fibers/kernel/task_clock.hpp"
+#include "fibers/sync/call.hpp"
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/local_values.hpp"
 #include "fibers/sync/processor.hpp"
@@ -42,7 +42,8 @@ struct TaskSignals;
 
 /// What a thread's handle and its task share; it lives until both are gone.
 struct ThreadState {
-  std::function<void()> body;
+  std::unique_ptr<Call> call;          ///< null once it began
+  std::shared_ptr<ThreadState> share;  ///< the task's, until it ends
   kernel::Object ended{"end of thread"};
   kernel::Task* task = nullptr;  ///< null once it ended
   std::optional<kernel::TaskClock> clock;
@@ -61,9 +62,9 @@ struct Computing {
   int priority = 0;
 };
 
-/// Makes a task of `robot` that runs `body`; std::system_error where no more can be had.
+/// Makes a task of `robot` that runs `call`; std::system_error where no more can be had.
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
-                                          kernel::SpawnOptions options, std::function<void()> body,
+                                          kernel::SpawnOptions options, std::unique_ptr<Call> call,
                                           const Computing& computing = {});
 
 /// The state of the thread that `task` is; null once its function has returned, and for a task that is no thread.
@@ -98,11 +99,8 @@ class thread {
       : thread(thread_attributes{}, std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
   template <class Function, class... Arguments>
   thread(const thread_attributes& attributes, Function&& function, Arguments&&... arguments)
-      : state_(
-            start(attributes, [call = std::make_shared<std::tuple<std::decay_t<Function>, std::decay_t<Arguments>...>>(
-                                   std::forward<Function>(function), std::forward<Arguments>(arguments)...)] {
-              std::apply([](auto&&... parts) { std::invoke(std::move(parts)...); }, std::move(*call));
-            })) {}
+      : state_(start(attributes,
+                     sync::make_call(std::forward<Function>(function), std::forward<Arguments>(arguments)...))) {}
   thread(thread&& other) noexcept = default;
   /// As std::thread: the target must not be joinable, or the program ends.
   thread& operator=(thread&& other) noexcept;
@@ -136,7 +134,8 @@ class thread {
  private:
   friend signal_sent send_signal(const thread& to, int signal);
   bool join_before(Time deadline);
-  static std::shared_ptr<sync::ThreadState> start(const thread_attributes& attributes, std::function<void()> body);
+  static std::shared_ptr<sync::ThreadState> start(const thread_attributes& attributes,
+                                                  std::unique_ptr<sync::Call> call);
 
   std::shared_ptr<sync::ThreadState> state_;
 };

@@ -106,7 +106,7 @@ void Experiment::spawn(Robot& robot) {
   const genom::TaskComputing& computing = robot.computing();
   sync::start_thread(simulation_.scheduler(), lane,
                      {.name = "executive", .stack = kernel::StackSize::large, .service = robot.goals() == 0},
-                     [&robot] { robot.run(); }, {computing.clock, computing.on, computing.priority});
+                     sync::make_call([&robot] { robot.run(); }), {computing.clock, computing.on, computing.priority});
 }
 
 void Experiment::run_world() {

@@ -90,13 +90,13 @@ std::string Operator::carry_out(const ModuleRequest& request, const Intervention
   genom::Settings arguments(request.arguments);
   const genom::Payload input =
       owner.names().find_module(request.module)->find_request(request.request)->read_input(arguments);
-  const auto ask = [this, &owner, request, input, text = whole.text] {
+  auto ask = [this, &owner, request, input, text = whole.text] {
     genom::Client client(owner.names(), "operator");
     const genom::Reply reply = client.call(request.module, request.request, input);
     outcomes_.push_back({now(), text + ": " + text_of(reply.report)});
   };
   kernel::Robot& lane = *lanes_[index];
-  sync::start_thread(*lane.scheduler, lane, {.name = "operator", .service = true}, ask);
+  sync::start_thread(*lane.scheduler, lane, {.name = "operator", .service = true}, sync::make_call(std::move(ask)));
   return "sent";
 }
 

@@ -12,7 +12,8 @@ PARTS = {0: ("events_.heap_.entries_", "EventEntry"), 1: ("events_.run_", "Event
          2: ("events_.calendar_.slots_", "Calendar::Slot")}
 
 
-READY = 0xFFFFFFFE  # the place of an event that is due now, where somebody else decides the order: see ready_set.hpp
+RUN = 1  # the part in whose entries a node may have been moved up since it was told where it is
+READY = 0xFFFFFFFE  # the place of an event that is due now: see ready_set.hpp and present_queue.hpp
 
 
 class Task(records.Record):
@@ -107,6 +108,10 @@ def due(task, scheduler):
     path, name = PARTS[location >> 30]
     size = records.record_type(name).sizeof
     entry = scheduler.number(path) + (location & (2**30 - 1)) * size
+    if location >> 30 == RUN:
+        offset, width, _ = records.place(name, "node")
+        while int.from_bytes(records.memory(entry + offset, width), "little") != task.address:
+            entry += size
     offset, width, _ = records.place(name, "key.time.ns_")
     return int.from_bytes(records.memory(entry + offset, width), "little")
 

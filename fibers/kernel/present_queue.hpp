@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tasks whose events were put in for the present instant: the head of the event list, where the order is
+// first-in-first-out.
+//
+// Such an event goes behind all of its instant that were put in before, so that it needs no search for its place; and
+// most events are such: a task is woken by another, or gives way to those that tie with it. In the list there may be
+// earlier ones of this instant, which its least key tells.
+#pragma once
+
+#include <cstdint>
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::kernel {
+
+class PresentQueue {
+ public:
+  bool empty() const { return first_ == nullptr; }
+  std::uint32_t size() const { return size_; }
+  /// The place of the first among the events of its instant; there must be one.
+  std::uint64_t order() const { return first_->queue_order; }
+
+  /// `task` must be neither here nor in the event list, and come behind all that are here.
+  void add(Task& task, std::uint64_t order) {
+    WAITPOINT_CHECK(!task.event.in_list(), "a task becomes ready twice");
+    task.event.place = EventNode::ready;
+    task.queue_order = order;
+    task.next_waiter = nullptr;
+    (first_ == nullptr ? first_ : last_->next_waiter) = &task;
+    last_ = &task;
+    ++size_;
+  }
+  /// Takes out the first; there must be one.
+  Task& take() {
+    Task& task = *first_;
+    first_ = task.next_waiter;
+    task.event.place = EventNode::absent;
+    --size_;
+    return task;
+  }
+  void clear() {
+    while (!empty()) take();
+  }
+
+ private:
+  Task* first_ = nullptr;
+  Task* last_ = nullptr;
+  std::uint32_t size_ = 0;
+};
+
+}  // namespace waitpoint::kernel
