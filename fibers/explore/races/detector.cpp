@@ -34,7 +34,7 @@ void Detector::access_word(std::uint64_t address, std::uint32_t size, std::uint8
   if (is_switch_point(shadow_[index], kind, at)) {
     pass_switch_point(operation, shadow_[index]);
     if (!watching_) return;
-    index = shadow_.cell_of(address / 8);  // what others did meanwhile may have forgotten it
+    if (shadow_[index].word != address / 8) index = shadow_.cell_of(address / 8);  // others have forgotten it meanwhile
   }
   record(index, bytes_of(address, size), static_cast<std::uint8_t>(size), kind, at);
 }
@@ -92,31 +92,46 @@ inline void Detector::record(std::uint32_t index, std::uint8_t bytes, std::uint8
         (latest.writes() || (kind & kind::write) == 0) && (!latest.is_atomic() || (kind & kind::atomic) != 0))
       return;
   }
-  const MemoryAccess access = {place,
-                               epoch,
-                               self.calls.path(paths_),
-                               static_cast<std::uint32_t>(kernel::running->sequence),
-                               self.index,
-                               bytes,
-                               static_cast<std::uint8_t>(kind & 3),
-                               static_cast<std::uint8_t>(size & 63)};
+  const std::uint32_t calls = self.calls.path(paths_);
+  // Written field by field to where it belongs: a copy of what was just put together waits for all of it.
+  const auto note_in = [&](MemoryAccess& access) {
+    access.place = place;
+    access.epoch = epoch;
+    access.calls = calls;
+    access.event = static_cast<std::uint32_t>(kernel::running->sequence);
+    access.task = self.index;
+    access.bytes = bytes;
+    access.kind = static_cast<std::uint8_t>(kind & 3);
+    access.size = static_cast<std::uint8_t>(size & 63);
+  };
+  const bool writes = (kind & kind::write) != 0, is_atomic = (kind & kind::atomic) != 0;
   self.accessed = epoch;
   if (!cell.touched) {
     cell.touched = true;
     cell.owner = self.index;
-    cell.written = access.writes() && access.is_atomic();
-    cell.latest = access;
+    cell.written = writes && is_atomic;
+    note_in(cell.latest);
     return;
   }
   cell.several |= cell.owner != self.index;
-  cell.written |= access.writes() && (cell.several || access.is_atomic());
+  cell.written |= writes && (cell.several || is_atomic);
+  const auto is_ordered = [&](const MemoryAccess& earlier) {
+    return earlier.task == self.index || earlier.epoch <= self.clock.of(earlier.task);
+  };
+  // Mostly it comes in the place of the one before.
+  if (const MemoryAccess& latest = cell.latest; cell.more == no_more && !learning_ && (latest.bytes & ~bytes) == 0 &&
+                                                (writes || !latest.writes()) && (!is_atomic || latest.is_atomic()) &&
+                                                is_ordered(latest))
+    return note_in(cell.latest);
 
+  MemoryAccess access;
+  note_in(access);
   // What the new access stands for makes room for it; what is left moves back.
   MemoryAccess kept[1 + more_max];
   int count = 0;
   const auto look_at = [&](const MemoryAccess& earlier) {
     if (earlier.bytes == 0) return;
-    const bool ordered = earlier.task == self.index || earlier.epoch <= self.clock.of(earlier.task);
+    const bool ordered = is_ordered(earlier);
     const bool races = !ordered && earlier.conflicts_with(access);
     if (races) report(cell, earlier, access);
     cell.written |= races;

@@ -121,6 +121,8 @@ class Detector {
   CallPaths paths_;
   Arena clocks_;
   HashTable<SyncPoint> sync_points_;
+  const void* recent_sync_at_ = nullptr;
+  VectorClock* recent_sync_point_ = nullptr;
   HashTable<bool> learned_;  // places of code
   Table<TaskRecord> tasks_;
   Table<FreeIndex> free_indices_;

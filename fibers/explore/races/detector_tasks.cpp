@@ -35,6 +35,7 @@ void Detector::begin_run() {
   tasks_.reset();
   free_indices_.reset();
   race_count_ = 0;
+  recent_sync_at_ = nullptr;
   weight_ = 0;
   indices_ = 0;
   if (outside_ == nullptr) outside_ = &fresh_context();
@@ -110,9 +111,13 @@ void Detector::update_watching() {
 
 // --- what happens before what ---
 
+// What is acquired is mostly released next.
 VectorClock& Detector::sync_point(const void* at) {
+  if (at == recent_sync_at_) return *recent_sync_point_;
   SyncPoint& point = sync_points_[reinterpret_cast<std::uint64_t>(at)];
   if (point.run != run_) point = {VectorClock(), run_};
+  recent_sync_at_ = at;
+  recent_sync_point_ = &point.clock;
   return point.clock;
 }
 

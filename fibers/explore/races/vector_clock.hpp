@@ -36,8 +36,10 @@ inline void extend(VectorClock& clock, std::uint32_t size, Arena& arena) {
 /// `clock` knows what `other` knows, too.
 inline void join(VectorClock& clock, const VectorClock& other, Arena& arena) {
   extend(clock, other.size, arena);
-  for (std::uint32_t i = 0; i < other.size; ++i)
-    if (other.epochs[i] > clock.epochs[i]) clock.epochs[i] = other.epochs[i];
+  for (std::uint32_t i = 0; i < other.size; ++i) {  // without a branch: which is greater cannot be foretold
+    const Epoch own = clock.epochs[i], others = other.epochs[i];
+    clock.epochs[i] = others > own ? others : own;
+  }
 }
 
 /// `clock` knows what `other` knows, and nothing else.

@@ -56,13 +56,13 @@ std::uint32_t Urw::weighted(const SwitchPoint& at) {
 std::uint32_t Urw::selected(const SwitchPoint& at) {
   const bool waits = std::find(at.ready.begin(), at.ready.end(), intended_) == at.ready.end();
   if (intended_ == nullptr || waits) intended_ = at.ready[weighted(at)];
+  if (free_.size() < at.ready.size()) free_.resize(at.ready.size());
   std::uint32_t free = 0;
-  for (const Task* task : at.ready) free += task == intended_ || !counts(*task);
-  std::uint32_t drawn = draw(free);
-  for (std::uint32_t i = 0;; ++i) {
-    if (at.ready[i] != intended_ && counts(*at.ready[i])) continue;
-    if (drawn-- == 0) return i;
+  for (std::uint32_t i = 0; i < at.ready.size(); ++i) {
+    free_[free] = i;
+    free += at.ready[i] == intended_ || !counts(*at.ready[i]);
   }
+  return free_[draw(free)];
 }
 
 std::uint32_t Urw::next(const SwitchPoint& at) {

@@ -32,6 +32,7 @@ class Urw final : public Drawn {
   std::vector<std::uint64_t> remaining_;  // by Task::number: events that count, its own and of those to be made
   std::vector<std::uint64_t> ids_;        // by Task::number
   const Task* intended_ = nullptr;        // who is next at the object
+  std::vector<std::uint32_t> free_;       // which of the ready may go on
 };
 
 }  // namespace waitpoint::exploration
