@@ -25,13 +25,16 @@ void take(const char* name, Number& number, const char* expected) {
 
 bool came_to_replay = false;
 
+[[noreturn]] void refuse(const std::string& why) {
+  std::fflush(nullptr);
+  std::fprintf(stderr, "waitpoint: %s\n", why.c_str());
+  std::_Exit(2);
+}
+
 void check_replayed() {
   if (came_to_replay) return;
-  std::fflush(nullptr);
-  std::fprintf(stderr,
-               "waitpoint: WAITPOINT_REPLAY: expected a token of this program, found '%s': there was no such call\n",
-               variable("WAITPOINT_REPLAY").c_str());
-  std::_Exit(2);
+  refuse("WAITPOINT_REPLAY: expected a token of this program, found '" + variable("WAITPOINT_REPLAY") +
+         "': there was no such call");
 }
 
 // As a shell takes it for one.
@@ -57,6 +60,12 @@ ExploreOptions with_environment(ExploreOptions options) {
     [[maybe_unused]] static const int registered = std::atexit(check_replayed);
   }
   return options;
+}
+
+void refuse_environment(const BadInput& input) {
+  for (const char* name :
+       {"WAITPOINT_STRATEGY", "WAITPOINT_SEED", "WAITPOINT_ITERATIONS", "WAITPOINT_TIME_LIMIT", "WAITPOINT_REPLAY"})
+    if (!variable(name).empty()) refuse(input.what());
 }
 
 std::string trace_file() { return variable("WAITPOINT_TRACE"); }

@@ -3,12 +3,17 @@
 // _REPLAY and _TRACE.
 #pragma once
 
+#include "core/error.hpp"
 #include "fibers/explore/explore.hpp"
 
 namespace waitpoint::exploration {
 
 /// `options`, but for what the environment says. Throws BadInput, which names the variable.
 ExploreOptions with_environment(ExploreOptions options);
+
+/// Where the environment asks for something, ends the program with a line that says what is wrong with it, and status
+/// 2: it is whoever started the program, and no test, that is at fault.
+void refuse_environment(const BadInput& input);
 
 /// The run that WAITPOINT_REPLAY asks for is about to be replayed. A program that ends without, says so and ends with
 /// status 2.

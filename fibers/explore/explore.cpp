@@ -19,12 +19,7 @@ std::uint32_t count_call(const std::string& test) {
   return ++calls;
 }
 
-}  // namespace
-
-ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<void()> body,
-                           const ExploreOptions& asked) {
-  WAITPOINT_CHECK(kernel::running == nullptr, "schedules are explored from within a run");
-  ExploreOptions options = exploration::with_environment(asked);
+ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<void()> body, ExploreOptions options) {
   const std::uint32_t call = count_call(checks != nullptr ? checks->name() : "");
   if (options.replay.empty()) return exploration::Campaign(checks, std::move(body), options, call).run();
   const exploration::Token token = exploration::read_token(options.replay);
@@ -36,6 +31,19 @@ ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<voi
   }
   options.iterations = 0;  // the token is another call's: this one has to be passed to come there
   return exploration::Campaign(checks, std::move(body), options, call).run();
+}
+
+}  // namespace
+
+ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<void()> body,
+                           const ExploreOptions& asked) {
+  WAITPOINT_CHECK(kernel::running == nullptr, "schedules are explored from within a run");
+  try {
+    return explore_call(checks, std::move(body), exploration::with_environment(asked));
+  } catch (const BadInput& input) {
+    exploration::refuse_environment(input);
+    throw;
+  }
 }
 
 std::ostream& operator<<(std::ostream& out, const ExploreReport& report) {

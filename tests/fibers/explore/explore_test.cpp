@@ -246,7 +246,20 @@ TEST(Explore, TheEnvironmentSaysWhatToDoInAnyProgram) {
   with("WAITPOINT_ITERATIONS", "7", [] { EXPECT_EQ(explore([] {}).schedules, 8U); });
   with("WAITPOINT_STRATEGY", "dfs", [] { EXPECT_TRUE(explore([] {}).complete); });
   with("WAITPOINT_TIME_LIMIT", "0.000001", [] { EXPECT_LT(explore([] {}).schedules, 9U); });
-  with("WAITPOINT_SEED", "nine", [] { EXPECT_THROW(explore([] {}), BadInput); });
+}
+
+// Whoever started the program is at fault, no test of it.
+TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusTwo) {
+  const auto explore_with = [](const char* name, const char* value) {
+    setenv(name, value, 1);
+    explore([] {});
+  };
+  const auto status_two = ::testing::ExitedWithCode(2);
+  EXPECT_EXIT(explore_with("WAITPOINT_SEED", "nine"), status_two,
+              "^waitpoint: WAITPOINT_SEED: expected a whole number from 0 to 2\\^64 - 1, found 'nine'\n$");
+  EXPECT_EXIT(explore_with("WAITPOINT_STRATEGY", "pcd"), status_two, "^waitpoint: strategy: unknown strategy 'pcd'");
+  EXPECT_EXIT(explore_with("WAITPOINT_REPLAY", "wx1.nonsense"), status_two, "^waitpoint: ");
+  EXPECT_THROW(explore([] {}, {.strategy = "pcd"}), BadInput);  // of the test's own making
 }
 
 TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
