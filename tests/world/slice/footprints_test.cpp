@@ -45,27 +45,31 @@ TEST(Footprints, NearAreThoseOfTheSceneToTheLastBit) {
   }
 }
 
-TEST(Footprints, CollideWhereFclDoes) {
-  const std::vector<Shape> shapes = random_shapes(3, 60, half_square_m);
-  const Scene scene(shapes);
-  const Footprints footprints(shapes);
-  Draws draw(4);
+TEST(Footprints, CollideWhereFclDoesOnAMillionPlacements) {
+  constexpr double half_m = 5;
   int apart = 0, together = 0;
-  for (int k = 0; k < 30'000; ++k) {
-    Shape probe = random_shape(draw, half_square_m, 1.2);
-    probe.z_low_m = k % 4 == 0 ? draw(0, 0.6) : 0;
-    probe.z_high_m = probe.z_low_m + draw(0.1, 0.5);
-    const Outline outline = outline_of(probe);
-    double nearest = HUGE_VAL;
-    for (const Shape& shape : shapes)
-      if (heights_overlap(shape, probe)) nearest = std::min(nearest, separation(outline, outline_of(shape)).distance_m);
-    ASSERT_EQ(footprints.collides(outline, probe.z_low_m, probe.z_high_m), nearest < 0) << k;
-    if (std::fabs(nearest) < 1e-6) continue;
-    ASSERT_EQ(scene.collides(probe), nearest < 0) << k << ": " << nearest;
-    ++(nearest < 0 ? together : apart);
+  for (std::uint64_t scene_number = 0; scene_number < 50; ++scene_number) {
+    const std::vector<Shape> shapes = random_shapes(100 + scene_number, 10, half_m);
+    const Scene scene(shapes);
+    const Footprints footprints(shapes);
+    Draws draw(1000 + scene_number);
+    for (int k = 0; k < 20'000; ++k) {
+      Shape probe = random_shape(draw, half_m, 1.2);
+      probe.z_low_m = k % 4 == 0 ? draw(0, 0.6) : 0;
+      probe.z_high_m = probe.z_low_m + draw(0.1, 0.5);
+      const Outline outline = outline_of(probe);
+      double nearest = HUGE_VAL;
+      for (const Shape& shape : shapes)
+        if (heights_overlap(shape, probe))
+          nearest = std::min(nearest, separation(outline, outline_of(shape)).distance_m);
+      ASSERT_EQ(footprints.collides(outline, probe.z_low_m, probe.z_high_m), nearest < 0) << scene_number << " " << k;
+      if (std::fabs(nearest) < 1e-6) continue;
+      ASSERT_EQ(scene.collides(probe), nearest < 0) << scene_number << " " << k << ": " << nearest;
+      ++(nearest < 0 ? together : apart);
+    }
   }
-  EXPECT_GT(apart, 5000);
-  EXPECT_GT(together, 5000);
+  EXPECT_GT(apart, 100'000);
+  EXPECT_GT(together, 100'000);
 }
 
 TEST(Footprints, OfNothingNothingIsNear) {
