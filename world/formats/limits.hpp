@@ -10,6 +10,8 @@ namespace waitpoint::world {
 inline constexpr std::size_t obstacle_count_max = std::size_t{1} << 20;
 /// Coordinates and sizes.
 inline constexpr double coordinate_m_max = 1e5;
+/// Angles: one beyond is meant in other units.
+inline constexpr double angle_rad_max = 1e4;
 /// Bytes of a file that is read line by line, and of those whose parsers make a tree many times as large: XML and
 /// worlds of Stage's, with all that they include, and a map's YAML.
 inline constexpr std::size_t text_bytes_max = std::size_t{1} << 26;

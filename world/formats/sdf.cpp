@@ -21,8 +21,6 @@ namespace {
 
 using Element = XmlReader::Element;
 
-constexpr double angle_rad_max = 1e4;
-
 class SdfReader {
  public:
   SdfReader(IncludedFiles& included, LeftOut& left_out) : included_(included), left_out_(left_out) {}
@@ -239,8 +237,7 @@ class SdfReader {
     for (std::size_t i = 3; i < 6; ++i)
       if (std::fabs(p[i]) > angle_rad_max) xml_->fail(*element, "expected angles in radians in <pose>");
     pose = compose(outer, space_pose({p[0], p[1], p[2]}, p[3], p[4], p[5]));
-    const auto far = [](double coordinate) { return !(std::fabs(coordinate) <= coordinate_m_max); };
-    if (far(pose.position.x) || far(pose.position.y) || far(pose.position.z)) {
+    if (!pose.position.is_within(coordinate_m_max)) {
       xml_->fail(*element, "expected a <pose> within 100 km of the world's origin");
     }
     return true;

@@ -10,6 +10,10 @@ namespace waitpoint::world {
 struct SpaceVector {
   double x = 0, y = 0, z = 0;
 
+  /// Whether each of them is at most `bound`, which a NaN is not.
+  constexpr bool is_within(double bound) const {
+    return -bound <= x && x <= bound && -bound <= y && y <= bound && -bound <= z && z <= bound;
+  }
   friend constexpr SpaceVector operator+(SpaceVector a, SpaceVector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend constexpr SpaceVector operator*(double k, SpaceVector a) { return {k * a.x, k * a.y, k * a.z}; }
 };

@@ -79,9 +79,25 @@ double XmlReader::positive(const Element& element) const {
   return number;
 }
 
-void XmlReader::read_numbers(const Element& element, std::span<double> values) const {
-  const std::string all = text_or_nothing(element);
-  std::string_view rest = all;
+std::string XmlReader::text(const Element& element, const char* attribute) const {
+  const char* found = element.Attribute(attribute);
+  if (found == nullptr || *found == '\0') {
+    fail(element, "expected " + in_brackets(element.Name()) + " to have '" + attribute + "'");
+  }
+  return found;
+}
+
+double XmlReader::positive(const Element& element, const char* attribute) const {
+  const double number = numbers<1>(element, attribute)[0];
+  if (!(number > 0)) {
+    fail(element, std::string("expected '") + attribute + "' of " + in_brackets(element.Name()) + " to be positive");
+  }
+  return number;
+}
+
+void XmlReader::read_numbers(const Element& element, const std::string& text, const std::string& attribute,
+                             std::span<double> values) const {
+  std::string_view rest = text;
   const auto next_word = [&] {
     rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
     const std::string_view word = rest.substr(0, rest.find_first_of(blanks));
@@ -95,7 +111,8 @@ void XmlReader::read_numbers(const Element& element, std::span<double> values) c
     good = good && parse_number(word, value) && std::fabs(value) <= coordinate_m_max;
   }
   if (good && next_word().empty()) return;
-  fail(element, "expected " + counted(values.size(), "number") + " within 100 km in " + in_brackets(element.Name()));
+  fail(element, "expected " + counted(values.size(), "number") + " within 100 km in " +
+                    (attribute.empty() ? "" : "'" + attribute + "' of ") + in_brackets(element.Name()));
 }
 
 }  // namespace waitpoint::world

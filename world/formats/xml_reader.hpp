@@ -41,14 +41,26 @@ class XmlReader {
   template <std::size_t count>
   std::array<double, count> numbers(const Element& element) const {
     std::array<double, count> values{};
-    read_numbers(element, values);
+    read_numbers(element, text_or_nothing(element), "", values);
     return values;
   }
   /// Above 0, at most coordinate_m_max.
   double positive(const Element& element) const;
 
+  /// The same of an attribute.
+  std::string text(const Element& element, const char* attribute) const;
+  template <std::size_t count>
+  std::array<double, count> numbers(const Element& element, const char* attribute) const {
+    std::array<double, count> values{};
+    read_numbers(element, text(element, attribute), attribute, values);
+    return values;
+  }
+  double positive(const Element& element, const char* attribute) const;
+
  private:
-  void read_numbers(const Element& element, std::span<double> values) const;
+  // `attribute` is that of the text, for messages; empty for the element's own text.
+  void read_numbers(const Element& element, const std::string& text, const std::string& attribute,
+                    std::span<double> values) const;
 
   std::string file_;
   std::unique_ptr<tinyxml2::XMLDocument> document_;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Robots in URDF.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "tests/fuzz/refusal.hpp"
+#include "world/formats/urdf.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string contents(reinterpret_cast<const char*>(data), size);
+  waitpoint::fuzz::reads_or_refuses([&] {
+    waitpoint::world::LeftOut left_out;
+    waitpoint::world::parse_urdf(contents, "urdf", left_out);
+    left_out.warnings();
+  });
+  return 0;
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/formats/urdf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/world/formats/files.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+struct Read {
+  UrdfRobot robot;
+  std::vector<std::string> warnings;
+};
+
+Read parsed(const std::string& inside) {
+  LeftOut left_out;
+  Read read;
+  read.robot = parse_urdf("<robot name='r'>\n" + inside + "</robot>", "r.urdf", left_out);
+  read.warnings = left_out.warnings();
+  return read;
+}
+
+std::string link(const std::string& name, const std::string& inside = "") {
+  return "<link name='" + name + "'>" + inside + "</link>\n";
+}
+std::string collision(const std::string& shape, const std::string& origin = "") {
+  return "<collision>" + origin + "<geometry>" + shape + "</geometry></collision>";
+}
+std::string joint(const std::string& parent, const std::string& child, const std::string& origin = "",
+                  const std::string& type = "fixed") {
+  return "<joint name='" + child + "_joint' type='" + type + "'><parent link='" + parent + "'/><child link='" + child +
+         "'/>" + origin + "</joint>\n";
+}
+const std::string hull = "<cylinder radius='0.2' length='0.3'/>";
+
+testing::AssertionResult refuses(const std::string& inside, const std::string& where, const std::string& what) {
+  return complains([&] { parsed(inside); }, where, what);
+}
+
+TEST(Urdf, OneUprightSolidIsTheShape) {
+  const Read read = parsed(link("base", collision(hull, "<origin xyz='0.1 0 0.2'/>")));
+  EXPECT_EQ(read.robot.name, "r");
+  EXPECT_EQ(read.robot.shape.kind, Shape::Kind::cylinder);
+  EXPECT_EQ(read.robot.shape.pose.position(), (Point{0.1, 0}));
+  EXPECT_EQ(read.robot.shape.radius_m, 0.2);
+  EXPECT_NEAR(read.robot.shape.z_low_m, 0.05, 1e-15);
+  EXPECT_NEAR(read.robot.shape.z_high_m, 0.35, 1e-15);
+  EXPECT_TRUE(read.warnings.empty());
+}
+
+// The robot of the figures: a hull, two wheels beside it, a laser on a mast.
+TEST(Urdf, SeveralSolidsAreTakenTogetherAndFramesFollowTheJoints) {
+  const Read read = parsed(
+      link("base", collision("<box size='0.6 0.4 0.2'/>")) +
+      link("left", collision("<cylinder radius='0.1' length='0.05'/>", "<origin rpy='1.5707963267948966 0 0'/>")) +
+      link("mast") + link("laser") + joint("base", "left", "<origin xyz='0 0.225 -0.1'/>", "continuous") +
+      joint("mast", "laser", "<origin xyz='0.1 0 0.3'/>") +
+      joint("base", "mast", "<origin xyz='0.2 0 0.1' rpy='0 0 1.5707963267948966'/>"));
+  const Shape& shape = read.robot.shape;
+  EXPECT_EQ(shape.kind, Shape::Kind::box);
+  EXPECT_NEAR(shape.length_m, 0.6, 1e-12);
+  EXPECT_NEAR(shape.width_m, 0.45, 1e-12);  // from the hull's right side to the wheel's outer one
+  EXPECT_NEAR(shape.pose.y, 0.025, 1e-12);
+  EXPECT_NEAR(shape.z_low_m, 0, 1e-12);  // the wheel stands on the floor
+  EXPECT_NEAR(shape.z_high_m, 0.3, 1e-12);
+  ASSERT_EQ(read.robot.frames.size(), 4u);
+  EXPECT_EQ(read.robot.frames[0].link, "base");
+  EXPECT_NEAR(read.robot.frames[0].pose.position.z, 0.2, 1e-12);
+  const UrdfFrame& laser = read.robot.frames[3];
+  EXPECT_EQ(laser.link, "laser");
+  EXPECT_NEAR(laser.pose.position.x, 0.2, 1e-12);
+  EXPECT_NEAR(laser.pose.position.y, 0.1, 1e-12);  // the mast is turned
+  EXPECT_NEAR(laser.pose.position.z, 0.6, 1e-12);
+  EXPECT_NEAR(laser.pose.axes[0].y, 1, 1e-12);
+  ASSERT_EQ(read.warnings.size(), 2u);
+  EXPECT_EQ(read.warnings[0], "r.urdf:6: a <joint> that is not fixed stands at 0");
+  EXPECT_EQ(read.warnings[1], "r.urdf:1: a <robot> of several solids is taken as the upright box about them");
+}
+
+TEST(Urdf, ARoundRobotStaysRound) {
+  const Read read =
+      parsed(link("base", collision(hull) + collision("<sphere radius='0.05'/>", "<origin xyz='-0.15 0 -0.15'/>")));
+  EXPECT_EQ(read.robot.shape.kind, Shape::Kind::cylinder);
+  EXPECT_NEAR(read.robot.shape.radius_m, 0.2, 1e-12);
+  EXPECT_NEAR(read.robot.shape.z_high_m, 0.35, 1e-12);
+}
+
+TEST(Urdf, WhatItDoesNotKnowIsTold) {
+  const Read read = parsed("<material name='m'/>\n" + link("base", "<visual/><inertial/>" + collision(hull)) +
+                           link("arm", "\n" + collision("<mesh filename='arm.stl'/>")) + joint("base", "arm"));
+  ASSERT_EQ(read.warnings.size(), 4u);
+  EXPECT_EQ(read.warnings[0], "r.urdf:2: <material> is left out");
+  EXPECT_EQ(read.warnings[1], "r.urdf:3: <visual> is left out");
+  EXPECT_EQ(read.warnings[3], "r.urdf:5: <mesh> is left out");
+}
+
+TEST(Urdf, BadInputIsOneLineAtItsPlace) {
+  const std::string base = link("base", collision(hull));
+  EXPECT_TRUE(refuses("", "r.urdf:1", "expected a <link>"));
+  EXPECT_TRUE(refuses(link("base"), "r.urdf:1", "nothing of the robot collides"));
+  EXPECT_TRUE(refuses(base + base, "r.urdf:3", "'base' is there already"));
+  EXPECT_TRUE(refuses(base + link("arm"), "r.urdf:3", "neither 'base' nor 'arm' is the child of a joint"));
+  EXPECT_TRUE(refuses(base + joint("base", "arm"), "r.urdf:3", "expected a link of the robot, found 'arm'"));
+  EXPECT_TRUE(refuses(base + link("a") + link("b") + joint("a", "b") + joint("b", "a"), "r.urdf:6", "found a circle"));
+  EXPECT_TRUE(refuses(link("a") + joint("a", "a"), "r.urdf:2", "found a circle"));
+  EXPECT_TRUE(refuses(base + link("a") + joint("base", "a") + joint("base", "a"), "r.urdf:5", "'a' has two"));
+  EXPECT_TRUE(refuses(link("a", collision("<box size='1 2'/>")), "r.urdf:2", "expected 3 numbers within 100 km"));
+  EXPECT_TRUE(refuses(link("a", collision("<box size='1 2 0'/>")), "r.urdf:2", "expected 'size' of <box>"));
+  EXPECT_TRUE(refuses(link("a", collision("<cylinder radius='0.1'/>")), "r.urdf:2", "to have 'length'"));
+  EXPECT_TRUE(refuses(link("a", collision("<sphere radius='nan'/>")), "r.urdf:2", "expected 1 number"));
+  EXPECT_TRUE(refuses(link("a", collision(hull, "<origin rpy='90000 0 0'/>")), "r.urdf:2", "angles in radians"));
+  EXPECT_TRUE(complains(
+      [] {
+        LeftOut left_out;
+        parse_urdf("<sdf/>", "r.urdf", left_out);
+      },
+      "r.urdf:1", "expected the outermost element to be <robot>"));
+}
+
+}  // namespace
+}  // namespace waitpoint::world

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/formats/urdf.hpp"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "core/exact_math.hpp"
+#include "world/formats/limits.hpp"
+#include "world/formats/upright.hpp"
+#include "world/formats/xml_reader.hpp"
+#include "world/planar/outline.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+using Element = XmlReader::Element;
+
+constexpr std::size_t link_count_max = 10'000;
+
+struct Link {
+  const Element* element;
+  std::string name;
+  const Element* joint = nullptr;  // by which it hangs; none of the root
+  std::vector<std::size_t> children;
+};
+
+class UrdfReader {
+ public:
+  UrdfReader(const std::string& contents, const std::string& file, LeftOut& left_out)
+      : xml_(contents, file, "robot"), left_out_(left_out) {}
+
+  UrdfRobot read() {
+    robot_.name = xml_.text(xml_.root(), "name");
+    read_links();
+    read_joints();
+    place(root(), {});
+    if (solids_.empty()) xml_.fail(xml_.root(), "expected a <collision> in some <link>: nothing of the robot collides");
+    robot_.shape = solids_.size() == 1 ? solids_[0] : around_all();
+    stand_on_floor();
+    return std::move(robot_);
+  }
+
+ private:
+  void tell(const Element& element, std::string_view what, std::string_view consequence) {
+    left_out_.add(xml_.file(), element.GetLineNum(), what, consequence);
+  }
+  void leave_out(const Element& element) { tell(element, "<" + std::string(element.Name()) + ">", "is left out"); }
+
+  void read_links() {
+    const Element* child = xml_.root().FirstChildElement();
+    for (; child != nullptr; child = child->NextSiblingElement()) {
+      const std::string_view kind = child->Name();
+      if (kind == "link") {
+        const std::string name = xml_.text(*child, "name");
+        if (!numbers_.emplace(name, links_.size()).second) {
+          xml_.fail(*child, "expected links of different names, '" + name + "' is there already");
+        }
+        if (links_.size() == link_count_max) {
+          xml_.fail(*child, "expected at most " + std::to_string(link_count_max) + " links");
+        }
+        links_.push_back({child, name, nullptr, {}});
+      } else if (kind != "joint") {
+        leave_out(*child);
+      }
+    }
+    if (links_.empty()) xml_.fail(xml_.root(), "expected a <link> in <robot>");
+  }
+
+  std::size_t link_of(const Element& joint, const char* end) const {
+    const Element& element = xml_.required(joint, end);
+    const std::string name = xml_.text(element, "link");
+    const auto found = numbers_.find(name);
+    if (found == numbers_.end()) xml_.fail(element, "expected a link of the robot, found '" + name + "'");
+    return found->second;
+  }
+
+  void read_joints() {
+    for (const Element* joint = xml_.root().FirstChildElement("joint"); joint != nullptr;
+         joint = joint->NextSiblingElement("joint")) {
+      const std::size_t parent = link_of(*joint, "parent");
+      Link& child = links_[link_of(*joint, "child")];
+      if (child.joint != nullptr) xml_.fail(*joint, "expected one joint above each link, '" + child.name + "' has two");
+      child.joint = joint;
+      links_[parent].children.push_back(static_cast<std::size_t>(&child - links_.data()));
+      if (xml_.text(*joint, "type") != "fixed") tell(*joint, "a <joint> that is not fixed", "stands at 0");
+    }
+  }
+
+  std::size_t root() const {
+    std::size_t found = links_.size();
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      if (links_[i].joint != nullptr) continue;
+      if (found != links_.size()) {
+        xml_.fail(*links_[i].element, "expected one root: neither '" + links_[found].name + "' nor '" + links_[i].name +
+                                          "' is the child of a joint");
+      }
+      found = i;
+    }
+    if (found == links_.size()) xml_.fail(*links_[0].element, "expected a tree of links, found a circle");
+    return found;
+  }
+
+  // Links in a circle beside the tree are not come to.
+  void place(std::size_t first, const SpacePose& pose) {
+    std::vector<std::pair<std::size_t, SpacePose>> open = {{first, pose}};
+    for (std::size_t next = 0; next < open.size(); ++next) {
+      const auto [number, frame] = open[next];
+      const Link& link = links_[number];
+      robot_.frames.push_back({link.name, frame});
+      read_solids(link, frame);
+      for (const std::size_t child : link.children) open.emplace_back(child, origin(*links_[child].joint, frame));
+    }
+    if (open.size() == links_.size()) return;
+    const auto is_apart = [&](const Link& link) {
+      return std::none_of(robot_.frames.begin(), robot_.frames.end(),
+                          [&](const UrdfFrame& frame) { return frame.link == link.name; });
+    };
+    const Link& apart = *std::find_if(links_.begin(), links_.end(), is_apart);
+    xml_.fail(*apart.joint, "expected a tree of links, found a circle");
+  }
+
+  void read_solids(const Link& link, const SpacePose& frame) {
+    for (const Element* child = link.element->FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      if (std::string_view(child->Name()) != "collision") {
+        leave_out(*child);
+        continue;
+      }
+      const Element& geometry = xml_.required(*child, "geometry");
+      const Element* shape = geometry.FirstChildElement();
+      if (shape == nullptr) xml_.fail(geometry, "expected a shape in <geometry>");
+      read_shape(*shape, origin(*child, frame));
+    }
+  }
+
+  void read_shape(const Element& shape, const SpacePose& pose) {
+    const std::string_view kind = shape.Name();
+    UprightSolid solid;
+    if (kind == "box") {
+      const std::array<double, 3> edges = xml_.numbers<3>(shape, "size");
+      for (const double edge : edges)
+        if (!(edge > 0)) xml_.fail(shape, "expected 'size' of <box> to be positive");
+      solid = upright_box(pose, {edges[0], edges[1], edges[2]});
+    } else if (kind == "cylinder") {
+      const double radius = xml_.positive(shape, "radius");
+      solid = upright_cylinder(pose, radius, xml_.positive(shape, "length"));
+    } else if (kind == "sphere") {
+      solid = upright_sphere(pose, xml_.positive(shape, "radius"));
+    } else {
+      return leave_out(shape);
+    }
+    solids_.push_back(solid.shape);
+  }
+
+  // The <origin> of a joint or a collision, in the outer frame.
+  SpacePose origin(const Element& holder, const SpacePose& outer) const {
+    const Element* element = holder.FirstChildElement("origin");
+    if (element == nullptr) return outer;
+    std::array<double, 3> xyz{}, rpy{};
+    if (element->Attribute("xyz") != nullptr) xyz = xml_.numbers<3>(*element, "xyz");
+    if (element->Attribute("rpy") != nullptr) rpy = xml_.numbers<3>(*element, "rpy");
+    for (const double angle : rpy)
+      if (std::fabs(angle) > angle_rad_max) xml_.fail(*element, "expected angles in radians in 'rpy' of <origin>");
+    const SpacePose pose = compose(outer, space_pose({xyz[0], xyz[1], xyz[2]}, rpy[0], rpy[1], rpy[2]));
+    if (!pose.position.is_within(coordinate_m_max)) xml_.fail(*element, "expected an <origin> within 100 km");
+    return pose;
+  }
+
+  Shape around_all() {
+    Bounds bounds = bounds_of(outline_of(solids_[0]));
+    double radius_m = 0;
+    Shape all;
+    all.z_low_m = solids_[0].z_low_m;
+    all.z_high_m = solids_[0].z_high_m;
+    for (const Shape& solid : solids_) {
+      const Outline outline = outline_of(solid);
+      const Bounds own = bounds_of(outline);
+      bounds = {{std::min(bounds.low.x, own.low.x), std::min(bounds.low.y, own.low.y)},
+                {std::max(bounds.high.x, own.high.x), std::max(bounds.high.y, own.high.y)}};
+      for (const Point p : core_points(outline))
+        radius_m = std::max(radius_m, exact::hypot(p.x, p.y) + outline.radius_m);
+      all.z_low_m = std::min(all.z_low_m, solid.z_low_m);
+      all.z_high_m = std::max(all.z_high_m, solid.z_high_m);
+    }
+    all.length_m = bounds.high.x - bounds.low.x;
+    all.width_m = bounds.high.y - bounds.low.y;
+    const bool is_round = exact::pi * radius_m * radius_m <= all.length_m * all.width_m;
+    if (is_round) {
+      all.kind = Shape::Kind::cylinder;
+      all.radius_m = radius_m;
+    } else {
+      all.pose = {0.5 * (bounds.low.x + bounds.high.x), 0.5 * (bounds.low.y + bounds.high.y), 0};
+    }
+    tell(xml_.root(), "a <robot> of several solids",
+         is_round ? "is taken as the upright cylinder about them" : "is taken as the upright box about them");
+    return all;
+  }
+
+  void stand_on_floor() {
+    const double below_m = -std::min(robot_.shape.z_low_m, 0.0);
+    robot_.shape.z_low_m += below_m;
+    robot_.shape.z_high_m += below_m;
+    for (UrdfFrame& frame : robot_.frames) frame.pose.position.z += below_m;
+  }
+
+  XmlReader xml_;
+  LeftOut& left_out_;
+  UrdfRobot robot_;
+  std::vector<Link> links_;
+  std::map<std::string, std::size_t> numbers_;  // of the links, by name
+  std::vector<Shape> solids_;
+};
+
+}  // namespace
+
+UrdfRobot parse_urdf(const std::string& contents, const std::string& file, LeftOut& left_out) {
+  return UrdfReader(contents, file, left_out).read();
+}
+
+}  // namespace waitpoint::world
