@@ -74,7 +74,8 @@ TEST_F(StackOverflowDeathTest, IsFoundWhileTheRunIsUnwound) {
       "ran over the end of its stack\n.*in task late of environment");
 }
 
-int* volatile nowhere = nullptr;
+// In the first page, which nobody has. Not null: UndefinedBehaviorSanitizer would be the first to speak.
+int* volatile nowhere = reinterpret_cast<int*>(64);
 
 void write_nowhere() {
   simulate([] {
@@ -101,7 +102,7 @@ TEST_F(StackOverflowDeathTest, AnotherFaultGoesToTheProgramsOwnHandler) {
       {
         struct sigaction own {};
         own.sa_flags = static_cast<int>(SA_SIGINFO);
-        own.sa_sigaction = [](int, siginfo_t* info, void*) { _exit(info->si_addr == nullptr ? 43 : 44); };
+        own.sa_sigaction = [](int, siginfo_t* info, void*) { _exit(info->si_addr == nowhere ? 43 : 44); };
         sigaction(SIGSEGV, &own, nullptr);
         write_nowhere();
       },
