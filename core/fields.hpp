@@ -12,6 +12,9 @@
 //
 // Fields are integers, enums, bool, double, Time, Duration, Point, Pose, std::array and Bounded of such, and other
 // types with declared fields. No pointers: a value is what it says.
+//
+// A field that a type gets later than runs with it have been published is declared by added_field(), after the others:
+// the digest hashes it, with its name, only where it is set. So a run that does not use it keeps its digest.
 #pragma once
 
 #include <array>
@@ -36,7 +39,17 @@ struct Field {
 };
 
 template <class Owner, class Member>
+struct AddedField {
+  std::string_view name;
+  Member Owner::*member;
+};
+
+template <class Owner, class Member>
 constexpr Field<Owner, Member> field(std::string_view name, Member Owner::*member) {
+  return {name, member};
+}
+template <class Owner, class Member>
+constexpr AddedField<Owner, Member> added_field(std::string_view name, Member Owner::*member) {
   return {name, member};
 }
 
@@ -96,11 +109,32 @@ void add_elements(Digest& digest, const Bounded<T, N>& items) {
   for (const T& item : items) add_value(digest, item);
 }
 
+/// Whether it is other than a value that nobody has written.
+template <std::equality_comparable T>
+bool is_set(const T& value) {
+  return value != T{};
+}
+template <class T, std::size_t N>
+bool is_set(const Bounded<T, N>& items) {
+  return !items.empty();
+}
+
+template <class Owner, class Member>
+void add_field(Digest& digest, const Field<Owner, Member>& field, const Owner& value) {
+  add_value(digest, value.*(field.member));
+}
+template <class Owner, class Member>
+void add_field(Digest& digest, const AddedField<Owner, Member>& field, const Owner& value) {
+  if (!is_set(value.*(field.member))) return;
+  digest.add(field.name);
+  add_value(digest, value.*(field.member));
+}
+
 /// Adds a value by its declared fields, recursively.
 template <class T>
 void add_value(Digest& digest, const T& value) {
   if constexpr (HasFields<T>) {
-    for_each_field(value, [&](std::string_view, const auto& member) { add_value(digest, member); });
+    std::apply([&](auto... f) { (add_field(digest, f, value), ...); }, T::fields());
   } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
     digest.add(static_cast<std::uint64_t>(value));
   } else if constexpr (std::is_floating_point_v<T>) {

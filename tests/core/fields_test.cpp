@@ -68,6 +68,34 @@ TEST(Fields, EveryDeclaredFieldCountsHoweverDeep) {
   EXPECT_FALSE(changed([](Outer& o) { o.not_a_field = 1; }));
 }
 
+struct Before {
+  double wide = 2;
+  static constexpr auto fields() { return std::tuple(field("wide", &Before::wide)); }
+};
+
+struct Later {
+  double wide = 2, side = 0, up = 0;
+  Bounded<Inner, 2> list;
+  static constexpr auto fields() {
+    return std::tuple(field("wide", &Later::wide), added_field("side", &Later::side), added_field("up", &Later::up),
+                      added_field("list", &Later::list));
+  }
+};
+
+TEST(Fields, AnAddedFieldCountsOnlyWhereItIsSet) {
+  Later later;
+  EXPECT_EQ(hash(later), hash(Before()));
+  later.side = 1;
+  const std::uint64_t with_side = hash(later);
+  EXPECT_NE(with_side, hash(Before()));
+  later.side = 0;
+  later.up = 1;
+  EXPECT_NE(hash(later), with_side) << "the same number in another field";
+  later.up = 0;
+  later.list.resize(1);
+  EXPECT_NE(hash(later), hash(Before()));
+}
+
 TEST(Fields, PaddingAndLeftoverElementsDoNotCount) {
   alignas(Inner) unsigned char memory[2][sizeof(Inner)];
   std::memset(memory[0], 0x00, sizeof memory[0]);
