@@ -5,14 +5,18 @@ namespace waitpoint::world {
 
 Pose Arc::at(double fraction) const {
   const double d = fraction * distance_m, turn = fraction * turn_rad;
-  if (turn == 0) {
-    const auto [s, c] = exact::sincos(start.heading);
-    return {start.x + d * c, start.y + d * s, start.heading};
+  const bool straight = turn == 0;
+  const double half = 0.5 * turn, shortening = straight ? 1 : exact::sin(half) / half;
+  const auto [s, c] = exact::sincos(straight ? start.heading : start.heading + half);
+  const double ahead = d * shortening;
+  Pose pose = {start.x + ahead * c, start.y + ahead * s,
+               straight ? start.heading : exact::wrap_angle(start.heading + turn)};
+  if (side_m != 0) {
+    const double aside = fraction * side_m * shortening;
+    pose.x -= aside * s;
+    pose.y += aside * c;
   }
-  const double half = 0.5 * turn;
-  const auto [s, c] = exact::sincos(start.heading + half);
-  const double chord = d * (exact::sin(half) / half);
-  return {start.x + chord * c, start.y + chord * s, exact::wrap_angle(start.heading + turn)};
+  return pose;
 }
 
 }  // namespace waitpoint::world

@@ -1,31 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a body does within one world step: its velocity is constant, so its path is a circular arc, kept as such.
 //
-//   pose(f) = start (+) (d sinc(a/2) cos(a/2), d sinc(a/2) sin(a/2), a)      d = f distance, a = f turn
+//   pose(f) = start (+) (sinc(a/2) R(a/2) (d, s), a)      d = f distance, s = f side, a = f turn
 //
-// The chord form is exact for every turn, the straight line included, and at(1) of one arc is where the next one
-// starts.
+// A body that flies climbs evenly meanwhile: its path is a helix. The chord form is exact for every turn, the straight
+// line included, and at(1) of one arc is where the next one starts.
 #pragma once
+
+#include <cmath>
 
 #include "core/fields.hpp"
 #include "core/pose.hpp"
 
 namespace waitpoint::world {
 
-/// The velocity of a body that moves along its own x axis and turns about its own origin.
+/// The velocity of a body in its own frame: along its x axis, about its origin, along its y axis (to the left), and
+/// upwards. The last two are 0 for whoever cannot move so.
 struct Velocity {
-  double v_m_s = 0, w_rad_s = 0;
+  double v_m_s = 0, w_rad_s = 0, side_m_s = 0, climb_m_s = 0;
 
   friend constexpr bool operator==(const Velocity&, const Velocity&) = default;
   static constexpr auto fields() {
-    return std::tuple(field("v_m_s", &Velocity::v_m_s), field("w_rad_s", &Velocity::w_rad_s));
+    return std::tuple(field("v_m_s", &Velocity::v_m_s), field("w_rad_s", &Velocity::w_rad_s),
+                      added_field("side_m_s", &Velocity::side_m_s), added_field("climb_m_s", &Velocity::climb_m_s));
   }
 };
 
-/// A motion at constant velocity: `distance_m` along the path (negative backwards) while turning by `turn_rad`.
+/// A motion at constant velocity: `distance_m` along the body's x axis (negative backwards) and `side_m` along its y
+/// axis while turning by `turn_rad` and rising by `climb_m`.
 struct Arc {
   Pose start;
-  double distance_m = 0, turn_rad = 0;
+  double distance_m = 0, turn_rad = 0, side_m = 0, climb_m = 0;
+
+  /// From `start`, at that velocity for so long.
+  static Arc of(const Pose& start, const Velocity& velocity, double time_s) {
+    return {start, velocity.v_m_s * time_s, velocity.w_rad_s * time_s, velocity.side_m_s * time_s,
+            velocity.climb_m_s * time_s};
+  }
 
   friend constexpr bool operator==(const Arc&, const Arc&) = default;
 
@@ -33,11 +44,18 @@ struct Arc {
   Pose at(double fraction) const;
   Pose end() const { return at(1); }
   /// The arc up to that fraction.
-  Arc until(double fraction) const { return {start, fraction * distance_m, fraction * turn_rad}; }
+  Arc until(double fraction) const {
+    return {start, fraction * distance_m, fraction * turn_rad, fraction * side_m, fraction * climb_m};
+  }
+  bool moves() const { return distance_m != 0 || turn_rad != 0 || side_m != 0 || climb_m != 0; }
+  /// Of the path of the body's origin in the plane, and in space.
+  double planar_length_m() const { return side_m == 0 ? std::fabs(distance_m) : exact::hypot(distance_m, side_m); }
+  double length_m() const { return climb_m == 0 ? planar_length_m() : exact::hypot(planar_length_m(), climb_m); }
 
   static constexpr auto fields() {
     return std::tuple(field("start", &Arc::start), field("distance_m", &Arc::distance_m),
-                      field("turn_rad", &Arc::turn_rad));
+                      field("turn_rad", &Arc::turn_rad), added_field("side_m", &Arc::side_m),
+                      added_field("climb_m", &Arc::climb_m));
   }
 };
 

@@ -32,7 +32,7 @@ struct Obstacle {
 /// Errors of wheel odometry. Wheels are the two driven ones of a differential base; a synchro base has a travel and a
 /// turn axis.
 struct OdometryErrors {
-  double travel_scale = 1;               ///< measured / true distance (both kinds)
+  double travel_scale = 1;               ///< measured / true distance (sideways too)
   double turn_scale = 1;                 ///< measured / true turn: the wheel base factor E_b, or the turn gear
   double drift_rad_per_m = 0;            ///< systematic turn per metre: unequal wheels E_d, or the heading gear
   double travel_noise_m_per_sqrt_m = 0;  ///< standard deviation of the distance after one metre
@@ -42,12 +42,19 @@ struct OdometryErrors {
   double units_per_rad = 35000;
 };
 
+/// What a body moves on, see vehicles/base.hpp for what each kind can do.
 struct BaseDescription {
-  enum class Kind : std::uint8_t { differential, synchro };
+  enum class Kind : std::uint8_t { differential, synchro, omni, ackermann, skid_steer, aerial };
   Kind kind = Kind::synchro;
   double v_max_m_s = 0.9, w_max_rad_s = 1.5;
   double v_acceleration_m_s2 = 1.0, w_acceleration_rad_s2 = 3.0;
-  double axle_m = 0.4;  ///< differential: distance between the wheels
+  double axle_m = 0.4;                ///< differential, skid-steer: distance between the wheels
+  double effective_axle_ratio = 1.5;  ///< skid-steer: the axle that its turns have, in axles; at least 1
+  double wheelbase_m = 0.5;           ///< Ackermann: between the front and the rear axle
+  double steering_max_rad = 0.6;      ///< Ackermann: of the front wheel that stands for both, below a quarter turn
+  double steering_rate_rad_s = 0.8;
+  double climb_max_m_s = 0.5, climb_acceleration_m_s2 = 1.0;  ///< aerial
+  Duration watchdog;  ///< without a new command for longer than this it brakes to stand still; 0: it never does
   OdometryErrors odometry;
   double battery_volts_full = 26.0, battery_volts_empty = 22.0;
   double battery_capacity_s = 4 * 3600;  ///< until empty, standing still
@@ -56,8 +63,8 @@ struct BaseDescription {
 
 /// A SICK LMS: a planar fan of beams about the device's x axis.
 struct LaserDescription {
-  Pose mount;  ///< in the body's frame
-  double height_m = 0.4;
+  Pose mount;             ///< in the body's frame
+  double height_m = 0.4;  ///< with the body on the floor
   std::uint32_t beams = 361;
   double field_of_view_rad = exact::pi;
   double range_max_m = 32;
@@ -80,8 +87,9 @@ struct SonarRingDescription {
 /// A robot's body with what is mounted on it.
 struct BodyDescription {
   std::string name;
-  Shape shape;  ///< its pose is in the body's frame
+  Shape shape;  ///< its pose is in the body's frame, its heights are those of the body on the floor
   Pose start;
+  double start_height_m = 0;  ///< of an aerial body above the floor
   BaseDescription base;
   std::vector<LaserDescription> lasers;
   std::vector<SonarRingDescription> sonars;

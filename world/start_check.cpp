@@ -18,14 +18,16 @@ std::vector<StartOverlap> start_overlaps(const WorldDescription& description) {
   std::vector<Outline> bodies;
   for (const BodyDescription& body : description.bodies) {
     const Outline outline = outline_of(body.shape, body.start);
+    const Shape shape = raised(body.shape, body.start_height_m);
     for (const Obstacle& obstacle : description.obstacles) {
-      if (meet(body.shape, outline, obstacle.shape, outline_of(obstacle.shape))) {
+      if (meet(shape, outline, obstacle.shape, outline_of(obstacle.shape))) {
         overlaps.push_back({body.name, obstacle.name, false});
       }
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const BodyDescription& other = description.bodies[i];
-      if (meet(body.shape, outline, other.shape, bodies[i])) overlaps.push_back({body.name, other.name, true});
+      if (meet(shape, outline, raised(other.shape, other.start_height_m), bodies[i]))
+        overlaps.push_back({body.name, other.name, true});
     }
     bodies.push_back(outline);
   }

@@ -33,29 +33,33 @@ constexpr std::size_t index(BodyId id) { return static_cast<std::size_t>(id); }
 
 /// The truth about a body, as published by the last step.
 struct BodyState {
-  Pose pose;
+  Pose pose;  ///< seen from above
   Arc arc;  ///< of the last step: from the pose of the step before to this one, shorter than commanded after a contact
   Velocity velocity;             ///< now; zero after a contact
   bool stalled = false;          ///< the last motion tried was stopped or refused by a contact
   std::uint64_t collisions = 0;  ///< transitions from free to stalled
   double travelled_m = 0;        ///< sum of the lengths of the arcs
+  double height_m = 0;           ///< above the floor; of what cannot fly always 0
 
   static constexpr auto fields() {
     return std::tuple(field("pose", &BodyState::pose), field("arc", &BodyState::arc),
                       field("velocity", &BodyState::velocity), field("stalled", &BodyState::stalled),
-                      field("collisions", &BodyState::collisions), field("travelled_m", &BodyState::travelled_m));
+                      field("collisions", &BodyState::collisions), field("travelled_m", &BodyState::travelled_m),
+                      added_field("height_m", &BodyState::height_m));
   }
 };
 
-/// What a base's controller measures. Travel and turn are accumulated since the start in the controller's own units
-/// (OdometryErrors::units_per_m, units_per_rad).
+/// What a base's controller measures. Travel, turn and what an omni base goes sideways are accumulated since the start
+/// in the controller's own units (OdometryErrors::units_per_m, units_per_rad).
 struct OdometerReading {
   std::int64_t travel_units = 0, turn_units = 0;
   Velocity velocity;  ///< measured over the last step
+  std::int64_t side_units = 0;
 
   static constexpr auto fields() {
     return std::tuple(field("travel_units", &OdometerReading::travel_units),
-                      field("turn_units", &OdometerReading::turn_units), field("velocity", &OdometerReading::velocity));
+                      field("turn_units", &OdometerReading::turn_units), field("velocity", &OdometerReading::velocity),
+                      added_field("side_units", &OdometerReading::side_units));
   }
 };
 
@@ -80,8 +84,9 @@ class World {
   /// Bodies as at the start; obstacles as they are now.
   virtual const WorldDescription& description() const = 0;
 
-  /// Sets the velocity that the body tries to reach and hold, from the next step on. Velocities beyond the base's
-  /// limits are clamped to them; NaN is a bug.
+  /// Sets the velocity that the body tries to reach and hold, from the next step on, until the base's watchdog (if it
+  /// has one) finds that no other command came. Velocities beyond the base's limits are clamped to them, those in which
+  /// it cannot go at all are left out; NaN is a bug.
   virtual void command(BodyId id, Velocity velocity) = 0;
   /// Advances by one period.
   virtual void step() = 0;
@@ -92,7 +97,8 @@ class World {
 
   // What a person does, between two steps. Each says what stands in the way, and then has changed nothing.
 
-  /// Lifts the body and puts it down there, at rest: its odometer does not notice, its command holds.
+  /// Lifts the body and puts it down there, as high as it was, at rest: its odometer does not notice, its command
+  /// holds.
   virtual std::optional<std::string> move_body(BodyId id, const Pose& pose) = 0;
   /// Adds an obstacle, or puts it in place of the first one of its name.
   virtual std::optional<std::string> put_obstacle(const Obstacle& obstacle) = 0;

@@ -50,6 +50,27 @@ TEST(Arc, TurningOnTheSpotAndStandingStillMoveNothing) {
   EXPECT_NEAR(turned.heading, 2.0, 1e-15);
 }
 
+// Sideways motion is motion along an x axis a quarter of a turn to the left.
+TEST(Arc, SidewaysIsAheadSeenFromAQuarterTurn) {
+  Draws draw(3);
+  for (int i = 0; i < 10000; ++i) {
+    const Pose start = {draw(-50, 50), draw(-50, 50), draw(-3, 3)};
+    const double ahead = draw(-2, 2), aside = draw(-2, 2), turn = i % 4 == 0 ? 0 : draw(-6, 6);
+    const Pose both = Arc{start, ahead, turn, aside}.end();
+    const Pose turned = {start.x, start.y, start.heading + exact::pi / 2};
+    const Pose one = Arc{start, ahead, turn}.end(), other = Arc{turned, aside, turn}.end();
+    expect_near(both, {one.x + other.x - start.x, one.y + other.y - start.y, one.heading}, 1e-13);
+  }
+}
+
+TEST(Arc, LengthsAreThoseOfTheOriginsPath) {
+  const Arc arc = {{1, 2, 0.3}, -3, 1, 4, 12};
+  EXPECT_EQ(arc.planar_length_m(), 5);
+  EXPECT_EQ(arc.length_m(), 13);
+  EXPECT_EQ((Arc{{1, 2, 0.3}, -3, 1}.length_m()), 3);
+  EXPECT_EQ(arc.until(0.5).climb_m, 6);
+}
+
 TEST(Arc, AFullCircleComesBack) {
   const Arc circle = {{1, 2, 0.3}, 5, 2 * exact::pi};
   expect_near(circle.end(), circle.start, 1e-14);

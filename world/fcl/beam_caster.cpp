@@ -12,6 +12,8 @@ std::vector<double> sliced_heights(const WorldDescription& description) {
   std::vector<double> heights;
   if (description.engine != Engine::slice) return heights;
   for (const BodyDescription& body : description.bodies) {
+    // What climbs would need a slice of every height.
+    if (body.base.kind == BaseDescription::Kind::aerial) continue;
     for (const LaserDescription& laser : body.lasers) heights.push_back(laser.height_m);
     for (const SonarRingDescription& ring : body.sonars) heights.push_back(ring.height_m);
   }
@@ -23,7 +25,7 @@ std::vector<double> sliced_heights(const WorldDescription& description) {
 std::vector<Shape> moving_shapes(const WorldDescription& description) {
   std::vector<Shape> shapes;
   if (description.engine != Engine::slice) return shapes;
-  for (const BodyDescription& body : description.bodies) shapes.push_back(body.shape);
+  for (const BodyDescription& body : description.bodies) shapes.push_back(raised(body.shape, body.start_height_m));
   return shapes;
 }
 
@@ -45,9 +47,9 @@ void BeamCaster::stand(std::span<const Shape> obstacles) {
   for (const double height_m : heights_m_) slices_.emplace_back(obstacles, height_m);
 }
 
-void BeamCaster::place(std::uint32_t body, const Outline& outline) {
-  bodies_.place(body, outline);
-  if (moving_.size() > 0) moving_.place(body, outline);
+void BeamCaster::place(std::uint32_t body, const Outline& outline, double z_low_m, double z_high_m) {
+  bodies_.place(body, outline, z_low_m, z_high_m);
+  if (moving_.size() > 0) moving_.place(body, outline, z_low_m, z_high_m);
 }
 
 const Slice* BeamCaster::slice_at(double height_m) const {

@@ -21,7 +21,7 @@ class BeamCaster {
   /// Tells it what the scene of obstacles was made of anew.
   void stand(std::span<const Shape> obstacles);
   /// Moves a body, in the scene of bodies too.
-  void place(std::uint32_t body, const Outline& outline);
+  void place(std::uint32_t body, const Outline& outline, double z_low_m, double z_high_m);
 
   /// The distance of each beam to the first obstacle, or body other than `own` (Scene::none: all count); range_max_m
   /// where none is nearer. As many ranges as directions.

@@ -14,8 +14,7 @@
 #include "world/sensors/sonar.hpp"
 #include "world/slice/footprints.hpp"
 #include "world/start_check.hpp"
-#include "world/vehicles/base.hpp"
-#include "world/vehicles/odometer.hpp"
+#include "world/vehicles/vehicle.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -32,7 +31,7 @@ std::vector<Shape> shapes_of(const std::vector<Obstacle>& obstacles) {
 std::vector<Shape> shapes_of(const std::vector<BodyDescription>& bodies) {
   std::vector<Shape> shapes;
   for (const BodyDescription& body : bodies) {
-    shapes.push_back(body.shape);
+    shapes.push_back(raised(body.shape, body.start_height_m));
     shapes.back().pose = compose(body.start, body.shape.pose);
   }
   return shapes;
@@ -42,6 +41,14 @@ Footprints footprints_of(const WorldDescription& description) {
   return Footprints(description.engine == Engine::slice ? shapes_of(description.obstacles) : std::vector<Shape>{});
 }
 
+/// The heights that a solid has during a step, and a little more if it climbs; else exactly its own, so that what
+/// stands on another, or under it, does not meet it.
+Heights swept_heights(const Heights& at_start, double climb_m) {
+  if (climb_m == 0) return at_start;
+  const double low = std::min(climb_m, 0.0), high = std::max(climb_m, 0.0);
+  return {at_start.low_m + low - 2 * contact_gap_m, at_start.high_m + high + 2 * contact_gap_m};
+}
+
 /// A concave corner of an obstacle with another one.
 struct Corner {
   ConcaveCorner corner;
@@ -49,18 +56,11 @@ struct Corner {
 };
 
 struct Body {
-  const BodyDescription* description;
-  BodyState state;
-  Velocity wanted;
-  Outline outline;  // at state.pose
-  Odometer odometer;
+  Vehicle vehicle;
   std::vector<Laser> lasers;
   std::vector<RandomStream> sonar_noise;
 
-  Body(const BodyDescription& d, std::uint64_t seed) : description(&d), odometer(d.base.odometry, seed, d.name) {
-    state.pose = d.start;
-    state.arc.start = d.start;
-    outline = outline_of(d.shape, d.start);
+  Body(const BodyDescription& d, std::uint64_t seed) : vehicle(d, seed) {
     for (std::size_t i = 0; i < d.lasers.size(); ++i) lasers.emplace_back(d.lasers[i], seed, d.name, i);
     for (std::size_t i = 0; i < d.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, d.name, i));
   }
@@ -71,7 +71,7 @@ class FclWorld final : public World {
   FclWorld(const WorldDescription& description, std::uint64_t seed);
 
   const WorldDescription& description() const override { return description_; }
-  void command(BodyId id, Velocity velocity) override;
+  void command(BodyId id, Velocity velocity) override { bodies_.at(index(id)).vehicle.command(velocity, steps_); }
   void step() override;
   std::uint64_t steps() const override { return steps_; }
   void reset(std::uint64_t seed) override;
@@ -80,8 +80,8 @@ class FclWorld final : public World {
   std::optional<std::string> put_obstacle(const Obstacle& obstacle) override;
   bool remove_obstacle(const std::string& name) override;
 
-  const BodyState& body(BodyId id) const override { return bodies_.at(index(id)).state; }
-  const OdometerReading& odometer(BodyId id) const override { return bodies_.at(index(id)).odometer.reading(); }
+  const BodyState& body(BodyId id) const override { return bodies_.at(index(id)).vehicle.state(); }
+  const OdometerReading& odometer(BodyId id) const override { return bodies_.at(index(id)).vehicle.odometer(); }
   double battery_volts(BodyId id) const override;
 
   void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const override;
@@ -91,8 +91,9 @@ class FclWorld final : public World {
  private:
   void latch();
   void move();
-  void find_meetings(std::uint32_t body, double path_max_m);
+  void find_meetings(std::uint32_t body, double path_max_m, double climb_max_m);
   void publish();
+  void place(std::uint32_t body);
 
   std::vector<Obstacle>::iterator find_obstacle(const std::string& name);
   void change_obstacles(std::vector<Obstacle> obstacles);
@@ -141,12 +142,14 @@ void FclWorld::reset(std::uint64_t seed) {
   }
   bodies_.clear();
   for (const BodyDescription& body : description_.bodies) bodies_.emplace_back(body, seed);
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) caster_.place(i, bodies_[i].outline);
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) place(i);
 }
 
-void FclWorld::command(BodyId id, Velocity velocity) {
-  WAITPOINT_CHECK(velocity.v_m_s == velocity.v_m_s && velocity.w_rad_s == velocity.w_rad_s, "a velocity of NaN");
-  bodies_.at(index(id)).wanted = velocity;
+// Tells what finds beams and neighbours where the body is now.
+void FclWorld::place(std::uint32_t body) {
+  const Vehicle& vehicle = bodies_[body].vehicle;
+  const Shape shape = vehicle.shape();
+  caster_.place(body, vehicle.outline(), shape.z_low_m, shape.z_high_m);
 }
 
 void FclWorld::step() {
@@ -159,38 +162,45 @@ void FclWorld::step() {
 void FclWorld::latch() {
   arcs_.clear();
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    body.state.velocity = next_velocity(body.description->base, body.state.velocity, body.wanted, step_s_);
-    arcs_.push_back({body.state.pose, body.state.velocity.v_m_s * step_s_, body.state.velocity.w_rad_s * step_s_});
-    if (body.state.arc.distance_m != 0 || body.state.arc.turn_rad != 0) caster_.place(i, body.outline);
+    Vehicle& vehicle = bodies_[i].vehicle;
+    if (vehicle.state().arc.moves()) place(i);
+    arcs_.push_back(vehicle.latch(steps_, description_.step));
   }
 }
 
 void FclWorld::move() {
   contacts_.clear();
   movers_.clear();
-  double path_max_m = 0;
+  double path_max_m = 0, climb_max_m = 0;
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    movers_.emplace_back(bodies_[i].description->shape, bodies_[i].outline, arcs_[i]);
+    const Vehicle& vehicle = bodies_[i].vehicle;
+    movers_.emplace_back(vehicle.description().shape, vehicle.outline(), arcs_[i], vehicle.state().height_m);
     contacts_.add_body(movers_[i]);
     path_max_m = std::max(path_max_m, movers_[i].path_m());
+    climb_max_m = std::max(climb_max_m, std::fabs(movers_[i].climb_m()));
   }
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    if (movers_[i].moves()) find_meetings(i, path_max_m);
+    if (movers_[i].moves()) find_meetings(i, path_max_m, climb_max_m);
   }
   contacts_.run();
 }
 
-void FclWorld::find_meetings(std::uint32_t body, double path_max_m) {
-  const Shape& shape = bodies_[body].description->shape;
-  const Bounds swept = bounds_of(bodies_[body].outline).grown(movers_[body].path_m() + 2 * contact_gap_m);
+void FclWorld::find_meetings(std::uint32_t body, double path_max_m, double climb_max_m) {
+  const Mover& mover = movers_[body];
+  const Heights heights = swept_heights(mover.heights(), mover.climb_m());
+  const Bounds swept = bounds_of(mover.start()).grown(mover.path_m() + 2 * contact_gap_m);
   if (description_.engine == Engine::slice)
-    footprints_.near(swept, Scene::padding_m, shape.z_low_m, shape.z_high_m, near_);
+    footprints_.near(swept, Scene::padding_m, heights.low_m, heights.high_m, near_);
   else
-    obstacle_scene_.near(swept, shape.z_low_m, shape.z_high_m, near_);
-  for (const std::uint32_t obstacle : near_) contacts_.add_obstacle(body, obstacle_scene_.outline(obstacle));
+    obstacle_scene_.near(swept, heights.low_m, heights.high_m, near_);
+  for (const std::uint32_t obstacle : near_) {
+    const Shape& shape = description_.obstacles[obstacle].shape;
+    contacts_.add_obstacle(body, obstacle_scene_.outline(obstacle), {shape.z_low_m, shape.z_high_m});
+  }
   if (bodies_.size() == 1) return;
-  body_scene_.near(swept.grown(path_max_m), shape.z_low_m, shape.z_high_m, near_);
+  // The others may climb too.
+  const double margin_m = climb_max_m > 0 ? climb_max_m + 2 * contact_gap_m : 0;
+  body_scene_.near(swept.grown(path_max_m), heights.low_m - margin_m, heights.high_m + margin_m, near_);
   for (const std::uint32_t other : near_) {
     // Of two that both move, the first asks.
     if (other > body || (other != body && !movers_[other].moves())) contacts_.add_pair(body, other);
@@ -198,31 +208,14 @@ void FclWorld::find_meetings(std::uint32_t body, double path_max_m) {
 }
 
 void FclWorld::publish() {
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    BodyState& state = body.state;
-    const std::optional<double>& stop = contacts_.stop(i);
-    state.arc = stop ? arcs_[i].until(*stop) : arcs_[i];
-    if (stop) {
-      if (!state.stalled) ++state.collisions;
-      state.velocity = {};
-      state.stalled = true;
-    } else if (movers_[i].moves()) {
-      state.stalled = false;
-    }
-    if (movers_[i].moves()) {
-      state.pose = state.arc.end();
-      body.outline = outline_of(body.description->shape, state.pose);
-      state.travelled_m += std::fabs(state.arc.distance_m);
-    }
-    body.odometer.add(steps_, step_s_, state.arc.distance_m, state.arc.turn_rad);
-  }
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+    bodies_[i].vehicle.publish(steps_, description_.step, arcs_[i], contacts_.stop(i));
 }
 
 std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
   const std::uint32_t own = static_cast<std::uint32_t>(id);
-  Body& body = bodies_.at(index(id));
-  const Shape& shape = body.description->shape;
+  Vehicle& vehicle = bodies_.at(index(id)).vehicle;
+  const Shape shape = vehicle.shape();
   const Outline outline = outline_of(shape, pose);
   obstacle_scene_.near(bounds_of(outline).grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, near_);
   for (const std::uint32_t obstacle : near_) {
@@ -230,22 +223,18 @@ std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
       return description_.obstacles[obstacle].name;
   }
   if (auto other = body_met(shape, outline, own)) return other;
-  body.state.pose = pose;
-  body.state.arc = {pose, 0, 0};
-  body.state.velocity = {};
-  body.state.stalled = false;
-  body.outline = outline;
+  vehicle.put(pose);
   // To the others' sensors it stands there already, as if it had been published so at the last step but one.
-  caster_.place(own, outline);
+  place(own);
   return std::nullopt;
 }
 
 std::optional<std::string> FclWorld::body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const {
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    const Body& other = bodies_[i];
-    if (i != except && heights_overlap(shape, other.description->shape) &&
-        separation(outline, other.outline).distance_m <= contact_gap_m)
-      return other.description->name;
+    const Vehicle& other = bodies_[i].vehicle;
+    if (i != except && heights_overlap(shape, other.shape()) &&
+        separation(outline, other.outline()).distance_m <= contact_gap_m)
+      return other.description().name;
   }
   return std::nullopt;
 }
@@ -288,22 +277,25 @@ void FclWorld::change_obstacles(std::vector<Obstacle> obstacles) {
 }
 
 double FclWorld::battery_volts(BodyId id) const {
-  const Body& body = bodies_.at(index(id));
-  return world::battery_volts(body.description->base, static_cast<double>(steps_) * step_s_, body.state.travelled_m);
+  const Vehicle& vehicle = bodies_.at(index(id)).vehicle;
+  return world::battery_volts(vehicle.description().base, static_cast<double>(steps_) * step_s_,
+                              vehicle.state().travelled_m);
 }
 
 void FclWorld::scan(BodyId id, std::size_t laser_number, std::uint64_t scan_number, LaserScan& out) const {
   const Body& body = bodies_.at(index(id));
   const Laser& laser = body.lasers.at(laser_number);
-  const LaserDescription& device = body.description->lasers[laser_number];
-  const Pose at = compose(body.state.pose, device.mount);
+  const Vehicle& vehicle = body.vehicle;
+  const LaserDescription& device = vehicle.description().lasers[laser_number];
+  const Pose at = compose(vehicle.state().pose, device.mount);
   const auto [s, c] = exact::sincos(at.heading);
   out.first_angle_rad = laser.first_angle_rad();
   out.angle_step_rad = laser.angle_step_rad();
   out.range_max_m = device.range_max_m;
   out.range_m.resize(laser.directions().size());
-  caster_.cast({at.position(), {c, s}, laser.angle_step_rad(), laser.directions()}, device.height_m,
-               static_cast<std::uint32_t>(id), device.range_max_m, out.range_m);
+  caster_.cast({at.position(), {c, s}, laser.angle_step_rad(), laser.directions()},
+               device.height_m + vehicle.state().height_m, static_cast<std::uint32_t>(id), device.range_max_m,
+               out.range_m);
   laser.measure(scan_number, out.range_m);
 }
 
@@ -336,23 +328,25 @@ void FclWorld::find_corners() {
 }
 
 void FclWorld::collect_surroundings(const Body& body, std::uint32_t own, const SonarRingDescription& ring) const {
-  const Point at = body.state.pose.position();
+  const Point at = body.vehicle.state().pose.position();
   const Bounds reach = Bounds{at, at}.grown(ring.range_max_m + ring.ring_radius_m);
-  obstacle_scene_.near(reach, ring.height_m, ring.height_m, near_);
-  body_scene_.near(reach, ring.height_m, ring.height_m, near_bodies_);
+  const double height_m = ring.height_m + body.vehicle.state().height_m;
+  obstacle_scene_.near(reach, height_m, height_m, near_);
+  body_scene_.near(reach, height_m, height_m, near_bodies_);
   std::erase(near_bodies_, own);
 }
 
 void FclWorld::sonar(BodyId id, std::size_t ring_number, std::uint64_t firing_number,
                      std::vector<double>& range_m) const {
   const Body& body = bodies_.at(index(id));
-  const SonarRingDescription& ring = body.description->sonars.at(ring_number);
+  const SonarRingDescription& ring = body.vehicle.description().sonars.at(ring_number);
   const std::uint32_t own = static_cast<std::uint32_t>(id);
   collect_surroundings(body, own, ring);
   range_m.resize(ring.count);
   for (std::uint32_t i = 0; i < ring.count; ++i) {
-    const Pose transducer = compose(body.state.pose, transducer_mount(ring, i));
-    const double distance = nearest_echo(SonarCone(ring, transducer), transducer.position(), ring.height_m, own);
+    const Pose transducer = compose(body.vehicle.state().pose, transducer_mount(ring, i));
+    const double distance = nearest_echo(SonarCone(ring, transducer), transducer.position(),
+                                         ring.height_m + body.vehicle.state().height_m, own);
     range_m[i] = sonar_range_m(ring, distance, body.sonar_noise[ring_number].normal(firing_number, i));
   }
 }

@@ -170,10 +170,18 @@ const Outline& Scene::outline(std::uint32_t solid) const { return trees_->solids
 bool Scene::reaches(std::uint32_t solid, double height_m) const { return trees_->solids[solid]->reaches(height_m); }
 
 void Scene::place(std::uint32_t solid, const Outline& outline) {
+  const Solid& s = *trees_->solids[solid];
+  place(solid, outline, s.z_low_m, s.z_high_m);
+}
+
+void Scene::place(std::uint32_t solid, const Outline& outline, double z_low_m, double z_high_m) {
   Solid& s = *trees_->solids[solid];
+  const bool same_heights = z_low_m == s.z_low_m && z_high_m == s.z_high_m;
+  s.z_low_m = z_low_m;
+  s.z_high_m = z_high_m;
   s.place(outline);
   const Bounds bounds = bounds_of(outline);
-  if (s.bounds().contains(bounds.grown(padding_m))) return;
+  if (same_heights && s.bounds().contains(bounds.grown(padding_m))) return;
   s.set_bounds(bounds.grown(trees_->margin_m));
   trees_->manager.update(&s);
 }

@@ -39,8 +39,9 @@ class Scene {
   /// Whether the height is within the solid, its lower and upper face included.
   bool reaches(std::uint32_t solid, double height_m) const;
 
-  /// Moves a solid; its heights stay.
+  /// Moves a solid; its heights stay, or are those.
   void place(std::uint32_t solid, const Outline& outline);
+  void place(std::uint32_t solid, const Outline& outline, double z_low_m, double z_high_m);
 
   /// The solids whose bounding boxes overlap the bounds and whose open height intervals overlap (z_low_m, z_high_m), in
   /// ascending order; `found` is overwritten.

@@ -14,16 +14,17 @@ void ContactLoop::clear() {
 
 void ContactLoop::add_body(const Mover& body) { bodies_.push_back({body, std::nullopt, std::nullopt, false}); }
 
-void ContactLoop::add_obstacle(std::uint32_t body, const Outline& obstacle) {
+void ContactLoop::add_obstacle(std::uint32_t body, const Outline& obstacle, const Heights& heights) {
   Body& b = bodies_[body];
-  const std::optional<Contact> contact = first_contact(b.mover, Mover(obstacle), 0);
+  const std::optional<Contact> contact = first_contact(b.mover, Mover(obstacle, heights), 0);
   if (contact && (!b.obstacle || contact->fraction < *b.obstacle)) b.obstacle = contact->fraction;
 }
 
 void ContactLoop::add_pair(std::uint32_t body, std::uint32_t other) {
-  // Two bodies that may meet overlap in height, so they are never at one point.
-  const Point p = bodies_[body].mover.start().centre, q = bodies_[other].mover.start().centre;
-  const bool in_order = std::tie(p.x, p.y) < std::tie(q.x, q.y);
+  // Two bodies are at one point only if one is above the other.
+  const Mover &a = bodies_[body].mover, &b = bodies_[other].mover;
+  const Point p = a.start().centre, q = b.start().centre;
+  const bool in_order = std::tie(p.x, p.y, a.heights().low_m) < std::tie(q.x, q.y, b.heights().low_m);
   Pair pair = {in_order ? body : other, in_order ? other : body, std::nullopt};
   pair.contact = first_contact(bodies_[pair.first].mover, bodies_[pair.second].mover, 0);
   pairs_.push_back(pair);
@@ -58,7 +59,7 @@ void ContactLoop::stop_judged(double now) {
   for (Body& body : bodies_) {
     if (!body.stops_now) continue;
     body.stop = now;
-    body.mover = Mover(body.mover.at(now));
+    body.mover = body.mover.stopped_at(now);
   }
   for (Pair& pair : pairs_) {
     const Body &first = bodies_[pair.first], &second = bodies_[pair.second];

@@ -22,7 +22,7 @@ class ContactLoop {
   /// Adds a body; bodies are numbered from 0 in the order they are added.
   void add_body(const Mover& body);
   /// Something that stands in the body's reach in this step.
-  void add_obstacle(std::uint32_t body, const Outline& obstacle);
+  void add_obstacle(std::uint32_t body, const Outline& obstacle, const Heights& heights = {});
   /// Two different bodies that may meet in this step, each pair once.
   void add_pair(std::uint32_t body, std::uint32_t other);
   void run();

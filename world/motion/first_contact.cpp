@@ -67,12 +67,35 @@ double safe_advance(const Reach& a, const Reach& b, double spare_m, double bend_
   return advance;
 }
 
+// How a gap of at most 1 um changes: in the plane, or in height.
+struct Closing {
+  double gap_m, by_first_m, by_second_m;
+  double path_m;  // of both in a whole step
+
+  // Below this a rate is rounding: the motion slides.
+  double sliding_m() const { return 1e-12 * path_m; }
+  bool out_of_slack() const { return gap_m <= least_gap_m + contact_tolerance_m; }
+  bool is_contact() const { return by_first_m + by_second_m > (out_of_slack() ? -sliding_m() : sliding_m()); }
+
+  Contact contact(const Mover& a, const Mover& b, double fraction) const {
+    Contact contact = {fraction, by_first_m > 0.5 * sliding_m(), by_second_m > 0.5 * sliding_m()};
+    // With the slack used up, sliding is refused too, to whoever slides.
+    if (!contact.first_closes && !contact.second_closes) {
+      contact.first_closes = a.moves() && by_first_m >= by_second_m;
+      contact.second_closes = b.moves() && by_second_m >= by_first_m;
+      if (!contact.first_closes && !contact.second_closes) contact.first_closes = contact.second_closes = true;
+    }
+    return contact;
+  }
+};
+
 }  // namespace
 
-Mover::Mover(const Shape& shape, const Outline& start, const Arc& arc) : shape_(&shape), start_(start), arc_(arc) {
+Mover::Mover(const Shape& shape, const Outline& start, const Arc& arc, double height_m)
+    : shape_(&shape), start_(start), heights_{shape.z_low_m + height_m, shape.z_high_m + height_m}, arc_(arc) {
   const double core = shape.kind == Shape::Kind::box ? 0.5 * exact::hypot(shape.length_m, shape.width_m) : 0;
   const double reach = length(shape.pose.position()) + core;
-  const double distance = std::fabs(arc.distance_m), turn = std::fabs(arc.turn_rad);
+  const double distance = arc.planar_length_m(), turn = std::fabs(arc.turn_rad);
   path_m_ = distance + turn * reach;
   bend_m_ = turn * (distance + turn * reach);
 }
@@ -84,16 +107,24 @@ Outline Mover::at(double fraction) const {
 PointVelocities Mover::velocities_at(double fraction) const {
   const Pose body = arc_.at(fraction);
   const auto [s, c] = exact::sincos(body.heading);
-  return {body.position(), {arc_.distance_m * c, arc_.distance_m * s}, arc_.turn_rad};
+  Point of_origin = {arc_.distance_m * c, arc_.distance_m * s};
+  if (arc_.side_m != 0) of_origin = of_origin + arc_.side_m * Point{-s, c};
+  return {body.position(), of_origin, arc_.turn_rad};
 }
 
 std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from) {
+  const VerticalGap vertical(a.heights(), a.climb_m(), b.heights(), b.climb_m());
   const double path_m = a.path_m() + b.path_m(), bend_m = a.bend_m() + b.bend_m();
-  if (path_m == 0) return std::nullopt;
-  // Below this a rate is rounding: the motion slides.
-  const double sliding_m = 1e-12 * path_m;
+  if (!vertical.changes() && (path_m == 0 || vertical.at(from) >= 0)) return std::nullopt;
+  const double climb_m = std::fabs(a.climb_m()) + std::fabs(b.climb_m());
   double fraction = from;
   for (int round = 0; fraction < 1; ++round) {
+    if (round > rounds_max) return Contact{fraction, a.moves(), b.moves()};
+    const double over_m = vertical.at(fraction);
+    if (over_m > contact_gap_m + contact_tolerance_m) {
+      fraction += vertical.time_to(contact_gap_m, fraction);
+      continue;
+    }
     const Outline outline_a = a.at(fraction), outline_b = b.at(fraction);
     const auto [gap_m, normal] = separation(outline_a, outline_b);
     if (gap_m - path_m * (1 - fraction) > contact_gap_m) return std::nullopt;
@@ -104,21 +135,17 @@ std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from
       const double spare_m = gap_m - contact_gap_m;
       advance = std::max(spare_m / path_m, safe_advance(reach_a, reach_b, spare_m, bend_m));
     } else {
-      const double closing_a = reach_a.closing_m(), closing_b = reach_b.closing_m();
-      const bool out_of_slack = gap_m <= least_gap_m + contact_tolerance_m;
-      if (closing_a + closing_b > (out_of_slack ? -sliding_m : sliding_m)) {
-        Contact contact = {fraction, closing_a > 0.5 * sliding_m, closing_b > 0.5 * sliding_m};
-        // With the slack used up, sliding is refused too, to whoever slides.
-        if (!contact.first_closes && !contact.second_closes) {
-          contact.first_closes = a.moves() && closing_a >= closing_b;
-          contact.second_closes = b.moves() && closing_b >= closing_a;
-          if (!contact.first_closes && !contact.second_closes) contact.first_closes = contact.second_closes = true;
-        }
-        return contact;
-      }
-      advance = safe_advance(reach_a, reach_b, out_of_slack ? 0 : gap_m - least_gap_m, bend_m);
+      const Closing planar = {gap_m, reach_a.closing_m(), reach_b.closing_m(), path_m};
+      const Closing upwards = {over_m, vertical.first_closes_m(fraction), vertical.second_closes_m(fraction), climb_m};
+      // Where nobody climbs, bodies that stand higher or lower have been left out already.
+      const bool held_in_plane = !planar.is_contact() && (gap_m > 0 || !vertical.changes());
+      const bool held_in_height = over_m > 0 && !upwards.is_contact();
+      const bool by_height = vertical.changes() && over_m > gap_m;
+      if (!held_in_plane && !held_in_height) return (by_height ? upwards : planar).contact(a, b, fraction);
+      if (held_in_plane)
+        advance = safe_advance(reach_a, reach_b, planar.out_of_slack() ? 0 : gap_m - least_gap_m, bend_m);
+      if (held_in_height) advance = std::max(advance, vertical.time_to(std::min(least_gap_m, over_m), fraction));
     }
-    if (round >= rounds_max) return Contact{fraction, a.moves(), b.moves()};
     fraction += advance;
   }
   return std::nullopt;

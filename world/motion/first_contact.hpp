@@ -12,12 +12,17 @@
 //   1/2 .. 1 um  contact: a body stops here                 open the gap or slide along; what closes it is a contact
 //   < 1/2 um     never reached by motion                    open the gap
 //
+// Who climbs meets others in height too. What counts then is the greater of the two gaps, in the plane and in height: a
+// contact is where both are down to 1 um, and neither can go on without closing. So a body may slide along a wall while
+// it climbs, and along a table while it stands on it.
+//
 // Times are fractions of the step. Touching is told by the gap, so that a stopped body is never found inside another.
 #pragma once
 
 #include <optional>
 
 #include "world/arc.hpp"
+#include "world/motion/vertical_gap.hpp"
 #include "world/planar/separation.hpp"
 
 namespace waitpoint::world {
@@ -41,23 +46,33 @@ struct PointVelocities {
 class Mover {
  public:
   /// Something that stands still during the step.
-  explicit Mover(const Outline& still) : start_(still) {}
-  /// A body's shape (given in the body's frame) on the body's arc; `start` is its outline at the arc's start.
-  Mover(const Shape& shape, const Outline& start, const Arc& arc);
+  explicit Mover(const Outline& still, const Heights& heights = {}) : start_(still), heights_(heights) {}
+  /// A body's shape (given in the body's frame) on the body's arc; `start` is its outline at the arc's start, where the
+  /// body is `height_m` above the floor.
+  Mover(const Shape& shape, const Outline& start, const Arc& arc, double height_m = 0);
 
   const Outline& start() const { return start_; }
   Outline at(double fraction) const;
-  bool moves() const { return arc_.distance_m != 0 || arc_.turn_rad != 0; }
-  /// No point moves further than this in a whole step.
+  /// The same body, stopped there.
+  Mover stopped_at(double fraction) const {
+    const double climb = fraction * climb_m();
+    return Mover(at(fraction), {heights_.low_m + climb, heights_.high_m + climb});
+  }
+  bool moves() const { return arc_.moves(); }
+  /// At the start.
+  const Heights& heights() const { return heights_; }
+  double climb_m() const { return arc_.climb_m; }
+  /// No point moves further than this in the plane in a whole step.
   double path_m() const { return path_m_; }
   /// No point's path, as a function of the fraction, has a second derivative above this, in m.
   double bend_m() const { return bend_m_; }
-  /// How its points move at that fraction.
+  /// How its points move in the plane at that fraction.
   PointVelocities velocities_at(double fraction) const;
 
  private:
   const Shape* shape_ = nullptr;
   Outline start_;
+  Heights heights_;
   Arc arc_;
   double path_m_ = 0, bend_m_ = 0;
 };

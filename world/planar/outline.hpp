@@ -60,6 +60,13 @@ struct Bounds {
 /// The least bounds around the outline, but for rounding (below 1e-12 m within a kilometre of the origin).
 Bounds bounds_of(const Outline& outline);
 
+/// The same shape, so much higher.
+inline Shape raised(Shape shape, double by_m) {
+  shape.z_low_m += by_m;
+  shape.z_high_m += by_m;
+  return shape;
+}
+
 /// Whether two shapes share more than a height: shapes that stand on each other do not meet.
 inline bool heights_overlap(const Shape& a, const Shape& b) { return a.z_low_m < b.z_high_m && b.z_low_m < a.z_high_m; }
 

@@ -22,4 +22,10 @@ void MovingSolids::place(std::size_t at, const Outline& outline) {
   bounds_[at / EightBounds::width].set(static_cast<int>(at % EightBounds::width), b, {0, 0}, float_margin_m(farthest));
 }
 
+void MovingSolids::place(std::size_t at, const Outline& outline, double z_low_m, double z_high_m) {
+  solids_[at].z_low_m = z_low_m;
+  solids_[at].z_high_m = z_high_m;
+  place(at, outline);
+}
+
 }  // namespace waitpoint::world

@@ -23,8 +23,9 @@ class MovingSolids {
   bool reaches(std::size_t at, double height_m) const {
     return solids_[at].z_low_m <= height_m && height_m <= solids_[at].z_high_m;
   }
-  /// Moves one; its heights stay.
+  /// Moves one; its heights stay, or are those.
   void place(std::size_t at, const Outline& outline);
+  void place(std::size_t at, const Outline& outline, double z_low_m, double z_high_m);
 
   /// The rectangles of solids 8 i to 8 i + 7, in floats of the world's own coordinates.
   std::span<const EightBounds> bounds() const { return bounds_; }

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a wheeled base can do with a velocity command: limits of speed and of acceleration.
+// What a base can do with a velocity command: limits of speed and of acceleration, and which ways it can go at all.
 //
-// A synchro base has a travel and a turn axis, each with its own limits. A differential base has two driven wheels, and
-// v_max_m_s is also the greatest speed of a wheel: |v| + |w| axle / 2 <= v_max.
+//   synchro       a travel and a turn axis, each with its own limits
+//   differential  two driven wheels; v_max_m_s is also the greatest speed of a wheel: |v| + |w| axle / 2 <= v_max
+//   skid-steer    the same wheels, that slip sideways in turns: commands are of the wheels, and the body turns as with
+//                 an axle that is effective_axle_ratio times longer (the distance of the instantaneous centres of
+//                 rotation of its two sides: Mandow, Martinez, Morales, Blanco, Garcia-Cerezo, Gonzalez, IROS 2007)
+//   Ackermann     a front wheel steers: w = v tan(steering) / wheelbase, the least turning radius is wheelbase /
+//                 tan(steering_max); it cannot turn on the spot
+//   omni          any direction in the plane: v_max_m_s and v_acceleration_m_s2 bound the length of the vector
+//   aerial        an omni base in the air, which climbs and sinks too, down to the floor, which holds it
+//
+// What a base cannot do of a command it leaves out.
 #pragma once
 
 #include "world/arc.hpp"
@@ -10,13 +19,22 @@
 
 namespace waitpoint::world {
 
-/// The nearest velocity to `wanted` that the base can hold: each axis clamped, then, for a differential base, both
-/// slowed alike (which keeps the curvature) until no wheel is too fast.
+/// The nearest velocity to `wanted` that the base can hold: each axis clamped, then both slowed alike (which keeps the
+/// curvature, or the direction) until no wheel is too fast.
 Velocity limited(const BaseDescription& base, Velocity wanted);
 
-/// The velocity one step after `now`: towards limited(wanted), each component by at most its acceleration times the
-/// step. `now` is within the limits, and so is the result.
-Velocity next_velocity(const BaseDescription& base, Velocity now, Velocity wanted, double step_s);
+/// How a base moves: its body, and where its wheels point (Ackermann; 0 is straight ahead).
+struct BaseMotion {
+  Velocity velocity;
+  double steering_rad = 0;
+};
+
+/// The motion one step after `now`: towards limited(wanted), each component by at most its acceleration (or rate of
+/// steering) times the step. `now` is within the limits, and so is the result.
+BaseMotion next_motion(const BaseDescription& base, const BaseMotion& now, Velocity wanted, double step_s);
+
+/// What the wheels make of a body's motion: of a skid-steer base they turn for more than the body does.
+Arc as_wheels_count(const BaseDescription& base, const Arc& arc);
 
 /// The battery's voltage, falling linearly from full to empty with the time since the start and the distance driven.
 double battery_volts(const BaseDescription& base, double elapsed_s, double travelled_m);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a base's controller counts while the base moves: wheel odometry with its three kinds of error.
+// What a base's controller counts while the base moves: wheel odometry with its errors.
 //
 //   systematic    travel and turn scaled; a turn for every metre (unequal wheels): grows with the distance, with sign
 //   random        independent of step to step, with variances that grow with the distance and the angle moved
@@ -19,19 +19,27 @@
 
 namespace waitpoint::world {
 
+/// A number of whole units, and what is not counted yet, in [-1/2, 1/2].
+struct UnitCounter {
+  std::int64_t total = 0;
+  double rest = 0;
+
+  void add(double units);
+};
+
 class Odometer {
  public:
   /// Draws from the stream (seed, robot, "odometry") at tick = number of the step.
-  Odometer(const OdometryErrors& errors, std::uint64_t seed, std::string_view robot);
+  Odometer(const BaseDescription& base, std::uint64_t seed, std::string_view robot);
 
-  /// Counts what the base truly moved in that step of `step_s` seconds.
-  void add(std::uint64_t step, double step_s, double distance_m, double turn_rad);
+  /// Counts what the base moved in that step of `step_s` seconds, as its wheels see it (as_wheels_count()).
+  void add(std::uint64_t step, double step_s, const Arc& moved);
   const OdometerReading& reading() const { return reading_; }
 
  private:
   OdometryErrors errors_;
   RandomStream noise_;
-  double travel_rest_ = 0, turn_rest_ = 0;  // units not yet counted, in [-1/2, 1/2]
+  UnitCounter travel_, turn_, side_;
   OdometerReading reading_;
 };
 

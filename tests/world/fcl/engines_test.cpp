@@ -22,6 +22,11 @@ WorldDescription robots_among_shapes() {
     const Pose start = {draw(-half_square_m, half_square_m), draw(-half_square_m, half_square_m), draw(-3, 3)};
     const Shape shape = n % 2 == 0 ? cylinder({0, 0}, 0.3) : box({0.1, 0, 0}, 0.8, 0.5);
     BodyDescription body = nimble_body(numbered("r", n), shape, start);
+    if (n % 3 == 1) {
+      body.base.kind = BaseDescription::Kind::aerial;
+      body.base.climb_max_m_s = body.base.climb_acceleration_m_s2 = 1e5;
+      body.start_height_m = draw(0, 2);
+    }
     LaserDescription laser;
     laser.height_m = n % 3 == 0 ? 0.4 : 0.6;
     laser.field_of_view_rad = n % 4 == 0 ? 2 * exact::pi : exact::pi;
@@ -41,7 +46,8 @@ Digest readings(World& world, std::uint64_t seed, int steps) {
   LaserScan scan;
   std::vector<double> sonar;
   for (int step = 0; step < steps; ++step) {
-    for (std::size_t i = 0; i < 12; ++i) world.command(BodyId(i), {draw(-20, 20), draw(-30, 30)});
+    for (std::size_t i = 0; i < 12; ++i)
+      world.command(BodyId(i), {draw(-20, 20), draw(-30, 30), draw(-20, 20), draw(-20, 20)});
     world.step();
     if (step % 10 == 3) {
       const Pose to = {draw(-half_square_m, half_square_m), draw(-half_square_m, half_square_m), draw(-3, 3)};

@@ -55,6 +55,43 @@ TEST(FirstContact, ATurningBoxStopsWhereItsCornerMeetsTheWall) {
   EXPECT_NEAR(gap(mover, wall, contact->fraction), contact_gap_m, 2 * contact_tolerance_m);
 }
 
+// Ahead by d, to the left by s and turning by a, the centre goes round (-s, d) / a, from the angle -atan2(d, s) on.
+TEST(FirstContact, SidewaysArcsMeetTheWallWhereTheirCircleDoes) {
+  const Shape disc = cylinder({0, 0}, 0.25);
+  const Mover wall(outline_of(box({1.1505, 0, 0}, 0.001, 50)));  // its near face at 1.15 m
+  for (const double scale : {1.0, 10.0, 1000.0}) {
+    for (const double side : {1.0, -0.7}) {
+      const double d = 3, a = 2, radius = std::hypot(d, side) / a;
+      const Mover mover = on_arc(disc, {{0, 0, 0}, scale * d, scale * a, scale * side});
+      const auto contact = first_contact(mover, wall, 0);
+      ASSERT_TRUE(contact);
+      const double there = std::atan2(d, side) - std::acos((0.9 - contact_gap_m + side / a) / radius);
+      EXPECT_NEAR(contact->fraction * scale * a, there, 1e-8);
+      EXPECT_NEAR(gap(mover, wall, contact->fraction), contact_gap_m, 2 * contact_tolerance_m);
+    }
+  }
+}
+
+TEST(FirstContact, NeverLateOnRandomSidewaysArcs) {
+  Draws draw(6);
+  int contacts = 0;
+  const auto arc = [&](double scale) {
+    return Arc{{draw(-2, 2), draw(-2, 2), draw(-3, 3)}, scale * draw(-2, 2), scale * draw(-2, 2), scale * draw(-2, 2)};
+  };
+  for (int i = 0; i < 10000; ++i) {
+    const Shape a = random_shape(draw, 0.2, 1), b = random_shape(draw, 0.2, 1);
+    const double scale = i % 2 == 0 ? 1 : 20;
+    const Mover first = on_arc(a, arc(scale)), second = on_arc(b, arc(scale));
+    if (gap(first, second, 0) < 2 * contact_gap_m) continue;
+    const auto contact = first_contact(first, second, 0);
+    const double end = contact ? contact->fraction : 1;
+    for (int k = 0; k <= 60; ++k) ASSERT_GT(gap(first, second, end * k / 60), 0.49 * contact_gap_m);
+    contacts += contact ? 1 : 0;
+    ASSERT_LT(contact ? gap(first, second, end) : 0, contact_gap_m + 2 * contact_tolerance_m);
+  }
+  EXPECT_GT(contacts, 1500);
+}
+
 TEST(FirstContact, InContactOnlyClosingIsRefused) {
   const Shape disc = cylinder({0, 0}, 0.25);
   const Mover wall(outline_of(box({1, 0, 0}, 0.5, 6)));

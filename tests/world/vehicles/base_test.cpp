@@ -44,7 +44,7 @@ TEST(Base, NeitherLimitIsEverExceeded) {
   for (int i = 0; i < 100000; ++i) {
     const Velocity wanted = {draw(-2, 2), draw(-8, 8)};
     for (int k = 0; k < 20; ++k) {
-      const Velocity next = next_velocity(base, now, wanted, 0.01);
+      const Velocity next = next_motion(base, {now}, wanted, 0.01).velocity;
       ASSERT_LE(std::fabs(next.v_m_s - now.v_m_s), 0.01 + 1e-15);
       ASSERT_LE(std::fabs(next.w_rad_s - now.w_rad_s), 0.03 + 1e-15);
       ASSERT_LE(faster_wheel(base, next), 1 + 1e-12);
@@ -56,7 +56,7 @@ TEST(Base, NeitherLimitIsEverExceeded) {
 TEST(Base, ItGetsWhereItWasTold) {
   const BaseDescription base = differential();
   Velocity now = {1, 0};
-  for (int i = 0; i < 400; ++i) now = next_velocity(base, now, {-0.2, 3}, 0.01);
+  for (int i = 0; i < 400; ++i) now = next_motion(base, {now}, {-0.2, 3}, 0.01).velocity;
   EXPECT_EQ(now, (Velocity{-0.2, 3}));
 }
 

@@ -16,6 +16,14 @@ OdometryErrors fine_units() {
   return errors;
 }
 
+BaseDescription base_with(const OdometryErrors& errors) {
+  BaseDescription base;
+  base.odometry = errors;
+  return base;
+}
+
+Arc moved(double distance_m, double turn_rad) { return {{}, distance_m, turn_rad}; }
+
 // Dead reckoning from the counted units alone.
 class DeadReckoning {
  public:
@@ -82,12 +90,12 @@ TEST(Odometer, QuantisationNeverLosesMoreThanHalfAUnit) {
   OdometryErrors errors;
   errors.units_per_m = 1000;
   errors.units_per_rad = 100;
-  Odometer odometer(errors, 1, "robot");
+  Odometer odometer(base_with(errors), 1, "robot");
   Draws draw(2);
   double travelled = 0, turned = 0;
   for (std::uint64_t step = 1; step <= 20000; ++step) {
     const double distance = draw(-0.002, 0.004), turn = draw(-0.02, 0.01);
-    odometer.add(step, 0.01, distance, turn);
+    odometer.add(step, 0.01, moved(distance, turn));
     travelled += distance;
     turned += turn;
     ASSERT_NEAR(static_cast<double>(odometer.reading().travel_units), 1000 * travelled, 0.5 + 1e-6);
@@ -116,12 +124,12 @@ TEST(Odometer, RandomErrorsHaveTheVariancesOfARandomWalk) {
   const double turn_variance = 0.02 * 0.02 * distance + 0.05 * 0.05 * turn;
   Moments travel, heading, sideways_straight;
   for (int run = 0; run < runs; ++run) {
-    Odometer on_arc(errors, static_cast<std::uint64_t>(run), "arc"),
-        straight(errors, static_cast<std::uint64_t>(run), "straight");
+    Odometer on_arc(base_with(errors), static_cast<std::uint64_t>(run), "arc"),
+        straight(base_with(errors), static_cast<std::uint64_t>(run), "straight");
     DeadReckoning reckoning(errors);
     for (std::uint64_t step = 1; step <= steps; ++step) {
-      on_arc.add(step, 0.01, distance / steps, turn / steps);
-      straight.add(step, 0.01, distance / steps, 0);
+      on_arc.add(step, 0.01, moved(distance / steps, turn / steps));
+      straight.add(step, 0.01, moved(distance / steps, 0));
       reckoning.take(straight.reading());
     }
     travel.add(static_cast<double>(on_arc.reading().travel_units) * 1e-9 - distance);
@@ -137,15 +145,30 @@ TEST(Odometer, RandomErrorsHaveTheVariancesOfARandomWalk) {
   EXPECT_NEAR(sideways_straight.variance(), sideways, 0.05 * sideways);
 }
 
+TEST(Odometer, CountsWhatAnOmniBaseGoesSideways) {
+  OdometryErrors errors = fine_units();
+  errors.travel_scale = 1.02;
+  errors.travel_noise_m_per_sqrt_m = 0.01;
+  Moments side;
+  for (int run = 0; run < 5000; ++run) {
+    Odometer odometer(base_with(errors), static_cast<std::uint64_t>(run), "robot");
+    for (std::uint64_t step = 1; step <= 10; ++step) odometer.add(step, 0.01, {{}, 0, 0, -0.2});
+    side.add(static_cast<double>(odometer.reading().side_units) * 1e-9);
+    EXPECT_EQ(odometer.reading().travel_units, 0);
+  }
+  EXPECT_NEAR(side.mean(), -2.04, 4 * 0.01 * std::sqrt(2.0 / 5000));
+  EXPECT_NEAR(side.variance(), 0.01 * 0.01 * 2, 0.05 * 0.01 * 0.01 * 2);
+}
+
 TEST(Odometer, VelocityIsMeasuredAndStandingCountsNothing) {
   OdometryErrors errors;
   errors.travel_scale = 1.01;
-  Odometer odometer(errors, 1, "robot");
-  odometer.add(1, 0.01, 0.005, -0.01);
+  Odometer odometer(base_with(errors), 1, "robot");
+  odometer.add(1, 0.01, moved(0.005, -0.01));
   EXPECT_NEAR(odometer.reading().velocity.v_m_s, 0.505, 1e-12);
   EXPECT_NEAR(odometer.reading().velocity.w_rad_s, -1, 1e-12);
   const auto units = odometer.reading().travel_units;
-  odometer.add(2, 0.01, 0, 0);
+  odometer.add(2, 0.01, moved(0, 0));
   EXPECT_EQ(odometer.reading().velocity, (Velocity{}));
   EXPECT_EQ(odometer.reading().travel_units, units);
 }
