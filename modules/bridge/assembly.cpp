@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/assembly.hpp"
 
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "core/number_text.hpp"
 #include "modules/bridge/known_map.hpp"
 #include "modules/bridge/scenario_checks.hpp"
 #include "world/fcl/fcl_world.hpp"
+#include "world/planar/outline.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -16,6 +19,25 @@ GoalPlace place_on(const OccupancyGrid& map, Point goal) {
   if (!cell || map[*cell] == Cell::unknown) return GoalPlace::outside_map;
   return map[*cell] == Cell::occupied ? GoalPlace::inside_obstacle : GoalPlace::free;
 }
+
+/// Of each robot; those that are as high as another share its map.
+class KnownMaps {
+ public:
+  KnownMaps(const Scenario& scenario, const world::WorldFile* file) : scenario_(scenario), file_(file) {}
+
+  const OccupancyGrid& of(const RobotScenario& robot) {
+    const world::Shape shape = raised(robot.body.shape, robot.body.start_height_m);
+    const std::pair heights(shape.z_low_m, shape.z_high_m);
+    const auto found = maps_.find(heights);
+    return found != maps_.end() ? found->second
+                                : maps_.emplace(heights, known_map(scenario_, file_, robot)).first->second;
+  }
+
+ private:
+  const Scenario& scenario_;
+  const world::WorldFile* file_;
+  std::map<std::pair<double, double>, OccupancyGrid> maps_;
+};
 
 }  // namespace
 
@@ -28,13 +50,13 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
     file = load(*scenario.map);
     description.obstacles.insert(description.obstacles.end(), file->obstacles.begin(), file->obstacles.end());
   }
-  const OccupancyGrid map = known_map(scenario, file ? &*file : nullptr);
-  check_goals(scenario, [&](const RobotScenario&, Point goal) { return place_on(map, goal); });
+  KnownMaps maps(scenario, file ? &*file : nullptr);
+  check_goals(scenario, [&](const RobotScenario& robot, Point goal) { return place_on(maps.of(robot), goal); });
   check_starts(scenario, world::start_overlaps(description));
   world_ = world::make_fcl_world(description, seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
-    robots_.push_back(
-        std::make_unique<Robot>(scenario.robots[i], types, map, *world_, world::BodyId(i), network, seed));
+    robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
+                                              world::BodyId(i), network, seed));
   check_step();
 }
 

@@ -12,6 +12,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
+using Kind = world::BaseDescription::Kind;
+
+constexpr Kind kinds[] = {Kind::differential, Kind::synchro,    Kind::omni,
+                          Kind::ackermann,    Kind::skid_steer, Kind::aerial};
+
+/// Refuses keys of another kind of base, which would do nothing.
+void only_for(const YamlMap& map, bool is_such, std::string_view such, std::initializer_list<std::string_view> keys) {
+  if (is_such) return;
+  for (const std::string_view key : keys)
+    if (const YamlNode* node = map.find(key))
+      throw node->written.bad("expected no " + std::string(key) + ": it is for a base of kind " + std::string(such));
+}
+
 world::OdometryErrors read_odometry(const YamlNode& node) {
   const YamlMap map(node, "the odometry",
                     {"travel_scale", "turn_scale", "drift_rad_per_m", "travel_noise_m_per_sqrt_m",
@@ -31,19 +44,35 @@ world::OdometryErrors read_odometry(const YamlNode& node) {
   return errors;
 }
 
+void read_kind(const YamlMap& map, world::BaseDescription& base) {
+  base.kind = kinds[map.one_of("kind", {"differential", "synchro", "omni", "ackermann", "skid_steer", "aerial"}, 1)];
+  only_for(map, base.kind == Kind::skid_steer, "skid_steer", {"effective_axle_ratio"});
+  only_for(map, base.kind == Kind::ackermann, "ackermann", {"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"});
+  only_for(map, base.kind == Kind::aerial, "aerial", {"climb_max_m_s", "climb_acceleration_m_s2"});
+  constexpr NumberRange longer{1, 1e9, "a number of at least 1"};
+  base.effective_axle_ratio = map.number("effective_axle_ratio", longer, base.effective_axle_ratio);
+  base.wheelbase_m = map.number("wheelbase_m", positive_number, base.wheelbase_m);
+  constexpr NumberRange steering{least_positive, 89, "degrees above 0, at most 89"};
+  base.steering_max_rad = map.degrees("steering_max_deg", steering, base.steering_max_rad);
+  base.steering_rate_rad_s = map.degrees("steering_rate_deg_s", positive_number, base.steering_rate_rad_s);
+  base.climb_max_m_s = map.number("climb_max_m_s", positive_number, base.climb_max_m_s);
+  base.climb_acceleration_m_s2 = map.number("climb_acceleration_m_s2", positive_number, base.climb_acceleration_m_s2);
+}
+
 world::BaseDescription read_base(const YamlNode& node) {
-  using Kind = world::BaseDescription::Kind;
-  const YamlMap map(
-      node, "the base",
-      {"kind", "v_max_m_s", "w_max_rad_s", "v_acceleration_m_s2", "w_acceleration_rad_s2", "axle_m", "odometry",
-       "battery_volts_full", "battery_volts_empty", "battery_capacity_s", "battery_capacity_m"});
+  const YamlMap map(node, "the base",
+                    {"kind", "v_max_m_s", "w_max_rad_s", "v_acceleration_m_s2", "w_acceleration_rad_s2", "axle_m",
+                     "effective_axle_ratio", "wheelbase_m", "steering_max_deg", "steering_rate_deg_s", "climb_max_m_s",
+                     "climb_acceleration_m_s2", "watchdog_ms", "odometry", "battery_volts_full", "battery_volts_empty",
+                     "battery_capacity_s", "battery_capacity_m"});
   world::BaseDescription base;
-  base.kind = map.one_of("kind", {"differential", "synchro"}, 1) == 0 ? Kind::differential : Kind::synchro;
+  read_kind(map, base);
   base.v_max_m_s = map.number("v_max_m_s", positive_number, base.v_max_m_s);
   base.w_max_rad_s = map.number("w_max_rad_s", positive_number, base.w_max_rad_s);
   base.v_acceleration_m_s2 = map.number("v_acceleration_m_s2", positive_number, base.v_acceleration_m_s2);
   base.w_acceleration_rad_s2 = map.number("w_acceleration_rad_s2", positive_number, base.w_acceleration_rad_s2);
   base.axle_m = map.number("axle_m", positive_number, base.axle_m);
+  base.watchdog = map.duration("watchdog_ms", 1ms, base.watchdog);
   if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry);
   base.battery_volts_full = map.number("battery_volts_full", positive_number, base.battery_volts_full);
   base.battery_volts_empty = map.number("battery_volts_empty", positive_number, base.battery_volts_empty);

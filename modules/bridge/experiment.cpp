@@ -87,7 +87,9 @@ void Experiment::make_network(const Scenario& scenario) {
     const world::BodyState* const a = body_of(from);
     const world::BodyState* const b = body_of(to);
     // The environment's tasks are nowhere.
-    return a != nullptr && b != nullptr ? length(b->pose.position() - a->pose.position()) : 0;
+    if (a == nullptr || b == nullptr) return 0.0;
+    const double over = length(b->pose.position() - a->pose.position()), higher = b->height_m - a->height_m;
+    return higher == 0 ? over : exact::hypot(over, higher);
   });
 }
 

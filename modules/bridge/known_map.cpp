@@ -52,21 +52,16 @@ OccupancyGrid grid_around(const Scenario& scenario, const world::WorldFile* map)
   return OccupancyGrid(cells(high.x - low.x), cells(high.y - low.y), drawn_resolution_m, {low.x, low.y, 0}, Cell::free);
 }
 
-/// Whether a robot could meet it, by its heights.
-bool is_in_the_way(const world::Shape& shape, const Scenario& scenario) {
-  return std::any_of(scenario.robots.begin(), scenario.robots.end(),
-                     [&](const RobotScenario& robot) { return heights_overlap(robot.body.shape, shape); });
-}
-
 }  // namespace
 
-OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map) {
+OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map, const RobotScenario& robot) {
   const bool has_cells = map != nullptr && map->grid;
   OccupancyGrid grid = has_cells ? *map->grid : grid_around(scenario, map);
+  const world::Shape body = raised(robot.body.shape, robot.body.start_height_m);
   std::vector<world::Shape> known;
   const auto add = [&](const std::vector<world::Obstacle>& obstacles) {
     for (const world::Obstacle& obstacle : obstacles)
-      if (obstacle.known && is_in_the_way(obstacle.shape, scenario)) known.push_back(obstacle.shape);
+      if (obstacle.known && heights_overlap(body, obstacle.shape)) known.push_back(obstacle.shape);
   };
   add(scenario.shapes);
   if (map != nullptr && !has_cells) add(map->obstacles);

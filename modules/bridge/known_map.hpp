@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map that planners are given: what a scenario's world shows of itself, as a grid of cells.
+// The map that a robot's planner is given: what a scenario's world shows of itself, as a grid of cells.
 #pragma once
 
 #include "core/occupancy_grid.hpp"
@@ -16,8 +16,8 @@ inline constexpr double drawn_margin_m = 2;
 
 /// The cells of the map file, if it is one of cells, with what is known drawn onto them; else a free grid that just
 /// holds all shapes, and with a map file of shapes also every start and goal, with a margin. `map` is what the map file
-/// says, null if there is none. What ends below the robots or begins above all of them is in nobody's way and is not
-/// drawn.
-OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map);
+/// says, null if there is none. What ends below the robot, where it starts, or begins above it is not in its way and
+/// not drawn.
+OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map, const RobotScenario& robot);
 
 }  // namespace waitpoint::bridge

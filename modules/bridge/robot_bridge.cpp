@@ -2,6 +2,7 @@
 #include "modules/bridge/robot_bridge.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/nearest_name.hpp"
 
@@ -51,9 +52,12 @@ void RobotBridge::read_command(Row& row, std::function<void(const T&)> take) {
     if (poster == nullptr)
       throw row.scenario.written.bad("poster '" + base.name() + "' is not what device '" + row.scenario.device +
                                      "' takes");
-    row.exchange = [poster, take](Time) {
+    row.exchange = [poster, take, taken = std::optional<Time>()](Time) mutable {
       T command;
-      if (poster->read(command) == genom::PosterStatus::ok) take(command);
+      Time date;
+      if (poster->read(command, &date) != genom::PosterStatus::ok || taken == date) return;
+      taken = date;
+      take(command);
     };
   };
 }
@@ -61,7 +65,7 @@ void RobotBridge::read_command(Row& row, std::function<void(const T&)> take) {
 void RobotBridge::add_base_row(Row& row, const std::string& value) {
   if (value == "command") {
     return read_command<posters::BaseCommand>(row, [this](const posters::BaseCommand& command) {
-      world_.command(body_, {command.v_m_s, command.w_rad_s});
+      world_.command(body_, {command.v_m_s, command.w_rad_s, command.side_m_s, command.climb_m_s});
       sonars_on_ = command.sonars_on;
     });
   }
@@ -78,6 +82,8 @@ void RobotBridge::add_base_row(Row& row, const std::string& value) {
     reading.w_rad_s = odometer.velocity.w_rad_s;
     reading.battery_volts = world_.battery_volts(body_);
     reading.stalled = world_.body(body_).stalled;
+    reading.side_units = odometer.side_units;
+    reading.height_m = world_.body(body_).height_m;
     if (sonars_on_ && !robot_.body.sonars.empty()) {
       if (sonar_m_.empty() || due(robot_.body.sonars[0].period)) world_.sonar(body_, 0, step_, sonar_m_);
       for (const double range : sonar_m_) reading.sonar_m.push_back(range);

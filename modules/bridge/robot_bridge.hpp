@@ -9,7 +9,9 @@
 //
 // Another world, or another device, is another row here: no module knows. After each step of the world the bridge
 // records the body's state, gives the readings that are due, and takes the commands for the next step. In simulation it
-// is a task of its robot in the world's phase; on real threads the world's own thread does it.
+// is a task of its robot in the world's phase; on real threads the world's own thread does it. A command counts as one
+// when it has been given anew: a base's watchdog hears a module that goes on saying the same, and not what it said
+// last.
 #pragma once
 
 #include <functional>

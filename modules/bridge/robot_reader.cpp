@@ -145,10 +145,11 @@ const YamlNode& type_of(const YamlMap& robot, const YamlNode* types) {
 
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   const std::string title = name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'";
-  const auto keys = {std::string_view("name"),   std::string_view("type"),      std::string_view("start"),
-                     std::string_view("goals"),  std::string_view("shape"),     std::string_view("base"),
-                     std::string_view("lasers"), std::string_view("sonars"),    std::string_view("modules"),
-                     std::string_view("bridge"), std::string_view("executive"), std::string_view("processors")};
+  const auto keys = {std::string_view("name"),          std::string_view("type"),      std::string_view("start"),
+                     std::string_view("goals"),         std::string_view("shape"),     std::string_view("base"),
+                     std::string_view("lasers"),        std::string_view("sonars"),    std::string_view("modules"),
+                     std::string_view("bridge"),        std::string_view("executive"), std::string_view("processors"),
+                     std::string_view("start_height_m")};
   const YamlMap own(node, title, keys);
   const std::string name = read_name(own.require("name"), "the name of a robot");
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
@@ -159,6 +160,11 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   const YamlNode& start = own.require("start");
   robot.body.start = read_pose(start, "start");
   robot.start_written = start.written;
+  if (const YamlNode* height = own.find("start_height_m")) {
+    if (robot.body.base.kind != world::BaseDescription::Kind::aerial)
+      throw height->written.bad("expected no start_height_m: " + title + " does not fly");
+    robot.body.start_height_m = own.number("start_height_m", number_from_zero);
+  }
   if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
   return robot;
 }

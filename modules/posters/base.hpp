@@ -10,14 +10,17 @@ namespace waitpoint::posters {
 
 inline constexpr std::size_t sonar_count_max = 48;
 
-/// To the controller: the speeds to hold until the next command.
+/// To the controller: the speeds to hold until the next command. A base that cannot go sideways (to the left), or
+/// climb, does not.
 struct BaseCommand {
   double v_m_s = 0, w_rad_s = 0;
   bool sonars_on = false;
+  double side_m_s = 0, climb_m_s = 0;
 
   static constexpr auto fields() {
     return std::tuple(field("v_m_s", &BaseCommand::v_m_s), field("w_rad_s", &BaseCommand::w_rad_s),
-                      field("sonars_on", &BaseCommand::sonars_on));
+                      field("sonars_on", &BaseCommand::sonars_on), added_field("side_m_s", &BaseCommand::side_m_s),
+                      added_field("climb_m_s", &BaseCommand::climb_m_s));
   }
 };
 
@@ -30,24 +33,32 @@ struct BaseReading {
   double battery_volts = 0;
   bool stalled = false;
   Bounded<double, sonar_count_max> sonar_m;  ///< no echo: the sonar's greatest range; empty while they are off
+  std::int64_t side_units = 0;               ///< as travel, to the left: of a base that goes sideways
+  double height_m = 0;                       ///< of one that flies
 
   static constexpr auto fields() {
     return std::tuple(field("date", &BaseReading::date), field("travel_units", &BaseReading::travel_units),
                       field("turn_units", &BaseReading::turn_units), field("v_m_s", &BaseReading::v_m_s),
                       field("w_rad_s", &BaseReading::w_rad_s), field("battery_volts", &BaseReading::battery_volts),
-                      field("stalled", &BaseReading::stalled), field("sonar_m", &BaseReading::sonar_m));
+                      field("stalled", &BaseReading::stalled), field("sonar_m", &BaseReading::sonar_m),
+                      added_field("side_units", &BaseReading::side_units),
+                      added_field("height_m", &BaseReading::height_m));
   }
 };
 
-/// The speed that a motion module wants, tracked by `rflex` (the LAAS name of this poster is GENPOS_CART_SPEED).
+/// The speed that a motion module wants, tracked by `rflex` (the LAAS name of this poster is GENPOS_CART_SPEED, that of
+/// the sideways speed there vt).
 struct SpeedReference {
   Time date;
   double v_m_s = 0, w_rad_s = 0;
   std::uint32_t number = 0;  ///< counts the references: a number that stands still is a writer that stopped
+  double side_m_s = 0, climb_m_s = 0;
 
   static constexpr auto fields() {
     return std::tuple(field("date", &SpeedReference::date), field("v_m_s", &SpeedReference::v_m_s),
-                      field("w_rad_s", &SpeedReference::w_rad_s), field("number", &SpeedReference::number));
+                      field("w_rad_s", &SpeedReference::w_rad_s), field("number", &SpeedReference::number),
+                      added_field("side_m_s", &SpeedReference::side_m_s),
+                      added_field("climb_m_s", &SpeedReference::climb_m_s));
   }
 };
 

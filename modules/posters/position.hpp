@@ -25,10 +25,12 @@ struct Odometry {
   PositionEstimate position;
   double v_m_s = 0, w_rad_s = 0;  ///< measured speeds
   bool stalled = false;           ///< the base reports that it cannot move as commanded
+  double height_m = 0;            ///< of a base that flies, as it measures it
 
   static constexpr auto fields() {
     return std::tuple(field("position", &Odometry::position), field("v_m_s", &Odometry::v_m_s),
-                      field("w_rad_s", &Odometry::w_rad_s), field("stalled", &Odometry::stalled));
+                      field("w_rad_s", &Odometry::w_rad_s), field("stalled", &Odometry::stalled),
+                      added_field("height_m", &Odometry::height_m));
   }
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dead reckoning from the controller's accumulated travel and turn, with its covariance.
 //
-// Each report moves the pose along an arc: travel d and turn a since the last one, heading halfway during the chord.
-// The covariance of (x, y, heading) grows by P <- F P F' + G Q G', F and G the Jacobians of that motion by pose and by
-// (d, a), Q = diag(k_d |d|, k_a |a| + k_da |d|). (Thrun, Burgard, Fox, "Probabilistic Robotics", ch. 5; Borenstein and
-// Feng 1996.)
+// Each report moves the pose along an arc: travel d, a way l to the left (of a base that goes sideways) and turn a
+// since the last one, heading halfway during the chord. The covariance of (x, y, heading) grows by P <- F P F' + G Q
+// G', F and G the Jacobians of that motion by pose and by (d, l, a), Q = diag(k_d |d|, k_d |l|, k_a |a| + k_da (|d| +
+// |l|)). (Thrun, Burgard, Fox, "Probabilistic Robotics", ch. 5; Borenstein and Feng 1996.)
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class DeadReckoning {
   DeadReckoning(const OdometryNoise& noise, double units_per_m, double units_per_rad);
 
   /// Takes in a report; the first only sets where the counters stand.
-  void advance(Time date, std::int64_t travel_units, std::int64_t turn_units);
+  void advance(Time date, std::int64_t travel_units, std::int64_t turn_units, std::int64_t side_units = 0);
   /// Sets the pose, and the uncertainty to zero.
   void set(const Pose& pose);
 
@@ -42,7 +42,7 @@ class DeadReckoning {
   OdometryNoise noise_;
   double metres_per_unit_, radians_per_unit_;
   bool started_ = false;
-  std::int64_t travel_units_ = 0, turn_units_ = 0;
+  std::int64_t travel_units_ = 0, turn_units_ = 0, side_units_ = 0;
   posters::PositionEstimate position_;
 };
 

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/rflex/rflex.hpp"
 
+#include <algorithm>
+
 namespace waitpoint::rflex {
 
 using genom::Nothing;
 using genom::Report;
 using genom::State;
 using namespace std::chrono_literals;
+
+namespace {
+constexpr double height_time_s = 0.5;  // in which a small error of height is to a third of it
+}  // namespace
 
 Parameters Rflex::read(genom::Settings& settings) {
   Parameters parameters;
@@ -28,7 +34,7 @@ Rflex::Rflex(genom::ModuleSetup& setup)
   motion_.set_permanent([this] { take_report(); });
   const std::vector<std::string> motions = {"TrackSpeedStart", "GotoSpeed", "Stop"};
   const auto halt = [this](auto&) {
-    command_.v_m_s = command_.w_rad_s = 0;
+    drive(0, 0, 0, 0);
     return State::ether;
   };
   add_activity<Nothing>("TrackSpeedStart", motion_,
@@ -47,8 +53,8 @@ Rflex::Rflex(genom::ModuleSetup& setup)
   add_activity<SpeedInput>("GotoSpeed", motion_,
                            {.exec =
                                 [this](auto& activity) {
-                                  command_.v_m_s = activity.input.v_m_s;
-                                  command_.w_rad_s = activity.input.w_rad_s;
+                                  const SpeedInput& wanted = activity.input;
+                                  drive(wanted.v_m_s, wanted.w_rad_s, wanted.side_m_s, wanted.climb_m_s);
                                   return State::exec;
                                 },
                             .inter = halt},
@@ -84,8 +90,8 @@ void Rflex::set_position(const Pose& pose) {
 void Rflex::take_report() {
   posters::BaseReading report;
   if (reading_.read(report) == genom::PosterStatus::empty) return;
-  dead_reckoning_.advance(report.date, report.travel_units, report.turn_units);
-  shown_ = {dead_reckoning_.position(), report.v_m_s, report.w_rad_s, report.stalled};
+  dead_reckoning_.advance(report.date, report.travel_units, report.turn_units, report.side_units);
+  shown_ = {dead_reckoning_.position(), report.v_m_s, report.w_rad_s, report.stalled, report.height_m};
   odometry_.write(*shown_);
   battery_ = {report.date, report.battery_volts, report.battery_volts < parameters_.battery_low_v};
   battery_poster_.write(battery_);
@@ -111,8 +117,20 @@ void Rflex::track_reference() {
     reference_renewed_ = now;
   }
   const bool stale = now - reference_renewed_ > parameters_.reference_timeout_ms;
-  command_.v_m_s = stale ? 0 : reference.v_m_s;
-  command_.w_rad_s = stale ? 0 : reference.w_rad_s;
+  if (stale) reference = {};
+  double climb = reference.climb_m_s;
+  if (parameters_.cruise_height_m > 0 && shown_) {
+    const double higher = parameters_.cruise_height_m - shown_->height_m;
+    climb = std::clamp(higher / height_time_s, -parameters_.climb_m_s_max, parameters_.climb_m_s_max);
+  }
+  drive(reference.v_m_s, reference.w_rad_s, reference.side_m_s, climb);
+}
+
+void Rflex::drive(double v_m_s, double w_rad_s, double side_m_s, double climb_m_s) {
+  command_.v_m_s = v_m_s;
+  command_.w_rad_s = w_rad_s;
+  command_.side_m_s = side_m_s;
+  command_.climb_m_s = climb_m_s;
 }
 
 }  // namespace waitpoint::rflex

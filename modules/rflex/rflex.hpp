@@ -5,7 +5,8 @@
 //   writes   rflex.command (to the controller), rflex.odometry, rflex.battery, rflex.sonars
 //   requests TrackSpeedStart, GotoSpeed, Stop (each ends the others); SetPos, SonarOn, SonarOff; MonitorBattery
 //
-// While tracking, a reference that stops being renewed stops the robot: its writer may have died.
+// While tracking, a reference that stops being renewed stops the robot: its writer may have died. A base that flies is
+// kept at cruise_height_m meanwhile, whatever the reference says of climbing.
 #pragma once
 
 #include <optional>
@@ -25,23 +26,27 @@ struct Parameters {
   Duration reference_timeout_ms = std::chrono::milliseconds(500);
   double battery_low_v = 22.5;
   double sonar_ring_radius_m = 0.25;
+  double cruise_height_m = 0;  ///< that tracking climbs to and holds; 0: it climbs as the reference says
+  double climb_m_s_max = 0.5;  ///< towards it
 
   static constexpr auto fields() {
-    return std::tuple(field("noise", &Parameters::noise), field("units_per_m", &Parameters::units_per_m),
-                      field("units_per_rad", &Parameters::units_per_rad),
-                      field("speed_poster", &Parameters::speed_poster),
-                      field("reference_timeout_ms", &Parameters::reference_timeout_ms),
-                      field("battery_low_v", &Parameters::battery_low_v),
-                      field("sonar_ring_radius_m", &Parameters::sonar_ring_radius_m));
+    return std::tuple(
+        field("noise", &Parameters::noise), field("units_per_m", &Parameters::units_per_m),
+        field("units_per_rad", &Parameters::units_per_rad), field("speed_poster", &Parameters::speed_poster),
+        field("reference_timeout_ms", &Parameters::reference_timeout_ms),
+        field("battery_low_v", &Parameters::battery_low_v),
+        field("sonar_ring_radius_m", &Parameters::sonar_ring_radius_m),
+        field("cruise_height_m", &Parameters::cruise_height_m), field("climb_m_s_max", &Parameters::climb_m_s_max));
   }
 };
 
 /// Input of GotoSpeed.
 struct SpeedInput {
-  double v_m_s = 0, w_rad_s = 0;
+  double v_m_s = 0, w_rad_s = 0, side_m_s = 0, climb_m_s = 0;
 
   static constexpr auto fields() {
-    return std::tuple(field("v_m_s", &SpeedInput::v_m_s), field("w_rad_s", &SpeedInput::w_rad_s));
+    return std::tuple(field("v_m_s", &SpeedInput::v_m_s), field("w_rad_s", &SpeedInput::w_rad_s),
+                      added_field("side_m_s", &SpeedInput::side_m_s), added_field("climb_m_s", &SpeedInput::climb_m_s));
   }
 };
 
@@ -54,6 +59,7 @@ class Rflex : public genom::Module {
   void set_position(const Pose& pose);
   void take_report();
   void track_reference();
+  void drive(double v_m_s, double w_rad_s, double side_m_s, double climb_m_s);
 
   Parameters parameters_;
   DeadReckoning dead_reckoning_;

@@ -62,9 +62,10 @@ void McapRecording::record(const bridge::Experiment& experiment, Time now) {
   }
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const std::string& name = scenario_.robots[i].name;
-    const Pose& truth = world.body(world::BodyId(static_cast<std::uint32_t>(i))).pose;
+    const world::BodyState& body = world.body(world::BodyId(static_cast<std::uint32_t>(i)));
+    const Pose& truth = body.pose;
     if (is_sampled) {
-      file_.write(frames_, now, foxglove::frame_transform(now, root, name, truth));
+      file_.write(frames_, now, foxglove::frame_transform(now, root, name, truth, body.height_m));
       file_.write(robots_[i].truth, now, foxglove::pose_in_frame(now, root, truth));
     }
     record_robot(robots_[i], name, now);

@@ -327,7 +327,7 @@ const BadCase bad_cases[] = {
     {"a_type_without_a_shape", "    shape: {radius_m: 0.26, height_m: 1.2}\n", "", 13,
      "expected key 'shape' in robot type 'scout'"},
     {"a_kind_of_base_that_is_none", "kind: differential", "kind: car", 15,
-     "expected kind to be differential or synchro, found 'car'"},
+     "expected kind to be differential, synchro, omni, ackermann, skid_steer or aerial, found 'car'"},
     {"an_unknown_error_of_odometry", "travel_scale: 1.01", "travel_scael: 1.01", 17,
      "unknown key 'travel_scael' in the odometry, did you mean 'travel_scale'?"},
     {"too_many_beams", "beams: 181", "beams: 5000", 19,
