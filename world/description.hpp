@@ -29,8 +29,8 @@ struct Obstacle {
   bool known = true;  ///< whether the map given to planners shows it
 };
 
-/// Errors of wheel odometry. Wheels are the two driven ones of a differential base; a synchro base has a travel and a
-/// turn axis.
+/// Errors of wheel odometry, see vehicles/odometer.hpp. The first are of what the controller makes of its wheels, and
+/// so for every kind of base; those of the wheels are for bases with two driven sides only.
 struct OdometryErrors {
   double travel_scale = 1;               ///< measured / true distance (sideways too)
   double turn_scale = 1;                 ///< measured / true turn: the wheel base factor E_b, or the turn gear
@@ -38,8 +38,16 @@ struct OdometryErrors {
   double travel_noise_m_per_sqrt_m = 0;  ///< standard deviation of the distance after one metre
   double turn_noise_rad_per_sqrt_m = 0;  ///< standard deviation of the turn after one metre travelled
   double turn_noise_rad_per_sqrt_rad = 0;
+  double slips_per_m = 0;       ///< how often wheels spin, on average
+  double slip_m = 0;            ///< what is counted too much then, on average
+  double slip_turn_rad = 0;     ///< standard deviation of the turn counted then
   double units_per_m = 103000;  ///< quantisation (B21r)
   double units_per_rad = 35000;
+
+  double wheel_diameter_ratio = 1;      ///< right / left: E_d of UMBmark
+  double wheel_base_ratio = 1;          ///< actual / nominal: E_b of UMBmark
+  double wheel_noise_m_per_sqrt_m = 0;  ///< standard deviation of a wheel's way after one metre of it
+  double wheel_ticks_per_m = 0;         ///< of its encoder; 0: as fine as can be
 };
 
 /// What a body moves on, see vehicles/base.hpp for what each kind can do.

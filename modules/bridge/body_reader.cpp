@@ -17,6 +17,8 @@ using Kind = world::BaseDescription::Kind;
 constexpr Kind kinds[] = {Kind::differential, Kind::synchro,    Kind::omni,
                           Kind::ackermann,    Kind::skid_steer, Kind::aerial};
 
+bool has_two_sides(Kind kind) { return kind == Kind::differential || kind == Kind::skid_steer; }
+
 /// Refuses keys of another kind of base, which would do nothing.
 void only_for(const YamlMap& map, bool is_such, std::string_view such, std::initializer_list<std::string_view> keys) {
   if (is_such) return;
@@ -25,10 +27,12 @@ void only_for(const YamlMap& map, bool is_such, std::string_view such, std::init
       throw node->written.bad("expected no " + std::string(key) + ": it is for a base of kind " + std::string(such));
 }
 
-world::OdometryErrors read_odometry(const YamlNode& node) {
-  const YamlMap map(node, "the odometry",
-                    {"travel_scale", "turn_scale", "drift_rad_per_m", "travel_noise_m_per_sqrt_m",
-                     "turn_noise_rad_per_sqrt_m", "turn_noise_rad_per_sqrt_rad", "units_per_m", "units_per_rad"});
+world::OdometryErrors read_odometry(const YamlNode& node, Kind kind) {
+  const YamlMap map(
+      node, "the odometry",
+      {"travel_scale", "turn_scale", "drift_rad_per_m", "travel_noise_m_per_sqrt_m", "turn_noise_rad_per_sqrt_m",
+       "turn_noise_rad_per_sqrt_rad", "slips_per_m", "slip_m", "slip_turn_rad", "units_per_m", "units_per_rad",
+       "wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
   world::OdometryErrors errors;
   errors.travel_scale = map.number("travel_scale", positive_number, errors.travel_scale);
   errors.turn_scale = map.number("turn_scale", positive_number, errors.turn_scale);
@@ -39,8 +43,19 @@ world::OdometryErrors read_odometry(const YamlNode& node) {
       map.number("turn_noise_rad_per_sqrt_m", number_from_zero, errors.turn_noise_rad_per_sqrt_m);
   errors.turn_noise_rad_per_sqrt_rad =
       map.number("turn_noise_rad_per_sqrt_rad", number_from_zero, errors.turn_noise_rad_per_sqrt_rad);
+  constexpr NumberRange slips{0, 1000, "a number from 0 to 1000"};
+  errors.slips_per_m = map.number("slips_per_m", slips, errors.slips_per_m);
+  errors.slip_m = map.number("slip_m", number_from_zero, errors.slip_m);
+  errors.slip_turn_rad = map.number("slip_turn_rad", number_from_zero, errors.slip_turn_rad);
   errors.units_per_m = map.number("units_per_m", positive_number, errors.units_per_m);
   errors.units_per_rad = map.number("units_per_rad", positive_number, errors.units_per_rad);
+  only_for(map, has_two_sides(kind), "differential or skid_steer",
+           {"wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
+  errors.wheel_diameter_ratio = map.number("wheel_diameter_ratio", positive_number, errors.wheel_diameter_ratio);
+  errors.wheel_base_ratio = map.number("wheel_base_ratio", positive_number, errors.wheel_base_ratio);
+  errors.wheel_noise_m_per_sqrt_m =
+      map.number("wheel_noise_m_per_sqrt_m", number_from_zero, errors.wheel_noise_m_per_sqrt_m);
+  errors.wheel_ticks_per_m = map.number("wheel_ticks_per_m", positive_number, errors.wheel_ticks_per_m);
   return errors;
 }
 
@@ -73,7 +88,7 @@ world::BaseDescription read_base(const YamlNode& node) {
   base.w_acceleration_rad_s2 = map.number("w_acceleration_rad_s2", positive_number, base.w_acceleration_rad_s2);
   base.axle_m = map.number("axle_m", positive_number, base.axle_m);
   base.watchdog = map.duration("watchdog_ms", 1ms, base.watchdog);
-  if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry);
+  if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry, base.kind);
   base.battery_volts_full = map.number("battery_volts_full", positive_number, base.battery_volts_full);
   base.battery_volts_empty = map.number("battery_volts_empty", positive_number, base.battery_volts_empty);
   base.battery_capacity_s = map.number("battery_capacity_s", positive_number, base.battery_capacity_s);

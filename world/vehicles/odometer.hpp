@@ -3,14 +3,23 @@
 //
 //   systematic    travel and turn scaled; a turn for every metre (unequal wheels): grows with the distance, with sign
 //   random        independent of step to step, with variances that grow with the distance and the angle moved
+//   slip          now and then wheels spin: a Poisson process in the distance, each time an exponentially distributed
+//                 distance more, and a normally distributed turn
 //   quantisation  whole units; the rest is carried, so it never exceeds half a unit in all
 //
 //   travel = s d + k_d sqrt|d| n1      turn = s_a a + c d + sqrt(k_ad^2 |d| + k_aa^2 |a|) n2
+//
+// What two driven wheels have beside that comes first: diameters in the ratio E_d (right to left, their mean as it
+// should be), a base of E_b times the nominal one, a noise of each wheel, an encoder's ticks.
+//
+//   w_r, w_l = d +- a axle / 2                                    m_r = w_r (E_d + 1) / (2 E_d) + k_w sqrt|w_r| n_r
+//   d' = (m_r + m_l) / 2       a' = E_b (m_r - m_l) / axle        m_l = w_l (E_d + 1) / 2       + k_w sqrt|w_l| n_l
 //
 // The systematic part is that of UMBmark (Borenstein and Feng 1996: wheel base and wheel diameters), the random part
 // the usual model of a random walk in the distance.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -24,12 +33,13 @@ struct UnitCounter {
   std::int64_t total = 0;
   double rest = 0;
 
-  void add(double units);
+  /// Returns the whole units that came with it.
+  std::int64_t add(double units);
 };
 
 class Odometer {
  public:
-  /// Draws from the stream (seed, robot, "odometry") at tick = number of the step.
+  /// Draws from streams (seed, robot, "odometry...") at tick = number of the step.
   Odometer(const BaseDescription& base, std::uint64_t seed, std::string_view robot);
 
   /// Counts what the base moved in that step of `step_s` seconds, as its wheels see it (as_wheels_count()).
@@ -37,9 +47,18 @@ class Odometer {
   const OdometerReading& reading() const { return reading_; }
 
  private:
+  struct Motion {
+    double travel_m, turn_rad;
+  };
+  Motion of_wheels(std::uint64_t step, Motion moved);
+  Motion slipped(std::uint64_t step, double distance_m) const;
+
   OdometryErrors errors_;
-  RandomStream noise_;
+  double axle_m_;
+  bool wheels_err_;
+  RandomStream noise_, wheel_noise_, slip_;
   UnitCounter travel_, turn_, side_;
+  std::array<UnitCounter, 2> ticks_;  // left, right
   OdometerReading reading_;
 };
 

@@ -55,6 +55,22 @@ TEST_F(BaseReader, what_flies_has_a_height_where_it_starts) {
             "--set " + start + ": expected no start_height_m: robot 'one' does not fly");
 }
 
+TEST_F(BaseReader, odometry_has_its_errors) {
+  const world::OdometryErrors errors =
+      read(changed("{travel_scale: 1.01}",
+                   "{wheel_diameter_ratio: 1.002, wheel_base_ratio: 0.99, wheel_noise_m_per_sqrt_m: 0.003, "
+                   "wheel_ticks_per_m: 2000, slips_per_m: 0.5, slip_m: 0.02, slip_turn_rad: 0.03}"))
+          .robots.at(0)
+          .body.base.odometry;
+  EXPECT_EQ(errors.wheel_diameter_ratio, 1.002);
+  EXPECT_EQ(errors.wheel_base_ratio, 0.99);
+  EXPECT_EQ(errors.wheel_noise_m_per_sqrt_m, 0.003);
+  EXPECT_EQ(errors.wheel_ticks_per_m, 2000);
+  EXPECT_EQ(errors.slips_per_m, 0.5);
+  EXPECT_EQ(errors.slip_m, 0.02);
+  EXPECT_EQ(errors.slip_turn_rad, 0.03);
+}
+
 struct BadBase {
   std::string name, text;
   int line;
@@ -84,6 +100,10 @@ const BadBase bad_bases[] = {
      "expected steering_max_deg to be degrees above 0, at most 89, found '90'"},
     {"a_wheelbase_of_nothing", "kind: ackermann\n      wheelbase_m: 0", 16,
      "expected wheelbase_m to be a positive number, found '0'"},
+    {"wheels_of_a_synchro_base", "kind: synchro\n      odometry: {wheel_base_ratio: 1.01}", 16,
+     "expected no wheel_base_ratio: it is for a base of kind differential or skid_steer"},
+    {"slips_without_end", "odometry: {slips_per_m: 1001}", 15,
+     "expected slips_per_m to be a number from 0 to 1000, found '1001'"},
     {"a_watchdog_of_no_time", "watchdog_ms: 0", 15, "expected watchdog_ms to be a positive number, found '0'"},
 };
 
