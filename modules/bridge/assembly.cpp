@@ -73,12 +73,18 @@ world::WorldFile Assembly::load(const MapFile& map) {
 
 // A coarse step is a legitimate choice, but rarely meant.
 void Assembly::check_step() {
+  const Robot* quickest = nullptr;
+  std::size_t quicker = 0;
   for (const auto& robot : robots_) {
     const std::optional<Duration> least = robot->least_period();
     if (!least || scenario_.step <= *least) continue;
-    warnings_.push_back("the world's step of " + to_string(scenario_.step) + " s exceeds the least period of " +
-                        robot->name() + "'s software, " + to_string(*least) + " s");
+    ++quicker;
+    if (quickest == nullptr || *least < *quickest->least_period()) quickest = robot.get();
   }
+  if (quickest == nullptr) return;
+  const std::string others = quicker == 1 ? "" : ", and of " + counted(quicker - 1, "other robot");
+  warnings_.push_back("the world's step of " + to_string(scenario_.step) + " s exceeds the least period of " +
+                      quickest->name() + "'s software, " + to_string(*quickest->least_period()) + " s" + others);
 }
 
 std::size_t Assembly::goals_reached() const {
