@@ -9,6 +9,7 @@
 
 #include "core/pose.hpp"
 #include "core/time.hpp"
+#include "world/sensor_description.hpp"
 
 namespace waitpoint::world {
 
@@ -67,29 +68,6 @@ struct BaseDescription {
   double battery_volts_full = 26.0, battery_volts_empty = 22.0;
   double battery_capacity_s = 4 * 3600;  ///< until empty, standing still
   double battery_capacity_m = 8000;      ///< until empty, if only driving drained it
-};
-
-/// A SICK LMS: a planar fan of beams about the device's x axis.
-struct LaserDescription {
-  Pose mount;             ///< in the body's frame
-  double height_m = 0.4;  ///< with the body on the floor
-  std::uint32_t beams = 361;
-  double field_of_view_rad = exact::pi;
-  double range_max_m = 32;
-  double range_noise_m = 0.005;  ///< standard deviation, to 8 m; grows linearly to twice that at 20 m
-  double range_bias_m = 0;       ///< systematic, the same for every beam
-  double resolution_m = 0.01;    ///< quantisation
-  Duration period = std::chrono::milliseconds(100);
-};
-
-/// A ring of sonars on a cylinder about the body's centre, the first straight ahead, counter-clockwise.
-struct SonarRingDescription {
-  std::uint32_t count = 24;  ///< 0: none
-  double ring_radius_m = 0.25, height_m = 0.6;
-  double half_cone_rad = 0.218;  ///< a wall answers only if its normal lies inside
-  double range_min_m = 0.15, range_max_m = 3;
-  double range_noise_relative = 0.01;
-  Duration period = std::chrono::milliseconds(120);  ///< of a full ring
 };
 
 /// A robot's body with what is mounted on it.

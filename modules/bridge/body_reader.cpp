@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
+#include "modules/bridge/sensor_reader.hpp"
 #include "modules/bridge/shape_reader.hpp"
-#include "modules/posters/base.hpp"
-#include "modules/posters/laser.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -96,39 +95,6 @@ world::BaseDescription read_base(const YamlNode& node) {
   return base;
 }
 
-world::LaserDescription read_laser(const YamlMap& map) {
-  world::LaserDescription laser;
-  if (const YamlNode* mount = map.find("mount")) laser.mount = read_pose(*mount, "mount");
-  laser.height_m = map.number("height_m", number_from_zero, laser.height_m);
-  laser.beams = static_cast<std::uint32_t>(map.count("beams", 2, posters::beam_count_max, laser.beams));
-  constexpr NumberRange fan{least_positive, 360, "degrees above 0, at most 360"};
-  laser.field_of_view_rad = map.degrees("field_of_view_deg", fan, laser.field_of_view_rad);
-  laser.range_max_m = map.number("range_max_m", positive_number, laser.range_max_m);
-  laser.range_noise_m = map.number("range_noise_m", number_from_zero, laser.range_noise_m);
-  laser.range_bias_m = map.number("range_bias_m", any_number, laser.range_bias_m);
-  laser.resolution_m = map.number("resolution_m", positive_number, laser.resolution_m);
-  laser.period = map.duration("period_ms", 1ms, laser.period);
-  return laser;
-}
-
-world::SonarRingDescription read_sonar_ring(const YamlNode& node) {
-  const YamlMap map(node, "a ring of sonars",
-                    {"count", "ring_radius_m", "height_m", "half_cone_deg", "range_min_m", "range_max_m",
-                     "range_noise_relative", "period_ms"});
-  world::SonarRingDescription ring;
-  ring.count = static_cast<std::uint32_t>(map.count("count", 1, posters::sonar_count_max, ring.count));
-  ring.ring_radius_m = map.number("ring_radius_m", number_from_zero, ring.ring_radius_m);
-  ring.height_m = map.number("height_m", number_from_zero, ring.height_m);
-  constexpr NumberRange cone{least_positive, 90, "degrees above 0, at most 90"};
-  ring.half_cone_rad = map.degrees("half_cone_deg", cone, ring.half_cone_rad);
-  ring.range_min_m = map.number("range_min_m", number_from_zero, ring.range_min_m);
-  ring.range_max_m = map.number("range_max_m", positive_number, ring.range_max_m);
-  if (ring.range_max_m <= ring.range_min_m) throw node.written.bad("expected range_max_m to be above range_min_m");
-  ring.range_noise_relative = map.number("range_noise_relative", number_from_zero, ring.range_noise_relative);
-  ring.period = map.duration("period_ms", 1ms, ring.period);
-  return ring;
-}
-
 }  // namespace
 
 BodyReading read_body(const YamlMap& robot) {
@@ -137,15 +103,12 @@ BodyReading read_body(const YamlMap& robot) {
   if (const YamlNode* base = robot.find("base")) reading.body.base = read_base(*base);
   if (const YamlNode* lasers = robot.find("lasers")) {
     for (const YamlNode& item : read_list(*lasers, "lasers")) {
-      const YamlMap map(item, "a laser",
-                        {"name", "mount", "height_m", "beams", "field_of_view_deg", "range_max_m", "range_noise_m",
-                         "range_bias_m", "resolution_m", "period_ms"});
-      const std::string name = map.text("name", "laser");
-      if (std::count(reading.laser_names.begin(), reading.laser_names.end(), name) > 0) {
-        throw item.written.bad("expected lasers of different names, '" + name + "' is there already");
+      LaserReading laser = read_laser(item);
+      if (std::count(reading.laser_names.begin(), reading.laser_names.end(), laser.name) > 0) {
+        throw item.written.bad("expected lasers of different names, '" + laser.name + "' is there already");
       }
-      reading.laser_names.push_back(name);
-      reading.body.lasers.push_back(read_laser(map));
+      reading.laser_names.push_back(std::move(laser.name));
+      reading.body.lasers.push_back(laser.laser);
     }
   }
   if (const YamlNode* sonars = robot.find("sonars")) {

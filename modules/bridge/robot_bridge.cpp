@@ -5,15 +5,17 @@
 #include <optional>
 
 #include "core/nearest_name.hpp"
+#include "world/sensors/laser_timing.hpp"
 
 namespace waitpoint::bridge {
 
+RobotBridge::Laser::Laser(std::size_t n, const world::LaserDescription& d)
+    : number(n), description(&d), line(world::transmission(d)) {}
+
 RobotBridge::RobotBridge(const RobotScenario& robot, world::World& world, world::BodyId body, genom::NameSpace& names)
-    : robot_(robot), world_(world), body_(body), names_(names), lasers_(robot.body.lasers.size()) {
-  for (std::size_t i = 0; i < lasers_.size(); ++i) {
-    lasers_[i].number = i;
-    lasers_[i].description = robot.body.lasers[i];
-  }
+    : robot_(robot), world_(world), body_(body), names_(names) {
+  lasers_.reserve(robot.body.lasers.size());  // rows refer to them
+  for (const world::LaserDescription& laser : robot.body.lasers) lasers_.emplace_back(lasers_.size(), laser);
   if (robot.body.sonars.size() > 1) throw robot.written.bad("the base's controller takes one ring of sonars at most");
   rows_.reserve(robot.bridge.size());
   for (const BridgeRow& row : robot.bridge) add_row(row);
@@ -97,10 +99,10 @@ void RobotBridge::add_laser_row(Row& row, Laser& laser, const std::string& value
     return read_command<posters::LaserCommand>(
         row, [&laser](const posters::LaserCommand& command) { laser.on = command.on; });
   }
-  auto& poster = names_.create_poster<posters::LaserReading>(row.scenario.poster, "the bridge");
-  poster.set_latency(row.scenario.latency);
-  row.exchange = [this, &laser, &poster](Time date) {
-    if (!laser.on || !due(laser.description.period)) return;
+  laser.poster = &names_.create_poster<posters::LaserReading>(row.scenario.poster, "the bridge");
+  laser.poster->set_latency(row.scenario.latency);
+  row.exchange = [this, &laser](Time date) {
+    if (!laser.on || !due(laser.description->period)) return;
     posters::LaserReading& reading = laser.reading;
     ++reading.number;
     world_.scan(body_, laser.number, reading.number, laser.scan);
@@ -110,7 +112,10 @@ void RobotBridge::add_laser_row(Row& row, Laser& laser, const std::string& value
     reading.range_max_m = laser.scan.range_max_m;
     reading.range_m.clear();
     for (const double range : laser.scan.range_m) reading.range_m.push_back(static_cast<float>(range));
-    poster.write(reading);
+    if (laser.line.takes_time())
+      laser.line.send(date, reading);
+    else
+      laser.poster->write(reading);
   };
 }
 
@@ -139,15 +144,36 @@ bool RobotBridge::due(Duration period) const {
 void RobotBridge::exchange(Time date) {
   static constexpr std::uint64_t body_state = 0x626F6479;  // "body"
   threads::record(body_state, world_.body(body_));
+  give_arrived(date);
   for (const Row& row : rows_)
     if (row.exchange != nullptr) row.exchange(date);
   ++step_;
 }
 
+void RobotBridge::give_arrived(Time now) {
+  posters::LaserReading reading;
+  for (Laser& laser : lasers_) {
+    while (laser.line.take(now, reading)) laser.poster->write(reading);
+  }
+}
+
+void RobotBridge::wait_for_step() {
+  for (;;) {
+    std::optional<Time> arrival;
+    for (const Laser& laser : lasers_) {
+      const std::optional<Time> next = laser.line.next_arrival();
+      if (next && (!arrival || *next < *arrival)) arrival = next;
+    }
+    if (!arrival) return stepped_.acquire();
+    if (stepped_.try_acquire_for(std::chrono::nanoseconds((*arrival - threads::now()).ns()))) return;
+    give_arrived(threads::now());
+  }
+}
+
 void RobotBridge::run() {
   for (;;) {
     exchange(threads::now());
-    stepped_.acquire();
+    wait_for_step();
   }
 }
 

@@ -12,6 +12,9 @@
 // is a task of its robot in the world's phase; on real threads the world's own thread does it. A command counts as one
 // when it has been given anew: a base's watchdog hears a module that goes on saying the same, and not what it said
 // last.
+//
+// What comes over a serial line is given when its last byte has come, between steps too; on real threads at the first
+// step after that.
 #pragma once
 
 #include <functional>
@@ -19,6 +22,7 @@
 #include <vector>
 
 #include "fibers/sync/threads.hpp"
+#include "modules/bridge/scan_line.hpp"
 #include "modules/bridge/scenario.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/posters/base.hpp"
@@ -47,11 +51,15 @@ class RobotBridge {
 
  private:
   struct Laser {
-    std::size_t number = 0;
-    world::LaserDescription description;
+    Laser(std::size_t n, const world::LaserDescription& d);
+
+    std::size_t number;
+    const world::LaserDescription* description;
     bool on = false;
     world::LaserScan scan;
     posters::LaserReading reading;
+    ScanLine line;
+    genom::Poster<posters::LaserReading>* poster = nullptr;
   };
   using Exchange = std::function<void(Time date)>;
   struct Row {
@@ -66,6 +74,8 @@ class RobotBridge {
   template <class T>
   void read_command(Row& row, std::function<void(const T&)> take);
   bool due(Duration period) const;
+  void give_arrived(Time now);
+  void wait_for_step();
 
   const RobotScenario& robot_;
   world::World& world_;

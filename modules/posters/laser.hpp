@@ -18,7 +18,7 @@ struct LaserCommand {
 
 /// From the device: one scan, counter-clockwise, in the device's own frame.
 struct LaserReading {
-  Time date;                 ///< of the scan
+  Time date;                 ///< of the scan's last beam
   std::uint32_t number = 0;  ///< counts the scans, from 1
   double first_angle_rad = 0, angle_step_rad = 0;
   double range_max_m = 0;                  ///< a beam without echo reads this

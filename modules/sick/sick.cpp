@@ -58,6 +58,7 @@ Sick::Sick(genom::ModuleSetup& setup)
 void Sick::export_scan() {
   if (reading_.read(echoes_.scan) == genom::PosterStatus::empty || echoes_.scan.number == number_) return;
   number_ = echoes_.scan.number;
+  echoes_.scan.date = echoes_.scan.date - parameters_.scan_age_ms;
   echoes_poster_.write(echoes_);
   if (!with_segments_) return;
   extraction_.extract(echoes_, segments_);

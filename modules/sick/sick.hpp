@@ -16,12 +16,15 @@ namespace waitpoint::sick {
 /// What can be set of the module.
 struct Parameters {
   double mount_x_m = 0.1, mount_y_m = 0, mount_heading_deg = 0;  ///< where the device sits on the robot
+  /// How much earlier than its date, which is that of its last beam, a scan counts as measured: half the time that the
+  /// mirror takes for it.
+  Duration scan_age_ms;
   SegmentExtractionParameters segments;
 
   static constexpr auto fields() {
     return std::tuple(field("mount_x_m", &Parameters::mount_x_m), field("mount_y_m", &Parameters::mount_y_m),
                       field("mount_heading_deg", &Parameters::mount_heading_deg),
-                      field("segments", &Parameters::segments));
+                      field("scan_age_ms", &Parameters::scan_age_ms), field("segments", &Parameters::segments));
   }
 };
 

@@ -11,6 +11,7 @@
 #include "world/fcl/scene.hpp"
 #include "world/motion/contact_loop.hpp"
 #include "world/sensors/laser.hpp"
+#include "world/sensors/laser_timing.hpp"
 #include "world/sensors/sonar.hpp"
 #include "world/slice/footprints.hpp"
 #include "world/start_check.hpp"
@@ -55,15 +56,40 @@ struct Corner {
   std::uint32_t other;
 };
 
+double longest_scan_s(const BodyDescription& body) {
+  double longest_s = 0;
+  for (const LaserDescription& laser : body.lasers) longest_s = std::max(longest_s, scan_span_s(laser));
+  return longest_s;
+}
+
 struct Body {
   Vehicle vehicle;
+  ArcTrail trail;  // as far back as a scan reaches
   std::vector<Laser> lasers;
   std::vector<RandomStream> sonar_noise;
 
-  Body(const BodyDescription& d, std::uint64_t seed) : vehicle(d, seed) {
+  Body(const BodyDescription& d, double step_s, std::uint64_t seed)
+      : vehicle(d, seed), trail(longest_scan_s(d), step_s, d.start) {
     for (std::size_t i = 0; i < d.lasers.size(); ++i) lasers.emplace_back(d.lasers[i], seed, d.name, i);
     for (std::size_t i = 0; i < d.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, d.name, i));
   }
+};
+
+/// The rays of one sensor of a body.
+class SensorRays final : public RayCaster {
+ public:
+  SensorRays(const BeamCaster& caster, double height_m, std::uint32_t own, double range_max_m)
+      : caster_(caster), height_m_(height_m), own_(own), range_max_m_(range_max_m) {}
+
+  double distance_m(const Ray& ray) const override {
+    return caster_.cast(ray.origin, ray.direction, height_m_, own_, range_max_m_);
+  }
+
+ private:
+  const BeamCaster& caster_;
+  double height_m_;
+  std::uint32_t own_;
+  double range_max_m_;
 };
 
 class FclWorld final : public World {
@@ -141,7 +167,7 @@ void FclWorld::reset(std::uint64_t seed) {
     first_obstacles_.reset();
   }
   bodies_.clear();
-  for (const BodyDescription& body : description_.bodies) bodies_.emplace_back(body, seed);
+  for (const BodyDescription& body : description_.bodies) bodies_.emplace_back(body, step_s_, seed);
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) place(i);
 }
 
@@ -208,8 +234,11 @@ void FclWorld::find_meetings(std::uint32_t body, double path_max_m, double climb
 }
 
 void FclWorld::publish() {
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-    bodies_[i].vehicle.publish(steps_, description_.step, arcs_[i], contacts_.stop(i));
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    body.vehicle.publish(steps_, description_.step, arcs_[i], contacts_.stop(i));
+    body.trail.add(body.vehicle.state().arc);
+  }
 }
 
 std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
@@ -224,6 +253,7 @@ std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
   }
   if (auto other = body_met(shape, outline, own)) return other;
   vehicle.put(pose);
+  bodies_[index(id)].trail.restart(pose);
   // To the others' sensors it stands there already, as if it had been published so at the last step but one.
   place(own);
   return std::nullopt;
@@ -287,16 +317,21 @@ void FclWorld::scan(BodyId id, std::size_t laser_number, std::uint64_t scan_numb
   const Laser& laser = body.lasers.at(laser_number);
   const Vehicle& vehicle = body.vehicle;
   const LaserDescription& device = vehicle.description().lasers[laser_number];
-  const Pose at = compose(vehicle.state().pose, device.mount);
-  const auto [s, c] = exact::sincos(at.heading);
   out.first_angle_rad = laser.first_angle_rad();
   out.angle_step_rad = laser.angle_step_rad();
   out.range_max_m = device.range_max_m;
   out.range_m.resize(laser.directions().size());
-  caster_.cast({at.position(), {c, s}, laser.angle_step_rad(), laser.directions()},
-               device.height_m + vehicle.state().height_m, static_cast<std::uint32_t>(id), device.range_max_m,
-               out.range_m);
-  laser.measure(scan_number, out.range_m);
+  const std::uint32_t own = static_cast<std::uint32_t>(id);
+  const double height_m = device.height_m + vehicle.state().height_m;
+  if (laser.plain()) {
+    const Pose at = compose(vehicle.state().pose, device.mount);
+    const auto [s, c] = exact::sincos(at.heading);
+    caster_.cast({at.position(), {c, s}, laser.angle_step_rad(), laser.directions()}, height_m, own, device.range_max_m,
+                 out.range_m);
+  } else {
+    laser.look(scan_number, body.trail, SensorRays(caster_, height_m, own, device.range_max_m), out.range_m);
+  }
+  laser.measure(scan_number, static_cast<double>(steps_) * step_s_, out.range_m);
 }
 
 double FclWorld::cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const {

@@ -6,26 +6,64 @@
 #include <cmath>
 #include <string>
 
+#include "core/error.hpp"
+#include "world/sensors/laser_timing.hpp"
+
 namespace waitpoint::world {
 namespace {
 
-double measured(const LaserDescription& laser, double true_m, double normal) {
+// The angle between the ends of a spot has a bound: the nearest range at which a beam can be as wide as it is.
+constexpr double nearest_spot_m = 0.05;
+// Where a beam is a line, two more beside it tell how flatly it meets a surface.
+constexpr double feeler_rad = 5e-4;
+
+Point turned(Point v, double angle_rad) {
+  const auto [s, c] = exact::sincos(angle_rad);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+double measured(const LaserDescription& laser, double true_m, double bias_m, double normal) {
   if (true_m >= laser.range_max_m) return laser.range_max_m;
-  double range = true_m + laser.range_bias_m + range_noise_m(laser, true_m) * normal;
+  double range = true_m + bias_m + range_noise_m(laser, true_m) * normal;
   if (laser.resolution_m > 0) range = std::nearbyint(range / laser.resolution_m) * laser.resolution_m;
   return std::clamp(range, 0.0, laser.range_max_m);
+}
+
+/// What three rays of one spot met: the middle one, and those at +- `half_rad`.
+struct Spot {
+  double middle_m, left_m, right_m, half_rad;
+
+  // On a plane, 1 / distance is a cosine of the angle: its mean over the two ends is known from the middle,
+  bool on_a_plane() const {
+    constexpr double rounding = 1e-6;
+    return std::fabs(middle_m * (1 / left_m + 1 / right_m) - 2 * exact::cos(half_rad)) < rounding;
+  }
+  // and its difference is 2 sin(half) tan(incidence).
+  bool flatter_than(double incidence_rad) const {
+    const double slope = middle_m * std::fabs(1 / right_m - 1 / left_m);
+    const auto [s, c] = exact::sincos(incidence_rad);
+    return slope * c > 2 * exact::sin(half_rad) * s;
+  }
+};
+
+RandomStream stream(std::uint64_t seed, std::string_view robot, std::size_t number, std::string_view what) {
+  return RandomStream(seed, robot, "laser " + std::to_string(number) + "." + std::string(what));
 }
 
 }  // namespace
 
 double range_noise_m(const LaserDescription& laser, double range_m) {
-  constexpr double constant_to_m = 8, double_from_m = 20;
-  const double growth = (range_m - constant_to_m) / (double_from_m - constant_to_m);
-  return laser.range_noise_m * (1 + std::clamp(growth, 0.0, 1.0));
+  constexpr double constant_to_m = 8, grown_from_m = 20;
+  const double growth = (range_m - constant_to_m) / (grown_from_m - constant_to_m);
+  return laser.range_noise_m * (1 + (laser.noise_growth - 1) * std::clamp(growth, 0.0, 1.0));
 }
 
 Laser::Laser(const LaserDescription& description, std::uint64_t seed, std::string_view robot, std::size_t number)
-    : description_(&description), noise_(seed, robot, "laser " + std::to_string(number) + ".range") {
+    : description_(&description),
+      range_noise_(stream(seed, robot, number, "range")),
+      angle_noise_(stream(seed, robot, number, "angle")),
+      mixed_(stream(seed, robot, number, "mixed")),
+      dropout_(stream(seed, robot, number, "dropout")) {
   for (std::uint32_t i = 0; i < description.beams; ++i) {
     const auto [s, c] = exact::sincos(first_angle_rad() + i * angle_step_rad());
     directions_.push_back({c, s});
@@ -36,13 +74,64 @@ double Laser::angle_step_rad() const {
   return description_->beams > 1 ? description_->field_of_view_rad / (description_->beams - 1) : 0;
 }
 
-void Laser::measure(std::uint64_t scan_number, std::span<double> ranges_m) const {
-  const bool noisy = description_->range_noise_m > 0;
+bool Laser::plain() const {
+  const LaserDescription& d = *description_;
+  return d.mirror_turn == Duration() && d.angle_noise_rad == 0 && d.spot_m == 0 && d.spot_divergence_rad == 0 &&
+         d.incidence_max_rad >= 0.5 * exact::pi;
+}
+
+void Laser::look(std::uint64_t scan_number, const ArcTrail& body, const RayCaster& caster,
+                 std::span<double> ranges_m) const {
+  WAITPOINT_CHECK(ranges_m.size() == directions_.size(), "as many ranges as beams");
+  const LaserDescription& d = *description_;
+  const double span_s = scan_span_s(d);
+  for (std::uint32_t i = 0; i < d.beams; ++i) {
+    const Pose device = compose(body.at(span_s - beam_time_s(d, i)), d.mount);
+    Point direction = turned(directions_[i], device.heading);
+    if (d.angle_noise_rad > 0) {
+      const std::array<double, 2> normals = angle_noise_.normal_pair(scan_number, i / 2);
+      direction = turned(direction, d.angle_noise_rad * normals[i % 2]);
+    }
+    ranges_m[i] = seen_m(scan_number, i, {device.position(), direction}, caster);
+  }
+}
+
+double Laser::seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& middle, const RayCaster& caster) const {
+  const LaserDescription& d = *description_;
+  const double middle_m = caster.distance_m(middle);
+  const bool wide = d.spot_m > 0 || d.spot_divergence_rad > 0;
+  if (!wide && d.incidence_max_rad >= 0.5 * exact::pi) return middle_m;
+
+  const double half_rad =
+      wide ? 0.5 * (d.spot_divergence_rad + d.spot_m / std::max(middle_m, nearest_spot_m)) : feeler_rad;
+  const Spot spot = {middle_m, caster.distance_m({middle.origin, turned(middle.direction, half_rad)}),
+                     caster.distance_m({middle.origin, turned(middle.direction, -half_rad)}), half_rad};
+  double near_m = d.range_max_m, far_m = 0;
+  for (const double range_m : {middle_m, spot.left_m, spot.right_m}) {
+    near_m = std::min(near_m, range_m);
+    if (range_m < d.range_max_m) far_m = std::max(far_m, range_m);
+  }
+  if (near_m >= d.range_max_m) return d.range_max_m;
+  const bool whole = near_m > 0 && std::max({middle_m, spot.left_m, spot.right_m}) < d.range_max_m;
+  const bool jumps = far_m - near_m > d.mixed_jump_m && !(whole && spot.on_a_plane());
+  if (jumps) return wide ? near_m + (far_m - near_m) * mixed_.uniform(scan_number, beam) : middle_m;
+  if (whole && spot.flatter_than(d.incidence_max_rad)) return d.range_max_m;
+  return wide && middle_m >= d.range_max_m ? near_m : middle_m;
+}
+
+void Laser::measure(std::uint64_t scan_number, double on_s, std::span<double> ranges_m) const {
+  const LaserDescription& d = *description_;
+  const double bias_m = d.range_bias_m + d.warm_up_bias_m * exact::exp(-on_s / d.warm_up_s);
+  const bool noisy = d.range_noise_m > 0;
   for (std::size_t i = 0; i < ranges_m.size(); i += 2) {
     std::array<double, 2> normals{};
-    if (noisy) normals = noise_.normal_pair(scan_number, i / 2);
-    ranges_m[i] = measured(*description_, ranges_m[i], normals[0]);
-    if (i + 1 < ranges_m.size()) ranges_m[i + 1] = measured(*description_, ranges_m[i + 1], normals[1]);
+    if (noisy) normals = range_noise_.normal_pair(scan_number, i / 2);
+    ranges_m[i] = measured(d, ranges_m[i], bias_m, normals[0]);
+    if (i + 1 < ranges_m.size()) ranges_m[i + 1] = measured(d, ranges_m[i + 1], bias_m, normals[1]);
+  }
+  if (d.dropout <= 0) return;
+  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+    if (dropout_.uniform(scan_number, i) < d.dropout) ranges_m[i] = d.range_max_m;
   }
 }
 

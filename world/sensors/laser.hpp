@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A SICK LMS as a model of errors on true ranges: a bias, noise that grows with the range, and whole steps of
-// resolution.
+// A mirror laser, a SICK LMS above all, as a model of errors:
 //
-// The data sheet gives the standard deviation to 8 m, and twice that at 20 m; between, we take it as linear, and beyond
-// as constant.
+//   when     each beam is measured at its own time, from where the device is then (world/sensors/laser_timing.hpp)
+//   where    its direction is a little off
+//   what     a spot that falls on two surfaces far apart reads something between (a mixed pixel), uniformly; what is
+//            met too flatly sends no echo; some echoes are lost
+//   range    r = q(d + b + b_w e^(-t/T) + s(d) n): a bias, one that fades while the device warms up, noise that grows
+//            with the range, whole steps of resolution
+//
+// The data sheet gives the standard deviation s to 8 m, and twice that at 20 m; between, we take it as linear, and
+// beyond as constant. Mixed pixels, warming up and the effect of incidence after Ye and Borenstein, "Characterization
+// of a 2-D laser scanner for mobile robot obstacle negotiation", ICRA 2002. A spot is three rays: its middle and two
+// ends.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +21,8 @@
 
 #include "core/random.hpp"
 #include "world/description.hpp"
+#include "world/sensors/arc_trail.hpp"
+#include "world/sensors/ray_caster.hpp"
 
 namespace waitpoint::world {
 
@@ -21,7 +31,8 @@ double range_noise_m(const LaserDescription& laser, double range_m);
 
 class Laser {
  public:
-  /// Draws from the stream (seed, robot, "laser <number>.range"), at tick = number of the scan, index = beam.
+  /// Draws from the streams (seed, robot, "laser <number>.range", and likewise ".angle", ".mixed", ".dropout"), at
+  /// tick = number of the scan, index = beam.
   Laser(const LaserDescription& description, std::uint64_t seed, std::string_view robot, std::size_t number);
 
   double first_angle_rad() const { return -0.5 * description_->field_of_view_rad; }
@@ -30,13 +41,22 @@ class Laser {
   /// The unit vectors of the beams in the device's frame, counter-clockwise.
   std::span<const Point> directions() const { return directions_; }
 
-  /// Turns true ranges into measured ones, in place. A true range at or beyond range_max_m stays without echo and reads
-  /// range_max_m, as does a measured one that comes out beyond it; none is below 0.
-  void measure(std::uint64_t scan_number, std::span<double> ranges_m) const;
+  /// Whether the beams are lines at equal angles from one point, so that a fan cast from there is what look() finds.
+  bool plain() const;
+  /// Finds what each beam sees of a scan that has just ended, from where the body has been: range_max_m without echo.
+  /// As many ranges as beams.
+  void look(std::uint64_t scan_number, const ArcTrail& body, const RayCaster& caster, std::span<double> ranges_m) const;
+
+  /// Turns seen ranges into measured ones, in place, `on_s` after the device was switched on. A range at or beyond
+  /// range_max_m stays without echo and reads range_max_m, as does a measured one that comes out beyond it; none is
+  /// below 0.
+  void measure(std::uint64_t scan_number, double on_s, std::span<double> ranges_m) const;
 
  private:
+  double seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& middle, const RayCaster& caster) const;
+
   const LaserDescription* description_;
-  RandomStream noise_;
+  RandomStream range_noise_, angle_noise_, mixed_, dropout_;
   std::vector<Point> directions_;
 };
 

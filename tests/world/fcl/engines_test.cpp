@@ -31,6 +31,12 @@ WorldDescription robots_among_shapes() {
     laser.height_m = n % 3 == 0 ? 0.4 : 0.6;
     laser.field_of_view_rad = n % 4 == 0 ? 2 * exact::pi : exact::pi;
     laser.mount = {0.15, 0.05, 0.2};
+    if (n % 3 == 1) {  // beams with times of their own, width and unsteady directions
+      laser.mirror_turn = std::chrono::milliseconds(15);
+      laser.angle_noise_rad = 0.001;
+      laser.spot_m = 0.01;
+      laser.incidence_max_rad = 1.4;
+    }
     body.lasers.push_back(laser);
     if (n % 2 == 0) body.sonars.emplace_back();
     description.bodies.push_back(body);

@@ -6,27 +6,20 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/world/sensors/statistics.hpp"
+
 namespace waitpoint::world {
 namespace {
 
-struct Statistics {
-  double mean = 0, deviation = 0;
-};
-
 Statistics measured(const LaserDescription& description, double true_m, std::uint64_t seed = 1) {
   const Laser laser(description, seed, "robot", 0);
-  double sum = 0, squares = 0, count = 0;
-  std::vector<double> ranges;
+  std::vector<double> ranges, errors;
   for (std::uint64_t scan = 1; scan <= 600; ++scan) {
     ranges.assign(361, true_m);
-    laser.measure(scan, ranges);
-    for (const double r : ranges) {
-      sum += r - true_m;
-      squares += (r - true_m) * (r - true_m);
-      ++count;
-    }
+    laser.measure(scan, 0, ranges);
+    for (const double r : ranges) errors.push_back(r - true_m);
   }
-  return {sum / count, std::sqrt(squares / count - (sum / count) * (sum / count))};
+  return statistics_of(errors);
 }
 
 TEST(Laser, NoiseGrowsFromTheDataSheetsFiveMillimetresToTen) {
@@ -40,6 +33,13 @@ TEST(Laser, NoiseGrowsFromTheDataSheetsFiveMillimetresToTen) {
   }
 }
 
+TEST(Laser, NoiseThatDoesNotGrowStays) {
+  LaserDescription laser;
+  laser.resolution_m = 0;
+  laser.noise_growth = 1;
+  for (const double range : {1.0, 14.0, 30.0}) EXPECT_NEAR(measured(laser, range).deviation, 0.005, 5e-5) << range;
+}
+
 TEST(Laser, BiasShiftsEveryBeam) {
   LaserDescription laser;
   laser.resolution_m = 0;
@@ -51,7 +51,7 @@ TEST(Laser, QuantisationGivesWholeStepsAndItsOwnVariance) {
   LaserDescription laser;
   const Laser device(laser, 1, "robot", 0);
   std::vector<double> ranges(361, 4.321);
-  device.measure(1, ranges);
+  device.measure(1, 0, ranges);
   for (const double r : ranges) EXPECT_NEAR(r, std::nearbyint(r / 0.01) * 0.01, 1e-12);
   const double expected = std::sqrt(0.005 * 0.005 + 0.01 * 0.01 / 12);
   EXPECT_NEAR(measured(laser, 4.3217).deviation, expected, 0.03 * expected);
@@ -62,13 +62,13 @@ TEST(Laser, NoEchoReadsTheGreatestRangeExactlyAndNothingIsNegative) {
   laser.range_noise_m = 0.5;
   const Laser device(laser, 1, "robot", 0);
   std::vector<double> ranges(361, 32);
-  device.measure(1, ranges);
+  device.measure(1, 0, ranges);
   for (const double r : ranges) EXPECT_EQ(r, 32);
   ranges.assign(361, 31.99);
-  device.measure(1, ranges);
+  device.measure(1, 0, ranges);
   for (const double r : ranges) EXPECT_LE(r, 32);
   ranges.assign(361, 0.01);
-  device.measure(1, ranges);
+  device.measure(1, 0, ranges);
   for (const double r : ranges) EXPECT_GE(r, 0);
 }
 
@@ -78,7 +78,7 @@ TEST(Laser, EveryRobotDeviceAndScanDrawsItsOwn) {
     std::vector<double> ranges(4, 5);
     LaserDescription fine = description;
     fine.resolution_m = 0;
-    Laser(fine, seed, robot, number).measure(scan, ranges);
+    Laser(fine, seed, robot, number).measure(scan, 0, ranges);
     EXPECT_NE(ranges[0], ranges[1]);
     EXPECT_NE(ranges[0], ranges[2]);
     return ranges[0];

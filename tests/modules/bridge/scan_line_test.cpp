@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/bridge/scan_line.hpp"
+
+#include <gtest/gtest.h>
+
+namespace waitpoint::bridge {
+namespace {
+
+using namespace std::chrono_literals;
+
+posters::LaserReading numbered_scan(std::uint32_t number) {
+  posters::LaserReading scan;
+  scan.number = number;
+  return scan;
+}
+
+TEST(ScanLine, GivesScansInOrderEachOnceAllItsBytesHaveCome) {
+  ScanLine line(Duration(190ms));
+  EXPECT_TRUE(line.takes_time());
+  EXPECT_EQ(line.next_arrival(), std::nullopt);
+  line.send(Time() + Duration(200ms), numbered_scan(1));
+  line.send(Time() + Duration(380ms), numbered_scan(2));  // behind the first, which is not through yet
+  EXPECT_EQ(line.next_arrival(), Time() + Duration(390ms));
+  posters::LaserReading scan;
+  EXPECT_FALSE(line.take(Time() + Duration(389ms), scan));
+  EXPECT_TRUE(line.take(Time() + Duration(390ms), scan));
+  EXPECT_EQ(scan.number, 1u);
+  EXPECT_EQ(line.next_arrival(), Time() + Duration(580ms));
+  EXPECT_FALSE(line.take(Time() + Duration(579ms), scan));
+  EXPECT_TRUE(line.take(Time() + Duration(700ms), scan));
+  EXPECT_EQ(scan.number, 2u);
+  EXPECT_FALSE(line.take(Time() + Duration(900ms), scan));
+}
+
+TEST(ScanLine, WithoutTransmissionTakesNoTime) { EXPECT_FALSE(ScanLine(Duration()).takes_time()); }
+
+}  // namespace
+}  // namespace waitpoint::bridge

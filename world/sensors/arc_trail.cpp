@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/sensors/arc_trail.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace waitpoint::world {
+
+ArcTrail::ArcTrail(double span_s, double step_s, const Pose& start)
+    : step_s_(step_s), arcs_(static_cast<std::size_t>(std::ceil(span_s / step_s)) + 1, Arc{start, 0, 0}) {}
+
+void ArcTrail::add(const Arc& arc) {
+  newest_ = (newest_ + 1) % arcs_.size();
+  arcs_[newest_] = arc;
+}
+
+void ArcTrail::restart(const Pose& pose) {
+  for (Arc& arc : arcs_) arc = {pose, 0, 0};
+}
+
+Pose ArcTrail::at(double age_s) const {
+  WAITPOINT_CHECK(age_s >= 0, "where a body will be is not known yet");
+  const double steps = age_s / step_s_, whole = std::floor(steps);
+  if (whole >= static_cast<double>(arcs_.size())) return arcs_[(newest_ + 1) % arcs_.size()].start;
+  const std::size_t back = static_cast<std::size_t>(whole);
+  return arcs_[(newest_ + arcs_.size() - back) % arcs_.size()].at(1 - (steps - whole));
+}
+
+}  // namespace waitpoint::world
