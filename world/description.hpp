@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,8 @@ struct BodyDescription {
   BaseDescription base;
   std::vector<LaserDescription> lasers;
   std::vector<SonarRingDescription> sonars;
+  std::optional<BumperDescription> bumpers;
+  std::optional<InfraredRingDescription> infrareds;
 };
 
 /// What finds the hits of planar beams and the obstacles that a body is near to: FCL's trees, or own ones over exact

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/pose.hpp"
 #include "core/time.hpp"
@@ -36,7 +37,8 @@ struct LaserDescription {
   std::uint32_t line_bit_s = 0;  ///< of the serial line that a scan comes over; 0: it is there at once
 };
 
-/// A ring of sonars on a cylinder about the body's centre, the first straight ahead, counter-clockwise.
+/// A ring of sonars on a cylinder about the body's centre, the first straight ahead, counter-clockwise. Banks of
+/// neighbours each have one that fires at a time: all members 0 of the banks at once, then all members 1, say.
 struct SonarRingDescription {
   std::uint32_t count = 24;  ///< 0: none
   double ring_radius_m = 0.25, height_m = 0.6;
@@ -44,6 +46,27 @@ struct SonarRingDescription {
   double range_min_m = 0.15, range_max_m = 3;
   double range_noise_relative = 0.01;
   Duration period = std::chrono::milliseconds(120);  ///< of a full ring
+  std::vector<std::uint32_t> firing_order;  ///< the members of a bank, as they take their turns; none: all at once
+  bool crosstalk = false;                   ///< whether those that fire at once hear each other
+  double air_celsius = 20, calibrated_celsius = 20;  ///< of the air, and that for which ranges are computed
+};
+
+/// Panels about a body, the first in front, counter-clockwise, each for the directions that it faces.
+struct BumperDescription {
+  std::uint32_t count = 14;
+  double travel_m = 0.001;  ///< what comes so near presses
+};
+
+/// A ring of infrared range finders, the first straight ahead, counter-clockwise: what they give is a voltage V, and
+/// the range is (gain_per_v V)^exponent.
+struct InfraredRingDescription {
+  std::uint32_t count = 24;
+  double ring_radius_m = 0.25, height_m = 0.5;
+  double range_min_m = 0.1, range_max_m = 0.8;
+  double gain_per_v = 3.7, exponent = -1;
+  double noise_v = 0.01;        ///< standard deviation
+  double resolution_v = 0.005;  ///< quantisation
+  Duration period = std::chrono::milliseconds(100);
 };
 
 }  // namespace waitpoint::world

@@ -112,9 +112,16 @@ class World {
   /// Scans with the body's laser number `laser`. The noise of beam i is drawn at (scan_number, i): the same scan asked
   /// twice is the same.
   virtual void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const = 0;
-  /// Fires every sonar of the body's ring number `ring`, the first straight ahead, counter-clockwise; no echo reads the
-  /// ring's greatest range. `range_m` is resized to the ring. Noise as for scan().
+  /// Fires the sonars of the body's ring number `ring` whose turn firing `firing_number` is, all at once where the ring
+  /// has no order. Their ranges are set, no echo reading the ring's greatest range; the others' stay. If `range_m` is
+  /// of another size than the ring, all begin without echo. Noise as for scan().
   virtual void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const = 0;
+  /// The panels of the body's bumper that are pressed, panel i by bit i; 0 without a bumper. Other bodies as published
+  /// at the last step but one.
+  virtual std::uint32_t bumpers(BodyId id) const = 0;
+  /// Reads the voltages of the body's infrared range finders, which it must have; `volts` is resized. Noise as for
+  /// scan().
+  virtual void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const = 0;
   /// The distance along the beam to the first obstacle or body as a sensor of the body `own` sees them (all bodies as
   /// published at the last step but one, without `own`), without noise; range_max_m if there is none nearer.
   virtual double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own = std::nullopt) const = 0;

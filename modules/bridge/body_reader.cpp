@@ -5,6 +5,7 @@
 
 #include "modules/bridge/sensor_reader.hpp"
 #include "modules/bridge/shape_reader.hpp"
+#include "modules/posters/base.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -112,8 +113,17 @@ BodyReading read_body(const YamlMap& robot) {
     }
   }
   if (const YamlNode* sonars = robot.find("sonars")) {
-    for (const YamlNode& item : read_list(*sonars, "sonars")) reading.body.sonars.push_back(read_sonar_ring(item));
+    std::size_t count = 0;
+    for (const YamlNode& item : read_list(*sonars, "sonars")) {
+      reading.body.sonars.push_back(read_sonar_ring(item));
+      count += reading.body.sonars.back().count;
+    }
+    if (count > posters::sonar_count_max)
+      throw sonars->written.bad("expected " + std::to_string(posters::sonar_count_max) + " sonars at most, found " +
+                                std::to_string(count));
   }
+  if (const YamlNode* bumpers = robot.find("bumpers")) reading.body.bumpers = read_bumpers(*bumpers);
+  if (const YamlNode* infrareds = robot.find("infrareds")) reading.body.infrareds = read_infrareds(*infrareds);
   return reading;
 }
 

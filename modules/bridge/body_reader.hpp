@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A robot's body as a scenario writes it: `shape`, `base` with its odometry's errors and its battery, `lasers`,
-// `sonars`. The keys are the names of the fields in world/description.hpp, angles in degrees where the key says so;
-// what is left out has the value given there.
+// `sonars`, `bumpers`, `infrareds`. The keys are the names of the fields in world/description.hpp, angles in degrees
+// where the key says so; what is left out has the value given there.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct BodyReading {
   std::vector<std::string> laser_names;  ///< in the order of body.lasers; "laser" where the scenario gives none
 };
 
-/// Reads the four keys from a map that knows them.
+/// Reads these keys from a map that knows them.
 BodyReading read_body(const YamlMap& robot);
 
 }  // namespace waitpoint::bridge

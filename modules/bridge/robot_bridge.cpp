@@ -6,6 +6,7 @@
 
 #include "core/nearest_name.hpp"
 #include "world/sensors/laser_timing.hpp"
+#include "world/sensors/sonar.hpp"
 
 namespace waitpoint::bridge {
 
@@ -16,7 +17,8 @@ RobotBridge::RobotBridge(const RobotScenario& robot, world::World& world, world:
     : robot_(robot), world_(world), body_(body), names_(names) {
   lasers_.reserve(robot.body.lasers.size());  // rows refer to them
   for (const world::LaserDescription& laser : robot.body.lasers) lasers_.emplace_back(lasers_.size(), laser);
-  if (robot.body.sonars.size() > 1) throw robot.written.bad("the base's controller takes one ring of sonars at most");
+  sonar_rings_.resize(robot.body.sonars.size());
+  find_device_values();
   rows_.reserve(robot.bridge.size());
   for (const BridgeRow& row : robot.bridge) add_row(row);
 }
@@ -26,25 +28,31 @@ void RobotBridge::add_row(const BridgeRow& scenario) {
     if (other.scenario.device == scenario.device)
       throw scenario.written.bad("device '" + scenario.device + "' is in the table already, at " +
                                  other.scenario.written.text());
+  const auto value = std::find_if(device_values_.begin(), device_values_.end(),
+                                  [&](const DeviceValue& known) { return known.name == scenario.device; });
+  if (value == device_values_.end()) {
+    std::vector<std::string_view> known;
+    for (const DeviceValue& each : device_values_) known.push_back(each.name);
+    throw scenario.written.bad("this robot has no device value '" + scenario.device + "'" +
+                               did_you_mean(scenario.device, known));
+  }
   rows_.push_back({scenario, nullptr, nullptr});
-  Row& row = rows_.back();
-  const std::size_t dot = scenario.device.rfind('.');
-  const std::string device = scenario.device.substr(0, dot);
-  const std::string value = dot == std::string::npos ? "" : scenario.device.substr(dot + 1);
-  const auto laser = std::find(robot_.laser_names.begin(), robot_.laser_names.end(), device);
-  if (value == "command" || value == "reading") {
-    if (device == "base") return add_base_row(row, value);
-    if (laser != robot_.laser_names.end())
-      return add_laser_row(row, lasers_[static_cast<std::size_t>(laser - robot_.laser_names.begin())], value);
+  value->add(rows_.back());
+}
+
+void RobotBridge::find_device_values() {
+  device_values_ = {{"base.command", [this](Row& row) { add_base_command(row); }},
+                    {"base.reading", [this](Row& row) { add_base_reading(row); }}};
+  if (robot_.body.bumpers) device_values_.push_back({"bumpers.reading", [this](Row& row) { add_bumper_reading(row); }});
+  if (robot_.body.infrareds)
+    device_values_.push_back({"infrareds.reading", [this](Row& row) { add_infrared_reading(row); }});
+  for (std::size_t i = 0; i < lasers_.size(); ++i) {
+    Laser& laser = lasers_[i];
+    device_values_.push_back(
+        {robot_.laser_names[i] + ".command", [this, &laser](Row& row) { add_laser_command(row, laser); }});
+    device_values_.push_back(
+        {robot_.laser_names[i] + ".reading", [this, &laser](Row& row) { add_laser_reading(row, laser); }});
   }
-  std::vector<std::string> known = {"base.command", "base.reading"};
-  for (const std::string& name : robot_.laser_names) {
-    known.push_back(name + ".command");
-    known.push_back(name + ".reading");
-  }
-  const std::vector<std::string_view> views(known.begin(), known.end());
-  throw scenario.written.bad("this robot has no device value '" + scenario.device + "'" +
-                             did_you_mean(scenario.device, views));
 }
 
 template <class T>
@@ -64,16 +72,23 @@ void RobotBridge::read_command(Row& row, std::function<void(const T&)> take) {
   };
 }
 
-void RobotBridge::add_base_row(Row& row, const std::string& value) {
-  if (value == "command") {
-    return read_command<posters::BaseCommand>(row, [this](const posters::BaseCommand& command) {
-      world_.command(body_, {command.v_m_s, command.w_rad_s, command.side_m_s, command.climb_m_s});
-      sonars_on_ = command.sonars_on;
-    });
-  }
-  auto& poster = names_.create_poster<posters::BaseReading>(row.scenario.poster, "the bridge");
+template <class T>
+genom::Poster<T>& RobotBridge::create_poster(const Row& row) {
+  genom::Poster<T>& poster = names_.create_poster<T>(row.scenario.poster, "the bridge");
   poster.set_latency(row.scenario.latency);
-  row.exchange = [this, &poster](Time date) {
+  return poster;
+}
+
+void RobotBridge::add_base_command(Row& row) {
+  read_command<posters::BaseCommand>(row, [this](const posters::BaseCommand& command) {
+    world_.command(body_, {command.v_m_s, command.w_rad_s, command.side_m_s, command.climb_m_s});
+    sonars_on_ = command.sonars_on;
+  });
+}
+
+void RobotBridge::add_base_reading(Row& row) {
+  row.exchange = [this, &poster = create_poster<posters::BaseReading>(row)](Time date) {
+    if (sonars_on_) fire_sonars();
     if (!due(base_report_period)) return;
     const world::OdometerReading& odometer = world_.odometer(body_);
     posters::BaseReading reading;
@@ -86,21 +101,48 @@ void RobotBridge::add_base_row(Row& row, const std::string& value) {
     reading.stalled = world_.body(body_).stalled;
     reading.side_units = odometer.side_units;
     reading.height_m = world_.body(body_).height_m;
-    if (sonars_on_ && !robot_.body.sonars.empty()) {
-      if (sonar_m_.empty() || due(robot_.body.sonars[0].period)) world_.sonar(body_, 0, step_, sonar_m_);
-      for (const double range : sonar_m_) reading.sonar_m.push_back(range);
+    if (sonars_on_) {
+      for (const SonarRing& ring : sonar_rings_)
+        for (const double range : ring.range_m) reading.sonar_m.push_back(range);
     }
     poster.write(reading);
   };
 }
 
-void RobotBridge::add_laser_row(Row& row, Laser& laser, const std::string& value) {
-  if (value == "command") {
-    return read_command<posters::LaserCommand>(
-        row, [&laser](const posters::LaserCommand& command) { laser.on = command.on; });
+// A ring fires first when it is switched on, then in its turns, however the reports come.
+void RobotBridge::fire_sonars() {
+  for (std::size_t i = 0; i < sonar_rings_.size(); ++i) {
+    const world::SonarRingDescription& description = robot_.body.sonars[i];
+    SonarRing& ring = sonar_rings_[i];
+    const Duration slot = description.period / static_cast<std::int64_t>(world::slots(description));
+    const std::int64_t firings = ring.range_m.empty() ? 1 : times_due(slot);
+    for (std::int64_t n = 0; n < firings; ++n) world_.sonar(body_, i, ring.firings++, ring.range_m);
   }
-  laser.poster = &names_.create_poster<posters::LaserReading>(row.scenario.poster, "the bridge");
-  laser.poster->set_latency(row.scenario.latency);
+}
+
+void RobotBridge::add_bumper_reading(Row& row) {
+  row.exchange = [this, &poster = create_poster<posters::Bumpers>(row)](Time date) {
+    if (due(base_report_period)) poster.write({date, world_.bumpers(body_)});
+  };
+}
+
+void RobotBridge::add_infrared_reading(Row& row) {
+  row.exchange = [this, &poster = create_poster<posters::InfraredReading>(row)](Time date) {
+    if (!due(robot_.body.infrareds->period)) return;
+    world_.infrareds(body_, step_, infrared_v_);
+    posters::InfraredReading reading;
+    reading.date = date;
+    for (const double volts : infrared_v_) reading.volts.push_back(volts);
+    poster.write(reading);
+  };
+}
+
+void RobotBridge::add_laser_command(Row& row, Laser& laser) {
+  read_command<posters::LaserCommand>(row, [&laser](const posters::LaserCommand& command) { laser.on = command.on; });
+}
+
+void RobotBridge::add_laser_reading(Row& row, Laser& laser) {
+  laser.poster = &create_poster<posters::LaserReading>(row);
   row.exchange = [this, &laser](Time date) {
     if (!laser.on || !due(laser.description->period)) return;
     posters::LaserReading& reading = laser.reading;
@@ -134,11 +176,11 @@ void RobotBridge::connect() {
   }
 }
 
-// Whether a multiple of `period` lies in the step just made.
-bool RobotBridge::due(Duration period) const {
+// How many multiples of `period` lie in the step just made; at the start, time 0 is one.
+std::int64_t RobotBridge::times_due(Duration period) const {
   const Duration step = world_.description().step;
   const Duration now = step * static_cast<std::int64_t>(step_);
-  return step_ == 0 || now / period > (now - step) / period;
+  return step_ == 0 ? 1 : now / period - (now - step) / period;
 }
 
 void RobotBridge::exchange(Time date) {

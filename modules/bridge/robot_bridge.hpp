@@ -4,6 +4,8 @@
 //   device value            poster type       direction
 //   base.command            BaseCommand       poster -> world
 //   base.reading            BaseReading       world -> poster
+//   bumpers.reading         Bumpers           world -> poster
+//   infrareds.reading       InfraredReading   world -> poster
 //   <laser's name>.command  LaserCommand      poster -> world
 //   <laser's name>.reading  LaserReading      world -> poster
 //
@@ -61,6 +63,10 @@ class RobotBridge {
     ScanLine line;
     genom::Poster<posters::LaserReading>* poster = nullptr;
   };
+  struct SonarRing {
+    std::uint64_t firings = 0;
+    std::vector<double> range_m;  // empty before the first firing
+  };
   using Exchange = std::function<void(Time date)>;
   struct Row {
     BridgeRow scenario;
@@ -68,12 +74,27 @@ class RobotBridge {
     Exchange exchange;
   };
 
+  /// A value of a device that this robot has, and what makes its row.
+  struct DeviceValue {
+    std::string name;
+    std::function<void(Row&)> add;
+  };
+
+  void find_device_values();
   void add_row(const BridgeRow& row);
-  void add_base_row(Row& row, const std::string& value);
-  void add_laser_row(Row& row, Laser& laser, const std::string& value);
+  void add_base_command(Row& row);
+  void add_base_reading(Row& row);
+  void add_bumper_reading(Row& row);
+  void add_infrared_reading(Row& row);
+  void add_laser_command(Row& row, Laser& laser);
+  void add_laser_reading(Row& row, Laser& laser);
+  template <class T>
+  genom::Poster<T>& create_poster(const Row& row);
   template <class T>
   void read_command(Row& row, std::function<void(const T&)> take);
-  bool due(Duration period) const;
+  void fire_sonars();
+  std::int64_t times_due(Duration period) const;
+  bool due(Duration period) const { return times_due(period) > 0; }
   void give_arrived(Time now);
   void wait_for_step();
 
@@ -81,10 +102,12 @@ class RobotBridge {
   world::World& world_;
   world::BodyId body_;
   genom::NameSpace& names_;
+  std::vector<DeviceValue> device_values_;
   std::vector<Laser> lasers_;
   std::vector<Row> rows_;
   bool sonars_on_ = false;
-  std::vector<double> sonar_m_;
+  std::vector<SonarRing> sonar_rings_;
+  std::vector<double> infrared_v_;
   std::uint64_t step_ = 0;  // exchanges made
   threads::counting_semaphore<> stepped_{0, "world step"};
 };

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/sensor_reader.hpp"
 
+#include <algorithm>
+
 #include "modules/bridge/shape_reader.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/posters/laser.hpp"
 #include "world/sensors/laser_models.hpp"
 #include "world/sensors/laser_timing.hpp"
+#include "world/sensors/sonar.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -52,6 +55,25 @@ void read_laser_timing(const YamlMap& map, bool lms, world::LaserDescription& la
     throw map.node().written.bad("expected period_ms to be at least " + to_string(least * 1000) +
                                  ": mirror and line take that for a scan");
   }
+}
+
+/// Each member of a bank once, and time for the echo of each slot to come back before the next.
+void read_firing_order(const YamlNode& node, world::SonarRingDescription& ring) {
+  const std::vector<YamlNode>& members = read_list(node, "firing_order");
+  if (members.empty() || members.size() > ring.count)
+    throw node.written.bad("expected firing_order to have from 1 to as many members as the ring");
+  for (const YamlNode& member : members) {
+    const std::uint64_t number = read_count(member, "a member of firing_order", 0, members.size() - 1);
+    if (std::count(ring.firing_order.begin(), ring.firing_order.end(), number) > 0)
+      throw member.written.bad("expected each member of a bank once in firing_order, '" + member.text +
+                               "' is there already");
+    ring.firing_order.push_back(static_cast<std::uint32_t>(number));
+  }
+  const double echo_s = 2 * ring.range_max_m / world::sound_m_s(ring.air_celsius);
+  const Duration least = Duration::from_seconds(echo_s) * static_cast<std::int64_t>(members.size());
+  if (ring.period < least)
+    throw node.written.bad("expected period_ms to be at least " + to_string(least * 1000) +
+                           ": each turn waits for echoes from range_max_m");
 }
 
 }  // namespace
@@ -107,9 +129,10 @@ LaserReading read_laser(const YamlNode& node) {
 }
 
 world::SonarRingDescription read_sonar_ring(const YamlNode& node) {
-  const YamlMap map(node, "a ring of sonars",
-                    {"count", "ring_radius_m", "height_m", "half_cone_deg", "range_min_m", "range_max_m",
-                     "range_noise_relative", "period_ms"});
+  const YamlMap map(
+      node, "a ring of sonars",
+      {"count", "ring_radius_m", "height_m", "half_cone_deg", "range_min_m", "range_max_m", "range_noise_relative",
+       "period_ms", "firing_order", "crosstalk", "air_celsius", "calibrated_celsius"});
   world::SonarRingDescription ring;
   ring.count = static_cast<std::uint32_t>(map.count("count", 1, posters::sonar_count_max, ring.count));
   ring.ring_radius_m = map.number("ring_radius_m", number_from_zero, ring.ring_radius_m);
@@ -120,6 +143,40 @@ world::SonarRingDescription read_sonar_ring(const YamlNode& node) {
   ring.range_max_m = map.number("range_max_m", positive_number, ring.range_max_m);
   if (ring.range_max_m <= ring.range_min_m) throw node.written.bad("expected range_max_m to be above range_min_m");
   ring.range_noise_relative = map.number("range_noise_relative", number_from_zero, ring.range_noise_relative);
+  ring.period = map.duration("period_ms", 1ms, ring.period);
+  constexpr NumberRange celsius{-60, 60, "degrees from -60 to 60"};
+  ring.air_celsius = map.number("air_celsius", celsius, ring.air_celsius);
+  ring.calibrated_celsius = map.number("calibrated_celsius", celsius, ring.calibrated_celsius);
+  ring.crosstalk = map.truth("crosstalk", ring.crosstalk);
+  if (const YamlNode* order = map.find("firing_order")) read_firing_order(*order, ring);
+  return ring;
+}
+
+world::BumperDescription read_bumpers(const YamlNode& node) {
+  const YamlMap map(node, "the bumpers", {"count", "travel_m"});
+  world::BumperDescription bumpers;
+  bumpers.count = static_cast<std::uint32_t>(map.count("count", 1, posters::bumper_count_max, bumpers.count));
+  constexpr NumberRange travel{1e-5, 0.1, "a distance from 0.00001 to 0.1 m"};  // bodies stop a little before contact
+  bumpers.travel_m = map.number("travel_m", travel, bumpers.travel_m);
+  return bumpers;
+}
+
+world::InfraredRingDescription read_infrareds(const YamlNode& node) {
+  const YamlMap map(node, "the infrared range finders",
+                    {"count", "ring_radius_m", "height_m", "range_min_m", "range_max_m", "gain_per_v", "exponent",
+                     "noise_v", "resolution_v", "period_ms"});
+  world::InfraredRingDescription ring;
+  ring.count = static_cast<std::uint32_t>(map.count("count", 1, posters::infrared_count_max, ring.count));
+  ring.ring_radius_m = map.number("ring_radius_m", number_from_zero, ring.ring_radius_m);
+  ring.height_m = map.number("height_m", number_from_zero, ring.height_m);
+  ring.range_min_m = map.number("range_min_m", positive_number, ring.range_min_m);
+  ring.range_max_m = map.number("range_max_m", positive_number, ring.range_max_m);
+  if (ring.range_max_m <= ring.range_min_m) throw node.written.bad("expected range_max_m to be above range_min_m");
+  ring.gain_per_v = map.number("gain_per_v", positive_number, ring.gain_per_v);
+  constexpr NumberRange falling{-10, -0.1, "a number from -10 to -0.1"};
+  ring.exponent = map.number("exponent", falling, ring.exponent);
+  ring.noise_v = map.number("noise_v", number_from_zero, ring.noise_v);
+  ring.resolution_v = map.number("resolution_v", positive_number, ring.resolution_v);
   ring.period = map.duration("period_ms", 1ms, ring.period);
   return ring;
 }

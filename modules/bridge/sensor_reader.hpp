@@ -17,5 +17,7 @@ struct LaserReading {
 
 LaserReading read_laser(const YamlNode& node);
 world::SonarRingDescription read_sonar_ring(const YamlNode& node);
+world::BumperDescription read_bumpers(const YamlNode& node);
+world::InfraredRingDescription read_infrareds(const YamlNode& node);
 
 }  // namespace waitpoint::bridge

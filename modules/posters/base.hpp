@@ -9,6 +9,8 @@
 namespace waitpoint::posters {
 
 inline constexpr std::size_t sonar_count_max = 48;
+inline constexpr std::size_t infrared_count_max = 48;
+inline constexpr std::size_t bumper_count_max = 32;
 
 /// To the controller: the speeds to hold until the next command. A base that cannot go sideways (to the left), or
 /// climb, does not.
@@ -32,7 +34,7 @@ struct BaseReading {
   double v_m_s = 0, w_rad_s = 0;
   double battery_volts = 0;
   bool stalled = false;
-  Bounded<double, sonar_count_max> sonar_m;  ///< no echo: the sonar's greatest range; empty while they are off
+  Bounded<double, sonar_count_max> sonar_m;  ///< ring by ring; no echo: the greatest range; empty while they are off
   std::int64_t side_units = 0;               ///< as travel, to the left: of a base that goes sideways
   double height_m = 0;                       ///< of one that flies
 
@@ -43,6 +45,26 @@ struct BaseReading {
                       field("stalled", &BaseReading::stalled), field("sonar_m", &BaseReading::sonar_m),
                       added_field("side_units", &BaseReading::side_units),
                       added_field("height_m", &BaseReading::height_m));
+  }
+};
+
+/// From the controller, and so by `rflex`: which panels of the bumper are pressed, panel i by bit i.
+struct Bumpers {
+  Time date;
+  std::uint32_t pressed = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &Bumpers::date), field("pressed", &Bumpers::pressed));
+  }
+};
+
+/// From the controller: the voltages of the infrared range finders.
+struct InfraredReading {
+  Time date;
+  Bounded<double, infrared_count_max> volts;
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &InfraredReading::date), field("volts", &InfraredReading::volts));
   }
 };
 
@@ -72,7 +94,7 @@ struct Battery {
   }
 };
 
-/// One sonar's last range, with where it looks from: the transducer in the robot's frame.
+/// The last range of a sonar, or of an infrared range finder, with where it looks from in the robot's frame.
 struct SonarEcho {
   Pose mount;
   double range_m = 0;
@@ -87,6 +109,15 @@ struct Sonars {
   Bounded<SonarEcho, sonar_count_max> echoes;
 
   static constexpr auto fields() { return std::tuple(field("date", &Sonars::date), field("echoes", &Sonars::echoes)); }
+};
+
+struct Infrareds {
+  Time date;
+  Bounded<SonarEcho, infrared_count_max> echoes;
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &Infrareds::date), field("echoes", &Infrareds::echoes));
+  }
 };
 
 }  // namespace waitpoint::posters

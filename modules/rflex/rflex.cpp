@@ -12,11 +12,24 @@ using namespace std::chrono_literals;
 
 namespace {
 constexpr double height_time_s = 0.5;  // in which a small error of height is to a third of it
+
+Pose ring_mount(std::uint32_t number, std::uint32_t count, double radius_m) {
+  const double bearing = 2 * exact::pi * number / count;
+  const auto [s, c] = exact::sincos(bearing);
+  return {radius_m * c, radius_m * s, exact::wrap_angle(bearing)};
+}
+
+void check(const InfraredCalibration& of) {
+  if (!(of.gain_per_v > 0)) throw BadInput("infrared.gain_per_v", "expected more than 0");
+  if (!(of.exponent < 0)) throw BadInput("infrared.exponent", "expected less than 0");
+}
+
 }  // namespace
 
 Parameters Rflex::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
+  check(parameters.infrared);
   return parameters;
 }
 
@@ -27,11 +40,19 @@ Rflex::Rflex(genom::ModuleSetup& setup)
       motion_(add_task("motion", {.period_ms = 20ms, .delay_ms = {}, .cost_us = 100us})),
       reading_(read_poster<posters::BaseReading>("reading")),
       reference_(read_poster<posters::SpeedReference>(parameters_.speed_poster, false)),
+      bumper_reading_(read_poster<posters::Bumpers>("bumper_reading", false)),
+      infrared_reading_(read_poster<posters::InfraredReading>("infrared_reading", false)),
       command_poster_(add_poster<posters::BaseCommand>("command", motion_, &command_)),
       odometry_(add_poster<posters::Odometry>("odometry", motion_)),
       battery_poster_(add_poster<posters::Battery>("battery", motion_)),
-      sonars_(add_poster<posters::Sonars>("sonars", motion_)) {
-  motion_.set_permanent([this] { take_report(); });
+      sonars_(add_poster<posters::Sonars>("sonars", motion_)),
+      bumpers_poster_(add_poster<posters::Bumpers>("bumpers", motion_)),
+      infrareds_poster_(add_poster<posters::Infrareds>("infrareds", motion_)) {
+  motion_.set_permanent([this] {
+    take_report();
+    take_bumpers();
+    take_infrareds();
+  });
   const std::vector<std::string> motions = {"TrackSpeedStart", "GotoSpeed", "Stop"};
   const auto halt = [this](auto&) {
     drive(0, 0, 0, 0);
@@ -76,6 +97,18 @@ Rflex::Rflex(genom::ModuleSetup& setup)
   };
   add_control<Nothing>("SonarOn", switch_sonars(true));
   add_control<Nothing>("SonarOff", switch_sonars(false));
+  const auto switch_infrared = [this](bool on) {
+    return [this, on](const Nothing&, Nothing&) -> Report {
+      infrared_on_ = on;
+      return genom::ok;
+    };
+  };
+  add_control<Nothing>("InfraredOn", switch_infrared(true));
+  add_control<Nothing>("InfraredOff", switch_infrared(false));
+  add_activity<Nothing, posters::Bumpers>("MonitorBumpers", motion_, {.exec = [this](auto& activity) {
+                                            activity.output = bumpers_;
+                                            return bumpers_.pressed != 0 ? State::ether : State::exec;
+                                          }});
 }
 
 // Who is told next where the robot is must not find odometry of the frame before.
@@ -95,17 +128,43 @@ void Rflex::take_report() {
   odometry_.write(*shown_);
   battery_ = {report.date, report.battery_volts, report.battery_volts < parameters_.battery_low_v};
   battery_poster_.write(battery_);
-  if (!report.sonar_m.empty()) {
-    posters::Sonars sonars;
-    sonars.date = report.date;
-    for (std::size_t i = 0; i < report.sonar_m.size(); ++i) {
-      const double bearing = 2 * exact::pi * static_cast<double>(i) / static_cast<double>(report.sonar_m.size());
-      const auto [s, c] = exact::sincos(bearing);
-      const double r = parameters_.sonar_ring_radius_m;
-      sonars.echoes.push_back({{r * c, r * s, exact::wrap_angle(bearing)}, report.sonar_m[i]});
-    }
-    sonars_.write(sonars);
+  if (!report.sonar_m.empty()) show_sonars(report);
+}
+
+void Rflex::show_sonars(const posters::BaseReading& report) {
+  Bounded<SonarRing, 4> rings = parameters_.sonar_rings;
+  if (rings.empty())
+    rings.push_back({static_cast<std::uint32_t>(report.sonar_m.size()), parameters_.sonar_ring_radius_m});
+  posters::Sonars sonars;
+  sonars.date = report.date;
+  std::size_t sonar = 0;
+  for (const SonarRing& ring : rings) {
+    for (std::uint32_t i = 0; i < ring.count && sonar < report.sonar_m.size(); ++i)
+      sonars.echoes.push_back({ring_mount(i, ring.count, ring.radius_m), report.sonar_m[sonar++]});
   }
+  sonars_.write(sonars);
+}
+
+void Rflex::take_bumpers() {
+  posters::Bumpers reading;
+  if (bumper_reading_.read(reading) == genom::PosterStatus::empty) return;
+  bumpers_ = reading;
+  bumpers_poster_.write(bumpers_);
+}
+
+void Rflex::take_infrareds() {
+  posters::InfraredReading reading;
+  if (!infrared_on_ || infrared_reading_.read(reading) == genom::PosterStatus::empty) return;
+  const InfraredCalibration& of = parameters_.infrared;
+  posters::Infrareds infrareds;
+  infrareds.date = reading.date;
+  const std::uint32_t count = static_cast<std::uint32_t>(reading.volts.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double volts = reading.volts[i];
+    const double range_m = volts > 0 ? exact::exp(of.exponent * exact::log(of.gain_per_v * volts)) : of.range_max_m;
+    infrareds.echoes.push_back({ring_mount(i, count, of.ring_radius_m), std::min(range_m, of.range_max_m)});
+  }
+  infrareds_poster_.write(infrareds);
 }
 
 void Rflex::track_reference() {

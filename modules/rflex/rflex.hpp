@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The module of the mobile base: speaks to its RFLEX controller, by two posters.
 //
-//   reads    rflex.reading (the controller's reports), and the speed reference's poster (GENPOS_CART_SPEED)
-//   writes   rflex.command (to the controller), rflex.odometry, rflex.battery, rflex.sonars
-//   requests TrackSpeedStart, GotoSpeed, Stop (each ends the others); SetPos, SonarOn, SonarOff; MonitorBattery
+//   reads    rflex.reading (the controller's reports), and the speed reference's poster (GENPOS_CART_SPEED);
+//            rflex.bumper_reading, rflex.infrared_reading (other ports of the controller), where the robot has them
+//   writes   rflex.command (to the controller), rflex.odometry, rflex.battery, rflex.sonars, rflex.bumpers,
+//            rflex.infrareds
+//   requests TrackSpeedStart, GotoSpeed, Stop (each ends the others); SetPos, SonarOn, SonarOff, InfraredOn,
+//            InfraredOff; MonitorBattery, MonitorBumpers (end when it is low, when one is pressed)
 //
 // While tracking, a reference that stops being renewed stops the robot: its writer may have died. A base that flies is
 // kept at cruise_height_m meanwhile, whatever the reference says of climbing.
@@ -18,6 +21,29 @@
 
 namespace waitpoint::rflex {
 
+/// Sonars at equal angles about the robot's centre, the first straight ahead.
+struct SonarRing {
+  std::uint32_t count = 0;
+  double radius_m = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(field("count", &SonarRing::count), field("radius_m", &SonarRing::radius_m));
+  }
+};
+
+/// (gain_per_v V)^exponent is the range of an infrared range finder, in metres.
+struct InfraredCalibration {
+  double gain_per_v = 3.7, exponent = -1;
+  double range_max_m = 0.8;  ///< what is farther counts as no echo
+  double ring_radius_m = 0.25;
+
+  static constexpr auto fields() {
+    using I = InfraredCalibration;
+    return std::tuple(field("gain_per_v", &I::gain_per_v), field("exponent", &I::exponent),
+                      field("range_max_m", &I::range_max_m), field("ring_radius_m", &I::ring_radius_m));
+  }
+};
+
 /// What can be set of the module.
 struct Parameters {
   OdometryNoise noise;
@@ -25,9 +51,11 @@ struct Parameters {
   std::string speed_poster = "ndd.speed";              ///< what TrackSpeedStart tracks
   Duration reference_timeout_ms = std::chrono::milliseconds(500);
   double battery_low_v = 22.5;
-  double sonar_ring_radius_m = 0.25;
-  double cruise_height_m = 0;  ///< that tracking climbs to and holds; 0: it climbs as the reference says
-  double climb_m_s_max = 0.5;  ///< towards it
+  double sonar_ring_radius_m = 0.25;  ///< of the only ring of sonars
+  double cruise_height_m = 0;         ///< that tracking climbs to and holds; 0: it climbs as the reference says
+  double climb_m_s_max = 0.5;         ///< towards it
+  Bounded<SonarRing, 4> sonar_rings;  ///< if there are several; sonars beyond their count are not shown
+  InfraredCalibration infrared;
 
   static constexpr auto fields() {
     return std::tuple(
@@ -36,7 +64,8 @@ struct Parameters {
         field("reference_timeout_ms", &Parameters::reference_timeout_ms),
         field("battery_low_v", &Parameters::battery_low_v),
         field("sonar_ring_radius_m", &Parameters::sonar_ring_radius_m),
-        field("cruise_height_m", &Parameters::cruise_height_m), field("climb_m_s_max", &Parameters::climb_m_s_max));
+        field("cruise_height_m", &Parameters::cruise_height_m), field("climb_m_s_max", &Parameters::climb_m_s_max),
+        field("sonar_rings", &Parameters::sonar_rings), field("infrared", &Parameters::infrared));
   }
 };
 
@@ -58,6 +87,9 @@ class Rflex : public genom::Module {
   static Parameters read(genom::Settings& settings);
   void set_position(const Pose& pose);
   void take_report();
+  void show_sonars(const posters::BaseReading& report);
+  void take_bumpers();
+  void take_infrareds();
   void track_reference();
   void drive(double v_m_s, double w_rad_s, double side_m_s, double climb_m_s);
 
@@ -66,13 +98,19 @@ class Rflex : public genom::Module {
   genom::ExecutionTask& motion_;
   genom::PosterLink<posters::BaseReading>& reading_;
   genom::PosterLink<posters::SpeedReference>& reference_;
+  genom::PosterLink<posters::Bumpers>& bumper_reading_;
+  genom::PosterLink<posters::InfraredReading>& infrared_reading_;
   posters::BaseCommand command_;
   genom::OutputPoster<posters::BaseCommand>& command_poster_;
   genom::OutputPoster<posters::Odometry>& odometry_;
   genom::OutputPoster<posters::Battery>& battery_poster_;
   genom::OutputPoster<posters::Sonars>& sonars_;
+  genom::OutputPoster<posters::Bumpers>& bumpers_poster_;
+  genom::OutputPoster<posters::Infrareds>& infrareds_poster_;
   std::optional<posters::Odometry> shown_;  // by the odometry poster
   posters::Battery battery_;
+  posters::Bumpers bumpers_;
+  bool infrared_on_ = false;
   std::uint32_t reference_number_ = 0;
   Time reference_renewed_;
 };

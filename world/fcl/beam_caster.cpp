@@ -16,6 +16,7 @@ std::vector<double> sliced_heights(const WorldDescription& description) {
     if (body.base.kind == BaseDescription::Kind::aerial) continue;
     for (const LaserDescription& laser : body.lasers) heights.push_back(laser.height_m);
     for (const SonarRingDescription& ring : body.sonars) heights.push_back(ring.height_m);
+    if (body.infrareds) heights.push_back(body.infrareds->height_m);
   }
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <tuple>
 
 #include "core/error.hpp"
 #include "world/fcl/beam_caster.hpp"
 #include "world/fcl/scene.hpp"
+#include "world/fcl/sonar_echoes.hpp"
 #include "world/motion/contact_loop.hpp"
+#include "world/planar/separation.hpp"
+#include "world/sensors/bumper.hpp"
+#include "world/sensors/infrared.hpp"
 #include "world/sensors/laser.hpp"
 #include "world/sensors/laser_timing.hpp"
-#include "world/sensors/sonar.hpp"
 #include "world/slice/footprints.hpp"
 #include "world/start_check.hpp"
 #include "world/vehicles/vehicle.hpp"
@@ -50,12 +51,6 @@ Heights swept_heights(const Heights& at_start, double climb_m) {
   return {at_start.low_m + low - 2 * contact_gap_m, at_start.high_m + high + 2 * contact_gap_m};
 }
 
-/// A concave corner of an obstacle with another one.
-struct Corner {
-  ConcaveCorner corner;
-  std::uint32_t other;
-};
-
 double longest_scan_s(const BodyDescription& body) {
   double longest_s = 0;
   for (const LaserDescription& laser : body.lasers) longest_s = std::max(longest_s, scan_span_s(laser));
@@ -67,9 +62,12 @@ struct Body {
   ArcTrail trail;  // as far back as a scan reaches
   std::vector<Laser> lasers;
   std::vector<RandomStream> sonar_noise;
+  RandomStream infrared_noise;
 
   Body(const BodyDescription& d, double step_s, std::uint64_t seed)
-      : vehicle(d, seed), trail(longest_scan_s(d), step_s, d.start) {
+      : vehicle(d, seed),
+        trail(longest_scan_s(d), step_s, d.start),
+        infrared_noise(world::infrared_noise(seed, d.name)) {
     for (std::size_t i = 0; i < d.lasers.size(); ++i) lasers.emplace_back(d.lasers[i], seed, d.name, i);
     for (std::size_t i = 0; i < d.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, d.name, i));
   }
@@ -112,6 +110,8 @@ class FclWorld final : public World {
 
   void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const override;
   void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const override;
+  std::uint32_t bumpers(BodyId id) const override;
+  void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const override;
   double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const override;
 
  private:
@@ -124,9 +124,6 @@ class FclWorld final : public World {
   std::vector<Obstacle>::iterator find_obstacle(const std::string& name);
   void change_obstacles(std::vector<Obstacle> obstacles);
   std::optional<std::string> body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const;
-  void find_corners();
-  void collect_surroundings(const Body& body, std::uint32_t own, const SonarRingDescription& ring) const;
-  double nearest_echo(const SonarCone& cone, Point origin, double height_m, std::uint32_t own) const;
 
   WorldDescription description_;
   std::optional<std::vector<Obstacle>> first_obstacles_;  // of the start, once they have been changed
@@ -137,14 +134,14 @@ class FclWorld final : public World {
   Footprints footprints_;  // the same obstacles; none where FCL finds neighbours
   Scene body_scene_;       // bodies as published at the last step but one: where the last step began
   BeamCaster caster_;
-  std::vector<std::vector<Corner>> corners_;  // of each obstacle with later ones; only if there are sonars
+  SonarEchoes sonar_echoes_;
 
   // Buffers of one call, kept so that steps and scans allocate nothing.
   ContactLoop contacts_;
   std::vector<Arc> arcs_;
   std::vector<Mover> movers_;
-  mutable std::vector<std::uint32_t> near_, near_bodies_;
-  mutable std::vector<Echo> echoes_;
+  mutable std::vector<std::uint32_t> near_;
+  mutable std::vector<double> distances_;
 };
 
 FclWorld::FclWorld(const WorldDescription& description, std::uint64_t seed)
@@ -153,10 +150,11 @@ FclWorld::FclWorld(const WorldDescription& description, std::uint64_t seed)
       obstacle_scene_(shapes_of(description.obstacles)),
       footprints_(footprints_of(description)),
       body_scene_(shapes_of(description.bodies), roam_m),
-      caster_(description, obstacle_scene_, body_scene_) {
+      caster_(description, obstacle_scene_, body_scene_),
+      sonar_echoes_(obstacle_scene_, body_scene_, caster_) {
   WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
   WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
-  find_corners();
+  sonar_echoes_.stand(description_);
   reset(seed);
 }
 
@@ -303,7 +301,7 @@ void FclWorld::change_obstacles(std::vector<Obstacle> obstacles) {
   obstacle_scene_ = Scene(shapes);
   footprints_ = footprints_of(description_);
   caster_.stand(shapes);
-  find_corners();
+  sonar_echoes_.stand(description_);
 }
 
 double FclWorld::battery_volts(BodyId id) const {
@@ -340,70 +338,50 @@ double FclWorld::cast(const Beam& beam, double range_max_m, std::optional<BodyId
                       range_max_m);
 }
 
-void FclWorld::find_corners() {
-  corners_.clear();
-  const bool sonars = std::any_of(description_.bodies.begin(), description_.bodies.end(),
-                                  [](const BodyDescription& body) { return !body.sonars.empty(); });
-  if (!sonars) return;
-  corners_.resize(obstacle_scene_.size());
-  std::vector<ConcaveCorner> found;
-  for (std::uint32_t i = 0; i < obstacle_scene_.size(); ++i) {
-    const Shape& shape = description_.obstacles[i].shape;
-    const Outline& outline = obstacle_scene_.outline(i);
-    if (!outline.is_box) continue;
-    obstacle_scene_.near(bounds_of(outline), shape.z_low_m, shape.z_high_m, near_);
-    for (const std::uint32_t j : near_) {
-      const Outline& other = obstacle_scene_.outline(j);
-      if (j <= i || !other.is_box) continue;
-      found.clear();
-      find_concave_corners(outline, other, found);
-      for (const ConcaveCorner& corner : found) corners_[i].push_back({corner, j});
-    }
-  }
-}
-
-void FclWorld::collect_surroundings(const Body& body, std::uint32_t own, const SonarRingDescription& ring) const {
-  const Point at = body.vehicle.state().pose.position();
-  const Bounds reach = Bounds{at, at}.grown(ring.range_max_m + ring.ring_radius_m);
-  const double height_m = ring.height_m + body.vehicle.state().height_m;
-  obstacle_scene_.near(reach, height_m, height_m, near_);
-  body_scene_.near(reach, height_m, height_m, near_bodies_);
-  std::erase(near_bodies_, own);
-}
-
 void FclWorld::sonar(BodyId id, std::size_t ring_number, std::uint64_t firing_number,
                      std::vector<double>& range_m) const {
   const Body& body = bodies_.at(index(id));
   const SonarRingDescription& ring = body.vehicle.description().sonars.at(ring_number);
-  const std::uint32_t own = static_cast<std::uint32_t>(id);
-  collect_surroundings(body, own, ring);
-  range_m.resize(ring.count);
+  if (range_m.size() != ring.count) range_m.assign(ring.count, ring.range_max_m);
+  distances_.resize(ring.count);
+  sonar_echoes_.fire(body.vehicle, static_cast<std::uint32_t>(id), ring_number, firing_number, distances_);
   for (std::uint32_t i = 0; i < ring.count; ++i) {
-    const Pose transducer = compose(body.vehicle.state().pose, transducer_mount(ring, i));
-    const double distance = nearest_echo(SonarCone(ring, transducer), transducer.position(),
-                                         ring.height_m + body.vehicle.state().height_m, own);
-    range_m[i] = sonar_range_m(ring, distance, body.sonar_noise[ring_number].normal(firing_number, i));
+    if (fires(ring, i, firing_number))
+      range_m[i] = sonar_range_m(ring, distances_[i], body.sonar_noise[ring_number].normal(firing_number, i));
   }
 }
 
-double FclWorld::nearest_echo(const SonarCone& cone, Point origin, double height_m, std::uint32_t own) const {
-  echoes_.clear();
-  for (const std::uint32_t obstacle : near_) {
-    cone.add(obstacle_scene_.outline(obstacle), echoes_);
-    for (const auto& [corner, other] : corners_[obstacle]) {
-      if (obstacle_scene_.reaches(other, height_m)) cone.add(corner, echoes_);
+std::uint32_t FclWorld::bumpers(BodyId id) const {
+  const Body& body = bodies_.at(index(id));
+  if (!body.vehicle.description().bumpers) return 0;
+  const BumperDescription& bumper = *body.vehicle.description().bumpers;
+  const Shape& shape = body.vehicle.description().shape;
+  const Bounds reach = bounds_of(body.vehicle.outline()).grown(bumper.travel_m);
+  std::uint32_t pressed = 0;
+  const auto touch = [&](const Scene& scene) {
+    scene.near(reach, shape.z_low_m, shape.z_high_m, near_);
+    for (const std::uint32_t other : near_) {
+      if (&scene == &body_scene_ && other == static_cast<std::uint32_t>(id)) continue;
+      pressed |= pressed_panel(bumper, body.vehicle.state().pose.heading,
+                               separation(body.vehicle.outline(), scene.outline(other)));
     }
+  };
+  touch(obstacle_scene_);
+  touch(body_scene_);
+  return pressed;
+}
+
+void FclWorld::infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const {
+  const Body& body = bodies_.at(index(id));
+  WAITPOINT_CHECK(body.vehicle.description().infrareds.has_value(),
+                  "a body without infrared range finders is asked for them");
+  const InfraredRingDescription& ring = *body.vehicle.description().infrareds;
+  volts.resize(ring.count);
+  for (std::uint32_t i = 0; i < ring.count; ++i) {
+    const Pose finder = compose(body.vehicle.state().pose, infrared_mount(ring, i));
+    const double range_m = cast({finder.position(), finder.heading, ring.height_m}, ring.range_max_m, id);
+    volts[i] = infrared_v(ring, range_m, body.infrared_noise.normal(reading_number, i));
   }
-  for (const std::uint32_t other : near_bodies_) cone.add(body_scene_.outline(other), echoes_);
-  std::sort(echoes_.begin(), echoes_.end(), [](const Echo& a, const Echo& b) {
-    return std::tie(a.distance_m, a.direction.x, a.direction.y) < std::tie(b.distance_m, b.direction.x, b.direction.y);
-  });
-  for (const Echo& echo : echoes_) {
-    const double clear_m = caster_.cast(origin, echo.direction, height_m, own, echo.distance_m);
-    // What answers is itself hit at its own distance, but for rounding.
-    if (clear_m >= echo.distance_m - 1e-9) return echo.distance_m;
-  }
-  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace

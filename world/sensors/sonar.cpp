@@ -2,18 +2,25 @@
 #include "world/sensors/sonar.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
 namespace waitpoint::world {
 namespace {
 
-struct Face {
-  Point start, end, normal;  // the normal points out of the box
-};
+// How near to each other two walls must come to make a corner, and how far each must go on beyond it.
+constexpr double meeting_m = 1e-6, beyond_m = 5e-3;
 
-std::array<Face, 4> faces(const Outline& box) {
+bool on_face(const BoxFace& face, Point p) {
+  const Point edge = face.end - face.start;
+  const double along = dot(p - face.start, edge), across = dot(p - face.start, face.normal);
+  const double span = dot(edge, edge), margin = meeting_m * std::sqrt(span);
+  return std::fabs(across) <= meeting_m && along >= -margin && along <= span + margin;
+}
+
+}  // namespace
+
+std::array<BoxFace, 4> faces_of(const Outline& box) {
   const CorePoints p = core_points(box);
   const Point along = box.outward({1, 0}), across = box.outward({0, 1});
   const Point back = {-along.x, -along.y}, right = {-across.x, -across.y};
@@ -23,22 +30,11 @@ std::array<Face, 4> faces(const Outline& box) {
            {p.points[3], p.points[0], along}}};
 }
 
-// How near to each other two walls must come to make a corner, and how far each must go on beyond it.
-constexpr double meeting_m = 1e-6, beyond_m = 5e-3;
-
-bool on_face(const Face& face, Point p) {
-  const Point edge = face.end - face.start;
-  const double along = dot(p - face.start, edge), across = dot(p - face.start, face.normal);
-  const double span = dot(edge, edge), margin = meeting_m * std::sqrt(span);
-  return std::fabs(across) <= meeting_m && along >= -margin && along <= span + margin;
-}
-
-}  // namespace
-
 SonarCone::SonarCone(const SonarRingDescription& ring, const Pose& transducer)
     : origin_(transducer.position()),
       cosine_whole_(exact::cos(ring.half_cone_rad)),
       cosine_half_(exact::cos(0.5 * ring.half_cone_rad)),
+      half_cone_rad_(ring.half_cone_rad),
       range_max_m_(ring.range_max_m) {
   const auto [s, c] = exact::sincos(transducer.heading);
   axis_ = {c, s};
@@ -52,7 +48,7 @@ void SonarCone::add_point(Point p, double cosine_min, double range_max_m, std::v
 }
 
 void SonarCone::add_box(const Outline& box, std::vector<Echo>& echoes) const {
-  for (const Face& face : faces(box)) {
+  for (const BoxFace& face : faces_of(box)) {
     const double height = dot(origin_ - face.start, face.normal);
     if (height > 0 && height <= range_max_m_ && -dot(face.normal, axis_) >= cosine_whole_) {
       const Point edge = face.end - face.start;
@@ -81,8 +77,8 @@ void SonarCone::add(const ConcaveCorner& corner, std::vector<Echo>& echoes) cons
 }
 
 void find_concave_corners(const Outline& a, const Outline& b, std::vector<ConcaveCorner>& corners) {
-  for (const Face& f : faces(a)) {
-    for (const Face& g : faces(b)) {
+  for (const BoxFace& f : faces_of(a)) {
+    for (const BoxFace& g : faces_of(b)) {
       if (std::fabs(dot(f.normal, g.normal)) > 0.1) continue;
       // The lines of the two faces meet at f.start + t (f.end - f.start).
       const Point edge = f.end - f.start;
@@ -104,9 +100,21 @@ Pose transducer_mount(const SonarRingDescription& ring, std::uint32_t transducer
   return {ring.ring_radius_m * c, ring.ring_radius_m * s, heading};
 }
 
+std::uint64_t slots(const SonarRingDescription& ring) {
+  return ring.firing_order.empty() ? 1 : ring.firing_order.size();
+}
+
+bool fires(const SonarRingDescription& ring, std::uint32_t transducer, std::uint64_t firing) {
+  const std::uint64_t turns = slots(ring);
+  return turns == 1 || transducer % turns == ring.firing_order[firing % turns];
+}
+
+double sound_m_s(double celsius) { return 331.3 + 0.606 * celsius; }
+
 double sonar_range_m(const SonarRingDescription& ring, double distance_m, double normal) {
   if (distance_m > ring.range_max_m) return ring.range_max_m;
-  const double range = distance_m * (1 + ring.range_noise_relative * normal);
+  const double taken_for = sound_m_s(ring.calibrated_celsius) / sound_m_s(ring.air_celsius);
+  const double range = taken_for * distance_m * (1 + ring.range_noise_relative * normal);
   return std::clamp(range, ring.range_min_m, ring.range_max_m);
 }
 

@@ -9,10 +9,11 @@
 //   convex edge     diffracts weakly: answers in the inner half of the cone, up to half of the greatest range
 //
 // After Kuc and Siegel (1987), simplified: each is either heard or not, the nearest visible one counts, echoes of more
-// than one reflection and cross-talk between transducers are left out, and only walls that meet at nearly a right angle
-// make a concave corner.
+// than one reflection are left out, and only walls that meet at nearly a right angle make a concave corner. What one
+// transducer hears of another: world/sensors/sonar_crosstalk.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -42,14 +43,27 @@ class SonarCone {
   void add(const Outline& outline, std::vector<Echo>& echoes) const;
   void add(const ConcaveCorner& corner, std::vector<Echo>& echoes) const;
 
+  Point origin() const { return origin_; }
+  Point axis() const { return axis_; }
+  double half_cone_rad() const { return half_cone_rad_; }
+  double range_max_m() const { return range_max_m_; }
+  /// Whether the point lies in the cone.
+  bool looks_at(Point p) const { return dot(p - origin_, axis_) >= cosine_whole_ * length(p - origin_); }
+
  private:
   void add_box(const Outline& box, std::vector<Echo>& echoes) const;
   void add_point(Point p, double cosine_min, double range_max_m, std::vector<Echo>& echoes) const;
 
   Point origin_, axis_;
   double cosine_whole_, cosine_half_;  // of the cone's half angle, and of half of that
-  double range_max_m_;
+  double half_cone_rad_, range_max_m_;
 };
+
+/// A side of a box, its normal out of it.
+struct BoxFace {
+  Point start, end, normal;
+};
+std::array<BoxFace, 4> faces_of(const Outline& box);
 
 /// The concave corners between two boxes that touch or overlap; appends to `corners`.
 void find_concave_corners(const Outline& a, const Outline& b, std::vector<ConcaveCorner>& corners);
@@ -57,7 +71,15 @@ void find_concave_corners(const Outline& a, const Outline& b, std::vector<Concav
 /// The transducer's pose in the body's frame.
 Pose transducer_mount(const SonarRingDescription& ring, std::uint32_t transducer);
 
-/// The measured range of an echo at `distance_m` (infinite: none), given a standard normal draw.
+/// How many groups of a ring take turns, and whether a transducer's group has its turn in the firing of that number.
+std::uint64_t slots(const SonarRingDescription& ring);
+bool fires(const SonarRingDescription& ring, std::uint32_t transducer, std::uint64_t firing);
+
+/// The speed of sound in air.
+double sound_m_s(double celsius);
+
+/// The measured range of an echo at `distance_m` (infinite: none), given a standard normal draw: computed with the
+/// speed of sound that the ring is calibrated for.
 double sonar_range_m(const SonarRingDescription& ring, double distance_m, double normal);
 
 /// The stream (seed, robot, "sonar <number>.range") of a ring's noise: tick = number of the firing, index = transducer.

@@ -39,5 +39,31 @@ TEST(SetPos, IsSeenInTheOdometryWhenItsReplyComes) {
   });
 }
 
+TEST(MonitorBumpers, EndsWithThePanelThatIsPressed) {
+  on_threads([] {
+    genom::NameSpace names;
+    genom::ModuleSetup setup{names, "rflex", genom::Settings()};
+    Rflex rflex(setup);
+    names.create_poster<posters::BaseReading>("rflex.reading", "the test");
+    auto& bumper = names.create_poster<posters::Bumpers>("rflex.bumper_reading", "the test");
+    rflex.connect();
+    rflex.start();
+    bumper.write({threads::now(), 0});
+    threads::thread wall([&] {
+      threads::this_thread::sleep_for(std::chrono::milliseconds(100));
+      bumper.write({threads::now(), 1u << 5});
+    });
+    genom::Client client(names, "client");
+    const Time asked = threads::now();
+    const genom::Reply reply = client.call("rflex", "MonitorBumpers", genom::Nothing());
+    EXPECT_EQ(reply.report, genom::ok);
+    EXPECT_EQ(reply.output.as<posters::Bumpers>().pressed, 1u << 5);
+    EXPECT_GE(threads::now() - asked, Duration(std::chrono::milliseconds(100)));
+    wall.join();
+    EXPECT_TRUE(client.end_module("rflex"));
+    rflex.join();
+  });
+}
+
 }  // namespace
 }  // namespace waitpoint::rflex

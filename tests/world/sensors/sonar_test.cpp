@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/world/scenes.hpp"
+#include "world/sensors/sonar_crosstalk.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -86,6 +87,98 @@ TEST(Sonar, ARingLooksAroundCounterClockwise) {
   ASSERT_EQ(ranges.size(), 24u);
   for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(ranges[i] == 3, i != 6) << i;
   EXPECT_NEAR(ranges[6], 1.75, 1e-9);
+}
+
+SonarRingDescription quiet_ring() {
+  SonarRingDescription ring;
+  ring.range_noise_relative = 0;
+  ring.half_cone_rad = 12.5 * exact::pi / 180;
+  return ring;
+}
+
+// A robot between a pole, 6 degrees to the left of its nose, and walls.
+std::unique_ptr<World> among_things(const std::vector<SonarRingDescription>& rings) {
+  WorldDescription description;
+  const auto [s, c] = exact::sincos(6 * exact::pi / 180);
+  for (const Shape& shape : {cylinder({c, s}, 0.05), box({0, 2.5, 0}, 20, 1), box({-2, 0, 0.1}, 1, 9)})
+    description.obstacles.push_back({numbered("o", description.obstacles.size()), shape, true});
+  description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
+  description.bodies[0].sonars = rings;
+  return make_fcl_world(description, 1);
+}
+
+TEST(Sonar, BanksFireOneMemberEachInTheOrderGiven) {
+  SonarRingDescription ring = quiet_ring();
+  std::vector<double> all, in_turns;
+  among_things({ring})->sonar(BodyId(0), 0, 0, all);
+  ring.firing_order = {2, 0, 3, 1};
+  const auto world = among_things({ring});
+  in_turns.assign(24, -1);
+  for (std::uint64_t firing = 0; firing < 8; ++firing) {
+    world->sonar(BodyId(0), 0, firing, in_turns);
+    for (std::size_t i = 0; i < 24; ++i) {
+      const std::size_t turn = i % 4 == 2 ? 0 : i % 4 == 0 ? 1 : i % 4 == 3 ? 2 : 3;
+      EXPECT_EQ(in_turns[i], turn <= firing ? all[i] : -1) << i << " after " << firing;
+    }
+  }
+  in_turns.clear();
+  world->sonar(BodyId(0), 0, 0, in_turns);
+  EXPECT_EQ(in_turns[0], 3) << "what has not fired yet has no echo";
+}
+
+// By its own sound, sonar 1 hears the pole at 0.7041 m; sonar 0 is nearer to it, and half of the path from there is
+// less.
+TEST(Sonar, NeighboursThatFireTogetherHearEachOther) {
+  SonarRingDescription ring = quiet_ring();
+  std::vector<double> alone, together, in_turns;
+  among_things({ring})->sonar(BodyId(0), 0, 0, alone);
+  ring.crosstalk = true;
+  among_things({ring})->sonar(BodyId(0), 0, 0, together);
+  EXPECT_NEAR(alone[1] - alone[0], 0.0023, 1e-4);
+  EXPECT_NEAR(together[1], 0.5 * (alone[0] + alone[1]), 1e-4);
+  EXPECT_EQ(together[0], alone[0]) << "its own echo comes first";
+  ring.firing_order = {0, 1, 2, 3};
+  const auto world = among_things({ring});
+  for (std::uint64_t firing = 0; firing < 4; ++firing) world->sonar(BodyId(0), 0, firing, in_turns);
+  EXPECT_EQ(in_turns, alone) << "sixty degrees apart, none hears another";
+}
+
+// A B21r's 48: the lower ring is a centimetre wider, so its sound is back a little earlier.
+TEST(Sonar, RingsOfOneBodyHearEachOther) {
+  SonarRingDescription upper = quiet_ring(), lower = quiet_ring();
+  lower.ring_radius_m = 0.26;
+  upper.crosstalk = lower.crosstalk = true;
+  std::vector<double> with, without;
+  among_things({upper, lower})->sonar(BodyId(0), 0, 0, with);
+  lower.crosstalk = false;
+  among_things({upper, lower})->sonar(BodyId(0), 0, 0, without);
+  EXPECT_NEAR(without[6], 1.75, 1e-9);
+  EXPECT_NEAR(with[6], 1.745, 1e-9) << "half of 1.75 m and 1.74 m";
+}
+
+TEST(Sonar, WhatHidesEitherWayHidesTheCrossEcho) {
+  const SonarRingDescription ring = quiet_ring();
+  const SonarCone a(ring, {0, 0, 0}), b(ring, {0, 0.2, 0});
+  std::vector<CrossEcho> echoes;
+  add_cross_echoes(a, b, outline_of(box({2.5, 0, 0}, 1, 20)), echoes);
+  ASSERT_EQ(echoes.size(), 1u);
+  EXPECT_NEAR(echoes[0].at.x, 2, 1e-12);
+  EXPECT_NEAR(echoes[0].at.y, 0.1, 1e-12);
+  EXPECT_NEAR(echoes[0].distance_m, 0.5 * std::hypot(4, 0.2), 1e-12) << "as from the mirror image";
+  echoes.clear();
+  add_cross_echoes(a, b, outline_of(box({2.5, 5.15, 0}, 1, 10)), echoes);
+  EXPECT_TRUE(echoes.empty()) << "the wall begins beside the reflection";
+  add_cross_echoes(a, SonarCone(ring, {0, 0.2, 0.3}), outline_of(box({2.5, 0, 0}, 1, 20)), echoes);
+  EXPECT_TRUE(echoes.empty()) << "it arrives outside of the cone";
+  EXPECT_TRUE(may_hear(a, b));
+  EXPECT_FALSE(may_hear(a, SonarCone(ring, {0, 0.2, 0.5}))) << "beyond both half cones";
+}
+
+TEST(Sonar, RangesAreThoseOfTheTemperatureThatItIsCalibratedFor) {
+  SonarRingDescription ring = quiet_ring();
+  EXPECT_EQ(sonar_range_m(ring, 2, 0), 2);
+  ring.air_celsius = 0;
+  EXPECT_NEAR(sonar_range_m(ring, 2, 0), 2 * 343.42 / 331.3, 1e-12) << "colder air carries sound slower";
 }
 
 TEST(Sonar, NoiseIsAShareOfTheRange) {

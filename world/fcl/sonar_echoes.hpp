@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the sonars of a body hear in a world: of all that would answer, the nearest that nothing hides.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "world/fcl/beam_caster.hpp"
+#include "world/fcl/scene.hpp"
+#include "world/sensors/sonar_crosstalk.hpp"
+#include "world/vehicles/vehicle.hpp"
+
+namespace waitpoint::world {
+
+class SonarEchoes {
+ public:
+  /// The scenes and the caster must outlive it, and be told of changes before it is.
+  SonarEchoes(const Scene& obstacles, const Scene& bodies, const BeamCaster& caster);
+
+  /// Finds the corners of the obstacles, which are those of the scene; none if no body has sonars.
+  void stand(const WorldDescription& description);
+
+  /// Fires the transducers of the body's ring whose turn it is: of each the distance of its echo, infinite if there is
+  /// none. The others' distances are left. As many distances as transducers.
+  void fire(const Vehicle& body, std::uint32_t own, std::size_t ring, std::uint64_t firing,
+            std::span<double> distances_m) const;
+
+ private:
+  /// A concave corner of an obstacle with another one.
+  struct Corner {
+    ConcaveCorner corner;
+    std::uint32_t other;
+  };
+
+  void collect_surroundings(Point at, double height_m, std::uint32_t own, const SonarRingDescription& ring) const;
+  double nearest_echo(const SonarCone& cone, double height_m, std::uint32_t own) const;
+  double nearest_cross_echo(const SonarCone& listener, const SonarCone& emitter, double height_m, std::uint32_t own,
+                            double below_m) const;
+  bool clear(Point from, Point to, double height_m, std::uint32_t own) const;
+
+  const Scene& obstacles_;
+  const Scene& bodies_;
+  const BeamCaster& caster_;
+  std::vector<std::vector<Corner>> corners_;  // of each obstacle with later ones
+
+  // Of one call, kept so that firing allocates nothing.
+  mutable std::vector<std::uint32_t> near_, near_bodies_;
+  mutable std::vector<Echo> echoes_;
+  mutable std::vector<CrossEcho> cross_echoes_;
+  mutable std::vector<SonarCone> emitters_;
+};
+
+}  // namespace waitpoint::world

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/sensors/bumper.hpp"
+
+#include <cmath>
+
+namespace waitpoint::world {
+
+std::uint32_t pressed_panel(const BumperDescription& bumper, double heading_rad, const Separation& separation) {
+  if (separation.distance_m > bumper.travel_m) return 0;
+  const double bearing = exact::atan2(separation.normal.y, separation.normal.x) - heading_rad;
+  const double panels = std::nearbyint(exact::wrap_angle(bearing) * bumper.count / (2 * exact::pi));
+  const auto panel = static_cast<std::int64_t>(panels) + bumper.count;
+  return std::uint32_t{1} << (panel % bumper.count);
+}
+
+}  // namespace waitpoint::world
