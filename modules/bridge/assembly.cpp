@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/bridge/assembly.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
@@ -57,6 +58,10 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
     robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
                                               world::BodyId(i), network, seed));
+  // Robots of one type have one file.
+  for (const RobotScenario& robot : scenario.robots)
+    for (const std::string& warning : robot.warnings)
+      if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
   check_step();
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "modules/bridge/robot_model.hpp"
 #include "modules/bridge/sensor_reader.hpp"
 #include "modules/bridge/shape_reader.hpp"
 #include "modules/posters/base.hpp"
@@ -100,7 +101,12 @@ world::BaseDescription read_base(const YamlNode& node) {
 
 BodyReading read_body(const YamlMap& robot) {
   BodyReading reading;
-  reading.body.shape = read_body_shape(robot.require("shape"));
+  const std::optional<RobotModel> model = read_robot_model(robot);
+  if (model && robot.has("shape")) {
+    throw robot.require("urdf").written.bad("expected " + robot.what() + " to have either shape or urdf");
+  }
+  reading.body.shape = model ? model->robot.shape : read_body_shape(robot.require("shape"));
+  if (model) reading.warnings = model->warnings;
   if (const YamlNode* base = robot.find("base")) reading.body.base = read_base(*base);
   if (const YamlNode* lasers = robot.find("lasers")) {
     for (const YamlNode& item : read_list(*lasers, "lasers")) {
@@ -108,6 +114,7 @@ BodyReading read_body(const YamlMap& robot) {
       if (std::count(reading.laser_names.begin(), reading.laser_names.end(), laser.name) > 0) {
         throw item.written.bad("expected lasers of different names, '" + laser.name + "' is there already");
       }
+      mount_at_frame(item, model, laser.laser);
       reading.laser_names.push_back(std::move(laser.name));
       reading.body.lasers.push_back(laser.laser);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's body as a scenario writes it: `shape`, `base` with its odometry's errors and its battery, `lasers`,
-// `sonars`, `bumpers`, `infrareds`. The keys are the names of the fields in world/description.hpp, angles in degrees
-// where the key says so; what is left out has the value given there.
+// A robot's body as a scenario writes it: `shape` or `urdf`, `base` with its odometry's errors and its battery,
+// `lasers`, `sonars`, `bumpers`, `infrareds`. The keys are the names of the fields in world/description.hpp, angles in
+// degrees where the key says so; what is left out has the value given there.
 #pragma once
 
 #include <string>
@@ -15,6 +15,7 @@ namespace waitpoint::bridge {
 struct BodyReading {
   world::BodyDescription body;           ///< without name and start
   std::vector<std::string> laser_names;  ///< in the order of body.lasers; "laser" where the scenario gives none
+  std::vector<std::string> warnings;     ///< of its URDF
 };
 
 /// Reads these keys from a map that knows them.

@@ -118,6 +118,7 @@ RobotScenario read_equipment(const YamlMap& map) {
   BodyReading reading = read_body(map);
   robot.body = std::move(reading.body);
   robot.laser_names = std::move(reading.laser_names);
+  robot.warnings = std::move(reading.warnings);
   if (const YamlNode* modules = map.find("modules")) robot.modules = read_modules(*modules);
   if (const YamlNode* bridge = map.find("bridge")) robot.bridge = read_bridge(*bridge);
   if (const YamlNode* processors = map.find("processors")) robot.processors = read_processors(*processors);
@@ -145,11 +146,14 @@ const YamlNode& type_of(const YamlMap& robot, const YamlNode* types) {
 
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   const std::string title = name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'";
-  const auto keys = {std::string_view("name"),           std::string_view("type"),      std::string_view("start"),
-                     std::string_view("goals"),          std::string_view("shape"),     std::string_view("base"),
-                     std::string_view("lasers"),         std::string_view("sonars"),    std::string_view("modules"),
-                     std::string_view("bridge"),         std::string_view("executive"), std::string_view("processors"),
-                     std::string_view("start_height_m"), std::string_view("bumpers"),   std::string_view("infrareds")};
+  const auto keys = {std::string_view("name"),           std::string_view("type"),
+                     std::string_view("start"),          std::string_view("goals"),
+                     std::string_view("shape"),          std::string_view("base"),
+                     std::string_view("lasers"),         std::string_view("sonars"),
+                     std::string_view("modules"),        std::string_view("bridge"),
+                     std::string_view("executive"),      std::string_view("processors"),
+                     std::string_view("start_height_m"), std::string_view("bumpers"),
+                     std::string_view("infrareds"),      std::string_view("urdf")};
   const YamlMap own(node, title, keys);
   const std::string name = read_name(own.require("name"), "the name of a robot");
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
@@ -170,9 +174,9 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
 }
 
 void check_robot_type(const YamlEntry& type) {
-  read_equipment(YamlMap(
-      type.value, "robot type '" + type.key + "'",
-      {"shape", "base", "lasers", "sonars", "bumpers", "infrareds", "modules", "bridge", "executive", "processors"}));
+  read_equipment(YamlMap(type.value, "robot type '" + type.key + "'",
+                         {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "modules", "bridge",
+                          "executive", "processors"}));
 }
 
 std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix) {

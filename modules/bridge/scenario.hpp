@@ -63,6 +63,7 @@ struct RobotScenario {
   std::string name;
   world::BodyDescription body;           ///< with the robot's name
   std::vector<std::string> laser_names;  ///< in the order of body.lasers
+  std::vector<std::string> warnings;     ///< of what it is read from
   std::vector<Goal> goals;               ///< in the order of the round
   std::vector<ModuleScenario> modules;   ///< in the order in which they start, those switched off included
   std::vector<BridgeRow> bridge;

@@ -83,6 +83,7 @@ LaserReading read_laser(const YamlNode& node) {
                     {"name",
                      "model",
                      "mount",
+                     "frame",
                      "height_m",
                      "beams",
                      "field_of_view_deg",

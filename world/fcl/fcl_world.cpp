@@ -355,7 +355,7 @@ std::uint32_t FclWorld::bumpers(BodyId id) const {
   const Body& body = bodies_.at(index(id));
   if (!body.vehicle.description().bumpers) return 0;
   const BumperDescription& bumper = *body.vehicle.description().bumpers;
-  const Shape& shape = body.vehicle.description().shape;
+  const Shape shape = body.vehicle.shape();
   const Bounds reach = bounds_of(body.vehicle.outline()).grown(bumper.travel_m);
   std::uint32_t pressed = 0;
   const auto touch = [&](const Scene& scene) {
@@ -379,7 +379,8 @@ void FclWorld::infrareds(BodyId id, std::uint64_t reading_number, std::vector<do
   volts.resize(ring.count);
   for (std::uint32_t i = 0; i < ring.count; ++i) {
     const Pose finder = compose(body.vehicle.state().pose, infrared_mount(ring, i));
-    const double range_m = cast({finder.position(), finder.heading, ring.height_m}, ring.range_max_m, id);
+    const double height_m = ring.height_m + body.vehicle.state().height_m;
+    const double range_m = cast({finder.position(), finder.heading, height_m}, ring.range_max_m, id);
     volts[i] = infrared_v(ring, range_m, body.infrared_noise.normal(reading_number, i));
   }
 }
