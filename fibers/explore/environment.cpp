@@ -11,6 +11,10 @@
 namespace waitpoint::exploration {
 namespace {
 
+constexpr const char *strategy_name = "WAITPOINT_STRATEGY", *seed_name = "WAITPOINT_SEED",
+                     *iterations_name = "WAITPOINT_ITERATIONS", *time_limit_name = "WAITPOINT_TIME_LIMIT",
+                     *replay_name = "WAITPOINT_REPLAY";
+
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
@@ -33,7 +37,7 @@ bool came_to_replay = false;
 
 void check_replayed() {
   if (came_to_replay) return;
-  refuse("WAITPOINT_REPLAY: expected a token of this program, found '" + variable("WAITPOINT_REPLAY") +
+  refuse(std::string(replay_name) + ": expected a token of this program, found '" + variable(replay_name) +
          "': there was no such call");
 }
 
@@ -51,11 +55,11 @@ std::string as_word(const std::string& word) {
 void replay_was_come_to() { came_to_replay = true; }
 
 ExploreOptions with_environment(ExploreOptions options) {
-  if (const std::string strategy = variable("WAITPOINT_STRATEGY"); !strategy.empty()) options.strategy = strategy;
-  take("WAITPOINT_SEED", options.seed, "a whole number from 0 to 2^64 - 1");
-  take("WAITPOINT_ITERATIONS", options.iterations, "a whole number");
-  take("WAITPOINT_TIME_LIMIT", options.time_limit_s, "a number of seconds");
-  if (const std::string replay = variable("WAITPOINT_REPLAY"); !replay.empty()) {
+  if (const std::string strategy = variable(strategy_name); !strategy.empty()) options.strategy = strategy;
+  take(seed_name, options.seed, "a whole number from 0 to 2^64 - 1");
+  take(iterations_name, options.iterations, "a whole number");
+  take(time_limit_name, options.time_limit_s, "a number of seconds");
+  if (const std::string replay = variable(replay_name); !replay.empty()) {
     options.replay = replay;
     [[maybe_unused]] static const int registered = std::atexit(check_replayed);
   }
@@ -63,8 +67,7 @@ ExploreOptions with_environment(ExploreOptions options) {
 }
 
 void refuse_environment(const BadInput& input) {
-  for (const char* name :
-       {"WAITPOINT_STRATEGY", "WAITPOINT_SEED", "WAITPOINT_ITERATIONS", "WAITPOINT_TIME_LIMIT", "WAITPOINT_REPLAY"})
+  for (const char* name : {strategy_name, seed_name, iterations_name, time_limit_name, replay_name})
     if (!variable(name).empty()) refuse(input.what());
 }
 

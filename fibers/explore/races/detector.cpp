@@ -86,12 +86,10 @@ inline void Detector::record(std::uint32_t index, std::uint8_t bytes, std::uint8
   Context& self = *current_;
   Cell& cell = shadow_[index];
   const Epoch epoch = self.epoch();
-  {
-    const MemoryAccess& latest = cell.latest;
-    if (latest.task == self.index && latest.epoch == epoch && (bytes & ~latest.bytes) == 0 &&
-        (latest.writes() || (kind & kind::write) == 0) && (!latest.is_atomic() || (kind & kind::atomic) != 0))
-      return;
-  }
+  const MemoryAccess& latest = cell.latest;
+  if (latest.task == self.index && latest.epoch == epoch &&
+      MemoryAccess::covers(latest.bytes, latest.kind, bytes, kind))
+    return;
   const std::uint32_t calls = self.calls.path(paths_);
   // Written field by field to where it belongs: a copy of what was just put together waits for all of it.
   const auto note_in = [&](MemoryAccess& access) {
@@ -119,9 +117,8 @@ inline void Detector::record(std::uint32_t index, std::uint8_t bytes, std::uint8
     return earlier.task == self.index || earlier.epoch <= self.clock.of(earlier.task);
   };
   // Mostly it comes in the place of the one before.
-  if (const MemoryAccess& latest = cell.latest; cell.more == no_more && !learning_ && (latest.bytes & ~bytes) == 0 &&
-                                                (writes || !latest.writes()) && (!is_atomic || latest.is_atomic()) &&
-                                                is_ordered(latest))
+  if (cell.more == no_more && !learning_ && MemoryAccess::covers(bytes, kind, latest.bytes, latest.kind) &&
+      is_ordered(latest))
     return note_in(cell.latest);
 
   MemoryAccess access;

@@ -41,8 +41,11 @@ struct MemoryAccess {
   bool writes() const { return (kind & kind::write) != 0; }
   bool is_atomic() const { return (kind & kind::atomic) != 0; }
   /// Whether an access that races with `other` races with this one too, if both are known to who accesses.
-  bool stands_for(const MemoryAccess& other) const {
-    return (other.bytes & ~bytes) == 0 && (writes() || !other.writes()) && (!is_atomic() || other.is_atomic());
+  bool stands_for(const MemoryAccess& other) const { return covers(bytes, kind, other.bytes, other.kind); }
+  /// The same of one of `bytes` and `kind` for another.
+  static constexpr bool covers(unsigned bytes, unsigned kind, unsigned other_bytes, unsigned other_kind) {
+    return (other_bytes & ~bytes) == 0 && (other_kind & ~kind & kind::write) == 0 &&
+           (kind & ~other_kind & kind::atomic) == 0;
   }
   bool conflicts_with(const MemoryAccess& other) const {
     return (bytes & other.bytes) != 0 && (writes() || other.writes()) && !(is_atomic() && other.is_atomic());
