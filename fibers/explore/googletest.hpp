@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Expectations of GoogleTest that fail within an explored body are caught: they make its schedule fail, and are shown
-// once, with the report. Comes with explore.hpp where GoogleTest was included before.
+// once, with the report. A body that skips the test (GTEST_SKIP) skips it. Comes with explore.hpp where GoogleTest was
+// included before.
 #pragma once
 
 #include <gtest/gtest-spi.h>
@@ -33,6 +34,8 @@ class GoogleTestChecks final : public ForeignChecks {
             .append(std::to_string(result.line_number()))
             .append(": ")
             .append(result.message());
+      else if (result.skipped() && !skips_)
+        skip(result);
     }
     return text;
   }
@@ -43,6 +46,14 @@ class GoogleTestChecks final : public ForeignChecks {
   std::string option_for(const std::string& name) const override { return "--gtest_filter=" + name; }
 
  private:
+  // Told to the test itself, once.
+  void skip(const testing::TestPartResult& result) {
+    skips_ = true;
+    GTEST_SKIP() << (result.file_name() != nullptr ? result.file_name() : "?") << ":" << result.line_number() << ": "
+                 << result.message();
+  }
+
+  bool skips_ = false;
   std::optional<testing::TestPartResultArray> results_;
   std::optional<testing::ScopedFakeTestPartResultReporter> reporter_;
 };

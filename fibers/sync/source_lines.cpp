@@ -16,24 +16,27 @@ namespace {
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-// Frames that implement the primitives say nothing about the user's program.
+// Frames that implement the primitives say nothing about the user's program. Where the place is known it decides: what
+// a compiler inlined may stand under the name of a function of ours.
 bool is_ours(const std::string& line) {
   if (contains(line, "tests/fibers/")) return false;
-  for (const char* part :
-       {"fibers/kernel/", "fibers/sync/", "waitpoint::kernel::", "waitpoint::sync::", "/include/c++/"})
-    if (contains(line, part)) return true;
+  const std::size_t place = line.rfind(" at ");
+  if (place == std::string::npos) return contains(line, "waitpoint::kernel::") || contains(line, "waitpoint::sync::");
+  for (const char* folder : {"fibers/kernel/", "fibers/sync/", "/include/c++/"})
+    if (line.find(folder, place) != std::string::npos) return true;
   return false;
 }
 
-// "function at file:line" for people: a lambda that was compiled into what std::function calls has its own name there,
-// as the first argument of some template; and long names go without their template arguments.
+// "function at file:line" for people: a lambda that was compiled into what std::function or a thread calls has its own
+// name there, as the first argument of some template; and long names go without their template arguments.
 std::string readable(const std::string& line) {
   constexpr std::size_t long_name = 100;
   const std::size_t end = line.rfind(" at ");
   const std::string name = line.substr(0, end);
   const std::string place = end == std::string::npos ? "" : line.substr(end);
   const std::size_t lambda = name.find("{lambda");
-  if (name.starts_with("std::_Function_handler<") && lambda != std::string::npos) {
+  const bool calls = name.starts_with("std::_Function_handler<") || name.starts_with("waitpoint::sync::CallOf<");
+  if (calls && lambda != std::string::npos) {
     const std::size_t begin = name.find_last_of("<,", lambda) + 1;
     return name.substr(begin, name.find('}', lambda) + 1 - begin) + place;
   }

@@ -40,12 +40,12 @@ class Installed(unittest.TestCase):
         run("meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", cls.folder / "root")
         Installed.prefix = next((cls.folder / "root").rglob("include/waitpoint")).parents[1]
 
-    def compile(self, name, *more, program=None):
+    def compile(self, name, *more, program=None, compiler=None):
         """Compiles NAME/NAME.cpp with the given flags, in a folder outside the tree; returns the program."""
         program = self.folder / (program or name)
         if not program.exists():
-            compiler = os.environ.get("CXX", "g++").split()
-            run(*compiler, "-std=c++20", "-O1", "-g", HERE / name / f"{name}.cpp", "-o", program, *more, cwd=self.folder)
+            words = (compiler or os.environ.get("CXX", "g++")).split()
+            run(*words, "-std=c++20", "-O1", "-g", HERE / name / f"{name}.cpp", "-o", program, *more, cwd=self.folder)
         return program
 
 

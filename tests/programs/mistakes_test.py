@@ -241,24 +241,35 @@ class SharedCounter(Installed):
 class RacyCounter(Installed):
     """Races are found in what one command compiles and links: the flags are those of the library's own compiler."""
 
-    def outcome(self, *arguments):
-        if not list(self.prefix.rglob("waitpoint-races.pc")):
-            self.skipTest("the library waitpoint-races is not built")
-        needed = flags(self.prefix, "--cflags", "--libs", "waitpoint-races")
-        done = subprocess.run([self.compile("racy_counter", *needed), *arguments], capture_output=True, text=True, timeout=60)
+    def outcome(self, *arguments, package="waitpoint-races", compiler=None):
+        if not list(self.prefix.rglob(f"{package}.pc")):
+            self.skipTest(f"the library waitpoint-races is not built, or its compiler is that of {package}")
+        needed = flags(self.prefix, "--cflags", "--libs", package)
+        program = self.compile("racy_counter", *needed, program=f"racy_counter-{package}", compiler=compiler)
+        done = subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60)
         return done.returncode, done.stdout + done.stderr
 
     def test_a_race_is_two_accesses_with_their_calls(self):
         status, output = self.outcome("unlocked")
         self.assertEqual(status, 1, output)
         self.assertRegex(output, r"data race at 0x\w+")
-        self.assertRegex(output, r"(?s)first: .* by task one.*racy_counter\.cpp:\d+.*second: .* by task two.*racy_counter\.cpp:\d+")
+        self.assertRegex(output, r"(?s)first: .* by task one#1.*racy_counter\.cpp:\d+.*second: .* by task two#2.*racy_counter\.cpp:\d+")
         self.assertIn("the default schedule failed: 2 data races", output)
 
     def test_none_is_found_under_a_lock(self):
         status, output = self.outcome("locked")
         self.assertEqual(status, 0, output)
         self.assertRegex(output, "^passed 301 schedules")
+
+    def test_they_are_found_in_what_another_compiler_made(self):
+        if shutil.which("clang++") is None:
+            self.skipTest("there is no clang++ here")
+        other = {"package": "waitpoint-races-clang", "compiler": "clang++"}
+        status, output = self.outcome("unlocked", **other)
+        self.assertEqual(status, 1, output)
+        self.assertRegex(output, r"(?s)first: .* by task one#1.*racy_counter\.cpp:\d+.*second: .* by task two#2.*racy_counter\.cpp:\d+")
+        status, output = self.outcome("locked", **other)
+        self.assertEqual(status, 0, output)
 
 
 if __name__ == "__main__":

@@ -170,6 +170,7 @@ void Detector::describe(Side& side, const MemoryAccess& access) {
     const TaskRecord& task = tasks_[i - 1];
     if (task.index != access.task || task.first > access.epoch) continue;
     std::memcpy(side.task, task.name, sizeof side.task);
+    side.record = i - 1;
     return;
   }
 }

@@ -37,7 +37,9 @@ std::string where(const FoundRace& race) {
 }
 
 Access access_of(const Side& side, std::vector<std::string> calls) {
-  return {side.task,        side.access.event, side.access.writes(), side.access.is_atomic(),
+  std::optional<std::uint32_t> number;
+  if (side.record != 0) number = side.record - 1;
+  return {side.task,        number,          side.access.event, side.access.writes(), side.access.is_atomic(),
           side.access.size, std::move(calls)};
 }
 
@@ -47,7 +49,9 @@ void write(std::ostream& out, const char* which, const Access& access) {
       << (access.size == 63  ? " bytes or more"
           : access.size == 1 ? " byte"
                              : " bytes")
-      << " by task " << access.task << ", after its event " << access.event << "\n";
+      << " by task " << access.task;
+  if (access.number) out << "#" << *access.number;
+  out << ", after its event " << access.event << "\n";
   for (const std::string& call : access.calls) out << "    " << call << "\n";
 }
 

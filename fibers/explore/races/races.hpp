@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace waitpoint::races {
 /// One side of a race.
 struct Access {
   std::string task;
-  std::uint64_t event = 0;  ///< how many events its task had executed
+  std::optional<std::uint32_t> number;  ///< the task's, in the order in which they were made; none outside of tasks
+  std::uint64_t event = 0;              ///< how many events its task had executed
   bool writes = false;
   bool atomic = false;
   std::size_t size = 0;            ///< bytes; 63 is "63 or more"

@@ -19,6 +19,7 @@ inline constexpr std::size_t races_kept = 64;
 struct Side {
   MemoryAccess access;
   char task[kernel::name_size];
+  std::uint32_t record;  ///< of the tasks of the run in the order of their making, counted from 1; 0: outside of them
   void* calls[calls_shown];
   std::size_t call_count;
 };

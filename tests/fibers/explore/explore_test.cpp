@@ -149,6 +149,22 @@ TEST(Explore, AnExpectationThatFailsIsCaughtAndReportedOnce) {
   EXPECT_TRUE(contains(report.text, "the other was first")) << report;
 }
 
+TEST(Explore, ABodyThatSkipsTheTestSkipsItOnce) {
+  testing::TestPartResultArray told;
+  {
+    testing::ScopedFakeTestPartResultReporter test(
+        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &told);
+    explore([] {
+      thread other([] {});
+      other.join();
+      GTEST_SKIP() << "there is no device";
+    });
+  }
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_TRUE(told.GetTestPartResult(0).skipped());
+  EXPECT_TRUE(contains(told.GetTestPartResult(0).message(), "there is no device"));
+}
+
 TEST(Explore, TheTokenRepeatsTheFailure) {
   const auto body = [] { count_to_three(2); };
   const ExploreReport found = explore(body, {.minimize = false});

@@ -51,7 +51,9 @@ TEST(Races, AreReportedAsTwoAccessesWithTheirCalls) {
   EXPECT_EQ(race.address, &planted);
   EXPECT_EQ(race.memory, "waitpoint::races::planted");
   EXPECT_EQ(race.first.task, "ada");
+  EXPECT_EQ(race.first.number, 1u);
   EXPECT_EQ(race.second.task, "bob");
+  EXPECT_EQ(race.second.number, 2u);
   for (const Access* access : {&race.first, &race.second}) {
     EXPECT_TRUE(access->writes);
     EXPECT_FALSE(access->atomic);
@@ -60,7 +62,7 @@ TEST(Races, AreReportedAsTwoAccessesWithTheirCalls) {
     EXPECT_NE(access->calls.front().find("write_planted"), std::string::npos) << access->calls.front();
     EXPECT_NE(access->calls.front().find("plain_programs.cpp:"), std::string::npos) << access->calls.front();
   }
-  EXPECT_NE(text_of(races).find("first: write of 4 bytes by task ada"), std::string::npos) << text_of(races);
+  EXPECT_NE(text_of(races).find("first: write of 4 bytes by task ada#1"), std::string::npos) << text_of(races);
 }
 
 TEST(Races, OnAStackNameItsTask) {
