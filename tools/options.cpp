@@ -247,6 +247,13 @@ BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
                   "unknown " + kind + " '" + word + "'" + (hint.empty() ? "; --help lists what there is" : hint));
 }
 
+// Mostly a variable of a script that is not set: the default is not what was meant.
+void refuse_empty_words(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& word : option->results())
+      if (word.empty()) throw BadInput(option->get_name(), "expected a value, found ''");
+}
+
 }  // namespace
 
 Options read_options(int argc, const char* const* argv, const std::string& version) {
@@ -284,6 +291,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   } catch (const CLI::ParseError& error) {
     throw bad_argument(app, error);
   }
+  for (const CLI::App* command : app.get_subcommands()) refuse_empty_words(*command);
   if (run->parsed()) return run_options(arguments);
   if (explore.parsed()) return explore.options();
   if (check->parsed()) return CheckOptions{arguments.scenario, arguments.assignments};

@@ -138,6 +138,12 @@ TEST_F(CommandLine, what_is_not_understood_is_one_clear_line) {
             "--seeds: cannot be used together with --picture");
 }
 
+TEST_F(CommandLine, an_empty_word_is_no_default) {
+  EXPECT_EQ(message({"run", "a", "--seed", ""}), "--seed: expected a value, found ''");
+  EXPECT_EQ(message({"run", ""}), "SCENARIO: expected a value, found ''");
+  EXPECT_EQ(message({"explore", "a", "--iterations", ""}), "--iterations: expected a value, found ''");
+}
+
 TEST(Version, tells_compiler_flags_and_math) {
   const std::string text = version_text();
   for (const char* part : {"waitpoint ", "\ncompiler  ", "\nflags     ", "\nmath      "}) {
