@@ -20,7 +20,7 @@ namespace waitpoint::exploration {
 class Supervisor {
  public:
   /// `replay` begins and `after` ends the line that is printed; between them comes the token. Where no process can be
-  /// had there is no supervision.
+  /// had there is no supervision, and none under a debugger, which sees the end itself and often is the cause of it.
   Supervisor(const Token& token, const std::string& replay, const std::string& after);
   /// The explored process goes on: nothing is printed.
   ~Supervisor();

@@ -224,6 +224,12 @@ class Explored(unittest.TestCase):
         self.assertIn(f"WAITPOINT_REPLAY={token}", told[8])
         self.assertIn("deadlock at 0.000000000 s", told[8])
 
+    def test_that_the_debugger_ends_the_process_is_no_finding(self):
+        told = session(["break-time 0", "run", "next-event 3", "back", "kill", "shell sleep 0.3"],
+                       ["--args", compiled("explored_letter")])
+        self.assertIn("event 3 at", told[3])
+        self.assertNotIn("the process ended", "".join(told))
+
 
 class Office(unittest.TestCase):
     """A robot's modules, by `waitpoint gdb`."""
