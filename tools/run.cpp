@@ -44,7 +44,9 @@ class Outputs {
 
   void watch(bridge::Experiment& experiment) {
     if (events_) events_->watch(experiment.simulation());
-    if (recording_) experiment.set_observer([this, &experiment](Time now) { recording_->observe(experiment, now); });
+    if (!recording_) return;
+    recording_->begin(experiment);
+    experiment.set_observer([this, &experiment](Time now) { recording_->observe(experiment, now); });
   }
   void second(const Simulation& simulation, std::int64_t second) {
     if (digests_) digests_->record(simulation, second);

@@ -108,6 +108,10 @@ void Robot::end_modules() {
   }
 }
 
+void Robot::set_watch(genom::ModuleWatch* watch) {
+  for (const auto& module : modules_) module->set_watch(watch);
+}
+
 std::size_t Robot::goals_reached() const {
   if (!executive_) return 0;
   const auto& goals = executive_->goals();

@@ -37,6 +37,9 @@ class Robot {
   /// After run(): ends the modules, from a task; a module that does not end is a bug.
   void end_modules();
 
+  /// Tells `watch` what the modules do. Before run(); `watch` must outlive the robot's tasks. Null: nobody.
+  void set_watch(genom::ModuleWatch* watch);
+
   RobotBridge& bridge() { return bridge_; }
   /// Compares what the robot believes with the truth, after a step of the world.
   void observe(Time now) { evaluation_.observe(now, world_.body(body_)); }

@@ -53,6 +53,7 @@ void ControlTask::handle(const Letter& letter) {
   if (letter.request >= module_.requests_.size() || !module_.requests_[letter.request].accepts(letter.payload))
     return reply(LetterKind::final_reply, letter, module_.report(StandardReport::system_error), output);
   const RequestType& type = module_.requests_[letter.request];
+  tell(LetterKind::request, type);
   if (type.kind == RequestKind::control) {
     const Report report = type.control(letter.payload, output);
     threads::compute(type.cost);
@@ -173,6 +174,7 @@ void ControlTask::reply(LetterKind kind, const Letter& request, Report report, c
   letter.send_id = request.send_id;
   letter.report = report;
   letter.payload = output;
+  if (request.request < module_.requests_.size()) tell(kind, module_.requests_[request.request], -1, report);
   // A client whose mailbox is full loses the reply, as in GenoM: the module does not wait for it.
   if (request.reply_to != nullptr) (void)request.reply_to->post(letter);
 }
@@ -185,7 +187,12 @@ void ControlTask::reply(LetterKind kind, const Activity& activity) {
   letter.activity = activity.number;
   letter.report = kind == LetterKind::final_reply ? activity.report : ok;
   letter.payload = activity.output;
+  tell(kind, *activity.type, activity.number, letter.report);
   if (activity.client != nullptr) (void)activity.client->post(letter);
+}
+
+void ControlTask::tell(LetterKind kind, const RequestType& request, std::int32_t activity, Report report) const {
+  if (watch_ != nullptr) watch_->on(module_, {threads::now(), kind, request, activity, report});
 }
 
 }  // namespace waitpoint::genom

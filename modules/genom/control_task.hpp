@@ -12,6 +12,7 @@
 #pragma once
 
 #include "modules/genom/activity.hpp"
+#include "modules/genom/module_watch.hpp"
 #include "modules/genom/poster.hpp"
 
 namespace waitpoint::genom {
@@ -52,6 +53,8 @@ class ControlTask {
   bool ending() const { return ending_; }
   void expect_init() { init_done_ = false; }
   void set_interrupt_end(bool value) { interrupt_end_ = value; }
+  /// Null: nobody. Before the module is started.
+  void set_watch(ModuleWatch* watch) { watch_ = watch; }
   /// The request "Abort".
   Report abort(std::int32_t activity);
 
@@ -67,9 +70,11 @@ class ControlTask {
   void write_status();
   void reply(LetterKind kind, const Letter& request, Report report, const Payload& output);
   void reply(LetterKind kind, const Activity& activity);
+  void tell(LetterKind kind, const RequestType& request, std::int32_t activity = -1, Report report = ok) const;
 
   Module& module_;
   Poster<ModuleStatus>& poster_;
+  ModuleWatch* watch_ = nullptr;
   std::int32_t next_slot_ = 0;
   bool init_done_ = true;
   bool ending_ = false;

@@ -68,6 +68,8 @@ class Module {
 
   /// Throws BadInput for a cost in `settings`, those it was made from, that no codel of the module has.
   void check_costs(const Settings& settings) const;
+  /// Tells `watch` what the module does from its start on; it must outlive the module's tasks. Null: nobody.
+  void set_watch(ModuleWatch* watch) { control_.set_watch(watch); }
   /// Finds the posters that the module reads. One that nobody writes, or of another type, is BadInput.
   void connect();
   /// Starts the tasks; from a task of the module's robot, once all its modules are connected.

@@ -157,6 +157,13 @@ class Mcap(unittest.TestCase):
         truth, believed = (topics[f"/rackham/{name}"][-1][1]["pose"]["position"] for name in ("truth", "position"))
         self.assertLess(math.hypot(truth["x"] - believed["x"], truth["y"] - believed["y"]), 0.2)
 
+    def test_tells_what_the_modules_were_asked_and_what_became_of_it(self):
+        lines = [(line["name"], line["message"], line["level"]) for _, line in self.read(recorded("office.mcap"))["/rackham/modules"]]
+        for module, request in (("rflex", "TrackSpeedStart"), ("ndd", "GoTo")):
+            told = [message for name, message, _ in lines if name == module and message.startswith(request + ":")]
+            self.assertEqual(told[:2], [f"{request}: asked", f"{request}: activity {told[1].split()[2]} started"])
+        self.assertIn(("pom", "SetPos: done", 2), lines)
+
     def test_is_read_by_the_reference_reader(self):
         if shutil.which("npm") is None:
             self.skipTest("there is no npm here")

@@ -20,10 +20,12 @@ CarmenRecording::CarmenRecording(const std::filesystem::path& path, const bridge
   file_.write("# CARMEN Logfile\n");
 }
 
+void CarmenRecording::begin(bridge::Experiment& experiment) {
+  for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
+    robots_.push_back({RobotPosters(scenario_.robots[i], *experiment.robots()[i]), std::nullopt});
+}
+
 void CarmenRecording::record(const bridge::Experiment& experiment, Time) {
-  if (robots_.empty())
-    for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
-      robots_.push_back({RobotPosters(scenario_.robots[i], *experiment.robots()[i]), std::nullopt});
   for (std::size_t i = 0; i < robots_.size(); ++i) record_robot(experiment, i);
 }
 

@@ -19,6 +19,8 @@ class CarmenRecording final : public Recording {
   /// Throws BadInput if the file cannot be written.
   CarmenRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
 
+  void begin(bridge::Experiment& experiment) override;
+
  private:
   struct OfRobot {
     RobotPosters posters;

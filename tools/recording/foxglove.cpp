@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int information = 2;  // of foxglove.Log's levels
+constexpr int information = 2, warning = 3;  // of foxglove.Log's levels
 
 Json number() { return {{"type", "number"}}; }
 Json whole() { return {{"type", "integer"}}; }
@@ -97,9 +97,13 @@ Schema log() {
                         {"line", whole()}});
 }
 
-std::string log(Time time, const std::string& who, const std::string& words) {
-  return Json{{"timestamp", of(time)}, {"level", information}, {"message", words},
-              {"name", who},           {"file", ""},           {"line", 0}}
+std::string log(Time time, const std::string& who, const std::string& words, bool is_warning) {
+  return Json{{"timestamp", of(time)},
+              {"level", is_warning ? warning : information},
+              {"message", words},
+              {"name", who},
+              {"file", ""},
+              {"line", 0}}
       .dump();
 }
 

@@ -26,8 +26,8 @@ std::string frame_transform(Time time, const std::string& parent, const std::str
                             double z_m = 0);
 /// A scan in its device's frame.
 std::string laser_scan(const posters::LaserReading& scan, const std::string& frame);
-/// A line of text, of severity "information".
-std::string log(Time time, const std::string& who, const std::string& text);
+/// A line of text, of severity "information" or "warning".
+std::string log(Time time, const std::string& who, const std::string& text, bool is_warning = false);
 std::string pose_in_frame(Time time, const std::string& frame, const Pose& pose);
 /// Boxes and cylinders that stay.
 std::string scene_update(Time time, const std::string& frame, std::span<const world::Obstacle> obstacles);

@@ -35,7 +35,7 @@ McapRecording::McapRecording(const std::filesystem::path& path, const bridge::Sc
       world_(file_.add_channel(scene_, "/world")),
       clock_(file_.add_channel(time_, "/clock")) {}
 
-void McapRecording::begin(const bridge::Experiment& experiment) {
+void McapRecording::begin(bridge::Experiment& experiment) {
   for (std::size_t i = 0; i < scenario_.robots.size(); ++i) {
     const std::string& name = scenario_.robots[i].name;
     const auto channel = [&](std::uint16_t schema, const std::string& topic) {
@@ -45,12 +45,14 @@ void McapRecording::begin(const bridge::Experiment& experiment) {
     std::vector<std::uint16_t> scans;
     for (const RobotPosters::Laser& laser : posters.lasers) scans.push_back(channel(scan_, laser.name));
     const std::uint16_t odometry = channel(pose_, "odometry"), position = channel(pose_, "position");
-    robots_.push_back({std::move(posters), std::move(scans), odometry, position, channel(pose_, "truth")});
+    const std::uint16_t truth = channel(pose_, "truth");
+    robots_.push_back({std::move(posters), std::make_unique<ModuleLog>(), std::move(scans), odometry, position, truth,
+                       channel(log_, "modules")});
+    experiment.robots()[i]->set_watch(robots_.back().modules.get());
   }
 }
 
 void McapRecording::record(const bridge::Experiment& experiment, Time now) {
-  if (robots_.empty()) begin(experiment);
   const world::World& world = experiment.world();
   const bool is_sampled = !sampled_ || now - *sampled_ >= sampling;
   if (is_sampled) {
@@ -73,6 +75,7 @@ void McapRecording::record(const bridge::Experiment& experiment, Time now) {
 }
 
 void McapRecording::record_robot(OfRobot& robot, const std::string& name, Time now) {
+  record_modules(robot, now);
   const std::string believed = name + "/position";
   if (const auto odometry = robot.posters.odometry())
     file_.write(robot.odometry, now, foxglove::pose_in_frame(odometry->position.date, root, odometry->position.pose));
@@ -93,7 +96,13 @@ void McapRecording::record_robot(OfRobot& robot, const std::string& name, Time n
   }
 }
 
+void McapRecording::record_modules(OfRobot& robot, Time now) {
+  for (const ModuleLog::Line& line : robot.modules->take())
+    file_.write(robot.log, now, foxglove::log(line.date, line.module, line.text, line.is_bad));
+}
+
 void McapRecording::commit(const bridge::RunResult& result) {
+  for (OfRobot& robot : robots_) record_modules(robot, Time() + result.simulated);
   for (const bridge::RobotResult& robot : result.robots) {
     const std::uint16_t goals = file_.add_channel(log_, "/" + robot.name + "/goals");
     for (const bridge::GoalResult& goal : robot.goals) {

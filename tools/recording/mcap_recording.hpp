@@ -7,10 +7,12 @@
 //   /clock            the virtual time, after each step of the world, ten times a second
 //   /ROBOT/LASER      its scans, in the frame ROBOT/LASER
 //   /ROBOT/odometry, /ROBOT/position, /ROBOT/truth    its poses
+//   /ROBOT/modules    what its modules were asked, and what became of that, in words
 //   /ROBOT/goals      what became of its goals, in words
 #pragma once
 
 #include "tools/recording/mcap_file.hpp"
+#include "tools/recording/module_log.hpp"
 #include "tools/recording/recording.hpp"
 #include "tools/recording/robot_posters.hpp"
 
@@ -20,18 +22,20 @@ class McapRecording final : public Recording {
  public:
   /// Throws BadInput if the file cannot be written.
   McapRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
+  void begin(bridge::Experiment& experiment) override;
 
  private:
   struct OfRobot {
     RobotPosters posters;
+    std::unique_ptr<ModuleLog> modules;
     std::vector<std::uint16_t> scans;  // channels
-    std::uint16_t odometry, position, truth;
+    std::uint16_t odometry, position, truth, log;
   };
 
-  void begin(const bridge::Experiment& experiment);
   void record(const bridge::Experiment& experiment, Time now) override;
   void commit(const bridge::RunResult& result) override;
   void record_robot(OfRobot& robot, const std::string& name, Time now);
+  void record_modules(OfRobot& robot, Time now);
 
   const bridge::Scenario& scenario_;
   McapFile file_;

@@ -16,6 +16,8 @@ namespace waitpoint::tools {
 class Recording {
  public:
   virtual ~Recording() = default;
+  /// Before the run, which it must outlive. The scenario is the experiment's.
+  virtual void begin(bridge::Experiment& experiment) = 0;
   /// After a step of the world, at `now`. Throws nothing, as it would be through the world's task: what fails is told
   /// by finish().
   void observe(const bridge::Experiment& experiment, Time now);

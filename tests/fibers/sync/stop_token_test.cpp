@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/sync/leaks.hpp"
 #include "tests/fibers/sync/orders.hpp"
 
 namespace waitpoint {
@@ -180,6 +181,7 @@ TEST(StopToken, ACallbackMayDestroyItselfAndItsSource) {
 }
 
 TEST(StopToken, ACallbackWhoseEndTwoTasksAwaitFromEachOtherIsADeadlock) {
+  const LeaksOnPurpose leaks;
   const Report report = simulate([] {
     stop_source source;
     std::optional<stop_callback<std::function<void()>>> callback;
@@ -235,6 +237,7 @@ TEST(StopToken, ARunThatEndsWithinACallbackIsUnwound) {
 }
 
 TEST(StopToken, ATaskThatDestroysWhatAnotherCallsWhenTheRunEndsIsNamed) {
+  const LeaksOnPurpose leaks;
   auto source = std::make_shared<stop_source>();
   const Report report = simulate([&] {
     thread({.name = "destroys", .service = true}, [&] {

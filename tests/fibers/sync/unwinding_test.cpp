@@ -14,6 +14,7 @@
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/sync/leaks.hpp"
 
 namespace waitpoint {
 namespace {
@@ -272,6 +273,7 @@ TEST(Unwinding, IsNoFailureWhenATaskMakesAnotherExceptionOfIt) {
 }
 
 TEST(Unwinding, NamesTheTasksThatNeverLeave) {
+  const LeaksOnPurpose leaks;
   EXPECT_EQ(break_off([] {
               thread({.name = "swallows"}, [] {
                 for (;;) try {
@@ -289,6 +291,7 @@ TEST(Unwinding, NamesTheTasksThatNeverLeave) {
 
 // A destructor lets no exception through: who waits in one when the run ends can only be left there.
 TEST(Unwinding, NamesTheTasksThatWaitInADestructor) {
+  const LeaksOnPurpose leaks;
   struct Pool {
     ~Pool() { worker.join(); }
     thread worker{{.name = "worker"}, [] {

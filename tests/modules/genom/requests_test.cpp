@@ -178,5 +178,33 @@ TEST(Reports, AreTheModulesNumberAndGenomsCodes) {
   EXPECT_STREQ(name(make_report(1, first_own_report)), "own report");
 }
 
+TEST(ModuleWatch, IsToldWhatTheModuleIsAskedAndWhatBecomesOfIt) {
+  struct Lines : ModuleWatch {
+    void on(const Module& module, const ModuleEvent& event) override {
+      constexpr const char* kinds[] = {"asked", "started", "ended"};
+      lines.push_back(to_string(event.date) + " " + module.name() + "." + event.request.name + " " +
+                      kinds[static_cast<int>(event.kind)] + " " + genom::name(event.report));
+    }
+    std::vector<std::string> lines;
+  } watch;
+  RobotWithTask robot;
+  robot.module.add_control<Number>("Set", [](const Number&, Nothing&) { return ok; });
+  robot.module.add_activity<Number, Number>("Go", robot.task, {.exec = for_ever}, {"Go"});
+  robot.module.set_watch(&watch);
+  robot.run([&] {
+    sleep_for(1ms);
+    robot.begin("Set");
+    robot.begin("Go");
+    sleep_for(30ms);
+    robot.client.send("m", "Go", Number{});
+    robot.next();  // of the first one, which is interrupted
+    robot.next();
+  });
+  EXPECT_EQ(watch.lines, (std::vector<std::string>{
+                             "0.001000000 m.Set asked ok", "0.001000000 m.Set ended ok", "0.001000000 m.Go asked ok",
+                             "0.001000000 m.Go started ok", "0.031000000 m.Go asked ok",
+                             "0.040000000 m.Go ended ACTIVITY_INTERRUPTED", "0.040000000 m.Go started ok"}));
+}
+
 }  // namespace
 }  // namespace waitpoint::genom

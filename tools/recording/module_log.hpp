@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the modules of a robot were asked, and what became of that, in words: "GoTo: asked", "GoTo: activity 0 started",
+// "GoTo: activity 0 ended: ok".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "modules/genom/module_watch.hpp"
+
+namespace waitpoint::tools {
+
+class ModuleLog final : public genom::ModuleWatch {
+ public:
+  struct Line {
+    Time date;
+    std::string module, text;
+    bool is_bad = false;  ///< it ended with a report other than ok
+  };
+
+  void on(const genom::Module& module, const genom::ModuleEvent& event) override;
+  /// All lines since it was asked last, in the order in which things happened.
+  std::vector<Line> take();
+
+ private:
+  struct Told {
+    const genom::Module* module;
+    genom::ModuleEvent event;
+  };
+  std::vector<Told> told_;  // in words later: the stacks of the modules' tasks are small
+};
+
+}  // namespace waitpoint::tools
