@@ -83,7 +83,8 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
       "write the paths in TUM format: the true one to FILE.tum, beside it\n"
       "FILE.estimated.tum and FILE.odometry.tum; with the robots' names if several");
   add("--record", arguments.record, "FILE.mcap",
-      "write scans, poses, frames and the world over time for Foxglove, or with\na name FILE.log for CARMEN's tools");
+      "write scans, poses, frames, requests and the world over time for Foxglove, or\n"
+      "with a name FILE.bag as a ROS 1 bag, with FILE.log for CARMEN's tools");
   add("--digests", arguments.digests, "FILE", "write a digest per robot and simulated second");
   add("--events", arguments.events, "FILE", "write every event as a line of text");
   add("--record-durations", arguments.record_durations, "FILE",

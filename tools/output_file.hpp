@@ -24,6 +24,8 @@ class OutputFile {
   OutputFile(OutputFile&&) = default;
 
   const std::filesystem::path& path() const { return path_; }
+  /// The file that takes the name on commit(), for a library that opens files by name.
+  const std::filesystem::path& written_to() const { return temporary_.empty() ? path_ : temporary_; }
   /// Appends. Throws BadInput if the medium is full.
   void write(std::string_view text);
   /// Gives the file its name; nothing can be written afterwards. Throws BadInput if that fails.

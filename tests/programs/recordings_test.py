@@ -194,6 +194,31 @@ console.log(JSON.stringify(counts));
         self.assertEqual(json.loads(read.stdout), {topic: count for topic, count in late.items() if count})
 
 
+class RosBag(unittest.TestCase):
+    def setUp(self):
+        if "without rosbag_storage" in run("--record", folder() / "x.bag", until_s=0.1).stderr:
+            self.skipTest("this waitpoint was built without rosbag_storage")
+
+    def test_is_what_the_stock_rosbag_says_it_is(self):
+        if shutil.which("rosbag") is None:
+            self.skipTest("there is no rosbag here")
+        told = subprocess.run(["rosbag", "info", recorded("office.bag")], capture_output=True, text=True, check=True).stdout
+        counts = {topic: (int(count), kind) for topic, count, kind in re.findall(r"(/\S+) +(\d+) msgs? *: (\S+)", told)}
+        self.assertEqual({topic: kind for topic, (_, kind) in counts.items()}, {
+            "/clock": "rosgraph_msgs/Clock", "/tf": "tf2_msgs/TFMessage", "/world": "visualization_msgs/MarkerArray",
+            "/rackham/laser": "sensor_msgs/LaserScan", "/rackham/odometry": "nav_msgs/Odometry",
+            "/rackham/position": "geometry_msgs/PoseWithCovarianceStamped", "/rackham/truth": "geometry_msgs/PoseStamped",
+            "/rackham/modules": "rosgraph_msgs/Log"})
+        topics = Mcap.read(self, recorded("office.mcap"))
+        for topic in ("/clock", "/rackham/laser", "/rackham/odometry", "/rackham/modules"):
+            self.assertEqual(counts[topic][0], len(topics[topic]), topic)
+        self.assertRegex(told, r"end: +Jan 01 1970 00:00:11\.99")
+
+    def test_has_the_same_bytes_again_and_changes_no_digest(self):
+        self.assertIn(re.search(r"wp1:\w+", run().stdout)[0], run("--record", folder() / "again.bag").stdout)
+        self.assertEqual((folder() / "again.bag").read_bytes(), recorded("office.bag").read_bytes())
+
+
 class Carmen(unittest.TestCase):
     def test_has_scans_and_odometry_in_its_words(self):
         lines = [line.split() for line in recorded("office.log").read_text().splitlines() if not line.startswith("#")]
@@ -224,7 +249,8 @@ class Recording(unittest.TestCase):
         self.assertEqual(sum(topic.endswith("/truth") for topic in topics), 10)
 
     def test_what_cannot_be_written_is_one_line(self):
-        for name, words in (("x.bag", "expected a file .mcap"), ("nowhere/x.mcap", "nowhere"), ("x", "expected a file .mcap")):
+        for name, words in (("x.pcap", "expected a file .mcap"), ("nowhere/x.mcap", "nowhere"), ("nowhere/x.bag", "nowhere"),
+                            ("x", "expected a file .mcap")):
             done = run("--record", folder() / name)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
             self.assertIn(words, done.stderr)

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A ROS 1 bag as rosbag_storage writes it, in ROS's own messages. Debian's headers of these messages end at C++17, so
+// this is the file's whole interface, without a word of ours: times in nanoseconds from 0 on, lengths in metres, angles
+// in radians. What cannot be written is std::runtime_error.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace waitpoint::tools {
+
+class RosBagFile {
+ public:
+  /// Where something is in `frame`; turned about z by 2 atan2(sin_half, cos_half).
+  struct Place {
+    std::int64_t time_ns;
+    std::string frame;
+    double x, y, z, sin_half, cos_half;
+  };
+  struct Scan {
+    std::int64_t time_ns;
+    std::string frame;
+    double first_angle, angle_step, range_max;
+    std::vector<float> ranges;
+  };
+  /// A box of the given sizes, or an upright cylinder whose diameter is the first of them; grey.
+  struct Solid {
+    bool is_box;
+    Place place;
+    std::array<double, 3> size;
+  };
+  /// Of x, y and the angle, by rows.
+  using Covariance = std::array<double, 9>;
+
+  explicit RosBagFile(const std::string& path);
+  ~RosBagFile();
+
+  /// All that is written from here on was received then.
+  void set_time(std::int64_t now_ns) { now_ns_ = now_ns; }
+  void write_clock();
+  void write_transform(const Place& child, const std::string& child_frame);
+  void write_pose(const std::string& topic, const Place& place);
+  void write_pose(const std::string& topic, const Place& place, const Covariance& covariance);
+  /// Of the frame `child`, with its speeds.
+  void write_odometry(const std::string& topic, const Place& place, const Covariance& covariance,
+                      const std::string& child, double v, double w);
+  void write_scan(const std::string& topic, const Scan& scan);
+  void write_solids(const std::string& topic, const std::vector<Solid>& solids);
+  void write_log(const std::string& topic, std::int64_t time_ns, const std::string& who, const std::string& text,
+                 bool is_warning);
+  void close();
+
+ private:
+  struct Bag;
+  template <class Message>
+  void write(const std::string& topic, const Message& message);
+
+  std::unique_ptr<Bag> bag_;
+  std::int64_t now_ns_ = 0;
+};
+
+}  // namespace waitpoint::tools
