@@ -87,7 +87,9 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   const Time start = running != nullptr ? kernel::local_time(*running) : now_;
   if (unwinding_ || tasks_ >= most_tasks_) return nullptr;
   Stack stack;
-  if (!arena_.take(options.stack, stack)) return nullptr;
+  // Sanitizers make frames larger, and put a report together on the stack of the task that is found out.
+  const StackSize size = sanitizer::present ? StackSize::large : options.stack;
+  if (!arena_.take(size, stack) && (size == options.stack || !arena_.take(options.stack, stack))) return nullptr;
   // The record lies at the high end of the task's own stack: one page for both.
   char* top = stack.high - (sizeof(Task) + 63) / 64 * 64 - 64;
   Task& task = *new (top) Task();

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <functional>
 #include <mutex>
+#include <optional>
+#include <string>
 
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/periodic_timer.hpp"
@@ -18,6 +20,25 @@ namespace waitpoint {
 namespace {
 
 using namespace std::chrono_literals;
+
+// Each dies in a program that begins anew, with reports on and none of what the tests before it were told.
+class ThreadSanitizerDeathTest : public testing::Test {
+ protected:
+  ThreadSanitizerDeathTest() {
+    const char* options = std::getenv("TSAN_OPTIONS");
+    if (options != nullptr) before_ = options;
+    setenv("TSAN_OPTIONS", (before_.value_or("") + ":report_bugs=1").c_str(), 1);
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+  }
+  ~ThreadSanitizerDeathTest() override {
+    before_ ? setenv("TSAN_OPTIONS", before_->c_str(), 1) : unsetenv("TSAN_OPTIONS");
+    testing::FLAGS_gtest_death_test_style = style_;
+  }
+
+ private:
+  std::optional<std::string> before_;
+  std::string style_ = testing::FLAGS_gtest_death_test_style;
+};
 
 [[noreturn]] void simulate_and_exit(const std::function<void()>& body) { std::exit(simulate(body).passed ? 0 : 1); }
 
@@ -32,7 +53,7 @@ void expect_none(const std::function<void()>& body) {
 
 // --- races ---
 
-TEST(ThreadSanitizerDeathTest, TasksThatOnlySleepRace) {
+TEST_F(ThreadSanitizerDeathTest, TasksThatOnlySleepRace) {
   expect_race([] {
     int shared = 0;
     thread other([&] { ++shared; });
@@ -42,7 +63,7 @@ TEST(ThreadSanitizerDeathTest, TasksThatOnlySleepRace) {
   });
 }
 
-TEST(ThreadSanitizerDeathTest, TasksThatOnlyYieldRace) {
+TEST_F(ThreadSanitizerDeathTest, TasksThatOnlyYieldRace) {
   expect_race([] {
     int shared = 0;
     thread other([&] { ++shared; });
@@ -52,7 +73,7 @@ TEST(ThreadSanitizerDeathTest, TasksThatOnlyYieldRace) {
   });
 }
 
-TEST(ThreadSanitizerDeathTest, AccessAfterTheUnlockRaces) {
+TEST_F(ThreadSanitizerDeathTest, AccessAfterTheUnlockRaces) {
   expect_race([] {
     mutex m;
     int shared = 0;
@@ -69,7 +90,7 @@ TEST(ThreadSanitizerDeathTest, AccessAfterTheUnlockRaces) {
   });
 }
 
-TEST(ThreadSanitizerDeathTest, DifferentMutexesDoNotOrder) {
+TEST_F(ThreadSanitizerDeathTest, DifferentMutexesDoNotOrder) {
   expect_race([] {
     mutex m, n;
     int shared = 0;
@@ -86,7 +107,7 @@ TEST(ThreadSanitizerDeathTest, DifferentMutexesDoNotOrder) {
   });
 }
 
-TEST(ThreadSanitizerDeathTest, TasksThatShareATimersPeriodRace) {
+TEST_F(ThreadSanitizerDeathTest, TasksThatShareATimersPeriodRace) {
   expect_race([] {
     int shared = 0;
     const auto count = [&] {
@@ -102,7 +123,7 @@ TEST(ThreadSanitizerDeathTest, TasksThatShareATimersPeriodRace) {
 
 // --- no races ---
 
-TEST(ThreadSanitizerDeathTest, AMutexOrders) {
+TEST_F(ThreadSanitizerDeathTest, AMutexOrders) {
   expect_none([] {
     mutex m;
     int shared = 0;
@@ -120,7 +141,7 @@ TEST(ThreadSanitizerDeathTest, AMutexOrders) {
   });
 }
 
-TEST(ThreadSanitizerDeathTest, AConditionVariableAndItsMutexOrder) {
+TEST_F(ThreadSanitizerDeathTest, AConditionVariableAndItsMutexOrder) {
   expect_none([] {
     mutex m;
     condition_variable changed;
@@ -143,7 +164,7 @@ TEST(ThreadSanitizerDeathTest, AConditionVariableAndItsMutexOrder) {
   });
 }
 
-TEST(ThreadSanitizerDeathTest, ASemaphoreOrders) {
+TEST_F(ThreadSanitizerDeathTest, ASemaphoreOrders) {
   expect_none([] {
     binary_semaphore given(0), taken(0);
     int shared = 0;
@@ -164,7 +185,7 @@ TEST(ThreadSanitizerDeathTest, ASemaphoreOrders) {
   });
 }
 
-TEST(ThreadSanitizerDeathTest, MakingAndJoiningOrder) {
+TEST_F(ThreadSanitizerDeathTest, MakingAndJoiningOrder) {
   expect_none([] {
     for (int round = 0; round < 20; ++round) {  // on the same stack again and again
       int shared = round;
@@ -178,7 +199,7 @@ TEST(ThreadSanitizerDeathTest, MakingAndJoiningOrder) {
   });
 }
 
-TEST(ThreadSanitizerDeathTest, TheContextOutsideIsOrderedWithAllTasks) {
+TEST_F(ThreadSanitizerDeathTest, TheContextOutsideIsOrderedWithAllTasks) {
   expect_none([] {});
   const auto windows = [] {
     int shared[2] = {};
@@ -200,7 +221,7 @@ TEST(ThreadSanitizerDeathTest, TheContextOutsideIsOrderedWithAllTasks) {
   EXPECT_EXIT(windows(), testing::ExitedWithCode(0), "");
 }
 
-TEST(ThreadSanitizerDeathTest, ExceptionsAndUnwindingAreNoRaces) {
+TEST_F(ThreadSanitizerDeathTest, ExceptionsAndUnwindingAreNoRaces) {
   expect_none([] {
     for (int round = 0; round < 3; ++round) {
       thread other([] {
