@@ -23,34 +23,27 @@ std::vector<double> sliced_heights(const WorldDescription& description) {
   return heights;
 }
 
-std::vector<Shape> moving_shapes(const WorldDescription& description) {
-  std::vector<Shape> shapes;
-  if (description.engine != Engine::slice) return shapes;
-  for (const BodyDescription& body : description.bodies) shapes.push_back(raised(body.shape, body.start_height_m));
-  return shapes;
-}
-
 }  // namespace
 
-BeamCaster::BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& bodies)
+BeamCaster::BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& movers)
     : obstacles_(obstacles),
-      bodies_(bodies),
+      movers_(movers),
+      slices_beams_(description.engine == Engine::slice),
       heights_m_(sliced_heights(description)),
-      moving_(moving_shapes(description)) {
-  std::vector<Shape> shapes;
-  for (const Obstacle& obstacle : description.obstacles) shapes.push_back(obstacle.shape);
-  stand(shapes);
-  for (std::uint32_t i = 0; i < moving_.size(); ++i) moving_.place(i, bodies.outline(i));
-}
+      moving_(std::span<const Shape>()) {}
 
 void BeamCaster::stand(std::span<const Shape> obstacles) {
   slices_.clear();
   for (const double height_m : heights_m_) slices_.emplace_back(obstacles, height_m);
 }
 
-void BeamCaster::place(std::uint32_t body, const Outline& outline, double z_low_m, double z_high_m) {
-  bodies_.place(body, outline, z_low_m, z_high_m);
-  if (moving_.size() > 0) moving_.place(body, outline, z_low_m, z_high_m);
+void BeamCaster::move(std::span<const Shape> movers) {
+  if (slices_beams_) moving_ = MovingSolids(movers);
+}
+
+void BeamCaster::place(std::uint32_t mover, const Outline& outline, double z_low_m, double z_high_m) {
+  movers_.place(mover, outline, z_low_m, z_high_m);
+  if (slices_beams_) moving_.place(mover, outline, z_low_m, z_high_m);
 }
 
 const Slice* BeamCaster::slice_at(double height_m) const {
@@ -75,7 +68,7 @@ void BeamCaster::cast(const Fan& fan, double height_m, std::uint32_t own, double
     directions_.push_back({fan.axis.x * d.x - fan.axis.y * d.y, fan.axis.y * d.x + fan.axis.x * d.y});
   std::fill(ranges_m.begin(), ranges_m.end(), range_max_m);
   obstacles_.cast(fan.origin, directions_, height_m, Scene::none, ranges_m);
-  bodies_.cast(fan.origin, directions_, height_m, own, ranges_m);
+  movers_.cast(fan.origin, directions_, height_m, own, ranges_m);
 }
 
 double BeamCaster::cast(Point origin, Point direction, double height_m, std::uint32_t own, double range_max_m) const {

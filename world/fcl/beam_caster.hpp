@@ -15,15 +15,17 @@ namespace waitpoint::world {
 
 class BeamCaster {
  public:
-  /// The scenes must outlive it; solids are numbered as there.
-  BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& bodies);
+  /// The scenes must outlive it; solids are numbered as there. What they were made of, stand() and move() tell.
+  BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& movers);
 
-  /// Tells it what the scene of obstacles was made of anew.
+  /// Tells it what the scene of obstacles was made of (anew).
   void stand(std::span<const Shape> obstacles);
-  /// Moves a body, in the scene of bodies too.
-  void place(std::uint32_t body, const Outline& outline, double z_low_m, double z_high_m);
+  /// Tells it what the scene of movers was made of (anew).
+  void move(std::span<const Shape> movers);
+  /// Moves one of the movers, in their scene too.
+  void place(std::uint32_t mover, const Outline& outline, double z_low_m, double z_high_m);
 
-  /// The distance of each beam to the first obstacle, or body other than `own` (Scene::none: all count); range_max_m
+  /// The distance of each beam to the first obstacle, or mover other than `own` (Scene::none: all count); range_max_m
   /// where none is nearer. As many ranges as directions.
   void cast(const Fan& fan, double height_m, std::uint32_t own, double range_max_m, std::span<double> ranges_m) const;
   /// The same for one beam.
@@ -33,7 +35,8 @@ class BeamCaster {
   const Slice* slice_at(double height_m) const;
 
   const Scene& obstacles_;
-  Scene& bodies_;
+  Scene& movers_;
+  bool slices_beams_;
   std::vector<double> heights_m_;  // at which there are slices: all different
   std::vector<Slice> slices_;
   MovingSolids moving_;  // none without slices

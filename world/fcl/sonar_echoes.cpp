@@ -18,15 +18,12 @@ constexpr double rounding_m = 1e-9;
 SonarEchoes::SonarEchoes(const Scene& obstacles, const Scene& bodies, const BeamCaster& caster)
     : obstacles_(obstacles), bodies_(bodies), caster_(caster) {}
 
-void SonarEchoes::stand(const WorldDescription& description) {
+void SonarEchoes::stand(std::span<const Shape> obstacles) {
   corners_.clear();
-  const bool sonars = std::any_of(description.bodies.begin(), description.bodies.end(),
-                                  [](const BodyDescription& body) { return !body.sonars.empty(); });
-  if (!sonars) return;
-  corners_.resize(obstacles_.size());
+  corners_.resize(obstacles.size());
   std::vector<ConcaveCorner> found;
-  for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
-    const Shape& shape = description.obstacles[i].shape;
+  for (std::uint32_t i = 0; i < obstacles.size(); ++i) {
+    const Shape& shape = obstacles[i];
     const Outline& outline = obstacles_.outline(i);
     if (!outline.is_box) continue;
     obstacles_.near(bounds_of(outline), shape.z_low_m, shape.z_high_m, near_);

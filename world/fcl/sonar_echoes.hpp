@@ -18,8 +18,8 @@ class SonarEchoes {
   /// The scenes and the caster must outlive it, and be told of changes before it is.
   SonarEchoes(const Scene& obstacles, const Scene& bodies, const BeamCaster& caster);
 
-  /// Finds the corners of the obstacles, which are those of the scene; none if no body has sonars.
-  void stand(const WorldDescription& description);
+  /// Finds the corners of the obstacles, which are those of the scene. Without it there are none.
+  void stand(std::span<const Shape> obstacles);
 
   /// Fires the transducers of the body's ring whose turn it is: of each the distance of its echo, infinite if there is
   /// none. The others' distances are left. As many distances as transducers.

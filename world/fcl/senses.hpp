@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the sensors of a world's bodies read: the same for every world server, whatever moves its bodies.
+//
+// It has the geometry that sensors ask, in two parts: what stands, and what moves. Movers are numbered, the bodies
+// first as in the description, then whatever else there is. A mover is to sensors where it was last placed: the server
+// places it at the beginning of each step, as it was published last. A sensor's own body is asked itself.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "world/fcl/beam_caster.hpp"
+#include "world/fcl/scene.hpp"
+#include "world/fcl/sonar_echoes.hpp"
+#include "world/sensors/arc_trail.hpp"
+#include "world/sensors/laser.hpp"
+#include "world/world.hpp"
+
+namespace waitpoint::world {
+
+/// The shapes of obstacles, and those of bodies at their starts.
+std::vector<Shape> shapes_of(std::span<const Obstacle> obstacles);
+std::vector<Shape> shapes_of(std::span<const BodyDescription> bodies);
+
+class Senses {
+ public:
+  /// Of the description it takes the bodies, with their devices, and the engine: its obstacles stand only if they are
+  /// `standing`. The description must outlive it.
+  Senses(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers);
+  Senses(const Senses&) = delete;
+  Senses& operator=(const Senses&) = delete;
+
+  /// All devices as at the start, with the random streams of that seed.
+  void restart(std::uint64_t seed);
+
+  // What stands and what moves.
+
+  const Scene& standing() const { return standing_; }
+  const Scene& movers() const { return movers_; }
+  /// Other things stand there now.
+  void stand(std::span<const Shape> standing);
+  /// Other things move now; the bodies are the first of them, as ever.
+  void move(std::span<const Shape> movers);
+  void place(std::uint32_t mover, const Outline& outline, double z_low_m, double z_high_m);
+  void place(std::uint32_t mover, const Vehicle& vehicle);
+
+  // What happens to a body.
+
+  /// It has moved on that arc, in a step.
+  void moved(std::uint32_t body, const Arc& arc) { devices_[body].trail.add(arc); }
+  /// A hand has put it there.
+  void put(std::uint32_t body, const Pose& pose) { devices_[body].trail.restart(pose); }
+
+  // What World has of the same names, for the body `own`, which is `vehicle`.
+
+  void scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number, double time_s,
+            LaserScan& out) const;
+  void sonar(const Vehicle& vehicle, std::uint32_t own, std::size_t ring, std::uint64_t firing_number,
+             std::vector<double>& range_m) const;
+  std::uint32_t bumpers(const Vehicle& vehicle, std::uint32_t own) const;
+  void infrareds(const Vehicle& vehicle, std::uint32_t own, std::uint64_t reading_number,
+                 std::vector<double>& volts) const;
+  double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const;
+
+ private:
+  /// A body's, that remember something.
+  struct Devices {
+    ArcTrail trail;  // as far back as a scan reaches
+    std::vector<Laser> lasers;
+    std::vector<RandomStream> sonar_noise;
+    RandomStream infrared_noise;
+
+    Devices(const BodyDescription& body, double step_s, std::uint64_t seed);
+  };
+
+  const WorldDescription& description_;
+  std::vector<Devices> devices_;
+  Scene standing_, movers_;
+  BeamCaster caster_;
+  SonarEchoes sonar_echoes_;
+
+  // Of one call, kept so that readings allocate nothing.
+  mutable std::vector<std::uint32_t> near_;
+  mutable std::vector<double> distances_;
+};
+
+}  // namespace waitpoint::world
