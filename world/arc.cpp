@@ -19,4 +19,11 @@ Pose Arc::at(double fraction) const {
   return pose;
 }
 
+Arc Arc::between(const Pose& start, Point moved, double turn_rad, double climb_m) {
+  const double turn = exact::wrap_angle(turn_rad), half = 0.5 * turn;
+  const double shortening = half == 0 ? 1 : exact::sin(half) / half;
+  const auto [s, c] = exact::sincos(start.heading + half);
+  return {start, (c * moved.x + s * moved.y) / shortening, turn, (c * moved.y - s * moved.x) / shortening, climb_m};
+}
+
 }  // namespace waitpoint::world

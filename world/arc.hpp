@@ -38,6 +38,10 @@ struct Arc {
             velocity.climb_m_s * time_s};
   }
 
+  /// The one from `start` whose end is at start + moved, turned and risen by so much. Turns are taken to be at most
+  /// half a turn: beyond, the least turn that ends alike.
+  static Arc between(const Pose& start, Point moved, double turn_rad, double climb_m);
+
   friend constexpr bool operator==(const Arc&, const Arc&) = default;
 
   /// The pose after a fraction of the arc, in [0, 1]. The heading is wrapped to (-pi, pi].

@@ -24,11 +24,15 @@ struct Shape {
   double z_low_m = 0, z_high_m = 1;
 };
 
-/// Something that does not move.
+/// Something that stands; with a mass, a dynamic world lets it be pushed.
 struct Obstacle {
   std::string name;
   Shape shape;
-  bool known = true;  ///< whether the map given to planners shows it
+  bool known = true;      ///< whether the map given to planners shows it
+  double mass_kg = 0;     ///< 0: it stands fast; a kinematic world takes it so whatever it is
+  double friction = 0.5;  ///< of what is loose: with the floor
+
+  bool loose() const { return mass_kg > 0; }
 };
 
 /// Errors of wheel odometry, see vehicles/odometer.hpp. The first are of what the controller makes of its wheels, and
@@ -64,7 +68,10 @@ struct BaseDescription {
   double steering_max_rad = 0.6;      ///< Ackermann: of the front wheel that stands for both, below a quarter turn
   double steering_rate_rad_s = 0.8;
   double climb_max_m_s = 0.5, climb_acceleration_m_s2 = 1.0;  ///< aerial
-  Duration watchdog;  ///< without a new command for longer than this it brakes to stand still; 0: it never does
+  double mass_kg = 50;                                        ///< dynamic worlds: of the whole robot
+  double drive_force_n = 0;  ///< dynamic worlds: the greatest; 0: twice what v_acceleration_m_s2 takes
+  double grip = 0.8;         ///< dynamic worlds: friction of the wheels with the floor, which bounds their forces
+  Duration watchdog;         ///< without a new command for longer than this it brakes to stand still; 0: it never does
   OdometryErrors odometry;
   double battery_volts_full = 26.0, battery_volts_empty = 22.0;
   double battery_capacity_s = 4 * 3600;  ///< until empty, standing still
@@ -85,8 +92,9 @@ struct BodyDescription {
 };
 
 /// What finds the hits of planar beams and the obstacles that a body is near to: FCL's trees, or own ones over exact
-/// slices at the heights of the sensors, and over footprints (world/slice). The world is the same to the last bit.
-enum class Engine : std::uint8_t { fcl, slice };
+/// slices at the heights of the sensors, and over footprints (world/slice). The world is the same to the last bit. With
+/// Bullet it is another one, of forces (world/bullet); its beams are those of the slices.
+enum class Engine : std::uint8_t { fcl, slice, bullet };
 
 struct WorldDescription {
   Duration step = std::chrono::milliseconds(10);

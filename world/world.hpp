@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world server: what the bridge sees of a world, so that another engine can take its place.
+// The world server: what the bridge sees of a world, so that another engine can take its place. There are two: a
+// kinematic one (world/fcl), where bodies move as they are told until they touch something, and one of forces
+// (world/bullet), where drives push and loose things are pushed.
 //
 // The world advances in steps of one period. Within step k, in this order:
 //
 //   latch    the commands given since step k - 1; each velocity changes by at most acceleration times the period
-//   move     every body along its arc, to its first contact, found with the arcs of both bodies
+//   move     every body along its arc, to its first contact, found with the arcs of both bodies; or as forces will
 //   publish  {pose, arc}
 //   sense    odometers and batteries; and, whenever asked before step k + 1, scans
 //
@@ -17,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +49,22 @@ struct BodyState {
                       field("velocity", &BodyState::velocity), field("stalled", &BodyState::stalled),
                       field("collisions", &BodyState::collisions), field("travelled_m", &BodyState::travelled_m),
                       added_field("height_m", &BodyState::height_m));
+  }
+};
+
+/// The truth about an obstacle that can move, as published by the last step.
+struct LooseState {
+  std::uint32_t obstacle = 0;  ///< which of WorldDescription::obstacles, whose shape is where it is now
+  Pose pose;                   ///< of its centre, seen from above
+  double low_m = 0, high_m = 0;
+  Point velocity_m_s;
+  double climb_m_s = 0, w_rad_s = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(field("obstacle", &LooseState::obstacle), field("pose", &LooseState::pose),
+                      field("low_m", &LooseState::low_m), field("high_m", &LooseState::high_m),
+                      field("velocity_m_s", &LooseState::velocity_m_s), field("climb_m_s", &LooseState::climb_m_s),
+                      field("w_rad_s", &LooseState::w_rad_s));
   }
 };
 
@@ -104,8 +123,13 @@ class World {
   virtual std::optional<std::string> put_obstacle(const Obstacle& obstacle) = 0;
   /// Takes away the first obstacle of that name; false if there is none.
   virtual bool remove_obstacle(const std::string& name) = 0;
+  /// From the next step on, for that long, rounded up to whole steps, a level force acts at the centre of the body of
+  /// that name, or else of the loose obstacle.
+  virtual std::optional<std::string> push(const std::string& name, Point force_n, Duration time) = 0;
 
   virtual const BodyState& body(BodyId id) const = 0;
+  /// What can be pushed, in the order of the obstacles; nothing in a kinematic world.
+  virtual std::span<const LooseState> loose() const = 0;
   virtual const OdometerReading& odometer(BodyId id) const = 0;
   virtual double battery_volts(BodyId id) const = 0;
 

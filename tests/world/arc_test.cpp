@@ -63,6 +63,24 @@ TEST(Arc, SidewaysIsAheadSeenFromAQuarterTurn) {
   }
 }
 
+TEST(Arc, BetweenTwoPosesEndsWhereItShould) {
+  Draws draw(4);
+  for (int i = 0; i < 10000; ++i) {
+    const Arc there = {{draw(-50, 50), draw(-50, 50), draw(-3, 3)},
+                       draw(-2, 2),
+                       i % 4 == 0 ? 0 : draw(-3, 3),
+                       draw(-2, 2),
+                       draw(-1, 1)};
+    const Arc found =
+        Arc::between(there.start, there.end().position() - there.start.position(), there.turn_rad, there.climb_m);
+    EXPECT_NEAR(found.distance_m, there.distance_m, 1e-12);
+    EXPECT_NEAR(found.side_m, there.side_m, 1e-12);
+    expect_near(found.end(), there.end(), 1e-13);
+    EXPECT_EQ(found.climb_m, there.climb_m);
+  }
+  EXPECT_FALSE(Arc::between({1, 2, 0.3}, {}, 0, 0).moves());
+}
+
 TEST(Arc, LengthsAreThoseOfTheOriginsPath) {
   const Arc arc = {{1, 2, 0.3}, -3, 1, 4, 12};
   EXPECT_EQ(arc.planar_length_m(), 5);

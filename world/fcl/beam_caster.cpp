@@ -10,7 +10,7 @@ namespace {
 
 std::vector<double> sliced_heights(const WorldDescription& description) {
   std::vector<double> heights;
-  if (description.engine != Engine::slice) return heights;
+  if (description.engine == Engine::fcl) return heights;
   for (const BodyDescription& body : description.bodies) {
     // What climbs would need a slice of every height.
     if (body.base.kind == BaseDescription::Kind::aerial) continue;
@@ -28,7 +28,7 @@ std::vector<double> sliced_heights(const WorldDescription& description) {
 BeamCaster::BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& movers)
     : obstacles_(obstacles),
       movers_(movers),
-      slices_beams_(description.engine == Engine::slice),
+      slices_beams_(description.engine != Engine::fcl),
       heights_m_(sliced_heights(description)),
       moving_(std::span<const Shape>()) {}
 

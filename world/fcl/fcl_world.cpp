@@ -42,8 +42,12 @@ class FclWorld final : public World {
   std::optional<std::string> move_body(BodyId id, const Pose& pose) override;
   std::optional<std::string> put_obstacle(const Obstacle& obstacle) override;
   bool remove_obstacle(const std::string& name) override;
+  std::optional<std::string> push(const std::string&, Point, Duration) override {
+    return "there are no forces in a kinematic world";
+  }
 
   const BodyState& body(BodyId id) const override { return vehicles_.at(index(id)).state(); }
+  std::span<const LooseState> loose() const override { return {}; }
   const OdometerReading& odometer(BodyId id) const override { return vehicles_.at(index(id)).odometer(); }
   double battery_volts(BodyId id) const override;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world on FCL: its trees of bounding boxes find what is near, the planar geometry of upright shapes decides.
-// Planar beams can go through slices instead (WorldDescription::engine).
+// The kinematic world on FCL: its trees of bounding boxes find what is near, the planar geometry of upright shapes
+// decides. Planar beams can go through slices instead (WorldDescription::engine).
 #pragma once
 
 #include <cstdint>

@@ -101,6 +101,10 @@ Velocity limited(const BaseDescription& base, Velocity wanted) {
   return limited_anyway(base, wanted);
 }
 
+Velocity nearest_held(const BaseDescription& base, Velocity moving) {
+  return limited(base, base.kind == Kind::skid_steer ? of_wheels(base, moving) : moving);
+}
+
 BaseMotion next_motion(const BaseDescription& base, const BaseMotion& now, Velocity wanted, double step_s) {
   switch (base.kind) {
     case Kind::synchro: return {approach_each(base, now.velocity, each_axis(base, wanted), step_s)};
@@ -116,6 +120,7 @@ BaseMotion next_motion(const BaseDescription& base, const BaseMotion& now, Veloc
 Arc as_wheels_count(const BaseDescription& base, const Arc& arc) {
   Arc counted = arc;
   if (base.kind == Kind::skid_steer) counted.turn_rad *= base.effective_axle_ratio;
+  if (base.kind != Kind::omni && base.kind != Kind::aerial) counted.side_m = 0;
   return counted;
 }
 

@@ -23,6 +23,9 @@ namespace waitpoint::world {
 /// curvature, or the direction) until no wheel is too fast.
 Velocity limited(const BaseDescription& base, Velocity wanted);
 
+/// The velocity nearest to how a body moves, whatever moved it, that its base could hold.
+Velocity nearest_held(const BaseDescription& base, Velocity moving);
+
 /// How a base moves: its body, and where its wheels point (Ackermann; 0 is straight ahead).
 struct BaseMotion {
   Velocity velocity;
@@ -33,7 +36,8 @@ struct BaseMotion {
 /// steering) times the step. `now` is within the limits, and so is the result.
 BaseMotion next_motion(const BaseDescription& base, const BaseMotion& now, Velocity wanted, double step_s);
 
-/// What the wheels make of a body's motion: of a skid-steer base they turn for more than the body does.
+/// What the wheels make of a body's motion: of a skid-steer base they turn for more than the body does; sideways only
+/// those roll that can.
 Arc as_wheels_count(const BaseDescription& base, const Arc& arc);
 
 /// The battery's voltage, falling linearly from full to empty with the time since the start and the distance driven.

@@ -6,6 +6,20 @@
 #include "core/error.hpp"
 
 namespace waitpoint::world {
+namespace {
+
+// Less than this part of the way that was tried is no way.
+constexpr double way_least = 0.1;
+
+bool held(const Arc& tried, const Arc& came) {
+  const double length_m2 =
+      tried.distance_m * tried.distance_m + tried.side_m * tried.side_m + tried.climb_m * tried.climb_m;
+  if (length_m2 == 0) return tried.turn_rad * came.turn_rad < way_least * tried.turn_rad * tried.turn_rad;
+  return tried.distance_m * came.distance_m + tried.side_m * came.side_m + tried.climb_m * came.climb_m <
+         way_least * length_m2;
+}
+
+}  // namespace
 
 Vehicle::Vehicle(const BodyDescription& description, std::uint64_t seed)
     : description_(&description), odometer_(description.base, seed, description.name) {
@@ -25,39 +39,54 @@ Arc Vehicle::latch(std::uint64_t step, Duration period) {
   const double period_s = period.seconds();
   const Duration silent = period * static_cast<std::int64_t>(step - 1 - commanded_at_);
   const bool heard = base.watchdog == Duration() || silent <= base.watchdog;
-  const BaseMotion next = next_motion(base, {state_.velocity, steering_rad_}, heard ? wanted_ : Velocity(), period_s);
-  state_.velocity = next.velocity;
-  steering_rad_ = next.steering_rad;
-  Arc arc = Arc::of(state_.pose, state_.velocity, period_s);
+  motion_ = next_motion(base, motion_, heard ? wanted_ : Velocity(), period_s);
+  Arc arc = Arc::of(state_.pose, motion_.velocity, period_s);
   if (state_.height_m + arc.climb_m < 0) {  // the floor holds it
     arc.climb_m = -state_.height_m;
-    state_.velocity.climb_m_s = arc.climb_m / period_s;
+    motion_.velocity.climb_m_s = arc.climb_m / period_s;
   }
+  state_.velocity = motion_.velocity;
   return arc;
 }
 
 void Vehicle::publish(std::uint64_t step, Duration period, const Arc& arc, std::optional<double> stop) {
-  state_.arc = stop ? arc.until(*stop) : arc;
-  if (stop) {
+  if (stop) state_.velocity = motion_.velocity = {};
+  note_contact(stop.has_value(), arc.moves());
+  go(step, period, stop ? arc.until(*stop) : arc);
+}
+
+void Vehicle::publish(std::uint64_t step, Duration period, const Arc& tried, const BodyMotion& motion) {
+  const Arc arc = Arc::between(state_.pose, motion.moved, motion.turned_rad, motion.climbed_m);
+  state_.velocity = motion.velocity;
+  motion_.velocity = nearest_held(description_->base, motion.velocity);
+  note_contact(motion.touched && held(tried, arc), tried.moves());
+  go(step, period, arc);
+}
+
+void Vehicle::note_contact(bool stalled, bool tried) {
+  if (stalled) {
     if (!state_.stalled) ++state_.collisions;
-    state_.velocity = {};
     state_.stalled = true;
-  } else if (arc.moves()) {
+  } else if (tried) {
     state_.stalled = false;
   }
+}
+
+void Vehicle::go(std::uint64_t step, Duration period, const Arc& arc) {
+  state_.arc = arc;
   if (arc.moves()) {
-    state_.pose = state_.arc.end();
+    state_.pose = arc.end();
     outline_ = outline_of(description_->shape, state_.pose);
-    state_.height_m += state_.arc.climb_m;
-    state_.travelled_m += state_.arc.length_m();
+    state_.height_m += arc.climb_m;
+    state_.travelled_m += arc.length_m();
   }
-  odometer_.add(step, period.seconds(), as_wheels_count(description_->base, state_.arc));
+  odometer_.add(step, period.seconds(), as_wheels_count(description_->base, arc));
 }
 
 void Vehicle::put(const Pose& pose) {
   state_.pose = pose;
   state_.arc = {.start = pose};
-  state_.velocity = {};
+  state_.velocity = motion_.velocity = {};
   state_.stalled = false;
   outline_ = outline_of(description_->shape, pose);
 }

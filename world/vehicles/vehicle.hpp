@@ -11,6 +11,14 @@
 
 namespace waitpoint::world {
 
+/// What became of a body's step where forces decide.
+struct BodyMotion {
+  Point moved;  ///< in the world's frame
+  double turned_rad = 0, climbed_m = 0;
+  Velocity velocity;     ///< at the end, in the body's frame
+  bool touched = false;  ///< whether something pressed against it
+};
+
 class Vehicle {
  public:
   /// At its start, at rest. The description must outlive it.
@@ -30,16 +38,23 @@ class Vehicle {
   Arc latch(std::uint64_t step, Duration period);
   /// Ends it: the body has moved on that arc, unless a contact stopped it at a fraction of it.
   void publish(std::uint64_t step, Duration period, const Arc& arc, std::optional<double> stop);
+  /// Ends it where forces decide: `tried` is what latch() said. A body that something touches, and that comes less than
+  /// a tenth of what its drive tried, is stalled. Its wheels count what it went along them and how it turned, be it
+  /// driven or pushed: held, they stand. What drags them sideways they do not count.
+  void publish(std::uint64_t step, Duration period, const Arc& tried, const BodyMotion& motion);
   /// A person's hand puts it there, at rest.
   void put(const Pose& pose);
 
  private:
+  void note_contact(bool stalled, bool tried);
+  void go(std::uint64_t step, Duration period, const Arc& arc);
+
   const BodyDescription* description_;
   BodyState state_;
   Velocity wanted_;
   std::uint64_t commanded_at_ = 0;  // step
-  double steering_rad_ = 0;
-  Outline outline_;  // at state_.pose
+  BaseMotion motion_;               // from which the base goes on
+  Outline outline_;                 // at state_.pose
   Odometer odometer_;
 };
 
