@@ -5,8 +5,8 @@
 # Debian's names, and beside them what the same things are called upstream.
 declare -A debian=(
   [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
-         nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev librosbag-storage-dev libsensor-msgs-dev
-         libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
+         nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libbullet-dev librosbag-storage-dev
+         libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
   [test]='libgtest-dev clang gdb libz3-dev python3-rosbag'
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
@@ -18,7 +18,8 @@ declare -A debian=(
 )
 declare -A upstream=(
   [run]='Meson 1.0, Ninja, a C++20 compiler, pkg-config, Python 3; Boost.Context 1.74, FCL 0.7 with libccd and Eigen 3.4,
-         yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for ROS bags, if wanted, rosbag_storage and its messages'
+         yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for the dynamic world, if wanted, Bullet 3.24 in
+         double precision; for ROS bags, if wanted, rosbag_storage and its messages'
   [test]='GoogleTest, g++ and clang++, gdb, Z3'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'

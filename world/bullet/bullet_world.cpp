@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/bullet/bullet_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "world/bullet/dynamics.hpp"
+#include "world/fcl/senses.hpp"
+#include "world/motion/first_contact.hpp"
+#include "world/planar/separation.hpp"
+#include "world/start_check.hpp"
+#include "world/vehicles/vehicle.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+using Kind = BaseDescription::Kind;
+
+// The parts in which Bullet makes a step: while nothing loose moves, and while something does. In one part nothing that
+// drives goes further than is seen by it beforehand (2 cm).
+constexpr double part_s_max = 0.01, loose_part_s_max = 0.002, way_m_max = 0.015;
+constexpr double parts_max = 1000;
+
+std::uint32_t number(BodyId id) { return static_cast<std::uint32_t>(id); }
+
+bool goes_anyway(Kind kind) { return kind == Kind::omni || kind == Kind::aerial; }
+
+/// What the drive of a body has: by default twice what its greatest accelerations take.
+DriveAim forces_of(const BodyDescription& body) {
+  const BaseDescription& base = body.base;
+  const double grip_n = base.grip * base.mass_kg * gravity_m_s2;
+  DriveAim forces;
+  forces.force_n = base.drive_force_n > 0 ? base.drive_force_n : 2 * base.mass_kg * base.v_acceleration_m_s2;
+  if (base.kind != Kind::aerial) forces.force_n = std::min(forces.force_n, grip_n);
+  forces.side_force_n = goes_anyway(base.kind) ? forces.force_n : grip_n;
+  forces.torque_nm = 2 * inertia_kg_m2(body.shape, base.mass_kg) * base.w_acceleration_rad_s2;
+  forces.climb_force_n = 2 * base.mass_kg * base.climb_acceleration_m_s2;
+  return forces;
+}
+
+/// That fraction of the way from one to the other.
+Velocity between(const Velocity& from, const Velocity& to, double fraction) {
+  const auto part = [&](double a, double b) { return fraction == 1 ? b : a + fraction * (b - a); };
+  return {part(from.v_m_s, to.v_m_s), part(from.w_rad_s, to.w_rad_s), part(from.side_m_s, to.side_m_s),
+          part(from.climb_m_s, to.climb_m_s)};
+}
+
+std::vector<Shape> standing_shapes(const std::vector<Obstacle>& obstacles) {
+  std::vector<Shape> shapes;
+  for (const Obstacle& obstacle : obstacles)
+    if (!obstacle.loose()) shapes.push_back(obstacle.shape);
+  return shapes;
+}
+
+/// Of an obstacle, how it moves; none of what is new or stands.
+using MaybeMoving = std::optional<LooseSolid>;
+
+class BulletWorld final : public World {
+ public:
+  BulletWorld(const WorldDescription& description, std::uint64_t seed);
+
+  const WorldDescription& description() const override { return description_; }
+  void command(BodyId id, Velocity velocity) override { vehicles_.at(index(id)).command(velocity, steps_); }
+  void step() override;
+  std::uint64_t steps() const override { return steps_; }
+  void reset(std::uint64_t seed) override;
+
+  std::optional<std::string> move_body(BodyId id, const Pose& pose) override;
+  std::optional<std::string> put_obstacle(const Obstacle& obstacle) override;
+  bool remove_obstacle(const std::string& name) override;
+  std::optional<std::string> push(const std::string& name, Point force_n, Duration time) override;
+
+  const BodyState& body(BodyId id) const override { return vehicles_.at(index(id)).state(); }
+  std::span<const LooseState> loose() const override { return loose_; }
+  const OdometerReading& odometer(BodyId id) const override { return vehicles_.at(index(id)).odometer(); }
+  double battery_volts(BodyId id) const override;
+
+  void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const override {
+    senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, static_cast<double>(steps_) * step_s_, out);
+  }
+  void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const override {
+    senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
+  }
+  std::uint32_t bumpers(BodyId id) const override { return senses_.bumpers(vehicles_.at(index(id)), number(id)); }
+  void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const override {
+    senses_.infrareds(vehicles_.at(index(id)), number(id), reading_number, volts);
+  }
+  double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const override {
+    return senses_.cast(beam, range_max_m, own);
+  }
+
+ private:
+  /// A force that goes on acting, on what bears that name.
+  struct Push {
+    std::string name;
+    Point force_n;
+    std::uint64_t last_step;
+  };
+
+  void show();
+  void latch();
+  void move();
+  void exert(const Push& push);
+  void publish();
+  void publish_loose(std::uint32_t loose);
+  std::uint64_t parts_of_step() const;
+
+  /// Its place among the obstacles; behind the last if there is none.
+  std::size_t find_obstacle(const std::string& name) const;
+  std::optional<std::string> body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const;
+  std::vector<MaybeMoving> moving() const;
+  void change_obstacles(std::vector<Obstacle> obstacles, const std::vector<MaybeMoving>& moving);
+  void make_dynamics(const std::vector<MaybeMoving>& moving);
+
+  WorldDescription description_;
+  const std::vector<Obstacle> first_obstacles_;
+  const double step_s_;
+  std::uint64_t steps_ = 0;
+  std::vector<Vehicle> vehicles_;
+  Senses senses_;
+  std::optional<Dynamics> dynamics_;
+  std::vector<DriveAim> forces_;  // of each vehicle's drive
+  std::vector<LooseState> loose_;
+  std::vector<char> loose_moved_;  // in the last step
+  std::vector<Push> pushes_;
+
+  // Of one step.
+  std::vector<Velocity> from_;
+  std::vector<Arc> arcs_;
+};
+
+BulletWorld::BulletWorld(const WorldDescription& description, std::uint64_t seed)
+    : description_(description),
+      first_obstacles_(description.obstacles),
+      step_s_(description.step.seconds()),
+      senses_(description_, {}, {}) {
+  WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
+  WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
+  WAITPOINT_CHECK(loose_overlaps(description_).empty(), "something loose starts inside something solid");
+  for (const BodyDescription& body : description_.bodies) forces_.push_back(forces_of(body));
+  reset(seed);
+}
+
+void BulletWorld::reset(std::uint64_t seed) {
+  steps_ = 0;
+  pushes_.clear();
+  vehicles_.clear();
+  for (const BodyDescription& body : description_.bodies) vehicles_.emplace_back(body, seed);
+  senses_.restart(seed);
+  change_obstacles(first_obstacles_, std::vector<MaybeMoving>(first_obstacles_.size()));
+}
+
+void BulletWorld::change_obstacles(std::vector<Obstacle> obstacles, const std::vector<MaybeMoving>& moving) {
+  description_.obstacles = std::move(obstacles);
+  senses_.stand(standing_shapes(description_.obstacles));
+  make_dynamics(moving);
+  std::vector<Shape> movers = shapes_of(description_.bodies);
+  for (const LooseState& loose : loose_) movers.push_back(description_.obstacles[loose.obstacle].shape);
+  senses_.move(movers);
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) senses_.place(i, vehicles_[i]);
+}
+
+// All anew, in the order of the description: a person's hand is slow.
+void BulletWorld::make_dynamics(const std::vector<MaybeMoving>& moving) {
+  dynamics_.emplace(standing_shapes(description_.obstacles));
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
+    const BodyDescription& body = description_.bodies[i];
+    dynamics_->add_hull(body.shape, body.base.mass_kg, body.base.kind == Kind::aerial);
+    dynamics_->place_hull(i, vehicles_[i].state().pose, vehicles_[i].state().height_m);
+    dynamics_->set_velocity(i, vehicles_[i].state().velocity);
+  }
+  loose_.clear();
+  for (std::uint32_t k = 0; k < description_.obstacles.size(); ++k) {
+    const Obstacle& obstacle = description_.obstacles[k];
+    if (!obstacle.loose()) continue;
+    dynamics_->add_loose(moving[k] ? *moving[k] : loose_solid(obstacle.shape, obstacle.mass_kg, obstacle.friction));
+    loose_.emplace_back().obstacle = k;
+    publish_loose(static_cast<std::uint32_t>(loose_.size() - 1));
+  }
+  loose_moved_.assign(loose_.size(), true);
+}
+
+void BulletWorld::step() {
+  ++steps_;
+  show();
+  latch();
+  move();
+  publish();
+}
+
+// What moved in the last step, others see from now on.
+void BulletWorld::show() {
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i)
+    if (vehicles_[i].state().arc.moves()) senses_.place(i, vehicles_[i]);
+  for (std::uint32_t i = 0; i < loose_.size(); ++i) {
+    if (!loose_moved_[i]) continue;
+    const Shape& shape = description_.obstacles[loose_[i].obstacle].shape;
+    senses_.place(static_cast<std::uint32_t>(vehicles_.size()) + i, outline_of(shape), shape.z_low_m, shape.z_high_m);
+  }
+}
+
+void BulletWorld::latch() {
+  from_.clear();
+  arcs_.clear();
+  for (Vehicle& vehicle : vehicles_) {
+    from_.push_back(nearest_held(vehicle.description().base, vehicle.state().velocity));
+    arcs_.push_back(vehicle.latch(steps_, description_.step));
+  }
+}
+
+void BulletWorld::move() {
+  const std::uint64_t parts = parts_of_step();
+  const double part_s = step_s_ / static_cast<double>(parts);
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i)
+    dynamics_->place_hull(i, vehicles_[i].state().pose, vehicles_[i].state().height_m);
+  // What a drive is to reach by the end comes evenly over the parts.
+  for (std::uint64_t part = 1; part <= parts; ++part) {
+    const double fraction = static_cast<double>(part) / static_cast<double>(parts);
+    for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
+      DriveAim aim = forces_[i];
+      aim.velocity = between(from_[i], vehicles_[i].state().velocity, fraction);
+      dynamics_->aim(i, aim, part_s);
+    }
+    for (const Push& push : pushes_) exert(push);
+    dynamics_->step(part_s);
+  }
+  std::erase_if(pushes_, [this](const Push& push) { return push.last_step <= steps_; });
+}
+
+std::uint64_t BulletWorld::parts_of_step() const {
+  double way_m = 0;
+  for (const BodyDescription& body : description_.bodies) way_m = std::max(way_m, body.base.v_max_m_s * step_s_);
+  const double longest_s = dynamics_->any_awake() ? loose_part_s_max : part_s_max;
+  const double parts = std::max(step_s_ / longest_s, way_m / way_m_max);
+  return static_cast<std::uint64_t>(std::clamp(std::ceil(parts - 1e-9), 1.0, parts_max));
+}
+
+void BulletWorld::exert(const Push& push) {
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i)
+    if (description_.bodies[i].name == push.name) return dynamics_->push_hull(i, push.force_n);
+  for (std::uint32_t i = 0; i < loose_.size(); ++i)
+    if (description_.obstacles[loose_[i].obstacle].name == push.name) return dynamics_->push_loose(i, push.force_n);
+}
+
+void BulletWorld::publish() {
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
+    vehicles_[i].publish(steps_, description_.step, arcs_[i], dynamics_->motion(i));
+    senses_.moved(i, vehicles_[i].state().arc);
+  }
+  for (std::uint32_t i = 0; i < loose_.size(); ++i) {
+    // What fell asleep in this step has moved in it.
+    const bool awake = dynamics_->awake(i);
+    if (awake || loose_moved_[i]) publish_loose(i);
+    loose_moved_[i] = awake;
+  }
+}
+
+void BulletWorld::publish_loose(std::uint32_t number) {
+  const LooseSolid& solid = dynamics_->loose(number);
+  LooseState& state = loose_[number];
+  Shape& shape = description_.obstacles[state.obstacle].shape;
+  shape = upright_shape(solid);
+  state.pose = shape.pose;
+  state.low_m = shape.z_low_m;
+  state.high_m = shape.z_high_m;
+  state.velocity_m_s = {solid.velocity_m_s.x, solid.velocity_m_s.y};
+  state.climb_m_s = solid.velocity_m_s.z;
+  state.w_rad_s = solid.spin_rad_s.z;
+}
+
+// --- a person's hand ---
+
+std::optional<std::string> BulletWorld::move_body(BodyId id, const Pose& pose) {
+  Vehicle& vehicle = vehicles_.at(index(id));
+  const Shape shape = vehicle.shape();
+  const Outline outline = outline_of(shape, pose);
+  for (const Obstacle& obstacle : description_.obstacles) {
+    if (heights_overlap(shape, obstacle.shape) &&
+        separation(outline, outline_of(obstacle.shape)).distance_m <= contact_gap_m)
+      return obstacle.name;
+  }
+  if (auto other = body_met(shape, outline, number(id))) return other;
+  vehicle.put(pose);
+  senses_.put(number(id), pose);
+  senses_.place(number(id), vehicle);
+  dynamics_->place_hull(number(id), pose, vehicle.state().height_m);
+  dynamics_->set_velocity(number(id), {});
+  return std::nullopt;
+}
+
+std::optional<std::string> BulletWorld::body_met(const Shape& shape, const Outline& outline,
+                                                 std::uint32_t except) const {
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
+    if (i != except && heights_overlap(shape, vehicles_[i].shape()) &&
+        separation(outline, vehicles_[i].outline()).distance_m <= contact_gap_m)
+      return description_.bodies[i].name;
+  }
+  return std::nullopt;
+}
+
+std::size_t BulletWorld::find_obstacle(const std::string& name) const {
+  const std::vector<Obstacle>& all = description_.obstacles;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Obstacle& other) { return other.name == name; });
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+std::vector<MaybeMoving> BulletWorld::moving() const {
+  std::vector<MaybeMoving> moving(description_.obstacles.size());
+  for (std::uint32_t i = 0; i < loose_.size(); ++i) moving[loose_[i].obstacle] = dynamics_->loose(i);
+  return moving;
+}
+
+std::optional<std::string> BulletWorld::put_obstacle(const Obstacle& obstacle) {
+  if (auto body = body_met(obstacle.shape, outline_of(obstacle.shape), Scene::none)) return body;
+  for (const Obstacle& other : description_.obstacles) {
+    if (other.name != obstacle.name && (obstacle.loose() || other.loose()) && overlap(obstacle.shape, other.shape))
+      return other.name;
+  }
+  const std::size_t place = find_obstacle(obstacle.name);
+  std::vector<Obstacle> obstacles = description_.obstacles;
+  std::vector<MaybeMoving> moves = moving();
+  if (place == obstacles.size()) {
+    obstacles.push_back(obstacle);
+    moves.emplace_back();
+  } else {
+    obstacles[place] = obstacle;
+    moves[place].reset();
+  }
+  change_obstacles(std::move(obstacles), moves);
+  return std::nullopt;
+}
+
+bool BulletWorld::remove_obstacle(const std::string& name) {
+  const std::size_t place = find_obstacle(name);
+  std::vector<Obstacle> obstacles = description_.obstacles;
+  if (place == obstacles.size()) return false;
+  std::vector<MaybeMoving> moves = moving();
+  obstacles.erase(obstacles.begin() + static_cast<std::ptrdiff_t>(place));
+  moves.erase(moves.begin() + static_cast<std::ptrdiff_t>(place));
+  change_obstacles(std::move(obstacles), moves);
+  return true;
+}
+
+std::optional<std::string> BulletWorld::push(const std::string& name, Point force_n, Duration time) {
+  const bool body = std::any_of(description_.bodies.begin(), description_.bodies.end(),
+                                [&](const BodyDescription& other) { return other.name == name; });
+  const std::size_t place = find_obstacle(name);
+  if (!body && place == description_.obstacles.size()) return "there is no '" + name + "'";
+  if (!body && !description_.obstacles[place].loose()) return "'" + name + "' stands fast";
+  const Duration step = description_.step;
+  const auto lasts = static_cast<std::uint64_t>((time + step - Duration::from_ns(1)) / step);
+  if (lasts > 0) pushes_.push_back({name, force_n, steps_ + lasts});
+  return std::nullopt;
+}
+
+double BulletWorld::battery_volts(BodyId id) const {
+  const Vehicle& vehicle = vehicles_.at(index(id));
+  return world::battery_volts(vehicle.description().base, static_cast<double>(steps_) * step_s_,
+                              vehicle.state().travelled_m);
+}
+
+}  // namespace
+
+std::unique_ptr<World> make_bullet_world(const WorldDescription& description, std::uint64_t seed) {
+  return std::make_unique<BulletWorld>(description, seed);
+}
+
+}  // namespace waitpoint::world

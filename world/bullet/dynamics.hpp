@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rigid bodies under forces, by Bullet.
+//
+//   floor      a plane at height 0, which only loose solids and what flies meet
+//   standing   upright solids that nothing moves
+//   hull       a robot: always upright, driven by motors; borne by its wheels whatever stands on it, or by its thrust
+//   loose      a box or cylinder with a mass, free in space: it slides, turns, falls, tips over
+//
+// The friction of two is the product of their coefficients; nothing bounces. One thread, steps of the caller's length,
+// a fixed number of iterations, everything in the order in which it was added: the same calls give the same bits from
+// one build of Bullet.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "world/bullet/loose_solid.hpp"
+#include "world/vehicles/vehicle.hpp"
+
+namespace waitpoint::world {
+
+inline constexpr double gravity_m_s2 = 9.81;
+/// Of hulls; of floor and standing solids it is 1.
+inline constexpr double hull_friction = 0.5;
+
+/// What a drive is to reach by the end of a step, and the forces that it has for it.
+struct DriveAim {
+  Velocity velocity;
+  double force_n = 0, side_force_n = 0, torque_nm = 0, climb_force_n = 0;
+};
+
+class Dynamics {
+ public:
+  explicit Dynamics(std::span<const Shape> standing);
+  ~Dynamics();
+
+  /// Hulls and loose solids are numbered from 0, each in the order they are added. A hull's shape is given in the
+  /// body's frame; it must be placed.
+  void add_hull(const Shape& shape, double mass_kg, bool flies);
+  void add_loose(const LooseSolid& solid);
+
+  /// Puts the body there, so high. It keeps its velocity.
+  void place_hull(std::uint32_t hull, const Pose& body, double height_m);
+  /// Gives it that velocity, where it stands.
+  void set_velocity(std::uint32_t hull, const Velocity& velocity);
+  /// What its drive is to reach in the next step, of that length.
+  void aim(std::uint32_t hull, const DriveAim& aim, double step_s);
+  /// Forces at the centre, in the next step.
+  void push_hull(std::uint32_t hull, Point force_n);
+  void push_loose(std::uint32_t loose, Point force_n);
+
+  void step(double step_s);
+
+  /// What became of the body since it was placed; touched by anything but the floor.
+  BodyMotion motion(std::uint32_t hull) const;
+  /// As added, with what changed since.
+  const LooseSolid& loose(std::uint32_t number) const;
+  /// Whether it may have moved in the last step: what has come to rest sleeps, until something comes near.
+  bool awake(std::uint32_t loose) const;
+  bool any_awake() const;
+
+ private:
+  struct Bodies;
+  std::unique_ptr<Bodies> bodies_;
+};
+
+}  // namespace waitpoint::world
