@@ -34,6 +34,7 @@ constexpr const char* help_text = R"(  step [N]                     execute the 
     obstacle {name: ..., ...}    a shape as in a scenario; takes the place of one of that name
     move-obstacle NAME X Y [HEADING_DEG]
     remove-obstacle NAME
+    push NAME FX_N FY_N SECONDS  a force on a robot or on something loose, in a dynamic world
   quit                         end the run here, with summary and digest
 )";
 

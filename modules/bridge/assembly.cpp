@@ -9,6 +9,7 @@
 #include "core/number_text.hpp"
 #include "modules/bridge/known_map.hpp"
 #include "modules/bridge/scenario_checks.hpp"
+#include "world/bullet/bullet_world.hpp"
 #include "world/fcl/fcl_world.hpp"
 #include "world/planar/outline.hpp"
 
@@ -54,7 +55,7 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
   KnownMaps maps(scenario, file ? &*file : nullptr);
   check_goals(scenario, [&](const RobotScenario& robot, Point goal) { return place_on(maps.of(robot), goal); });
   check_starts(scenario, world::start_overlaps(description));
-  world_ = world::make_fcl_world(description, seed);
+  make_world(description, seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
     robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
                                               world::BodyId(i), network, seed));
@@ -74,6 +75,24 @@ world::WorldFile Assembly::load(const MapFile& map) {
     warnings_.push_back(map.file.string() + ": " + counted(file.bodies.size(), "robot") +
                         " of the file left out: the robots are the scenario's");
   return file;
+}
+
+void Assembly::make_world(const world::WorldDescription& description, std::uint64_t seed) {
+  if (scenario_.engine == world::Engine::bullet) {
+    check_dynamic(scenario_, world::loose_overlaps(description));
+    world_ = world::make_bullet_world(description, seed);
+    if (world_ == nullptr)
+      throw scenario_.engine_written.bad(
+          "engine bullet is not in this program: install libbullet-dev (Bullet in double precision) and build it "
+          "again");
+    return;
+  }
+  const auto loose = std::count_if(description.obstacles.begin(), description.obstacles.end(),
+                                   [](const world::Obstacle& obstacle) { return obstacle.loose(); });
+  if (loose > 0)
+    warnings_.push_back(counted(static_cast<std::size_t>(loose), "shape") +
+                        " with mass_kg taken to stand fast: only engine bullet lets things be pushed");
+  world_ = world::make_fcl_world(description, seed);
 }
 
 // A coarse step is a legitimate choice, but rarely meant.

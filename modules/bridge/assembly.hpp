@@ -38,6 +38,7 @@ class Assembly {
 
  private:
   world::WorldFile load(const MapFile& map);
+  void make_world(const world::WorldDescription& description, std::uint64_t seed);
   void check_step();
 
   const Scenario& scenario_;

@@ -77,16 +77,36 @@ void read_kind(const YamlMap& map, world::BaseDescription& base) {
 
 world::BaseDescription read_base(const YamlNode& node) {
   const YamlMap map(node, "the base",
-                    {"kind", "v_max_m_s", "w_max_rad_s", "v_acceleration_m_s2", "w_acceleration_rad_s2", "axle_m",
-                     "effective_axle_ratio", "wheelbase_m", "steering_max_deg", "steering_rate_deg_s", "climb_max_m_s",
-                     "climb_acceleration_m_s2", "watchdog_ms", "odometry", "battery_volts_full", "battery_volts_empty",
-                     "battery_capacity_s", "battery_capacity_m"});
+                    {"kind",
+                     "v_max_m_s",
+                     "w_max_rad_s",
+                     "v_acceleration_m_s2",
+                     "w_acceleration_rad_s2",
+                     "axle_m",
+                     "effective_axle_ratio",
+                     "wheelbase_m",
+                     "steering_max_deg",
+                     "steering_rate_deg_s",
+                     "climb_max_m_s",
+                     "climb_acceleration_m_s2",
+                     "mass_kg",
+                     "drive_force_n",
+                     "grip",
+                     "watchdog_ms",
+                     "odometry",
+                     "battery_volts_full",
+                     "battery_volts_empty",
+                     "battery_capacity_s",
+                     "battery_capacity_m"});
   world::BaseDescription base;
   read_kind(map, base);
   base.v_max_m_s = map.number("v_max_m_s", positive_number, base.v_max_m_s);
   base.w_max_rad_s = map.number("w_max_rad_s", positive_number, base.w_max_rad_s);
   base.v_acceleration_m_s2 = map.number("v_acceleration_m_s2", positive_number, base.v_acceleration_m_s2);
   base.w_acceleration_rad_s2 = map.number("w_acceleration_rad_s2", positive_number, base.w_acceleration_rad_s2);
+  base.mass_kg = map.number("mass_kg", mass_number, base.mass_kg);
+  base.drive_force_n = map.number("drive_force_n", positive_number, base.drive_force_n);
+  base.grip = map.number("grip", positive_number, base.grip);
   base.axle_m = map.number("axle_m", positive_number, base.axle_m);
   base.watchdog = map.duration("watchdog_ms", 1ms, base.watchdog);
   if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry, base.kind);

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "fibers/sync/thread.hpp"
+#include "fibers/sync/threads.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -22,6 +23,8 @@ Outcome outcome_of(RunEnd end) {
 }  // namespace
 
 namespace {
+
+constexpr std::uint64_t loose_state = 0x6C6F6F7365;  // "loose"
 
 /// In the explored order, until somebody else decides.
 class FirstInFirstOut final : public kernel::Decisions {
@@ -116,6 +119,7 @@ void Experiment::run_world() {
     this_thread::sleep_until(Time() + assembly_->scenario().step * k);
     operator_->act(now());
     assembly_->world().step();
+    for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (!lanes_[i]->ended) robots()[i]->observe(now());
       robots()[i]->bridge().stepped();

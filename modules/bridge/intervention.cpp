@@ -74,16 +74,33 @@ What parse_removal(std::string_view text, const Location& written) {
   return removal;
 }
 
+// At most a day: a force is something that a person does.
+constexpr double force_n_max = 1e6, time_s_max = 86400;
+
+What parse_push(std::string_view text, const Location& written) {
+  Push push{require(text, "a robot or an obstacle", written), {}, {}};
+  const auto number = [&](const char* expected, double low, double high) {
+    const std::string word = take_word(text, written);
+    double value = 0;
+    if (!parse_number(word, value) || value < low || value > high)
+      throw written.bad(std::string("expected ") + expected + ", found '" + word + "'");
+    return value;
+  };
+  push.force_n.x = number("a force, FX_N FY_N, within 1000000 N", -force_n_max, force_n_max);
+  push.force_n.y = number("a force, FX_N FY_N, within 1000000 N", -force_n_max, force_n_max);
+  push.time = Duration::from_seconds(number("a time in seconds, at most 86400", 0, time_s_max));
+  require_end(text, written);
+  return push;
+}
+
 struct Verb {
   std::string_view name;
   What (*parse)(std::string_view text, const Location& written);
 };
 
-constexpr Verb verbs[] = {{"request", parse_request},
-                          {"move", parse_move},
-                          {"obstacle", parse_obstacle},
-                          {"move-obstacle", parse_obstacle_move},
-                          {"remove-obstacle", parse_removal}};
+constexpr Verb verbs[] = {{"request", parse_request},         {"move", parse_move},
+                          {"obstacle", parse_obstacle},       {"move-obstacle", parse_obstacle_move},
+                          {"remove-obstacle", parse_removal}, {"push", parse_push}};
 
 }  // namespace
 
@@ -101,8 +118,9 @@ Intervention parse_intervention(std::string_view text, const Location& written) 
   for (const Verb& verb : verbs)
     if (verb.name == word) return {std::string(trimmed(text)), written, verb.parse(rest, written)};
   const std::string hint = did_you_mean(word, intervention_verbs());
-  throw written.bad("unknown intervention '" + word + "'" +
-                    (hint.empty() ? ", expected request, move, obstacle, move-obstacle or remove-obstacle" : hint));
+  throw written.bad(
+      "unknown intervention '" + word + "'" +
+      (hint.empty() ? ", expected request, move, obstacle, move-obstacle, remove-obstacle or push" : hint));
 }
 
 }  // namespace waitpoint::bridge

@@ -6,6 +6,7 @@
 //   obstacle {name: ..., ...}                         as a shape of a scenario; one of that name is replaced
 //   move-obstacle NAME X Y [HEADING_DEG]
 //   remove-obstacle NAME
+//   push NAME FX_N FY_N SECONDS                       a force on a robot or a loose obstacle; in a dynamic world
 //
 // One line of text each, the same at the prompt, in a journal and in the programming interface: it is also what the
 // digest hashes. A word with spaces stands in double quotes. See operator.hpp for when and how it is carried out.
@@ -18,6 +19,7 @@
 
 #include "core/pose.hpp"
 #include "core/setting.hpp"
+#include "core/time.hpp"
 #include "modules/bridge/location.hpp"
 #include "world/description.hpp"
 
@@ -46,10 +48,16 @@ struct ObstacleRemoval {
   std::string name;
 };
 
+struct Push {
+  std::string name;
+  Point force_n;
+  Duration time;
+};
+
 struct Intervention {
   std::string text;
   Location written;
-  std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval> what;
+  std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push> what;
 };
 
 /// The first words of interventions: "request", "move", ...

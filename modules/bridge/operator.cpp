@@ -122,4 +122,9 @@ std::string Operator::carry_out(const ObstacleRemoval& removal, const Interventi
   return world_.remove_obstacle(removal.name) ? "done" : no_obstacle(removal.name);
 }
 
+std::string Operator::carry_out(const Push& push, const Intervention&) {
+  const std::optional<std::string> why_not = world_.push(push.name, push.force_n, push.time);
+  return why_not ? "refused, " + *why_not : "done";
+}
+
 }  // namespace waitpoint::bridge

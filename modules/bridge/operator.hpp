@@ -61,6 +61,7 @@ class Operator {
   std::string carry_out(const ObstacleMove& move, const Intervention& whole);
   std::string carry_out(const ObstaclePut& put, const Intervention& whole);
   std::string carry_out(const ObstacleRemoval& removal, const Intervention& whole);
+  std::string carry_out(const Push& push, const Intervention& whole);
 
   world::World& world_;
   const std::vector<std::unique_ptr<Robot>>& robots_;

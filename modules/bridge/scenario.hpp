@@ -79,6 +79,7 @@ struct Scenario {
   Duration until = std::chrono::hours(1);
   Duration step = std::chrono::milliseconds(10);
   world::Engine engine = world::Engine::fcl;
+  Location engine_written;  ///< where it is not left out
   std::optional<MapFile> map;
   std::optional<io::Medium> medium;      ///< between robots; none: they cannot send to each other
   std::vector<world::Obstacle> shapes;   ///< without the map's

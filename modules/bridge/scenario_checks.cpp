@@ -54,4 +54,20 @@ void check_starts(const Scenario& scenario, const std::vector<world::StartOverla
                                  "'" + overlap.other + "'" + place + ", expected a free place");
 }
 
+void check_dynamic(const Scenario& scenario, const std::vector<world::LooseOverlap>& overlaps) {
+  if (!overlaps.empty()) {
+    const world::LooseOverlap& first = overlaps.front();
+    for (std::size_t i = 0; i < scenario.shapes.size(); ++i) {
+      if (scenario.shapes[i].name != first.loose) continue;
+      throw scenario.shapes_written[i].bad("'" + first.loose + "', which is loose, starts inside '" + first.other +
+                                           "'" + place_of_obstacle(scenario, first.other) + ", expected a free place");
+    }
+  }
+  for (const RobotScenario& robot : scenario.robots) {
+    if (robot.body.base.w_max_rad_s * scenario.step.seconds() < exact::pi) continue;
+    throw robot.written.bad("robot '" + robot.name + "' may turn by half a turn in a step of the world of " +
+                            to_string(scenario.step) + " s, expected a shorter one for engine bullet");
+  }
+}
+
 }  // namespace waitpoint::bridge

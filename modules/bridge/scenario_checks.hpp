@@ -25,4 +25,8 @@ void check_goals(const Scenario& scenario, const std::function<GoalPlace(const R
 /// written.
 void check_starts(const Scenario& scenario, const std::vector<world::StartOverlap>& overlaps);
 
+/// Throws BadInput for what a dynamic world cannot begin with: the first overlap of what is loose, a robot that could
+/// turn by half a turn in a step.
+void check_dynamic(const Scenario& scenario, const std::vector<world::LooseOverlap>& overlaps);
+
 }  // namespace waitpoint::bridge

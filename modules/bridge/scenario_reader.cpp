@@ -66,7 +66,9 @@ void read_world(const YamlNode& node, Scenario& scenario) {
     if (scenario.step > Duration(1s))
       throw step->written.bad("expected step_ms to be at most 1000, found " + described(*step));
   }
-  scenario.engine = map.one_of("engine", {"fcl", "slice"}, 0) == 0 ? world::Engine::fcl : world::Engine::slice;
+  constexpr world::Engine engines[] = {world::Engine::fcl, world::Engine::slice, world::Engine::bullet};
+  scenario.engine = engines[map.one_of("engine", {"fcl", "slice", "bullet"}, 0)];
+  if (const YamlNode* engine = map.find("engine")) scenario.engine_written = engine->written;
   if (const YamlNode* map_file = map.find("map")) scenario.map = read_map(*map_file);
   const double height_m = map.number("shape_height_m", positive_number, height_default_m);
   if (const YamlNode* shapes = map.find("shapes")) read_shapes(*shapes, height_m, scenario);

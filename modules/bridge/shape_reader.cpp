@@ -72,11 +72,17 @@ Shape read_body_shape(const YamlNode& node) {
 world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number) {
   const std::string given(name_of(node));
   const std::string name = given.empty() ? "shape " + std::to_string(number) : given;
-  const YamlMap map(
-      node, "'" + name + "'",
-      {"name", "corners_m", "centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m", "known"});
+  const YamlMap map(node, "'" + name + "'",
+                    {"name", "corners_m", "centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m", "known",
+                     "mass_kg", "friction"});
   map.text("name", name);
-  return {name, read_shape(map, true, height_m), map.truth("known", true)};
+  world::Obstacle obstacle{name, read_shape(map, true, height_m), map.truth("known", true)};
+  if (map.has("mass_kg")) obstacle.mass_kg = map.number("mass_kg", mass_number);
+  if (const YamlNode* friction = map.find("friction")) {
+    if (!obstacle.loose()) throw friction->written.bad("expected no friction: " + map.what() + " has no mass_kg");
+    obstacle.friction = map.number("friction", number_from_zero);
+  }
+  return obstacle;
 }
 
 Point read_point(const YamlNode& node, std::string_view what) {

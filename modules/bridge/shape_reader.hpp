@@ -13,6 +13,8 @@
 
 namespace waitpoint::bridge {
 
+inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
+
 /// A robot's body, about its own origin: `centre_m` may be left out, `height_m` may not.
 world::Shape read_body_shape(const YamlNode& node);
 

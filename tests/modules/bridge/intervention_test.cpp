@@ -40,13 +40,24 @@ TEST(Intervention, PlacesAreThoseOfAScenario) {
   EXPECT_EQ(std::get<ObstacleRemoval>(parse("remove-obstacle crate").what).name, "crate");
 }
 
+TEST(Intervention, APushIsAForceForATime) {
+  const auto push = std::get<Push>(parse("push \"red box\" -3 4.5 0.25").what);
+  EXPECT_EQ(push.name, "red box");
+  EXPECT_EQ(push.force_n, (Point{-3, 4.5}));
+  EXPECT_EQ(push.time, Duration(std::chrono::milliseconds(250)));
+  EXPECT_EQ(complaint("push box 1"), "run.journal:7: expected a force, FX_N FY_N, within 1000000 N, found ''");
+  EXPECT_EQ(complaint("push box 1 2 -1"), "run.journal:7: expected a time in seconds, at most 86400, found '-1'");
+  EXPECT_EQ(complaint("push box 1e7 2 1"), "run.journal:7: expected a force, FX_N FY_N, within 1000000 N, found '1e7'");
+  EXPECT_EQ(complaint("push box 1 2 1 1"), "run.journal:7: unexpected '1'");
+}
+
 TEST(Intervention, WhatIsNoneIsOneLineAtItsPlace) {
   EXPECT_EQ(complaint("mve rackham 1 2"), "run.journal:7: unknown intervention 'mve', did you mean 'move'?");
   EXPECT_EQ(complaint("move rackham 1"), "run.journal:7: expected a place, X Y [HEADING_DEG], found ''");
   EXPECT_EQ(complaint("move rackham 1,5 2"), "run.journal:7: expected a place, X Y [HEADING_DEG], found '1,5'");
   EXPECT_EQ(complaint("dance"),
-            "run.journal:7: unknown intervention 'dance', expected request, move, obstacle, move-obstacle or "
-            "remove-obstacle");
+            "run.journal:7: unknown intervention 'dance', expected request, move, obstacle, move-obstacle, "
+            "remove-obstacle or push");
   EXPECT_EQ(complaint("move rackham 1 2 3 4"), "run.journal:7: unexpected '4'");
   EXPECT_EQ(complaint("move \"rackham 1 2"), "run.journal:7: a quote is not closed");
   EXPECT_EQ(complaint("request rackham ndd GoTo 3"), "run.journal:7: expected FIELD=VALUE, found '3'");
