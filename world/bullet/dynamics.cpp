@@ -219,6 +219,7 @@ struct Dynamics::Bodies {
                                   ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
     steps.setGravity({0, 0, -gravity_m_s2});
     steps.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    steps.getDispatchInfo().m_useContinuous = false;
     steps.setForceUpdateAllAabbs(false);
     btContactSolverInfo& info = steps.getSolverInfo();
     info.m_numIterations = iterations;
