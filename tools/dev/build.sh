@@ -17,7 +17,8 @@ configure() {
     for option; do
       option=${option#-D}
       if ! grep -qxF "${option%%=*} = ${option#*=}" "$build/meson-private/cmd_line.txt"; then
-        meson configure "$build" "$@" >&2
+        # Not `meson configure`, which knows the options that there were when build/ was set up.
+        meson setup --reconfigure "$build" "$root" "$@" >&2
         return
       fi
     done
