@@ -43,6 +43,15 @@ std::string late_tasks(const RobotResult& robot) {
   return text;
 }
 
+std::string battery(const RobotResult& robot) {
+  if (!robot.battery) return "";
+  if (robot.battery->empty_at)
+    return fmt::format("  {}: battery empty at {:.1f} s, off from there on\n", robot.name,
+                       robot.battery->empty_at->seconds());
+  return fmt::format("  {}: battery {:.1f} % full, {:.2f} V\n", robot.name, 100 * robot.battery->charge,
+                     robot.battery->volts);
+}
+
 std::string robot_table(const RunResult& result) {
   std::size_t width = 5;
   for (const RobotResult& robot : result.robots) width = std::max(width, robot.name.size());
@@ -90,6 +99,11 @@ Json json_of(const RobotResult& robot) {
     entry["report"] = goal.report;
     if (!goal.report.empty()) entry["time_s"] = goal.date.seconds();
     json["goal_reports"].push_back(std::move(entry));
+  }
+  if (robot.battery) {
+    json["battery_charge"] = robot.battery->charge;
+    json["battery_volts"] = robot.battery->volts;
+    if (robot.battery->empty_at) json["battery_empty_at_s"] = robot.battery->empty_at->seconds();
   }
   if (!robot.late_tasks.empty()) json["late_tasks"] = Json::array();
   for (const bridge::LateTask& task : robot.late_tasks) {
@@ -154,6 +168,9 @@ std::string summary_text(const RunResult& result) {
   std::string unreached;
   for (const RobotResult& robot : result.robots) unreached += unreached_goals(robot);
   if (!unreached.empty()) text += "\n" + unreached;
+  std::string batteries;
+  for (const RobotResult& robot : result.robots) batteries += battery(robot);
+  if (!batteries.empty()) text += "\n" + batteries;
   std::string late;
   for (const RobotResult& robot : result.robots) late += late_tasks(robot);
   if (!late.empty()) text += "\n" + late;

@@ -14,6 +14,8 @@
 
 namespace waitpoint::world {
 
+inline constexpr double gravity_m_s2 = 9.81;
+
 /// An upright solid: a box turned about the vertical, or a cylinder, from z_low_m to z_high_m.
 struct Shape {
   enum class Kind : std::uint8_t { box, cylinder };
@@ -78,6 +80,21 @@ struct BaseDescription {
   double battery_capacity_m = 8000;      ///< until empty, if only driving drained it
 };
 
+/// A pack of accumulators, and what is drawn from it, see vehicles/battery.hpp.
+struct BatteryDescription {
+  double volts_full = 26, volts_empty = 22;  ///< without load
+  double resistance_ohm = 0.05;
+  double resolution_v = 0;  ///< of the voltage that is told; 0: as fine as can be
+  double capacity_ah = 40;  ///< when it is emptied in rated_h
+  double rated_h = 20;
+  double peukert = 1.15;                                                  ///< 1: the same at every current
+  double charge = 1;                                                      ///< at the start, of capacity_ah
+  double off_v = 0;                                                       ///< what it feeds is off below this, too
+  double idle_a = 4;                                                      ///< drawn always
+  double drive_a_per_m_s = 6, turn_a_per_rad_s = 2, climb_a_per_m_s = 0;  ///< and by motion; sinking draws nothing
+  double stalled_a = 0;                                                   ///< and by motors that push against something
+};
+
 /// A robot's body with what is mounted on it.
 struct BodyDescription {
   std::string name;
@@ -89,6 +106,9 @@ struct BodyDescription {
   std::vector<SonarRingDescription> sonars;
   std::optional<BumperDescription> bumpers;
   std::optional<InfraredRingDescription> infrareds;
+  std::optional<ImuDescription> imu;
+  std::optional<PositionReceiverDescription> gps;
+  std::optional<BatteryDescription> battery;  ///< none: the base's figures, and power for ever
 };
 
 /// What finds the hits of planar beams and the obstacles that a body is near to: FCL's trees, or own ones over exact

@@ -69,4 +69,36 @@ struct InfraredRingDescription {
   Duration period = std::chrono::milliseconds(100);
 };
 
+/// Errors of one axis of an inertial sensor, in the unit U of what it measures.
+struct InertialErrors {
+  double noise_per_sqrt_hz = 0;     ///< white: the standard deviation of a mean over one second
+  double bias = 0;                  ///< standard deviation of what is added from switching on
+  double walk_per_sqrt_s = 0;       ///< of how far that has walked off after one second
+  double drift = 0, drift_s = 100;  ///< a bias that wanders about 0: its standard deviation, and for how long it holds
+  double scale = 1;                 ///< measured / true
+  double resolution = 0;            ///< quantisation; 0: as fine as can be
+  double max = 0;                   ///< what is beyond reads this; 0: there is no bound
+};
+
+/// An inertial measurement unit at the body's centre: a gyro about the vertical, three accelerometers.
+struct ImuDescription {
+  InertialErrors gyro;           ///< rad/s
+  InertialErrors accelerometer;  ///< m/s2, each of the three
+  Duration period = std::chrono::milliseconds(10);
+};
+
+/// A receiver of positions in the world's frame, as of satellites.
+struct PositionReceiverDescription {
+  Point antenna = {};  ///< in the body's frame
+  double bias_x_m = 0, bias_y_m = 0;
+  double drift_m = 0,
+         drift_s =
+             300;  ///< an error that wanders about 0: its standard deviation on each axis, and for how long it holds
+  double noise_m = 0;          ///< standard deviation on each axis, anew in every fix
+  double height_factor = 1.5;  ///< those of the height, in those of an axis
+  double resolution_m = 0.01;  ///< quantisation
+  double dropout = 0;          ///< probability that there is no fix
+  Duration period = std::chrono::seconds(1);
+};
+
 }  // namespace waitpoint::world

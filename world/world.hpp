@@ -8,7 +8,7 @@
 //   latch    the commands given since step k - 1; each velocity changes by at most acceleration times the period
 //   move     every body along its arc, to its first contact, found with the arcs of both bodies; or as forces will
 //   publish  {pose, arc}
-//   sense    odometers and batteries; and, whenever asked before step k + 1, scans
+//   sense    odometers, batteries, inertial sensors, receivers; and, whenever asked before step k + 1, scans
 //
 // Sensors see their own body as it is now and the other bodies as published at step k - 1, so that the order in which
 // bodies are asked (or where they are simulated) cannot matter. Before the first step, everything is where it starts.
@@ -82,6 +82,28 @@ struct OdometerReading {
   }
 };
 
+/// What a battery gives.
+struct BatteryState {
+  double volts = 0, current_a = 0;
+  double charge = 1;                      ///< left, of its capacity
+  std::optional<Duration> empty_at = {};  ///< since the start; then what it feeds went off, and stays so
+};
+
+/// Means over the time since the sample before, in the body's frame.
+struct ImuSample {
+  std::uint64_t number = 0;                           ///< of samples so far; 0: none yet
+  double turn_rad_s = 0;                              ///< of the gyro
+  double ahead_m_s2 = 0, left_m_s2 = 0, up_m_s2 = 0;  ///< at rest the last is gravity's
+  double turned_rad = 0;                              ///< what the gyro's samples add up to since the start
+};
+
+/// Where a receiver takes its antenna to be, in the world's frame.
+struct PositionFix {
+  std::uint64_t number = 0;  ///< of fixes so far; 0: none yet
+  Point position;
+  double height_m = 0;
+};
+
 /// One scan of a laser, counter-clockwise, in the device's frame. Reused between scans, it allocates only once.
 struct LaserScan {
   double first_angle_rad = 0, angle_step_rad = 0;
@@ -131,7 +153,11 @@ class World {
   /// What can be pushed, in the order of the obstacles; nothing in a kinematic world.
   virtual std::span<const LooseState> loose() const = 0;
   virtual const OdometerReading& odometer(BodyId id) const = 0;
-  virtual double battery_volts(BodyId id) const = 0;
+  virtual BatteryState battery(BodyId id) const = 0;
+  /// The last sample of the body's inertial measurement unit, which it must have.
+  virtual const ImuSample& imu(BodyId id) const = 0;
+  /// The last fix of the body's receiver, which it must have.
+  virtual const PositionFix& position_fix(BodyId id) const = 0;
 
   /// Scans with the body's laser number `laser`. The noise of beam i is drawn at (scan_number, i): the same scan asked
   /// twice is the same.

@@ -117,6 +117,41 @@ world::BaseDescription read_base(const YamlNode& node) {
   return base;
 }
 
+/// The base's own figures of a battery are for a robot without this.
+void refuse_battery_of_base(const YamlMap& robot) {
+  const YamlNode* base = robot.find("base");
+  if (base == nullptr) return;
+  for (const char* key : {"battery_volts_full", "battery_volts_empty", "battery_capacity_s", "battery_capacity_m"})
+    if (const YamlNode* node = base->find(key))
+      throw node->written.bad("expected either battery or the base's " + std::string(key));
+}
+
+world::BatteryDescription read_battery(const YamlNode& node) {
+  const YamlMap map(
+      node, "the battery",
+      {"volts_full", "volts_empty", "resistance_ohm", "resolution_v", "capacity_ah", "rated_h", "peukert", "charge",
+       "off_v", "idle_a", "drive_a_per_m_s", "turn_a_per_rad_s", "climb_a_per_m_s", "stalled_a"});
+  world::BatteryDescription battery;
+  battery.volts_full = map.number("volts_full", positive_number, battery.volts_full);
+  battery.volts_empty = map.number("volts_empty", number_from_zero, battery.volts_empty);
+  if (battery.volts_empty > battery.volts_full) throw node.written.bad("expected volts_empty to be at most volts_full");
+  battery.resistance_ohm = map.number("resistance_ohm", number_from_zero, battery.resistance_ohm);
+  battery.resolution_v = map.number("resolution_v", number_from_zero, battery.resolution_v);
+  battery.capacity_ah = map.number("capacity_ah", positive_number, battery.capacity_ah);
+  battery.rated_h = map.number("rated_h", positive_number, battery.rated_h);
+  constexpr NumberRange exponent{1, 2, "a number from 1 to 2"};
+  battery.peukert = map.number("peukert", exponent, battery.peukert);
+  constexpr NumberRange part{least_positive, 1, "a part above 0, at most 1"};
+  battery.charge = map.number("charge", part, battery.charge);
+  battery.off_v = map.number("off_v", number_from_zero, battery.off_v);
+  battery.idle_a = map.number("idle_a", number_from_zero, battery.idle_a);
+  battery.drive_a_per_m_s = map.number("drive_a_per_m_s", number_from_zero, battery.drive_a_per_m_s);
+  battery.turn_a_per_rad_s = map.number("turn_a_per_rad_s", number_from_zero, battery.turn_a_per_rad_s);
+  battery.climb_a_per_m_s = map.number("climb_a_per_m_s", number_from_zero, battery.climb_a_per_m_s);
+  battery.stalled_a = map.number("stalled_a", number_from_zero, battery.stalled_a);
+  return battery;
+}
+
 }  // namespace
 
 BodyReading read_body(const YamlMap& robot) {
@@ -151,6 +186,12 @@ BodyReading read_body(const YamlMap& robot) {
   }
   if (const YamlNode* bumpers = robot.find("bumpers")) reading.body.bumpers = read_bumpers(*bumpers);
   if (const YamlNode* infrareds = robot.find("infrareds")) reading.body.infrareds = read_infrareds(*infrareds);
+  if (const YamlNode* imu = robot.find("imu")) reading.body.imu = read_imu(*imu);
+  if (const YamlNode* gps = robot.find("gps")) reading.body.gps = read_gps(*gps);
+  if (const YamlNode* battery = robot.find("battery")) {
+    refuse_battery_of_base(robot);
+    reading.body.battery = read_battery(*battery);
+  }
   return reading;
 }
 

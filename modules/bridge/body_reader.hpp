@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's body as a scenario writes it: `shape` or `urdf`, `base` with its odometry's errors and its battery,
-// `lasers`, `sonars`, `bumpers`, `infrareds`. The keys are the names of the fields in world/description.hpp, angles in
-// degrees where the key says so; what is left out has the value given there.
+// A robot's body as a scenario writes it: `shape` or `urdf`, `base` with its odometry's errors, `battery`, `lasers`,
+// `sonars`, `bumpers`, `infrareds`, `imu`, `gps`. The keys are the names of the fields in world/description.hpp, angles
+// in degrees where the key says so; what is left out has the value given there.
 #pragma once
 
 #include <string>

@@ -139,6 +139,11 @@ RobotResult Robot::result() const {
   const world::BodyState& body = world_.body(body_);
   result.collisions = body.collisions;
   result.distance_m = body.travelled_m;
+  if (scenario_.body.battery) {
+    const world::BatteryState battery = world_.battery(body_);
+    result.battery = {.charge = battery.charge, .volts = battery.volts};
+    if (battery.empty_at) result.battery->empty_at = Time() + *battery.empty_at;
+  }
   evaluation_.write(result);
   for (const auto& module : modules_)
     for (const genom::ExecutionTask& task : module->tasks())

@@ -46,6 +46,8 @@ void RobotBridge::find_device_values() {
   if (robot_.body.bumpers) device_values_.push_back({"bumpers.reading", [this](Row& row) { add_bumper_reading(row); }});
   if (robot_.body.infrareds)
     device_values_.push_back({"infrareds.reading", [this](Row& row) { add_infrared_reading(row); }});
+  if (robot_.body.imu) device_values_.push_back({"imu.reading", [this](Row& row) { add_imu_reading(row); }});
+  if (robot_.body.gps) device_values_.push_back({"gps.reading", [this](Row& row) { add_gps_reading(row); }});
   for (std::size_t i = 0; i < lasers_.size(); ++i) {
     Laser& laser = lasers_[i];
     device_values_.push_back(
@@ -97,7 +99,12 @@ void RobotBridge::add_base_reading(Row& row) {
     reading.turn_units = odometer.turn_units;
     reading.v_m_s = odometer.velocity.v_m_s;
     reading.w_rad_s = odometer.velocity.w_rad_s;
-    reading.battery_volts = world_.battery_volts(body_);
+    const world::BatteryState battery = world_.battery(body_);
+    reading.battery_volts = battery.volts;
+    if (robot_.body.battery) {
+      reading.battery_charge = battery.charge;
+      reading.battery_a = battery.current_a;
+    }
     reading.stalled = world_.body(body_).stalled;
     reading.side_units = odometer.side_units;
     reading.height_m = world_.body(body_).height_m;
@@ -134,6 +141,26 @@ void RobotBridge::add_infrared_reading(Row& row) {
     reading.date = date;
     for (const double volts : infrared_v_) reading.volts.push_back(volts);
     poster.write(reading);
+  };
+}
+
+void RobotBridge::add_imu_reading(Row& row) {
+  row.exchange = [this, &poster = create_poster<posters::Inertial>(row), given = std::uint64_t(0)](Time date) mutable {
+    const world::ImuSample& sample = world_.imu(body_);
+    if (sample.number == given) return;
+    given = sample.number;
+    poster.write({date, sample.number, sample.turn_rad_s, sample.ahead_m_s2, sample.left_m_s2, sample.up_m_s2,
+                  sample.turned_rad});
+  };
+}
+
+void RobotBridge::add_gps_reading(Row& row) {
+  row.exchange = [this, &poster = create_poster<posters::PositionFix>(row),
+                  given = std::uint64_t(0)](Time date) mutable {
+    const world::PositionFix& fix = world_.position_fix(body_);
+    if (fix.number == given) return;
+    given = fix.number;
+    poster.write({date, fix.number, fix.position, fix.height_m});
   };
 }
 
@@ -188,9 +215,11 @@ void RobotBridge::exchange(Time date) {
   threads::record(body_state, world_.body(body_));
   give_arrived(date);
   for (const Row& row : rows_)
-    if (row.exchange != nullptr) row.exchange(date);
+    if (row.exchange != nullptr && powered()) row.exchange(date);
   ++step_;
 }
+
+bool RobotBridge::powered() const { return !robot_.body.battery || !world_.battery(body_).empty_at; }
 
 void RobotBridge::give_arrived(Time now) {
   posters::LaserReading reading;

@@ -6,6 +6,8 @@
 //   base.reading            BaseReading       world -> poster
 //   bumpers.reading         Bumpers           world -> poster
 //   infrareds.reading       InfraredReading   world -> poster
+//   imu.reading             Inertial          world -> poster
+//   gps.reading             PositionFix       world -> poster
 //   <laser's name>.command  LaserCommand      poster -> world
 //   <laser's name>.reading  LaserReading      world -> poster
 //
@@ -14,6 +16,8 @@
 // is a task of its robot in the world's phase; on real threads the world's own thread does it. A command counts as one
 // when it has been given anew: a base's watchdog hears a module that goes on saying the same, and not what it said
 // last.
+//
+// When a robot's battery is empty its devices are off: they give nothing more and take no command.
 //
 // What comes over a serial line is given when its last byte has come, between steps too; on real threads at the first
 // step after that.
@@ -28,6 +32,7 @@
 #include "modules/bridge/scenario.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/posters/base.hpp"
+#include "modules/posters/inertial.hpp"
 #include "modules/posters/laser.hpp"
 #include "world/world.hpp"
 
@@ -86,6 +91,8 @@ class RobotBridge {
   void add_base_reading(Row& row);
   void add_bumper_reading(Row& row);
   void add_infrared_reading(Row& row);
+  void add_imu_reading(Row& row);
+  void add_gps_reading(Row& row);
   void add_laser_command(Row& row, Laser& laser);
   void add_laser_reading(Row& row, Laser& laser);
   template <class T>
@@ -93,6 +100,7 @@ class RobotBridge {
   template <class T>
   void read_command(Row& row, std::function<void(const T&)> take);
   void fire_sonars();
+  bool powered() const;
   std::int64_t times_due(Duration period) const;
   bool due(Duration period) const { return times_due(period) > 0; }
   void give_arrived(Time now);

@@ -146,14 +146,13 @@ const YamlNode& type_of(const YamlMap& robot, const YamlNode* types) {
 
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   const std::string title = name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'";
-  const auto keys = {std::string_view("name"),           std::string_view("type"),
-                     std::string_view("start"),          std::string_view("goals"),
-                     std::string_view("shape"),          std::string_view("base"),
-                     std::string_view("lasers"),         std::string_view("sonars"),
-                     std::string_view("modules"),        std::string_view("bridge"),
-                     std::string_view("executive"),      std::string_view("processors"),
-                     std::string_view("start_height_m"), std::string_view("bumpers"),
-                     std::string_view("infrareds"),      std::string_view("urdf")};
+  const auto keys = {std::string_view("name"),           std::string_view("type"),      std::string_view("start"),
+                     std::string_view("goals"),          std::string_view("shape"),     std::string_view("base"),
+                     std::string_view("lasers"),         std::string_view("sonars"),    std::string_view("modules"),
+                     std::string_view("bridge"),         std::string_view("executive"), std::string_view("processors"),
+                     std::string_view("start_height_m"), std::string_view("bumpers"),   std::string_view("infrareds"),
+                     std::string_view("urdf"),           std::string_view("imu"),       std::string_view("gps"),
+                     std::string_view("battery")};
   const YamlMap own(node, title, keys);
   const std::string name = read_name(own.require("name"), "the name of a robot");
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
@@ -175,8 +174,8 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
 
 void check_robot_type(const YamlEntry& type) {
   read_equipment(YamlMap(type.value, "robot type '" + type.key + "'",
-                         {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "modules", "bridge",
-                          "executive", "processors"}));
+                         {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "imu", "gps", "battery",
+                          "modules", "bridge", "executive", "processors"}));
 }
 
 std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix) {

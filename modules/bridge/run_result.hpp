@@ -60,6 +60,13 @@ struct LateTask {
   Duration greatest_lateness;         ///< after its deadline
 };
 
+/// What is left of a battery at the end.
+struct BatteryResult {
+  double charge = 0;  ///< of its capacity
+  double volts = 0;
+  std::optional<Time> empty_at = {};  ///< when it went off
+};
+
 struct RobotResult {
   std::string name;
   Digest digest;
@@ -73,8 +80,9 @@ struct RobotResult {
   double odometry_error_max_m = 0;   ///< of the odometry alone
   double odometry_error_end_m = 0;   ///< of the odometry alone, at the end
   std::vector<DatedPose> true_path, estimated_path, odometry_path;
-  std::vector<LateTask> late_tasks;  ///< in the order of the modules
-  std::vector<Line> segments;        ///< that localisation built
+  std::vector<LateTask> late_tasks;      ///< in the order of the modules
+  std::optional<BatteryResult> battery;  ///< of a robot that has one which counts
+  std::vector<Line> segments;            ///< that localisation built
 
   std::size_t goals_reached() const {
     std::size_t count = 0;

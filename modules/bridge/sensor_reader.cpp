@@ -57,6 +57,22 @@ void read_laser_timing(const YamlMap& map, bool lms, world::LaserDescription& la
   }
 }
 
+/// Of one sort of axes, in the unit that the key of `node` names.
+world::InertialErrors read_inertial_errors(const YamlNode& node, std::string_view what) {
+  const YamlMap map(node, std::string(what),
+                    {"noise_per_sqrt_hz", "bias", "walk_per_sqrt_s", "drift", "drift_s", "scale", "resolution", "max"});
+  world::InertialErrors errors;
+  errors.noise_per_sqrt_hz = map.number("noise_per_sqrt_hz", number_from_zero, errors.noise_per_sqrt_hz);
+  errors.bias = map.number("bias", number_from_zero, errors.bias);
+  errors.walk_per_sqrt_s = map.number("walk_per_sqrt_s", number_from_zero, errors.walk_per_sqrt_s);
+  errors.drift = map.number("drift", number_from_zero, errors.drift);
+  errors.drift_s = map.number("drift_s", positive_number, errors.drift_s);
+  errors.scale = map.number("scale", positive_number, errors.scale);
+  errors.resolution = map.number("resolution", number_from_zero, errors.resolution);
+  errors.max = map.number("max", positive_number, errors.max);
+  return errors;
+}
+
 /// Each member of a bank once, and time for the echo of each slot to come back before the next.
 void read_firing_order(const YamlNode& node, world::SonarRingDescription& ring) {
   const std::vector<YamlNode>& members = read_list(node, "firing_order");
@@ -180,6 +196,34 @@ world::InfraredRingDescription read_infrareds(const YamlNode& node) {
   ring.resolution_v = map.number("resolution_v", positive_number, ring.resolution_v);
   ring.period = map.duration("period_ms", 1ms, ring.period);
   return ring;
+}
+
+world::ImuDescription read_imu(const YamlNode& node) {
+  const YamlMap map(node, "the imu", {"gyro_rad_s", "accelerometer_m_s2", "period_ms"});
+  world::ImuDescription imu;
+  if (const YamlNode* gyro = map.find("gyro_rad_s")) imu.gyro = read_inertial_errors(*gyro, "gyro_rad_s");
+  if (const YamlNode* accelerometer = map.find("accelerometer_m_s2"))
+    imu.accelerometer = read_inertial_errors(*accelerometer, "accelerometer_m_s2");
+  imu.period = map.duration("period_ms", 1ms, imu.period);
+  return imu;
+}
+
+world::PositionReceiverDescription read_gps(const YamlNode& node) {
+  const YamlMap map(node, "the gps",
+                    {"antenna_m", "bias_x_m", "bias_y_m", "drift_m", "drift_s", "noise_m", "height_factor",
+                     "resolution_m", "dropout", "period_ms"});
+  world::PositionReceiverDescription gps;
+  if (const YamlNode* antenna = map.find("antenna_m")) gps.antenna = read_point(*antenna, "antenna_m");
+  gps.bias_x_m = map.number("bias_x_m", any_number, gps.bias_x_m);
+  gps.bias_y_m = map.number("bias_y_m", any_number, gps.bias_y_m);
+  gps.drift_m = map.number("drift_m", number_from_zero, gps.drift_m);
+  gps.drift_s = map.number("drift_s", positive_number, gps.drift_s);
+  gps.noise_m = map.number("noise_m", number_from_zero, gps.noise_m);
+  gps.height_factor = map.number("height_factor", number_from_zero, gps.height_factor);
+  gps.resolution_m = map.number("resolution_m", number_from_zero, gps.resolution_m);
+  gps.dropout = map.number("dropout", probability, gps.dropout);
+  gps.period = map.duration("period_ms", 1ms, gps.period);
+  return gps;
 }
 
 }  // namespace waitpoint::bridge

@@ -19,5 +19,7 @@ LaserReading read_laser(const YamlNode& node);
 world::SonarRingDescription read_sonar_ring(const YamlNode& node);
 world::BumperDescription read_bumpers(const YamlNode& node);
 world::InfraredRingDescription read_infrareds(const YamlNode& node);
+world::ImuDescription read_imu(const YamlNode& node);
+world::PositionReceiverDescription read_gps(const YamlNode& node);
 
 }  // namespace waitpoint::bridge

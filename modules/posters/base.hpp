@@ -37,14 +37,16 @@ struct BaseReading {
   Bounded<double, sonar_count_max> sonar_m;  ///< ring by ring; no echo: the greatest range; empty while they are off
   std::int64_t side_units = 0;               ///< as travel, to the left: of a base that goes sideways
   double height_m = 0;                       ///< of one that flies
+  double battery_charge = 0, battery_a = 0;  ///< left, of the capacity; drawn: where the battery is one that counts
 
   static constexpr auto fields() {
-    return std::tuple(field("date", &BaseReading::date), field("travel_units", &BaseReading::travel_units),
-                      field("turn_units", &BaseReading::turn_units), field("v_m_s", &BaseReading::v_m_s),
-                      field("w_rad_s", &BaseReading::w_rad_s), field("battery_volts", &BaseReading::battery_volts),
-                      field("stalled", &BaseReading::stalled), field("sonar_m", &BaseReading::sonar_m),
-                      added_field("side_units", &BaseReading::side_units),
-                      added_field("height_m", &BaseReading::height_m));
+    return std::tuple(
+        field("date", &BaseReading::date), field("travel_units", &BaseReading::travel_units),
+        field("turn_units", &BaseReading::turn_units), field("v_m_s", &BaseReading::v_m_s),
+        field("w_rad_s", &BaseReading::w_rad_s), field("battery_volts", &BaseReading::battery_volts),
+        field("stalled", &BaseReading::stalled), field("sonar_m", &BaseReading::sonar_m),
+        added_field("side_units", &BaseReading::side_units), added_field("height_m", &BaseReading::height_m),
+        added_field("battery_charge", &BaseReading::battery_charge), added_field("battery_a", &BaseReading::battery_a));
   }
 };
 
@@ -88,9 +90,11 @@ struct Battery {
   Time date;
   double volts = 0;
   bool low = false;
+  double charge = 0, current_a = 0;  ///< left, of the capacity; drawn: where the battery is one that counts
 
   static constexpr auto fields() {
-    return std::tuple(field("date", &Battery::date), field("volts", &Battery::volts), field("low", &Battery::low));
+    return std::tuple(field("date", &Battery::date), field("volts", &Battery::volts), field("low", &Battery::low),
+                      added_field("charge", &Battery::charge), added_field("current_a", &Battery::current_a));
   }
 };
 

@@ -2,6 +2,7 @@
 #include "modules/rflex/rflex.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace waitpoint::rflex {
 
@@ -42,13 +43,18 @@ Rflex::Rflex(genom::ModuleSetup& setup)
       reference_(read_poster<posters::SpeedReference>(parameters_.speed_poster, false)),
       bumper_reading_(read_poster<posters::Bumpers>("bumper_reading", false)),
       infrared_reading_(read_poster<posters::InfraredReading>("infrared_reading", false)),
+      imu_reading_(read_poster<posters::Inertial>("imu_reading", parameters_.gyro_turns)),
+      gps_reading_(read_poster<posters::PositionFix>("gps_reading", false)),
       command_poster_(add_poster<posters::BaseCommand>("command", motion_, &command_)),
       odometry_(add_poster<posters::Odometry>("odometry", motion_)),
       battery_poster_(add_poster<posters::Battery>("battery", motion_)),
       sonars_(add_poster<posters::Sonars>("sonars", motion_)),
       bumpers_poster_(add_poster<posters::Bumpers>("bumpers", motion_)),
-      infrareds_poster_(add_poster<posters::Infrareds>("infrareds", motion_)) {
+      infrareds_poster_(add_poster<posters::Infrareds>("infrareds", motion_)),
+      imu_poster_(add_poster<posters::Inertial>("imu", motion_)),
+      gps_poster_(add_poster<posters::PositionFix>("gps", motion_)) {
   motion_.set_permanent([this] {
+    take_motion_sensors();
     take_report();
     take_bumpers();
     take_infrareds();
@@ -109,6 +115,38 @@ Rflex::Rflex(genom::ModuleSetup& setup)
                                             activity.output = bumpers_;
                                             return bumpers_.pressed != 0 ? State::ether : State::exec;
                                           }});
+  add_calibration();
+}
+
+void Rflex::add_calibration() {
+  const auto moved = [this] {
+    return report_.travel_units != calibration_report_.travel_units ||
+           report_.turn_units != calibration_report_.turn_units || report_.side_units != calibration_report_.side_units;
+  };
+  add_activity<Nothing, GyroBias>(
+      "CalibrateGyro", motion_,
+      {.start =
+           [this](auto& activity) {
+             if (gyro_.corrected().number == 0) {
+               activity.report = own_report(static_cast<std::uint16_t>(CalibrationReport::no_gyro));
+               return State::ether;
+             }
+             calibration_began_ = threads::now();
+             calibration_report_ = report_;
+             gyro_.begin_calibration();
+             return State::exec;
+           },
+       .exec =
+           [this, moved](auto& activity) {
+             if (moved()) {
+               activity.report = own_report(static_cast<std::uint16_t>(CalibrationReport::moved));
+               return State::ether;
+             }
+             if (threads::now() - calibration_began_ < parameters_.gyro_calibration_ms) return State::exec;
+             activity.output.rad_s = gyro_.end_calibration();
+             return State::ether;
+           }},
+      {"CalibrateGyro"});
 }
 
 // Who is told next where the robot is must not find odometry of the frame before.
@@ -123,10 +161,16 @@ void Rflex::set_position(const Pose& pose) {
 void Rflex::take_report() {
   posters::BaseReading report;
   if (reading_.read(report) == genom::PosterStatus::empty) return;
-  dead_reckoning_.advance(report.date, report.travel_units, report.turn_units, report.side_units);
+  report_ = report;
+  const double gyro_units = gyro_.corrected().turned_rad * parameters_.units_per_rad;
+  const std::int64_t turn_units =
+      parameters_.gyro_turns ? static_cast<std::int64_t>(std::nearbyint(gyro_units)) : report.turn_units;
+  dead_reckoning_.advance(report.date, report.travel_units, turn_units, report.side_units);
   shown_ = {dead_reckoning_.position(), report.v_m_s, report.w_rad_s, report.stalled, report.height_m};
   odometry_.write(*shown_);
-  battery_ = {report.date, report.battery_volts, report.battery_volts < parameters_.battery_low_v};
+  const bool low = report.battery_volts < parameters_.battery_low_v ||
+                   (report.battery_charge > 0 && report.battery_charge < parameters_.battery_low_charge);
+  battery_ = {report.date, report.battery_volts, low, report.battery_charge, report.battery_a};
   battery_poster_.write(battery_);
   if (!report.sonar_m.empty()) show_sonars(report);
 }
@@ -165,6 +209,19 @@ void Rflex::take_infrareds() {
     infrareds.echoes.push_back({ring_mount(i, count, of.ring_radius_m), std::min(range_m, of.range_max_m)});
   }
   infrareds_poster_.write(infrareds);
+}
+
+void Rflex::take_motion_sensors() {
+  posters::Inertial sample;
+  if (imu_reading_.read(sample) != genom::PosterStatus::empty && sample.number != gyro_.corrected().number) {
+    gyro_.add(sample);
+    imu_poster_.write(gyro_.corrected());
+  }
+  posters::PositionFix fix;
+  if (gps_reading_.read(fix) != genom::PosterStatus::empty && fix.number != fix_number_) {
+    fix_number_ = fix.number;
+    gps_poster_.write(fix);
+  }
 }
 
 void Rflex::track_reference() {

@@ -2,11 +2,13 @@
 // The module of the mobile base: speaks to its RFLEX controller, by two posters.
 //
 //   reads    rflex.reading (the controller's reports), and the speed reference's poster (GENPOS_CART_SPEED);
-//            rflex.bumper_reading, rflex.infrared_reading (other ports of the controller), where the robot has them
+//            rflex.bumper_reading, rflex.infrared_reading, rflex.imu_reading, rflex.gps_reading (other ports of the
+//            controller), where the robot has them
 //   writes   rflex.command (to the controller), rflex.odometry, rflex.battery, rflex.sonars, rflex.bumpers,
-//            rflex.infrareds
+//            rflex.infrareds, rflex.imu, rflex.gps
 //   requests TrackSpeedStart, GotoSpeed, Stop (each ends the others); SetPos, SonarOn, SonarOff, InfraredOn,
-//            InfraredOff; MonitorBattery, MonitorBumpers (end when it is low, when one is pressed)
+//            InfraredOff; MonitorBattery, MonitorBumpers (end when it is low, when one is pressed); CalibrateGyro
+//            (fails if the robot moves, or has no gyro)
 //
 // While tracking, a reference that stops being renewed stops the robot: its writer may have died. A base that flies is
 // kept at cruise_height_m meanwhile, whatever the reference says of climbing.
@@ -16,8 +18,10 @@
 
 #include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
+#include "modules/posters/inertial.hpp"
 #include "modules/posters/navigation.hpp"
 #include "modules/rflex/dead_reckoning.hpp"
+#include "modules/rflex/gyro_turn.hpp"
 
 namespace waitpoint::rflex {
 
@@ -50,12 +54,14 @@ struct Parameters {
   double units_per_m = 103000, units_per_rad = 35000;  ///< of a B21r's controller
   std::string speed_poster = "ndd.speed";              ///< what TrackSpeedStart tracks
   Duration reference_timeout_ms = std::chrono::milliseconds(500);
-  double battery_low_v = 22.5;
-  double sonar_ring_radius_m = 0.25;  ///< of the only ring of sonars
+  double battery_low_v = 22.5, battery_low_charge = 0;  ///< what is below one of these is low
+  double sonar_ring_radius_m = 0.25;                    ///< of the only ring of sonars
   double cruise_height_m = 0;         ///< that tracking climbs to and holds; 0: it climbs as the reference says
   double climb_m_s_max = 0.5;         ///< towards it
   Bounded<SonarRing, 4> sonar_rings;  ///< if there are several; sonars beyond their count are not shown
   InfraredCalibration infrared;
+  bool gyro_turns = false;  ///< whether odometry takes its turns from the gyro, which then must be there
+  Duration gyro_calibration_ms = std::chrono::seconds(5);
 
   static constexpr auto fields() {
     return std::tuple(
@@ -65,7 +71,9 @@ struct Parameters {
         field("battery_low_v", &Parameters::battery_low_v),
         field("sonar_ring_radius_m", &Parameters::sonar_ring_radius_m),
         field("cruise_height_m", &Parameters::cruise_height_m), field("climb_m_s_max", &Parameters::climb_m_s_max),
-        field("sonar_rings", &Parameters::sonar_rings), field("infrared", &Parameters::infrared));
+        field("sonar_rings", &Parameters::sonar_rings), field("infrared", &Parameters::infrared),
+        field("battery_low_charge", &Parameters::battery_low_charge), field("gyro_turns", &Parameters::gyro_turns),
+        field("gyro_calibration_ms", &Parameters::gyro_calibration_ms));
   }
 };
 
@@ -79,6 +87,16 @@ struct SpeedInput {
   }
 };
 
+/// How CalibrateGyro can fail, beside being interrupted.
+enum class CalibrationReport : std::uint16_t { no_gyro = genom::first_own_report, moved };
+
+/// Output of CalibrateGyro.
+struct GyroBias {
+  double rad_s = 0;
+
+  static constexpr auto fields() { return std::tuple(field("rad_s", &GyroBias::rad_s)); }
+};
+
 class Rflex : public genom::Module {
  public:
   explicit Rflex(genom::ModuleSetup& setup);
@@ -90,6 +108,8 @@ class Rflex : public genom::Module {
   void show_sonars(const posters::BaseReading& report);
   void take_bumpers();
   void take_infrareds();
+  void take_motion_sensors();
+  void add_calibration();
   void track_reference();
   void drive(double v_m_s, double w_rad_s, double side_m_s, double climb_m_s);
 
@@ -100,6 +120,8 @@ class Rflex : public genom::Module {
   genom::PosterLink<posters::SpeedReference>& reference_;
   genom::PosterLink<posters::Bumpers>& bumper_reading_;
   genom::PosterLink<posters::InfraredReading>& infrared_reading_;
+  genom::PosterLink<posters::Inertial>& imu_reading_;
+  genom::PosterLink<posters::PositionFix>& gps_reading_;
   posters::BaseCommand command_;
   genom::OutputPoster<posters::BaseCommand>& command_poster_;
   genom::OutputPoster<posters::Odometry>& odometry_;
@@ -107,10 +129,16 @@ class Rflex : public genom::Module {
   genom::OutputPoster<posters::Sonars>& sonars_;
   genom::OutputPoster<posters::Bumpers>& bumpers_poster_;
   genom::OutputPoster<posters::Infrareds>& infrareds_poster_;
+  genom::OutputPoster<posters::Inertial>& imu_poster_;
+  genom::OutputPoster<posters::PositionFix>& gps_poster_;
   std::optional<posters::Odometry> shown_;  // by the odometry poster
   posters::Battery battery_;
   posters::Bumpers bumpers_;
   bool infrared_on_ = false;
+  GyroTurn gyro_;
+  std::uint64_t fix_number_ = 0;
+  Time calibration_began_;
+  posters::BaseReading report_, calibration_report_;
   std::uint32_t reference_number_ = 0;
   Time reference_renewed_;
 };

@@ -45,6 +45,21 @@ TEST(SummaryJson, has_the_same_figures_for_each_robot) {
   EXPECT_EQ(robots[0].at("goal_reports").at(1).at("report"), "no way");
 }
 
+TEST(SummaryJson, has_the_batteries_that_count) {
+  bridge::RunResult result = sample_result(2);
+  result.robots[0].battery = {.charge = 0.25, .volts = 23.5};
+  result.robots[1].battery = {.charge = 0, .volts = 22, .empty_at = Time::from_ns(7'200'000'000)};
+  const Json robots = Json::parse(summary_json(result)).at("robots");
+  EXPECT_EQ(robots[0].at("battery_charge"), 0.25);
+  EXPECT_EQ(robots[0].at("battery_volts"), 23.5);
+  EXPECT_FALSE(robots[0].contains("battery_empty_at_s"));
+  EXPECT_EQ(robots[1].at("battery_empty_at_s"), 7.2);
+  EXPECT_FALSE(Json::parse(summary_json(sample_result())).at("robots")[0].contains("battery_charge"));
+  const std::string text = summary_text(result);
+  EXPECT_NE(text.find("one: battery 25.0 % full, 23.50 V\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("second: battery empty at 7.2 s, off from there on\n"), std::string::npos) << text;
+}
+
 TEST(SummaryJson, of_several_runs_is_a_list) {
   const std::vector<bridge::RunResult> results = {sample_result(1), sample_result(2)};
   const Json json = Json::parse(summary_json(std::span<const bridge::RunResult>(results)));

@@ -243,7 +243,7 @@ TEST(World, ResetRunsTheSameAgainAndAnotherSeedDrawsOtherNoise) {
       for (const double range : sonar) digest.add(range);
       add_value(digest, world->body(BodyId(0)));
       add_value(digest, world->odometer(BodyId(0)));
-      digest.add(world->battery_volts(BodyId(0)));
+      digest.add(world->battery(BodyId(0)).volts);
     }
     return digest;
   };

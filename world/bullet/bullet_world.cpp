@@ -74,10 +74,12 @@ class BulletWorld final : public World {
   const BodyState& body(BodyId id) const override { return vehicles_.at(index(id)).state(); }
   std::span<const LooseState> loose() const override { return loose_; }
   const OdometerReading& odometer(BodyId id) const override { return vehicles_.at(index(id)).odometer(); }
-  double battery_volts(BodyId id) const override;
+  BatteryState battery(BodyId id) const override { return vehicles_.at(index(id)).battery(elapsed_s()); }
+  const ImuSample& imu(BodyId id) const override { return senses_.imu(number(id)); }
+  const PositionFix& position_fix(BodyId id) const override { return senses_.position_fix(number(id)); }
 
   void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const override {
-    senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, static_cast<double>(steps_) * step_s_, out);
+    senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, elapsed_s(), out);
   }
   void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const override {
     senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
@@ -98,6 +100,7 @@ class BulletWorld final : public World {
     std::uint64_t last_step;
   };
 
+  double elapsed_s() const { return static_cast<double>(steps_) * step_s_; }
   void show();
   void latch();
   void move();
@@ -246,7 +249,7 @@ void BulletWorld::exert(const Push& push) {
 void BulletWorld::publish() {
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
     vehicles_[i].publish(steps_, description_.step, arcs_[i], dynamics_->motion(i));
-    senses_.moved(i, vehicles_[i].state().arc);
+    senses_.moved(i, vehicles_[i], steps_);
   }
   for (std::uint32_t i = 0; i < loose_.size(); ++i) {
     // What fell asleep in this step has moved in it.
@@ -352,12 +355,6 @@ std::optional<std::string> BulletWorld::push(const std::string& name, Point forc
   const auto lasts = static_cast<std::uint64_t>((time + step - Duration::from_ns(1)) / step);
   if (lasts > 0) pushes_.push_back({name, force_n, steps_ + lasts});
   return std::nullopt;
-}
-
-double BulletWorld::battery_volts(BodyId id) const {
-  const Vehicle& vehicle = vehicles_.at(index(id));
-  return world::battery_volts(vehicle.description().base, static_cast<double>(steps_) * step_s_,
-                              vehicle.state().travelled_m);
 }
 
 }  // namespace

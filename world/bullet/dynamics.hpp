@@ -20,7 +20,6 @@
 
 namespace waitpoint::world {
 
-inline constexpr double gravity_m_s2 = 9.81;
 /// Of hulls; of floor and standing solids it is 1.
 inline constexpr double hull_friction = 0.5;
 

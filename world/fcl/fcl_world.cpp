@@ -49,10 +49,12 @@ class FclWorld final : public World {
   const BodyState& body(BodyId id) const override { return vehicles_.at(index(id)).state(); }
   std::span<const LooseState> loose() const override { return {}; }
   const OdometerReading& odometer(BodyId id) const override { return vehicles_.at(index(id)).odometer(); }
-  double battery_volts(BodyId id) const override;
+  BatteryState battery(BodyId id) const override { return vehicles_.at(index(id)).battery(elapsed_s()); }
+  const ImuSample& imu(BodyId id) const override { return senses_.imu(number(id)); }
+  const PositionFix& position_fix(BodyId id) const override { return senses_.position_fix(number(id)); }
 
   void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const override {
-    senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, static_cast<double>(steps_) * step_s_, out);
+    senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, elapsed_s(), out);
   }
   void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const override {
     senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
@@ -66,6 +68,7 @@ class FclWorld final : public World {
   }
 
  private:
+  double elapsed_s() const { return static_cast<double>(steps_) * step_s_; }
   void latch();
   void move();
   void find_meetings(std::uint32_t body, double path_max_m, double climb_max_m);
@@ -170,7 +173,7 @@ void FclWorld::find_meetings(std::uint32_t body, double path_max_m, double climb
 void FclWorld::publish() {
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
     vehicles_[i].publish(steps_, description_.step, arcs_[i], contacts_.stop(i));
-    senses_.moved(i, vehicles_[i].state().arc);
+    senses_.moved(i, vehicles_[i], steps_);
   }
 }
 
@@ -234,12 +237,6 @@ void FclWorld::change_obstacles(std::vector<Obstacle> obstacles) {
   description_.obstacles = std::move(obstacles);
   senses_.stand(shapes_of(description_.obstacles));
   footprints_ = footprints_of(description_);
-}
-
-double FclWorld::battery_volts(BodyId id) const {
-  const Vehicle& vehicle = vehicles_.at(index(id));
-  return world::battery_volts(vehicle.description().base, static_cast<double>(steps_) * step_s_,
-                              vehicle.state().travelled_m);
 }
 
 }  // namespace

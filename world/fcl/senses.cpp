@@ -61,6 +61,8 @@ Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64
     : trail(longest_scan_s(body), step_s, body.start), infrared_noise(world::infrared_noise(seed, body.name)) {
   for (std::size_t i = 0; i < body.lasers.size(); ++i) lasers.emplace_back(body.lasers[i], seed, body.name, i);
   for (std::size_t i = 0; i < body.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, body.name, i));
+  if (body.imu) imu = std::make_unique<Imu>(*body.imu, seed, body.name);
+  if (body.gps) gps = std::make_unique<PositionReceiver>(*body.gps, seed, body.name);
 }
 
 Senses::Senses(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers)
@@ -77,6 +79,25 @@ void Senses::restart(std::uint64_t seed) {
   devices_.clear();
   for (const BodyDescription& body : description_.bodies)
     devices_.emplace_back(body, description_.step.seconds(), seed);
+}
+
+void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t step) {
+  Devices& devices = devices_[body];
+  const BodyState& state = vehicle.state();
+  devices.trail.add(state.arc);
+  const Duration now = description_.step * static_cast<std::int64_t>(step);
+  if (devices.imu) devices.imu->add(now, description_.step, state.arc, state.velocity);
+  if (devices.gps) devices.gps->add(now, description_.step, state.pose, state.height_m);
+}
+
+const ImuSample& Senses::imu(std::uint32_t own) const {
+  WAITPOINT_CHECK(devices_.at(own).imu != nullptr, "a body without an inertial measurement unit is asked for it");
+  return devices_[own].imu->sample();
+}
+
+const PositionFix& Senses::position_fix(std::uint32_t own) const {
+  WAITPOINT_CHECK(devices_.at(own).gps != nullptr, "a body without a receiver of positions is asked for it");
+  return devices_[own].gps->fix();
 }
 
 void Senses::stand(std::span<const Shape> standing) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,7 +16,9 @@
 #include "world/fcl/scene.hpp"
 #include "world/fcl/sonar_echoes.hpp"
 #include "world/sensors/arc_trail.hpp"
+#include "world/sensors/imu.hpp"
 #include "world/sensors/laser.hpp"
+#include "world/sensors/position_receiver.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::world {
@@ -48,8 +51,8 @@ class Senses {
 
   // What happens to a body.
 
-  /// It has moved on that arc, in a step.
-  void moved(std::uint32_t body, const Arc& arc) { devices_[body].trail.add(arc); }
+  /// It, which is `vehicle`, has done step number `step`.
+  void moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t step);
   /// A hand has put it there.
   void put(std::uint32_t body, const Pose& pose) { devices_[body].trail.restart(pose); }
 
@@ -63,6 +66,8 @@ class Senses {
   void infrareds(const Vehicle& vehicle, std::uint32_t own, std::uint64_t reading_number,
                  std::vector<double>& volts) const;
   double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const;
+  const ImuSample& imu(std::uint32_t own) const;
+  const PositionFix& position_fix(std::uint32_t own) const;
 
  private:
   /// A body's, that remember something.
@@ -71,6 +76,8 @@ class Senses {
     std::vector<Laser> lasers;
     std::vector<RandomStream> sonar_noise;
     RandomStream infrared_noise;
+    std::unique_ptr<Imu> imu;               // null for a body without one
+    std::unique_ptr<PositionReceiver> gps;  // likewise
 
     Devices(const BodyDescription& body, double step_s, std::uint64_t seed);
   };

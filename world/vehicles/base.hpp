@@ -16,6 +16,7 @@
 
 #include "world/arc.hpp"
 #include "world/description.hpp"
+#include "world/world.hpp"
 
 namespace waitpoint::world {
 
@@ -40,7 +41,8 @@ BaseMotion next_motion(const BaseDescription& base, const BaseMotion& now, Veloc
 /// those roll that can.
 Arc as_wheels_count(const BaseDescription& base, const Arc& arc);
 
-/// The battery's voltage, falling linearly from full to empty with the time since the start and the distance driven.
-double battery_volts(const BaseDescription& base, double elapsed_s, double travelled_m);
+/// The battery that the base has where no other is described: its voltage falls linearly from full to empty with the
+/// time since the start and the distance driven, its power ends never.
+BatteryState base_battery(const BaseDescription& base, double elapsed_s, double travelled_m);
 
 }  // namespace waitpoint::world

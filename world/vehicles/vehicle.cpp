@@ -23,6 +23,7 @@ bool held(const Arc& tried, const Arc& came) {
 
 Vehicle::Vehicle(const BodyDescription& description, std::uint64_t seed)
     : description_(&description), odometer_(description.base, seed, description.name) {
+  if (description.battery) battery_.emplace(*description.battery);
   state_.height_m = description.start_height_m;
   put(description.start);
 }
@@ -30,16 +31,21 @@ Vehicle::Vehicle(const BodyDescription& description, std::uint64_t seed)
 void Vehicle::command(Velocity velocity, std::uint64_t steps) {
   for (const double v : {velocity.v_m_s, velocity.w_rad_s, velocity.side_m_s, velocity.climb_m_s})
     WAITPOINT_CHECK(v == v, "a velocity of NaN");
-  wanted_ = velocity;
+  commanded_ = velocity;
   commanded_at_ = steps;
 }
 
-Arc Vehicle::latch(std::uint64_t step, Duration period) {
+Velocity Vehicle::wanted(std::uint64_t step, Duration period) const {
   const BaseDescription& base = description_->base;
-  const double period_s = period.seconds();
+  if (battery_ && battery_->empty()) return {.climb_m_s = -base.climb_max_m_s};
   const Duration silent = period * static_cast<std::int64_t>(step - 1 - commanded_at_);
   const bool heard = base.watchdog == Duration() || silent <= base.watchdog;
-  motion_ = next_motion(base, motion_, heard ? wanted_ : Velocity(), period_s);
+  return heard ? commanded_ : Velocity();
+}
+
+Arc Vehicle::latch(std::uint64_t step, Duration period) {
+  const double period_s = period.seconds();
+  motion_ = next_motion(description_->base, motion_, wanted(step, period), period_s);
   Arc arc = Arc::of(state_.pose, motion_.velocity, period_s);
   if (state_.height_m + arc.climb_m < 0) {  // the floor holds it
     arc.climb_m = -state_.height_m;
@@ -81,6 +87,11 @@ void Vehicle::go(std::uint64_t step, Duration period, const Arc& arc) {
     state_.travelled_m += arc.length_m();
   }
   odometer_.add(step, period.seconds(), as_wheels_count(description_->base, arc));
+  if (battery_) battery_->draw(period * static_cast<std::int64_t>(step), period, state_.velocity, state_.stalled);
+}
+
+BatteryState Vehicle::battery(double elapsed_s) const {
+  return battery_ ? battery_->state() : base_battery(description_->base, elapsed_s, state_.travelled_m);
 }
 
 void Vehicle::put(const Pose& pose) {

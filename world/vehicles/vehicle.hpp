@@ -7,6 +7,7 @@
 
 #include "world/planar/outline.hpp"
 #include "world/vehicles/base.hpp"
+#include "world/vehicles/battery.hpp"
 #include "world/vehicles/odometer.hpp"
 
 namespace waitpoint::world {
@@ -27,6 +28,8 @@ class Vehicle {
   const BodyDescription& description() const { return *description_; }
   const BodyState& state() const { return state_; }
   const OdometerReading& odometer() const { return odometer_.reading(); }
+  /// So long after the start.
+  BatteryState battery(double elapsed_s) const;
   /// Where it stands.
   const Outline& outline() const { return outline_; }
   /// Its shape in the body's frame, as high as it is now.
@@ -34,7 +37,8 @@ class Vehicle {
 
   /// Takes over a command that was given after `steps` steps.
   void command(Velocity velocity, std::uint64_t steps);
-  /// Begins step number `step`, of that period: changes the velocity, and says how it would move at it.
+  /// Begins step number `step`, of that period: changes the velocity, and says how it would move at it. With an empty
+  /// battery it brakes to stand still, and what flies sinks to the floor.
   Arc latch(std::uint64_t step, Duration period);
   /// Ends it: the body has moved on that arc, unless a contact stopped it at a fraction of it.
   void publish(std::uint64_t step, Duration period, const Arc& arc, std::optional<double> stop);
@@ -48,14 +52,16 @@ class Vehicle {
  private:
   void note_contact(bool stalled, bool tried);
   void go(std::uint64_t step, Duration period, const Arc& arc);
+  Velocity wanted(std::uint64_t step, Duration period) const;
 
   const BodyDescription* description_;
   BodyState state_;
-  Velocity wanted_;
+  Velocity commanded_;
   std::uint64_t commanded_at_ = 0;  // step
   BaseMotion motion_;               // from which the base goes on
   Outline outline_;                 // at state_.pose
   Odometer odometer_;
+  std::optional<Battery> battery_;
 };
 
 }  // namespace waitpoint::world

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "modules/genom/client.hpp"
 #include "tests/modules/on_threads.hpp"
 
@@ -60,6 +62,47 @@ TEST(MonitorBumpers, EndsWithThePanelThatIsPressed) {
     EXPECT_EQ(reply.output.as<posters::Bumpers>().pressed, 1u << 5);
     EXPECT_GE(threads::now() - asked, Duration(std::chrono::milliseconds(100)));
     wall.join();
+    EXPECT_TRUE(client.end_module("rflex"));
+    rflex.join();
+  });
+}
+
+TEST(CalibrateGyro, FailsWithoutAGyroAndWhereTheRobotMoves) {
+  on_threads([] {
+    genom::NameSpace names;
+    genom::ModuleSetup setup{names, "rflex", genom::Settings({{"gyro_calibration_ms", "200", "", 0}})};
+    Rflex rflex(setup);
+    auto& controller = names.create_poster<posters::BaseReading>("rflex.reading", "the test");
+    auto& imu = names.create_poster<posters::Inertial>("rflex.imu_reading", "the test");
+    rflex.connect();
+    rflex.start();
+    genom::Client client(names, "client");
+    const auto calibrated = [&] { return client.call("rflex", "CalibrateGyro", genom::Nothing()); };
+    EXPECT_EQ(genom::code_of(calibrated().report), static_cast<std::uint16_t>(CalibrationReport::no_gyro));
+    std::atomic<bool> turning = false, done = false;
+    threads::thread devices([&] {
+      const Time started = threads::now();
+      for (std::uint64_t i = 1; !done; ++i) {
+        posters::Inertial sample;
+        sample.date = threads::now();
+        sample.number = i;
+        sample.turned_rad = 0.02 * (sample.date - started).seconds();
+        imu.write(sample);
+        posters::BaseReading reading;
+        reading.date = sample.date;
+        reading.turn_units = turning ? static_cast<std::int64_t>(i) : 0;
+        controller.write(reading);
+        threads::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    });
+    threads::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const genom::Reply reply = calibrated();
+    EXPECT_EQ(reply.report, genom::ok);
+    EXPECT_NEAR(reply.output.as<GyroBias>().rad_s, 0.02, 1e-9);
+    turning = true;
+    EXPECT_EQ(genom::code_of(calibrated().report), static_cast<std::uint16_t>(CalibrationReport::moved));
+    done = true;
+    devices.join();
     EXPECT_TRUE(client.end_module("rflex"));
     rflex.join();
   });

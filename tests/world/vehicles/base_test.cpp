@@ -64,10 +64,10 @@ TEST(Battery, FallsWithTimeAndDistanceAndStaysAtEmpty) {
   BaseDescription base;
   base.battery_capacity_s = 1000;
   base.battery_capacity_m = 500;
-  EXPECT_EQ(battery_volts(base, 0, 0), 26);
-  EXPECT_NEAR(battery_volts(base, 500, 0), 24, 1e-12);
-  EXPECT_NEAR(battery_volts(base, 250, 125), 24, 1e-12);
-  EXPECT_EQ(battery_volts(base, 5000, 0), 22);
+  EXPECT_EQ(base_battery(base, 0, 0).volts, 26);
+  EXPECT_NEAR(base_battery(base, 500, 0).volts, 24, 1e-12);
+  EXPECT_NEAR(base_battery(base, 250, 125).volts, 24, 1e-12);
+  EXPECT_EQ(base_battery(base, 5000, 0).volts, 22);
 }
 
 }  // namespace

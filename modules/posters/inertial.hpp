@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a robot senses of its own motion beside its wheels: an inertial measurement unit, a receiver of positions.
+#pragma once
+
+#include "core/fields.hpp"
+
+namespace waitpoint::posters {
+
+/// From the device, and so by `rflex`: means over the time since the sample before, in the robot's frame.
+struct Inertial {
+  Time date;
+  std::uint64_t number = 0;  ///< counts the samples
+  double turn_rad_s = 0;
+  double ahead_m_s2 = 0, left_m_s2 = 0, up_m_s2 = 0;  ///< at rest the last is gravity's
+  double turned_rad = 0;                              ///< what the turn adds up to since the start
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &Inertial::date), field("number", &Inertial::number),
+                      field("turn_rad_s", &Inertial::turn_rad_s), field("ahead_m_s2", &Inertial::ahead_m_s2),
+                      field("left_m_s2", &Inertial::left_m_s2), field("up_m_s2", &Inertial::up_m_s2),
+                      field("turned_rad", &Inertial::turned_rad));
+  }
+};
+
+/// From the device, and so by `rflex`: where its antenna is, in the world's frame.
+struct PositionFix {
+  Time date;
+  std::uint64_t number = 0;  ///< counts the fixes
+  Point position;
+  double height_m = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(field("date", &PositionFix::date), field("number", &PositionFix::number),
+                      field("position", &PositionFix::position), field("height_m", &PositionFix::height_m));
+  }
+};
+
+}  // namespace waitpoint::posters

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A receiver of positions: its errors against the closed forms in world/sensors/position_receiver.hpp.
+#include "world/sensors/position_receiver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/world/scenes.hpp"
+#include "tests/world/sensors/statistics.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+const Duration second = std::chrono::seconds(1);
+constexpr int fixes = 400'000;
+
+/// The x positions, or those of another axis, of a receiver that stands at (2, -1), 5 m high, a fix a second.
+std::vector<double> record(const PositionReceiverDescription& description, char axis = 'x') {
+  PositionReceiver receiver(description, 1, "robot");
+  std::vector<double> values;
+  for (int i = 1; i <= fixes; ++i) {
+    receiver.add(i * second, second, {2, -1, 0}, 5);
+    const PositionFix& fix = receiver.fix();
+    values.push_back(axis == 'x' ? fix.position.x : axis == 'y' ? fix.position.y : fix.height_m);
+  }
+  return values;
+}
+
+TEST(PositionReceiver, IsRightUpToItsResolutionWithoutKeysAndGivesItsAntennaAtItsTimes) {
+  WorldDescription description;
+  description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {2, 3, exact::pi / 2}));
+  description.bodies[0].gps =
+      PositionReceiverDescription{.antenna = {0.3, 0.1}, .period = std::chrono::milliseconds(500)};
+  const auto world = make_fcl_world(description, 1);
+  for (int i = 1; i <= 49; ++i) world->step();
+  EXPECT_EQ(world->position_fix(BodyId(0)).number, 0u);
+  world->step();
+  EXPECT_EQ(world->position_fix(BodyId(0)).number, 1u);
+  EXPECT_NEAR(world->position_fix(BodyId(0)).position.x, 2 - 0.1, 0.005 + 1e-9);
+  EXPECT_NEAR(world->position_fix(BodyId(0)).position.y, 3 + 0.3, 0.005 + 1e-9);
+}
+
+TEST(PositionReceiver, BiasAndNoiseAreThoseOfItsKeys) {
+  PositionReceiverDescription description = {.bias_x_m = 1.5, .bias_y_m = -0.5, .noise_m = 0.4, .resolution_m = 0};
+  const Statistics x = statistics_of(record(description)), y = statistics_of(record(description, 'y'));
+  const double mean_error = 4 * 0.4 / std::sqrt(fixes);
+  EXPECT_NEAR(x.mean, 3.5, mean_error);
+  EXPECT_NEAR(y.mean, -1.5, mean_error);
+  EXPECT_NEAR(x.deviation, 0.4, 0.004);
+  EXPECT_NEAR(y.deviation, 0.4, 0.004);
+  const Statistics height = statistics_of(record(description, 'h'));
+  EXPECT_NEAR(height.mean, 5, 1.5 * mean_error);
+  EXPECT_NEAR(height.deviation, 0.6, 0.006);
+}
+
+// About fixes / (2 tau) of the differences are independent: their variance is known to 1.5 %.
+TEST(PositionReceiver, FixesThatAreApartDifferByWhatHasWanderedOff) {
+  const double drift = 2, tau = 20, noise = 0.3;
+  const std::vector<double> x = record({.drift_m = drift, .drift_s = tau, .noise_m = noise, .resolution_m = 0});
+  for (const std::size_t apart : {1u, 5u, 20u, 60u}) {
+    double squares = 0;
+    for (std::size_t i = 0; i + apart < x.size(); ++i) squares += (x[i + apart] - x[i]) * (x[i + apart] - x[i]);
+    const double measured = squares / static_cast<double>(x.size() - apart);
+    const double expected = 2 * drift * drift * (1 - std::exp(-static_cast<double>(apart) / tau)) + 2 * noise * noise;
+    EXPECT_NEAR(measured / expected, 1, 0.06) << apart << " s";
+  }
+  EXPECT_NEAR(statistics_of(x).deviation, std::sqrt(drift * drift + noise * noise), 0.03 * drift);
+}
+
+TEST(PositionReceiver, SoManyFixesFail) {
+  PositionReceiver receiver({.dropout = 0.1}, 1, "robot");
+  for (int i = 1; i <= fixes; ++i) receiver.add(i * second, second, Pose(), 0);
+  EXPECT_NEAR(static_cast<double>(receiver.fix().number) / fixes, 0.9, 4 * std::sqrt(0.1 * 0.9 / fixes));
+}
+
+TEST(PositionReceiver, ADropoutChangesNoOtherFix) {
+  PositionReceiverDescription sure = {.drift_m = 1, .noise_m = 1}, failing = sure;
+  failing.dropout = 0.5;
+  PositionReceiver a(sure, 1, "robot"), b(failing, 1, "robot");
+  std::uint64_t seen = 0;
+  for (int i = 1; i <= 100; ++i) {
+    a.add(i * second, second, Pose(), 0);
+    b.add(i * second, second, Pose(), 0);
+    if (b.fix().number == seen) continue;
+    seen = b.fix().number;
+    EXPECT_EQ(a.fix().position, b.fix().position);
+  }
+  EXPECT_GT(seen, 20u);
+  EXPECT_LT(seen, 80u);
+}
+
+}  // namespace
+}  // namespace waitpoint::world

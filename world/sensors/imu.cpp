@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/sensors/imu.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace waitpoint::world {
+
+Imu::Axis::Axis(const InertialErrors& errors, std::uint64_t seed, std::string_view robot, const std::string& name)
+    : errors_(errors),
+      noise_(seed, robot, name + ".noise"),
+      walk_(seed, robot, name + ".walk"),
+      drift_(seed, robot, name + ".drift"),
+      bias_(errors.bias * RandomStream(seed, robot, name + ".bias").normal(0)),
+      wandered_(errors.drift * drift_.normal(0)) {}
+
+double Imu::Axis::take(std::uint64_t number, double elapsed_s) {
+  const InertialErrors& e = errors_;
+  const double root_s = std::sqrt(elapsed_s);
+  double reading = e.scale * (sum_ / elapsed_s) + bias_ + wandered_;
+  sum_ = 0;
+  if (e.noise_per_sqrt_hz > 0) reading += e.noise_per_sqrt_hz / root_s * noise_.normal(number);
+  if (e.walk_per_sqrt_s > 0) bias_ += e.walk_per_sqrt_s * root_s * walk_.normal(number);
+  if (e.drift > 0) {
+    const double kept = exact::exp(-elapsed_s / e.drift_s);
+    wandered_ = kept * wandered_ + e.drift * std::sqrt(1 - kept * kept) * drift_.normal(number);
+  }
+  if (e.max > 0) reading = std::clamp(reading, -e.max, e.max);
+  return e.resolution > 0 ? std::nearbyint(reading / e.resolution) * e.resolution : reading;
+}
+
+Imu::Imu(const ImuDescription& description, std::uint64_t seed, std::string_view robot)
+    : period_(description.period),
+      gyro_(description.gyro, seed, robot, "imu.gyro"),
+      ahead_(description.accelerometer, seed, robot, "imu.ahead"),
+      left_(description.accelerometer, seed, robot, "imu.left"),
+      up_(description.accelerometer, seed, robot, "imu.up") {}
+
+void Imu::add(Duration now, Duration step, const Arc& arc, const Velocity& velocity) {
+  const double step_s = step.seconds();
+  const double turn_rad_s = arc.turn_rad / step_s;
+  gyro_.add(arc.turn_rad);
+  // The velocity is told in a frame that turns.
+  ahead_.add(velocity.v_m_s - velocity_.v_m_s - arc.side_m * turn_rad_s);
+  left_.add(velocity.side_m_s - velocity_.side_m_s + arc.distance_m * turn_rad_s);
+  up_.add(velocity.climb_m_s - velocity_.climb_m_s + gravity_m_s2 * step_s);
+  velocity_ = velocity;
+  summed_ += step;
+  if (now / period_ == (now - step) / period_) return;
+  const double elapsed_s = summed_.seconds();
+  summed_ = Duration();
+  const std::uint64_t number = ++sample_.number;
+  sample_.turn_rad_s = gyro_.take(number, elapsed_s);
+  sample_.ahead_m_s2 = ahead_.take(number, elapsed_s);
+  sample_.left_m_s2 = left_.take(number, elapsed_s);
+  sample_.up_m_s2 = up_.take(number, elapsed_s);
+  sample_.turned_rad += sample_.turn_rad_s * elapsed_s;
+}
+
+}  // namespace waitpoint::world

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An inertial measurement unit in the plane: a gyro about the vertical, and accelerometers ahead, to the left and up.
+//
+// A sample is the mean over the time T since the last one, with errors of the usual kinds, on each axis of its own:
+//
+//   reading = s truth + b + d + N n / sqrt(T)               white noise
+//   b' = b + K sqrt(T) n        b ~ N(0, B)                 a bias that walks from the one at switching on
+//   d' = p d + D sqrt(1 - p^2) n,  p = e^(-T/tau)           a bias that wanders about 0 (first-order Gauss-Markov)
+//
+// so the angle that is integrated from the gyro has the variance N^2 t + B^2 t^2 + K^2 t^3 / 3 + 2 D^2 tau (t - tau (1
+// - e^(-t/tau))), and the Allan variance over t is N^2 / t + K^2 t / 3 + (2 D^2 tau / t) (1 - tau / (2 t) (3 - 4
+// e^(-t/tau)
+// + e^(-2t/tau))) (IEEE Std 952, annexes B and C). Accelerometers measure what holds the body, gravity too: at rest the
+// one that looks up reads 9.81.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/random.hpp"
+#include "world/arc.hpp"
+#include "world/sensor_description.hpp"
+#include "world/world.hpp"
+
+namespace waitpoint::world {
+
+class Imu {
+ public:
+  /// Draws from the streams (seed, robot, "imu.gyro.noise"), likewise ".bias", ".walk" and ".drift", and those of
+  /// "imu.ahead", "imu.left" and "imu.up", at tick = number of the sample.
+  Imu(const ImuDescription& description, std::uint64_t seed, std::string_view robot);
+
+  /// Takes in what the body did in the step that ends at `now` since the start, one of `step`: it moved along `arc`,
+  /// and is at `velocity` now. With a period shorter than the step there is a sample a step.
+  void add(Duration now, Duration step, const Arc& arc, const Velocity& velocity);
+  const ImuSample& sample() const { return sample_; }
+
+ private:
+  /// One axis: what it sums up, and its errors.
+  class Axis {
+   public:
+    Axis(const InertialErrors& errors, std::uint64_t seed, std::string_view robot, const std::string& name);
+    void add(double of_step) { sum_ += of_step; }
+    /// The reading over the last `elapsed_s`; the next sum begins.
+    double take(std::uint64_t number, double elapsed_s);
+
+   private:
+    InertialErrors errors_;
+    RandomStream noise_, walk_, drift_;
+    double bias_, wandered_, sum_ = 0;
+  };
+
+  Duration period_, summed_;
+  Axis gyro_, ahead_, left_, up_;
+  Velocity velocity_;  // at the end of the step before
+  ImuSample sample_;
+};
+
+}  // namespace waitpoint::world

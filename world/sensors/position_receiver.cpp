@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/sensors/position_receiver.hpp"
+
+#include <cmath>
+
+namespace waitpoint::world {
+namespace {
+
+constexpr std::uint64_t height_axis = 2;
+
+}  // namespace
+
+PositionReceiver::PositionReceiver(const PositionReceiverDescription& description, std::uint64_t seed,
+                                   std::string_view robot)
+    : description_(description),
+      drift_(seed, robot, "gps.drift"),
+      noise_(seed, robot, "gps.noise"),
+      dropout_(seed, robot, "gps.dropout"),
+      kept_(exact::exp(-description.period.seconds() / description.drift_s)) {
+  for (std::uint64_t axis = 0; axis < wandered_m_.size(); ++axis)
+    wandered_m_[axis] = description_.drift_m * drift_.normal(0, axis);
+}
+
+double PositionReceiver::measured(std::uint64_t axis, double true_m) const {
+  const PositionReceiverDescription& d = description_;
+  const double error_m = wandered_m_[axis] + d.noise_m * noise_.normal(tries_, axis);
+  const double position_m = true_m + (axis == height_axis ? d.height_factor * error_m : error_m);
+  return d.resolution_m > 0 ? std::nearbyint(position_m / d.resolution_m) * d.resolution_m : position_m;
+}
+
+void PositionReceiver::add(Duration now, Duration step, const Pose& pose, double height_m) {
+  const PositionReceiverDescription& d = description_;
+  // Where several tries fall into one step, all but the last are as good as not made.
+  const std::int64_t due = now / d.period - (now - step) / d.period;
+  for (std::int64_t n = 0; n < due; ++n) {
+    ++tries_;
+    for (std::uint64_t axis = 0; axis < wandered_m_.size(); ++axis)
+      wandered_m_[axis] =
+          kept_ * wandered_m_[axis] + d.drift_m * std::sqrt(1 - kept_ * kept_) * drift_.normal(tries_, axis);
+  }
+  if (due == 0 || dropout_.uniform(tries_) < d.dropout) return;
+  const auto [s, c] = exact::sincos(pose.heading);
+  const Point antenna = {pose.x + c * d.antenna.x - s * d.antenna.y, pose.y + s * d.antenna.x + c * d.antenna.y};
+  ++fix_.number;
+  fix_.position = {measured(0, antenna.x + d.bias_x_m), measured(1, antenna.y + d.bias_y_m)};
+  fix_.height_m = measured(height_axis, height_m);
+}
+
+}  // namespace waitpoint::world

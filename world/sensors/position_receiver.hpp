@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Positions as of a satellite receiver: a bias, an error that wanders slowly, one of each fix, and fixes that fail.
+//
+//   d' = p d + D sqrt(1 - p^2) n,  p = e^(-T/tau)     on each axis: variance D^2, correlated by e^(-t/tau)
+//   fix = q(truth + b + d + s n')
+//
+// so positions of one receiver that are t apart differ with the variance 2 D^2 (1 - e^(-t/tau)) + 2 s^2: what the
+// atmosphere and the satellites' places add stays for minutes, and averaging over less does not take it away.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/pose.hpp"
+#include "core/random.hpp"
+#include "world/sensor_description.hpp"
+#include "world/world.hpp"
+
+namespace waitpoint::world {
+
+class PositionReceiver {
+ public:
+  /// Draws from the streams (seed, robot, "gps.drift"), (.., "gps.noise") and (.., "gps.dropout"), at tick = number of
+  /// the try, index = axis.
+  PositionReceiver(const PositionReceiverDescription& description, std::uint64_t seed, std::string_view robot);
+
+  /// The body is at `pose` and `height_m` when the step that ends at `now` since the start, one of `step`, is done.
+  void add(Duration now, Duration step, const Pose& pose, double height_m);
+  const PositionFix& fix() const { return fix_; }
+
+ private:
+  double measured(std::uint64_t axis, double true_m) const;
+
+  PositionReceiverDescription description_;
+  RandomStream drift_, noise_, dropout_;
+  double kept_;  // of what has wandered off, from try to try
+  std::array<double, 3> wandered_m_{};
+  std::uint64_t tries_ = 0;
+  PositionFix fix_;
+};
+
+}  // namespace waitpoint::world

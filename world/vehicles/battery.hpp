@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A pack of accumulators that is discharged: a voltage that falls with the charge drawn and sags with the current.
+//
+//   I = idle + a |v| + b |w| + c climb (+ stalled)      U = full - (full - empty) q / C - R I
+//   dq = I (I H / C)^(k - 1) dt
+//
+// C is the capacity when it is emptied in the rated time of H hours, k Peukert's exponent (W. Peukert, ETZ 20, 1897):
+// at a constant current the full pack is empty after H (C / (I H))^k hours. The open voltage of lead is about linear in
+// its charge. It is empty when C is drawn, or when U falls below the voltage at which what it feeds goes off, for good.
+#pragma once
+
+#include "world/arc.hpp"
+#include "world/description.hpp"
+#include "world/world.hpp"
+
+namespace waitpoint::world {
+
+class Battery {
+ public:
+  explicit Battery(const BatteryDescription& description);
+
+  /// Feeds, for the step that ends at `now` since the start, one of `step`, a body of that velocity.
+  void draw(Duration now, Duration step, const Velocity& velocity, bool stalled);
+  bool empty() const { return empty_at_.has_value(); }
+  BatteryState state() const;
+
+ private:
+  double volts() const;
+
+  BatteryDescription description_;
+  double drawn_ah_, current_a_;
+  std::optional<Duration> empty_at_;
+};
+
+}  // namespace waitpoint::world
