@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -47,18 +48,19 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
                    std::uint64_t seed)
     : scenario_(scenario) {
   world::WorldDescription description = scenario.world_without_map();
-  std::optional<world::WorldFile> file;
+  std::shared_ptr<const world::WorldFile> file;
   if (scenario.map) {
     file = load(*scenario.map);
     description.obstacles.insert(description.obstacles.end(), file->obstacles.begin(), file->obstacles.end());
   }
-  KnownMaps maps(scenario, file ? &*file : nullptr);
+  KnownMaps maps(scenario, file.get());
   check_goals(scenario, [&](const RobotScenario& robot, Point goal) { return place_on(maps.of(robot), goal); });
   check_starts(scenario, world::start_overlaps(description));
   make_world(description, seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
     robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
                                               world::BodyId(i), network, seed));
+  warnings_.insert(warnings_.end(), scenario.warnings.begin(), scenario.warnings.end());
   // Robots of one type have one file.
   for (const RobotScenario& robot : scenario.robots)
     for (const std::string& warning : robot.warnings)
@@ -66,15 +68,17 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
   check_step();
 }
 
-world::WorldFile Assembly::load(const MapFile& map) {
-  world::WorldFile file = world::read_world_file(map.file.string(), map.height_m.value_or(MapFile::height_default_m));
+std::shared_ptr<const world::WorldFile> Assembly::load(MapFile map) {
+  map.read();
+  const world::WorldFile& file = *map.contents;
   if (map.height_m && file.has_heights)
     throw map.written.bad("expected no height_m: '" + map.file.string() + "' says how high things are");
   warnings_ = file.warnings;
-  if (!file.bodies.empty())
-    warnings_.push_back(map.file.string() + ": " + counted(file.bodies.size(), "robot") +
-                        " of the file left out: the robots are the scenario's");
-  return file;
+  if (const std::size_t left_out = file.bodies.size() - map.robots_taken; left_out > 0)
+    warnings_.push_back(
+        map.file.string() + ": " + counted(left_out, "robot") + " of the file left out: " +
+        (map.robots_taken == 0 ? "the robots are the scenario's" : "robots_from_map has no row for them"));
+  return map.contents;
 }
 
 void Assembly::make_world(const world::WorldDescription& description, std::uint64_t seed) {

@@ -37,7 +37,7 @@ class Assembly {
   RunResult result() const;
 
  private:
-  world::WorldFile load(const MapFile& map);
+  std::shared_ptr<const world::WorldFile> load(MapFile map);
   void make_world(const world::WorldDescription& description, std::uint64_t seed);
   void check_step();
 

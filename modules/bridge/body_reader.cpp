@@ -61,7 +61,9 @@ world::OdometryErrors read_odometry(const YamlNode& node, Kind kind) {
 }
 
 void read_kind(const YamlMap& map, world::BaseDescription& base) {
-  base.kind = kinds[map.one_of("kind", {"differential", "synchro", "omni", "ackermann", "skid_steer", "aerial"}, 1)];
+  const auto otherwise = static_cast<std::size_t>(std::find(std::begin(kinds), std::end(kinds), base.kind) - kinds);
+  base.kind =
+      kinds[map.one_of("kind", {"differential", "synchro", "omni", "ackermann", "skid_steer", "aerial"}, otherwise)];
   only_for(map, base.kind == Kind::skid_steer, "skid_steer", {"effective_axle_ratio"});
   only_for(map, base.kind == Kind::ackermann, "ackermann", {"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"});
   only_for(map, base.kind == Kind::aerial, "aerial", {"climb_max_m_s", "climb_acceleration_m_s2"});
@@ -75,7 +77,7 @@ void read_kind(const YamlMap& map, world::BaseDescription& base) {
   base.climb_acceleration_m_s2 = map.number("climb_acceleration_m_s2", positive_number, base.climb_acceleration_m_s2);
 }
 
-world::BaseDescription read_base(const YamlNode& node) {
+world::BaseDescription read_base(const YamlNode& node, world::BaseDescription base) {
   const YamlMap map(node, "the base",
                     {"kind",
                      "v_max_m_s",
@@ -98,7 +100,6 @@ world::BaseDescription read_base(const YamlNode& node) {
                      "battery_volts_empty",
                      "battery_capacity_s",
                      "battery_capacity_m"});
-  world::BaseDescription base;
   read_kind(map, base);
   base.v_max_m_s = map.number("v_max_m_s", positive_number, base.v_max_m_s);
   base.w_max_rad_s = map.number("w_max_rad_s", positive_number, base.w_max_rad_s);
@@ -154,16 +155,22 @@ world::BatteryDescription read_battery(const YamlNode& node) {
 
 }  // namespace
 
-BodyReading read_body(const YamlMap& robot) {
+BodyReading read_body(const YamlMap& robot, const BodyReading* given) {
   BodyReading reading;
+  if (given != nullptr) reading = *given;
   const std::optional<RobotModel> model = read_robot_model(robot);
   if (model && robot.has("shape")) {
     throw robot.require("urdf").written.bad("expected " + robot.what() + " to have either shape or urdf");
   }
-  reading.body.shape = model ? model->robot.shape : read_body_shape(robot.require("shape"));
+  if (model)
+    reading.body.shape = model->robot.shape;
+  else if (given == nullptr || robot.has("shape"))
+    reading.body.shape = read_body_shape(robot.require("shape"));
   if (model) reading.warnings = model->warnings;
-  if (const YamlNode* base = robot.find("base")) reading.body.base = read_base(*base);
+  if (const YamlNode* base = robot.find("base")) reading.body.base = read_base(*base, reading.body.base);
   if (const YamlNode* lasers = robot.find("lasers")) {
+    reading.body.lasers.clear();
+    reading.laser_names.clear();
     for (const YamlNode& item : read_list(*lasers, "lasers")) {
       LaserReading laser = read_laser(item);
       if (std::count(reading.laser_names.begin(), reading.laser_names.end(), laser.name) > 0) {

@@ -13,12 +13,13 @@
 namespace waitpoint::bridge {
 
 struct BodyReading {
-  world::BodyDescription body;           ///< without name and start
+  world::BodyDescription body;           ///< as read_body() reads it, without name and start
   std::vector<std::string> laser_names;  ///< in the order of body.lasers; "laser" where the scenario gives none
   std::vector<std::string> warnings;     ///< of its URDF
 };
 
-/// Reads these keys from a map that knows them.
-BodyReading read_body(const YamlMap& robot);
+/// Reads these keys from a map that knows them. Where `shape` (or `urdf`), `lasers` or a key of `base` is left out, the
+/// robot has that of `given`, if there is any.
+BodyReading read_body(const YamlMap& robot, const BodyReading* given = nullptr);
 
 }  // namespace waitpoint::bridge

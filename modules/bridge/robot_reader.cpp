@@ -11,18 +11,22 @@
 namespace waitpoint::bridge {
 namespace {
 
+constexpr std::size_t letters_max = 40;  // the kernel keeps names in place
+
+bool is_reserved(const std::string& name) { return name == "environment" || name == "base"; }
+
+bool fits_names(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
 /// Names go into paths of --set, names of posters and names of files.
 std::string read_name(const YamlNode& node, std::string_view what) {
   std::string name = read_text(node, what);
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  if (!std::all_of(name.begin(), name.end(), allowed)) {
+  if (!std::all_of(name.begin(), name.end(), fits_names)) {
     throw node.written.bad("expected " + std::string(what) + " to be of letters, digits, '_' and '-', found '" + name +
                            "'");
   }
-  constexpr std::size_t letters_max = 40;  // the kernel keeps names in place
-  if (name.size() > letters_max || name == "environment" || name == "base")
+  if (name.size() > letters_max || is_reserved(name))
     throw node.written.bad("expected " + std::string(what) + " to have at most " + std::to_string(letters_max) +
                            " letters and not to be 'environment' or 'base', found '" + name + "'");
   return name;
@@ -113,9 +117,9 @@ std::vector<Goal> read_goals(const YamlNode& node) {
 }
 
 /// What a type has: everything but name, start and goals.
-RobotScenario read_equipment(const YamlMap& map) {
+RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = nullptr) {
   RobotScenario robot;
-  BodyReading reading = read_body(map);
+  BodyReading reading = read_body(map, given);
   robot.body = std::move(reading.body);
   robot.laser_names = std::move(reading.laser_names);
   robot.warnings = std::move(reading.warnings);
@@ -172,10 +176,38 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   return robot;
 }
 
-void check_robot_type(const YamlEntry& type) {
+RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, const std::string& name,
+                                const BodyReading& given) {
+  const std::string title = "robot '" + name + "' of the map";
+  const auto keys = {std::string_view("model"),     std::string_view("type"),      std::string_view("goals"),
+                     std::string_view("shape"),     std::string_view("urdf"),      std::string_view("base"),
+                     std::string_view("lasers"),    std::string_view("sonars"),    std::string_view("bumpers"),
+                     std::string_view("infrareds"), std::string_view("imu"),       std::string_view("gps"),
+                     std::string_view("battery"),   std::string_view("modules"),   std::string_view("bridge"),
+                     std::string_view("executive"), std::string_view("processors")};
+  const YamlMap own(node, title, keys);
+  const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
+  RobotScenario robot = read_equipment(YamlMap(whole, title, keys), &given);
+  robot.name = robot.body.name = name;
+  robot.written = node.written;
+  if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
+  return robot;
+}
+
+std::string fitting_name(const std::string& name) {
+  constexpr std::size_t number_letters = 8;  // that tell it from others of the name
+  std::string fitting = name.substr(0, letters_max - number_letters);
+  for (char& c : fitting)
+    if (!fits_names(c)) c = '_';
+  return is_reserved(fitting) ? fitting + "_" : fitting;
+}
+
+void check_robot_type(const YamlEntry& type, bool for_map) {
+  const BodyReading of_map;
   read_equipment(YamlMap(type.value, "robot type '" + type.key + "'",
                          {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "imu", "gps", "battery",
-                          "modules", "bridge", "executive", "processors"}));
+                          "modules", "bridge", "executive", "processors"}),
+                 for_map ? &of_map : nullptr);
 }
 
 std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix) {

@@ -3,6 +3,7 @@
 // whole), its start and its goals.
 #pragma once
 
+#include "modules/bridge/body_reader.hpp"
 #include "modules/bridge/scenario.hpp"
 #include "modules/bridge/yaml_reader.hpp"
 
@@ -12,8 +13,17 @@ namespace waitpoint::bridge {
 /// that a type has.
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types);
 
-/// Reads a robot type, so that one that no robot uses is checked too.
-void check_robot_type(const YamlEntry& type);
+/// Reads an element of `robots_from_map` for the robot of that name, which has what `given` says where its type and the
+/// element do not; it starts where `given` does.
+RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, const std::string& name,
+                                const BodyReading& given);
+
+/// The name with whatever a name must not have replaced by '_', and not too long.
+std::string fitting_name(const std::string& name);
+
+/// Reads a robot type, so that one that no robot uses is checked too. It must have a shape unless `for_map`: then a
+/// map may give it.
+void check_robot_type(const YamlEntry& type, bool for_map);
 
 /// The values under `node`, nested keys and list positions joined by dots behind `prefix`; nulls are left out.
 std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix = "");

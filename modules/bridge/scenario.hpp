@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scenario as values: what is to be run, what is expected of it, and where each part was written.
 //
-// What the files say is all here, except what a map file holds: the assembly adds its obstacles. Module
+// What the files say is all here, except what a map file holds beside robots: the assembly adds its obstacles. Module
 // parameters stay text (core/setting.hpp): only the module knows their types.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "fibers/io/medium.hpp"
 #include "modules/bridge/location.hpp"
 #include "world/description.hpp"
+#include "world/formats/world_file.hpp"
 
 namespace waitpoint::bridge {
 
@@ -32,9 +34,15 @@ struct Expectation {
 struct MapFile {
   static constexpr double height_default_m = 2;
 
-  std::filesystem::path file;      ///< resolved
-  std::optional<double> height_m;  ///< of what the file gives no height; where it is left out, the default
+  std::filesystem::path file;           ///< resolved
+  std::optional<double> height_m = {};  ///< of what the file gives no height; where it is left out, the default
   Location written;
+  /// The file's, once it has been read: by then where its robots are the scenario's.
+  std::shared_ptr<const world::WorldFile> contents = nullptr;
+  std::size_t robots_taken = 0;  ///< of the file's robots, as the scenario's
+
+  /// Reads the file if it has not been read. BadInput as of world::read_world_file().
+  void read();
 };
 
 struct Goal {
@@ -84,7 +92,8 @@ struct Scenario {
   std::optional<io::Medium> medium;      ///< between robots; none: they cannot send to each other
   std::vector<world::Obstacle> shapes;   ///< without the map's
   std::vector<Location> shapes_written;  ///< of each shape
-  std::vector<RobotScenario> robots;     ///< in the order of the file; their names differ
+  std::vector<RobotScenario> robots;     ///< in the order of the file, those of the map last; their names differ
+  std::vector<std::string> warnings;     ///< of the map's robots
 
   /// The world without the map's obstacles; bodies in the order of the robots.
   world::WorldDescription world_without_map() const;

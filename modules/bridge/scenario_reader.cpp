@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "modules/bridge/expectation.hpp"
+#include "modules/bridge/map_robots.hpp"
 #include "modules/bridge/medium_reader.hpp"
 #include "modules/bridge/robot_reader.hpp"
 #include "modules/bridge/scenario_document.hpp"
@@ -38,10 +39,11 @@ Expectation read_expectation(const YamlNode& node) {
 }
 
 MapFile read_map(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::scalar) return {node.written.resolve(read_text(node, "map")), {}, node.written};
+  if (node.kind == YamlNode::Kind::scalar)
+    return {.file = node.written.resolve(read_text(node, "map")), .written = node.written};
   const YamlMap map(node, "the map", {"file", "height_m"});
   const YamlNode& file = map.require("file");
-  MapFile result = {file.written.resolve(read_text(file, "file")), {}, file.written};
+  MapFile result = {.file = file.written.resolve(read_text(file, "file")), .written = file.written};
   if (map.has("height_m")) result.height_m = map.number("height_m", positive_number);
   return result;
 }
@@ -88,6 +90,12 @@ void read_robots(const YamlNode& list, const YamlNode* types, Scenario& scenario
 
 }  // namespace
 
+void MapFile::read() {
+  if (contents == nullptr)
+    contents = std::make_shared<const world::WorldFile>(
+        world::read_world_file(file.string(), height_m.value_or(height_default_m)));
+}
+
 world::WorldDescription Scenario::world_without_map() const {
   world::WorldDescription world;
   world.step = step;
@@ -100,7 +108,8 @@ world::WorldDescription Scenario::world_without_map() const {
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments) {
   const YamlNode document = scenario_document(file, assignments);
   const YamlMap map(document, "the scenario",
-                    {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots"});
+                    {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots",
+                     "robots_from_map"});
   Scenario scenario;
   scenario.file = file.string();
   scenario.fingerprint = fingerprint(document);
@@ -111,13 +120,15 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   if (const YamlNode* world = map.find("world")) read_world(*world, scenario);
   if (const YamlNode* medium = map.find("medium")) scenario.medium = read_medium(*medium);
   const YamlNode* types = map.find("robot_types");
+  const YamlNode* from_map = map.find("robots_from_map");
   if (types != nullptr) {
     if (types->kind != YamlNode::Kind::map) {
       throw types->written.bad("expected robot_types to be a map of keys, found " + described(*types));
     }
-    for (const YamlEntry& type : types->entries) check_robot_type(type);
+    for (const YamlEntry& type : types->entries) check_robot_type(type, from_map != nullptr);
   }
-  read_robots(map.require("robots"), types, scenario);
+  if (from_map == nullptr || map.has("robots")) read_robots(map.require("robots"), types, scenario);
+  if (from_map != nullptr) read_robots_from_map(*from_map, types, scenario);
   return scenario;
 }
 

@@ -60,7 +60,7 @@ class StageReader {
         {"model", {"name", "pose", "size", "origin", "bitmap", "boundary", "obstacle_return", "ranger_return"}},
         {"position",
          {"name", "pose", "size", "origin", "drive", "velocity_bounds", "acceleration_bounds", "obstacle_return",
-          "ranger_return"}},
+          "ranger_return", "wheelbase"}},
         {"ranger", {"name", "pose", "size", "update_interval"}},
         {"sensor", {"pose", "range", "fov", "samples"}},
         {"block", {"points", "z"}}};
@@ -79,9 +79,10 @@ class StageReader {
     } else if (thing.built_in == "position") {
       tell_unread(thing);
       is_there(thing);
-      BodyDescription body = robots_.read(thing);
-      body.name = name_of_robot(thing);
-      world_.bodies.push_back(std::move(body));
+      StageRobot robot = robots_.read(thing);
+      robot.body.name = name_of_robot(thing);
+      world_.bodies.push_back(std::move(robot.body));
+      world_.origins.push_back(std::move(robot.origin));
     } else {
       tell(thing, "'" + std::string(thing.built_in) + "'", "is left out");
     }

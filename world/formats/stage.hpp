@@ -9,8 +9,10 @@
 //              spaced, are one laser of as many beams.
 //
 //   pose [x y z heading]    in what holds it, degrees       origin [x y]    of the middle, from the pose
+//   drive      "diff", "omni", or "car", which steers: wheelbase (1 m), at most 45 degrees
 //   samples (1), fov (0 degrees), range [least most] (0 to 5 m), update_interval (100 ms)
-//   velocity_bounds, acceleration_bounds: eight numbers, of which the second and the last count (1 m/s, 90 degrees/s)
+//   velocity_bounds, acceleration_bounds: eight numbers, of which the second and the last count (1 m/s, 90 degrees/s);
+//   of a car the last are the steering's (degrees, degrees/s)
 //   obstacle_return, ranger_return: what bodies pass through and beams too is not there; what only one of them passes
 //   is
 //
@@ -22,12 +24,14 @@
 
 #include "world/description.hpp"
 #include "world/formats/left_out.hpp"
+#include "world/formats/robot_origin.hpp"
 
 namespace waitpoint::world {
 
 struct StageWorld {
   std::vector<Obstacle> obstacles;
   std::vector<BodyDescription> bodies;  ///< in the order of the file; names differ ("TYPE_0" where none is given)
+  std::vector<RobotOrigin> origins;     ///< of each of them
 };
 
 /// Reads the contents of a world file; `file` is its name, for messages and for what it includes. BadInput, naming file

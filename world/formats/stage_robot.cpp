@@ -12,6 +12,9 @@ namespace {
 
 double radians(double degrees) { return degrees / 180 * exact::pi; }
 
+using Kind = BaseDescription::Kind;
+
+constexpr double steering_max_rad = 0.25 * exact::pi;
 constexpr double beams_max = 100000;
 constexpr double interval_ms_max = 1e5;
 
@@ -40,8 +43,15 @@ std::optional<LaserDescription> one_fan(const std::vector<LaserDescription>& las
 
 }  // namespace
 
-BodyDescription StageRobotReader::read(const StageThing& position) {
-  BodyDescription body;
+StageRobot StageRobotReader::read(const StageThing& position) {
+  StageRobot robot;
+  BodyDescription& body = robot.body;
+  robot.origin.file = *position.place.file;
+  robot.origin.line = position.place.line;
+  for (const StageThing* at = position.base; at != nullptr; at = at->base) robot.origin.types.emplace_back(at->type);
+  robot.origin.types.emplace_back(position.built_in);
+  ranger_count_ = 0;
+  laser_names_ = DistinctNames();
   const StageFrame frame = stage_frame(position, {});
   const StageSize size = stage_size(position);
   body.start = frame.pose;
@@ -51,15 +61,12 @@ BodyDescription StageRobotReader::read(const StageThing& position) {
   body.shape.z_low_m = frame.z_m;
   body.shape.z_high_m = frame.z_m + size.z_m;
   read_base(position, body.base);
-  read_carried(position, {{}, frame.z_m + size.z_m}, body);
-  return body;
+  read_carried(position, {{}, frame.z_m + size.z_m}, robot);
+  return robot;
 }
 
 void StageRobotReader::read_base(const StageThing& position, BaseDescription& base) {
-  base.kind = BaseDescription::Kind::differential;
-  if (const StageProperty* drive = position.find(StageKey::drive); drive != nullptr && stage_text(*drive) != "diff") {
-    left_out_.add(*drive->place.file, drive->place.line, "a 'drive' other than \"diff\"", "is taken as that");
-  }
+  read_drive(position, base);
   const auto bounds = [&](StageKey key, double& along, double& about) {
     const StageProperty* property = position.find(key);
     const std::vector<double> values =
@@ -71,17 +78,49 @@ void StageRobotReader::read_base(const StageThing& position, BaseDescription& ba
     if (values[0] != -values[1] || values[6] != -values[7])
       left_out_.add(*property->place.file, property->place.line, "a lower bound that is not the upper one's opposite",
                     "is left out");
+    if (base.kind == Kind::omni && values[3] != values[1])
+      left_out_.add(*property->place.file, property->place.line, "a sideways bound of an omni drive",
+                    "is taken as that along");
   };
   bounds(StageKey::velocity_bounds, base.v_max_m_s, base.w_max_rad_s);
   bounds(StageKey::acceleration_bounds, base.v_acceleration_m_s2, base.w_acceleration_rad_s2);
+  if (base.kind == Kind::ackermann) read_steering(position, base);
 }
 
-void StageRobotReader::read_carried(const StageThing& holder, const StageFrame& top, BodyDescription& body) {
-  if (holder.base != nullptr) read_carried(*holder.base, top, body);
+void StageRobotReader::read_drive(const StageThing& position, BaseDescription& base) {
+  base.kind = Kind::differential;
+  const StageProperty* drive = position.find(StageKey::drive);
+  if (drive == nullptr) return;
+  const std::string name = stage_text(*drive);
+  if (name == "omni") {
+    base.kind = Kind::omni;
+  } else if (name == "car") {
+    base.kind = Kind::ackermann;
+  } else if (name != "diff") {
+    left_out_.add(*drive->place.file, drive->place.line, "a 'drive' that is none of \"diff\", \"omni\" and \"car\"",
+                  "is taken as \"diff\"");
+  }
+}
+
+// A car's bounds about its middle are those of its steering, and of how fast it steers.
+void StageRobotReader::read_steering(const StageThing& position, BaseDescription& base) {
+  base.wheelbase_m = stage_number_or(position, StageKey::wheelbase, 1e-3, 100, 1);
+  base.steering_rate_rad_s = base.w_acceleration_rad_s2;
+  base.steering_max_rad = std::min(base.w_max_rad_s, steering_max_rad);
+  const StageProperty* given = position.find(StageKey::velocity_bounds);
+  if (given != nullptr && base.w_max_rad_s > steering_max_rad)
+    left_out_.add(*given->place.file, given->place.line, "a car's bound of steering above 45 degrees",
+                  "is taken as 45 degrees");
+  const auto [s, c] = exact::sincos(base.steering_max_rad);
+  base.w_max_rad_s = base.v_max_m_s * s / (c * base.wheelbase_m);
+}
+
+void StageRobotReader::read_carried(const StageThing& holder, const StageFrame& top, StageRobot& robot) {
+  if (holder.base != nullptr) read_carried(*holder.base, top, robot);
   for (const StageThing& thing : holder.things) {
     count(thing);
     if (thing.built_in == "ranger") {
-      read_ranger(thing, stage_frame(thing, top), body);
+      read_ranger(thing, stage_frame(thing, top), robot);
     } else if (thing.built_in == "block") {
       left_out_.add(*thing.place.file, thing.place.line, "a robot's 'block'",
                     "is taken as the box of the robot's size");
@@ -92,7 +131,8 @@ void StageRobotReader::read_carried(const StageThing& holder, const StageFrame& 
   }
 }
 
-void StageRobotReader::read_ranger(const StageThing& ranger, const StageFrame& frame, BodyDescription& body) {
+void StageRobotReader::read_ranger(const StageThing& ranger, const StageFrame& frame, StageRobot& robot) {
+  BodyDescription& body = robot.body;
   if (ranger.find(StageKey::size) != nullptr)
     body.shape.z_high_m = std::max(body.shape.z_high_m, frame.z_m + stage_size(ranger).z_m);
   const double interval_ms = stage_number_or(ranger, StageKey::update_interval, 1, interval_ms_max, 100);
@@ -100,6 +140,15 @@ void StageRobotReader::read_ranger(const StageThing& ranger, const StageFrame& f
   read_sensors(ranger, frame, Duration::from_seconds(1e-3 * interval_ms), lasers);
   if (const std::optional<LaserDescription> fan = one_fan(lasers)) lasers = {*fan};
   body.lasers.insert(body.lasers.end(), lasers.begin(), lasers.end());
+  name_lasers(ranger, lasers.size(), robot.origin);
+}
+
+void StageRobotReader::name_lasers(const StageThing& ranger, std::size_t count, RobotOrigin& origin) {
+  const StageProperty* given = ranger.find(StageKey::name);
+  const std::string stem = given != nullptr ? stage_text(*given) : "ranger_" + std::to_string(ranger_count_);
+  ++ranger_count_;
+  for (std::size_t i = 0; i < count; ++i)
+    origin.laser_names.push_back(laser_names_.take(count == 1 ? stem : stem + "_" + std::to_string(i)));
 }
 
 void StageRobotReader::read_sensors(const StageThing& ranger, const StageFrame& frame, Duration period,

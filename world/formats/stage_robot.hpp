@@ -3,7 +3,9 @@
 #pragma once
 
 #include "world/description.hpp"
+#include "world/formats/distinct_names.hpp"
 #include "world/formats/left_out.hpp"
+#include "world/formats/robot_origin.hpp"
 #include "world/formats/stage_values.hpp"
 
 namespace waitpoint::world {
@@ -11,19 +13,28 @@ namespace waitpoint::world {
 /// How many things a file may have, those counted anew that a type brings along.
 inline constexpr std::size_t stage_thing_count_max = std::size_t{1} << 20;
 
+struct StageRobot {
+  BodyDescription body;  ///< without its name
+  RobotOrigin origin;
+};
+
 /// Reads robots, one after the other.
 class StageRobotReader {
  public:
   /// `thing_count` goes up with every thing looked at; BadInput beyond the limit.
   StageRobotReader(LeftOut& left_out, std::size_t& thing_count) : left_out_(left_out), thing_count_(thing_count) {}
 
-  /// The robot that the thing, a `position`, is; without its name.
-  BodyDescription read(const StageThing& position);
+  /// The robot that the thing, a `position`, is. Its lasers are called by their rangers: by the ranger's name, else
+  /// "ranger_0", "ranger_1", ..., with "_0", "_1", ... behind where one ranger has several.
+  StageRobot read(const StageThing& position);
 
  private:
   void read_base(const StageThing& position, BaseDescription& base);
-  void read_carried(const StageThing& holder, const StageFrame& top, BodyDescription& body);
-  void read_ranger(const StageThing& ranger, const StageFrame& frame, BodyDescription& body);
+  void read_drive(const StageThing& position, BaseDescription& base);
+  void read_steering(const StageThing& position, BaseDescription& base);
+  void read_carried(const StageThing& holder, const StageFrame& top, StageRobot& robot);
+  void read_ranger(const StageThing& ranger, const StageFrame& frame, StageRobot& robot);
+  void name_lasers(const StageThing& ranger, std::size_t count, RobotOrigin& origin);
   void read_sensors(const StageThing& ranger, const StageFrame& frame, Duration period,
                     std::vector<LaserDescription>& lasers);
   LaserDescription read_sensor(const StageThing& sensor, const StageFrame& frame, Duration period);
@@ -31,6 +42,8 @@ class StageRobotReader {
 
   LeftOut& left_out_;
   std::size_t& thing_count_;
+  std::size_t ranger_count_ = 0;  // of the robot that is read
+  DistinctNames laser_names_;     // likewise
 };
 
 }  // namespace waitpoint::world

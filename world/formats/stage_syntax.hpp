@@ -44,9 +44,10 @@ enum class StageKey {
   size,
   update_interval,
   velocity_bounds,
+  wheelbase,
   z,
 };
-inline constexpr std::array<std::string_view, 17> stage_keys = {"acceleration_bounds",
+inline constexpr std::array<std::string_view, 18> stage_keys = {"acceleration_bounds",
                                                                 "bitmap",
                                                                 "boundary",
                                                                 "drive",
@@ -62,6 +63,7 @@ inline constexpr std::array<std::string_view, 17> stage_keys = {"acceleration_bo
                                                                 "size",
                                                                 "update_interval",
                                                                 "velocity_bounds",
+                                                                "wheelbase",
                                                                 "z"};
 
 struct StageProperty {

@@ -74,6 +74,7 @@ WorldFile read_world_file(const std::string& file, double height_m) {
       StageWorld stage = parse_stage(contents, file, left_out);
       world.obstacles = std::move(stage.obstacles);
       world.bodies = std::move(stage.bodies);
+      world.origins = std::move(stage.origins);
       world.has_heights = true;
       break;
     }

@@ -14,6 +14,7 @@
 
 #include "core/occupancy_grid.hpp"
 #include "world/description.hpp"
+#include "world/formats/robot_origin.hpp"
 
 namespace waitpoint::world {
 
@@ -23,6 +24,7 @@ enum class WorldFormat { sdf, segments, map_server, stage };
 struct WorldFile {
   std::vector<Obstacle> obstacles;      ///< those of a map's cells included
   std::vector<BodyDescription> bodies;  ///< robots, in the order of the file
+  std::vector<RobotOrigin> origins;     ///< of each of them
   std::optional<OccupancyGrid> grid;    ///< the cells, where the file is a map of cells
   bool has_heights = false;             ///< whether the file says how high things are
   std::vector<std::string> warnings;    ///< what is left out or taken otherwise, a line each

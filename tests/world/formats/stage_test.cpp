@@ -167,9 +167,59 @@ TEST(Stage, SensorsOfOneSampleAtOnePlaceAreOneLaser) {
   EXPECT_EQ(lasers("pose [0 0 0 60] samples 2 fov 10").size(), 3u);
 }
 
+TEST(Stage, ADriveIsTheBasesKind) {
+  const Read read = parsed(
+      "define omni position( drive \"omni\" velocity_bounds [-0.5 0.5 -0.5 0.5 0 0 -60 60] )\nomni()\n"
+      "omni( velocity_bounds [-0.5 0.5 0 0 0 0 -60 60] )\nposition( drive \"diff\" )\n");
+  ASSERT_EQ(read.bodies.size(), 3u);
+  EXPECT_EQ(read.bodies[0].base.kind, BaseDescription::Kind::omni);
+  EXPECT_EQ(read.bodies[0].base.v_max_m_s, 0.5);
+  EXPECT_EQ(read.bodies[0].base.w_max_rad_s, degrees(60));
+  EXPECT_EQ(read.bodies[1].base.kind, BaseDescription::Kind::omni);
+  EXPECT_EQ(read.bodies[2].base.kind, BaseDescription::Kind::differential);
+  EXPECT_EQ(read.warnings,
+            std::vector<std::string>{"a.world:3: a sideways bound of an omni drive is taken as that along"});
+}
+
+TEST(Stage, ACarSteers) {
+  const Read read = parsed(
+      "define car position( drive \"car\" wheelbase 2.5 acceleration_bounds [-1 1 0 0 0 0 -40 40] )\n"
+      "car( velocity_bounds [-3 3 0 0 0 0 -30 30] )\ncar( velocity_bounds [-3 3 0 0 0 0 -90 90] )\nposition( drive "
+      "\"car\" )\n");
+  ASSERT_EQ(read.bodies.size(), 3u);
+  const BaseDescription& car = read.bodies[0].base;
+  EXPECT_EQ(car.kind, BaseDescription::Kind::ackermann);
+  EXPECT_EQ(car.wheelbase_m, 2.5);
+  EXPECT_EQ(car.v_max_m_s, 3);
+  EXPECT_EQ(car.steering_max_rad, degrees(30));
+  EXPECT_EQ(car.steering_rate_rad_s, degrees(40));
+  EXPECT_NEAR(car.w_max_rad_s, 3 * std::tan(degrees(30)) / 2.5, 1e-12) << "no bound beside the steering's";
+  EXPECT_EQ(read.bodies[1].base.steering_max_rad, degrees(45));
+  EXPECT_EQ(read.bodies[2].base.steering_max_rad, degrees(45));
+  EXPECT_EQ(read.bodies[2].base.wheelbase_m, 1);
+  EXPECT_EQ(read.warnings,
+            std::vector<std::string>{"a.world:3: a car's bound of steering above 45 degrees is taken as 45 degrees"});
+}
+
+TEST(Stage, ARobotTellsWhereItStandsItsTypesAndItsRangersNames) {
+  const Read read = parsed(
+      "define eye sensor( samples 9 fov 90 )\ndefine bot position( ranger( eye() ) )\n"
+      "define red bot( ranger( name \"rear\" eye() ) ranger( eye() eye( pose [1 0 0 0] ) ) )\n"
+      "bot()\nred( ranger( name \"rear\" eye() ) )\n");
+  ASSERT_EQ(read.origins.size(), 2u);
+  EXPECT_EQ(read.origins[0].line, 4);
+  EXPECT_EQ(read.origins[0].types, (std::vector<std::string>{"bot", "position"}));
+  EXPECT_EQ(read.origins[0].laser_names, std::vector<std::string>{"ranger_0"});
+  EXPECT_EQ(read.origins[1].file, "a.world");
+  EXPECT_EQ(read.origins[1].types, (std::vector<std::string>{"red", "bot", "position"}));
+  EXPECT_EQ(read.origins[1].laser_names,
+            (std::vector<std::string>{"ranger_0", "rear", "ranger_2_0", "ranger_2_1", "rear_1"}));
+  ASSERT_EQ(read.bodies[1].lasers.size(), 5u);
+}
+
 TEST(Stage, WhatIsLeftOutIsToldOnceForEachKind) {
   const Read read = parsed(
-      "quit_time 60\nwindow( size [1 2] )\nposition( color \"red\" ctrl \"wander\" drive \"omni\"\n"
+      "quit_time 60\nwindow( size [1 2] )\nposition( color \"red\" ctrl \"wander\" drive \"tank\"\n"
       "  fiducial() ranger( sensor( color_rgba [0 0 1 0.15] range [0.1 5] ) ) block( points 3 point[0] [0 0] point[1] "
       "[1 0] "
       "point[2] [1 1] ) )\nmodel( color \"blue\" )\n");
@@ -178,7 +228,8 @@ TEST(Stage, WhatIsLeftOutIsToldOnceForEachKind) {
             (std::vector<std::string>{
                 "a.world:1: 'quit_time' is left out", "a.world:2: 'window' is left out",
                 "a.world:3: 'color' is left out (2 times)", "a.world:3: 'ctrl' is left out",
-                "a.world:4: 'color_rgba' is left out", "a.world:3: a 'drive' other than \"diff\" is taken as that",
+                "a.world:4: 'color_rgba' is left out",
+                "a.world:3: a 'drive' that is none of \"diff\", \"omni\" and \"car\" is taken as \"diff\"",
                 "a.world:4: a robot's 'fiducial' is left out", "a.world:4: a sensor's least 'range' is taken as 0",
                 "a.world:4: a robot's 'block' is taken as the box of the robot's size"}));
 }
@@ -206,6 +257,7 @@ TEST(Stage, WrongValuesAreNamedByLine) {
   EXPECT_TRUE(refuses("model( block( points 4 point[0] [0 0] ) )", "a.world:1: ", "expected a block of 'points'"));
   EXPECT_TRUE(refuses("position( ranger( sensor( samples 1e9 ) ) )", "a.world:1: ", "'samples'"));
   EXPECT_TRUE(refuses("position( ranger( sensor( range [5 1] ) ) )", "a.world:1: ", "range [least most]"));
+  EXPECT_TRUE(refuses("position( drive \"car\" wheelbase 0 )", "a.world:1: ", "expected 'wheelbase' to be from"));
   EXPECT_TRUE(refuses("position( velocity_bounds [1 2] )", "a.world:1: ", "expected 8 numbers"));
   EXPECT_TRUE(refuses("position( velocity_bounds [-1 -1 0 0 0 0 -9 9] )", "a.world:1: ", "positive upper bounds"));
 }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names that all differ, from names that may not.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+
+namespace waitpoint::world {
+
+class DistinctNames {
+ public:
+  /// `name`, or where that is taken, with the first of "_1", "_2", ... behind it that makes it another.
+  std::string take(const std::string& name) {
+    std::string distinct = name;
+    while (!names_.insert(distinct).second) distinct = name + "_" + std::to_string(++counts_[name]);
+    return distinct;
+  }
+
+ private:
+  std::set<std::string> names_;
+  std::map<std::string, std::size_t> counts_;
+};
+
+}  // namespace waitpoint::world
