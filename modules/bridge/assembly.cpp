@@ -28,18 +28,18 @@ class KnownMaps {
  public:
   KnownMaps(const Scenario& scenario, const world::WorldFile* file) : scenario_(scenario), file_(file) {}
 
-  const OccupancyGrid& of(const RobotScenario& robot) {
+  std::shared_ptr<const executive::KnownSpace> of(const RobotScenario& robot) {
     const world::Shape shape = raised(robot.body.shape, robot.body.start_height_m);
     const std::pair heights(shape.z_low_m, shape.z_high_m);
-    const auto found = maps_.find(heights);
-    return found != maps_.end() ? found->second
-                                : maps_.emplace(heights, known_map(scenario_, file_, robot)).first->second;
+    auto& map = maps_[heights];
+    if (map == nullptr) map = std::make_shared<const executive::KnownSpace>(known_map(scenario_, file_, robot));
+    return map;
   }
 
  private:
   const Scenario& scenario_;
   const world::WorldFile* file_;
-  std::map<std::pair<double, double>, OccupancyGrid> maps_;
+  std::map<std::pair<double, double>, std::shared_ptr<const executive::KnownSpace>> maps_;
 };
 
 }  // namespace
@@ -54,7 +54,7 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
     description.obstacles.insert(description.obstacles.end(), file->obstacles.begin(), file->obstacles.end());
   }
   KnownMaps maps(scenario, file.get());
-  check_goals(scenario, [&](const RobotScenario& robot, Point goal) { return place_on(maps.of(robot), goal); });
+  check_goals(scenario, [&](const RobotScenario& robot, Point goal) { return place_on(maps.of(robot)->map(), goal); });
   check_starts(scenario, world::start_overlaps(description));
   make_world(description, seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)

@@ -35,12 +35,13 @@ std::string report_text(const executive::GoalRecord& record) {
 
 }  // namespace
 
-Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
-             world::World& world, world::BodyId body, io::Network* network, std::uint64_t seed)
+Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types,
+             std::shared_ptr<const executive::KnownSpace> known, world::World& world, world::BodyId body,
+             io::Network* network, std::uint64_t seed)
     : scenario_(scenario), world_(world), body_(body), bridge_(scenario, world, body, names_) {
   for (const std::string& name : scenario.processors) names_.add_processor(name);
   make_modules(types, network);
-  if (!scenario.goals.empty()) make_executive(map, seed);
+  if (!scenario.goals.empty()) make_executive(std::move(known), seed);
   connect();
 }
 
@@ -69,7 +70,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
   }
 }
 
-void Robot::make_executive(const OccupancyGrid& map, std::uint64_t seed) {
+void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed) {
   executive::Parameters parameters;
   parameters.planning.robot_radius_m = radius_m(scenario_.body.shape);
   genom::Settings settings(scenario_.executive);
@@ -80,7 +81,8 @@ void Robot::make_executive(const OccupancyGrid& map, std::uint64_t seed) {
   for (const Goal& goal : scenario_.goals) goals.push_back(goal.position);
   posters::KnownPose start;
   start.pose = scenario_.body.start;
-  executive_.emplace(names_, parameters, map, start, goals, RandomStream(seed, scenario_.name, "executive"));
+  executive_.emplace(names_, parameters, std::move(known), start, goals,
+                     RandomStream(seed, scenario_.name, "executive"));
 }
 
 void Robot::connect() {

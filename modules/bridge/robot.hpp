@@ -27,8 +27,9 @@ class Robot {
  public:
   /// Makes and connects everything. What does not fit together is BadInput, naming the scenario's line. The scenario,
   /// the world and the network, null where there is none, must outlive the robot.
-  Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types, const OccupancyGrid& map,
-        world::World& world, world::BodyId body, io::Network* network, std::uint64_t seed);
+  Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types,
+        std::shared_ptr<const executive::KnownSpace> known, world::World& world, world::BodyId body,
+        io::Network* network, std::uint64_t seed);
 
   /// The task of the robot's software: starts the modules, then carries out the round of goals, if there is any.
   void run();
@@ -60,7 +61,7 @@ class Robot {
 
  private:
   void make_modules(std::span<const genom::ModuleType> types, io::Network* network);
-  void make_executive(const OccupancyGrid& map, std::uint64_t seed);
+  void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
   void connect();
 
   const RobotScenario& scenario_;

@@ -14,12 +14,12 @@ constexpr Duration look_period = 500ms;
 constexpr std::size_t looks_kept = 20;  // a little longer than `ndd` is patient
 }  // namespace
 
-Executive::Executive(genom::NameSpace& names, const Parameters& parameters, OccupancyGrid map,
+Executive::Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
                      const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random)
     : names_(names),
       parameters_(parameters),
       client_(names, "executive"),
-      planner_(std::move(map), parameters.planning),
+      planner_(std::move(known), parameters.planning),
       mission_(planner_, parameters.mission, goals, random),
       start_(start) {}
 

@@ -37,8 +37,8 @@ struct Parameters {
 class Executive {
  public:
   /// `start` is where the robot is known to be, in the map frame. `random` is the executive's own stream.
-  Executive(genom::NameSpace& names, const Parameters& parameters, OccupancyGrid map, const posters::KnownPose& start,
-            const std::vector<Point>& goals, const RandomStream& random);
+  Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
+            const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random);
 
   /// Finds the posters that it reads. One that nobody writes, or a module that is missing, is BadInput.
   void connect();

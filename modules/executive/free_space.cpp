@@ -7,10 +7,9 @@
 
 namespace waitpoint::executive {
 
-FreeSpace::FreeSpace(OccupancyGrid map, const PlanningParameters& parameters)
-    : map_(std::move(map)), parameters_(parameters) {
-  const std::size_t cells = static_cast<std::size_t>(map_.width()) * static_cast<std::size_t>(map_.height());
-  const double radius = parameters_.robot_radius_m, half_diagonal = map_.resolution_m() / std::sqrt(2.0);
+FreeSpace::FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningParameters& parameters)
+    : known_(std::move(known)), parameters_(parameters) {
+  const double radius = parameters_.robot_radius_m, half_diagonal = map().resolution_m() / std::sqrt(2.0);
   const double hard_m = std::max(radius, radius + parameters_.clearance_m - half_diagonal);
   const double preferred_m = std::max(hard_m, radius + parameters_.preferred_clearance_m);
   hard_square_ = square_of(hard_m);
@@ -18,35 +17,24 @@ FreeSpace::FreeSpace(OccupancyGrid map, const PlanningParameters& parameters)
   explained_square_ = square_of(parameters_.explained_m);
   cost_.resize(preferred_square_ + std::size_t{1});
   for (std::size_t square = 0; square < cost_.size(); ++square) {
-    const double distance = 0.5 * map_.resolution_m() * std::sqrt(static_cast<double>(square));
+    const double distance = 0.5 * map().resolution_m() * std::sqrt(static_cast<double>(square));
     const double lack =
         preferred_m > hard_m ? std::clamp((preferred_m - distance) / (preferred_m - hard_m), 0.0, 1.0) : 0;
     cost_[square] = static_cast<std::uint8_t>(
         std::nearbyint(least_cell_cost + static_cast<double>(greatest_cell_cost - least_cell_cost) * lack * lack));
   }
-  std::vector<std::uint8_t> occupied(cells);
-  std::vector<CellIndex> unknown;
-  for (CellIndex c; c.y < map_.height(); ++c.y) {
-    for (c.x = 0; c.x < map_.width(); ++c.x) {
-      occupied[index(c)] = map_[c] == Cell::occupied;
-      if (map_[c] == Cell::unknown) unknown.push_back(c);
-    }
-  }
-  mapped_.resize(cells);
-  DistanceTransform().run(occupied, map_.width(), map_.height(), mapped_);
-  for (const CellIndex c : unknown) mapped_[index(c)] = 0;
-  clearance_ = mapped_;
+  clearance_ = known_->clearances().data();
 }
 
 std::uint16_t FreeSpace::square_of(double distance_m) const {
-  const double half_cells = 2 * distance_m / map_.resolution_m();
+  const double half_cells = 2 * distance_m / map().resolution_m();
   // A distance that is a whole number of half cells must not be lost to rounding.
   const double square = std::ceil(half_cells * half_cells * (1 - 1e-12));
   return static_cast<std::uint16_t>(std::clamp(square, 1.0, static_cast<double>(square_half_cells_max)));
 }
 
 double FreeSpace::clearance_m(CellIndex c) const {
-  return 0.5 * map_.resolution_m() * std::sqrt(static_cast<double>(clearance_square(c)));
+  return 0.5 * map().resolution_m() * std::sqrt(static_cast<double>(clearance_square(c)));
 }
 
 std::uint32_t FreeSpace::cell_cost(CellIndex c) const {
@@ -72,10 +60,13 @@ bool FreeSpace::clear_line(CellIndex a, CellIndex b, std::uint16_t least_square)
 
 void FreeSpace::mark(std::span<const Point> echoes) {
   for (const Point echo : echoes) {
-    const std::optional<CellIndex> c = map_.cell_at(echo);
-    if (!c || mapped_[index(*c)] < explained_square_ || clearance_[index(*c)] == 0) continue;
+    const std::optional<CellIndex> c = map().cell_at(echo);
+    if (!c || known_->clearances()[index(*c)] < explained_square_ || clearance_[index(*c)] == 0) continue;
+    if (marked_.empty()) {
+      marked_ = known_->clearances();
+      clearance_ = marked_.data();
+    }
     push_away(*c);
-    any_marked_ = true;
   }
 }
 
@@ -84,21 +75,20 @@ void FreeSpace::push_away(CellIndex obstacle) {
   std::int32_t reach = 0;  // beyond the preferred clearance an obstacle changes nothing
   while (edge(reach) * edge(reach) < preferred_square_) ++reach;
   const CellIndex low = {std::max(0, obstacle.x - reach), std::max(0, obstacle.y - reach)};
-  const CellIndex high = {std::min(map_.width() - 1, obstacle.x + reach),
-                          std::min(map_.height() - 1, obstacle.y + reach)};
+  const CellIndex high = {std::min(map().width() - 1, obstacle.x + reach),
+                          std::min(map().height() - 1, obstacle.y + reach)};
   for (std::int32_t row = low.y; row <= high.y; ++row) {
     for (std::int32_t column = low.x; column <= high.x; ++column) {
       const std::int32_t dx = edge(column - obstacle.x), dy = edge(row - obstacle.y);
-      std::uint16_t& square = clearance_[index({column, row})];
+      std::uint16_t& square = marked_[index({column, row})];
       square = static_cast<std::uint16_t>(std::min<std::int32_t>(square, dx * dx + dy * dy));
     }
   }
 }
 
 void FreeSpace::forget() {
-  if (!any_marked_) return;
-  clearance_ = mapped_;
-  any_marked_ = false;
+  marked_.clear();
+  clearance_ = known_->clearances().data();
 }
 
 }  // namespace waitpoint::executive

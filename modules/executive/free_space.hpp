@@ -11,12 +11,14 @@
 // the centre but push nobody away. Beyond `hard` the cost of a cell falls until the preferred clearance is reached.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "core/fields.hpp"
 #include "core/occupancy_grid.hpp"
 #include "modules/executive/distance_transform.hpp"
+#include "modules/executive/known_space.hpp"
 
 namespace waitpoint::executive {
 
@@ -43,15 +45,18 @@ struct PlanningParameters {
 
 class FreeSpace {
  public:
-  /// The map's cells are copied.
-  FreeSpace(OccupancyGrid map, const PlanningParameters& parameters);
+  FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningParameters& parameters);
+  /// Of a map that nobody shares.
+  FreeSpace(OccupancyGrid map, const PlanningParameters& parameters)
+      : FreeSpace(std::make_shared<const KnownSpace>(std::move(map)), parameters) {}
+  FreeSpace(FreeSpace&&) = default;
 
-  const OccupancyGrid& map() const { return map_; }
+  const OccupancyGrid& map() const { return known_->map(); }
   const PlanningParameters& parameters() const { return parameters_; }
 
   /// Squared distance from a cell's centre to the nearest obstacle, in half cells; 0 for cells that are occupied,
   /// unknown or outside.
-  std::uint16_t clearance_square(CellIndex c) const { return map_.contains(c) ? clearance_[index(c)] : 0; }
+  std::uint16_t clearance_square(CellIndex c) const { return map().contains(c) ? clearance_[index(c)] : 0; }
   /// The distance from a cell's centre to the nearest obstacle, told up to 127 cells.
   double clearance_m(CellIndex c) const;
   /// The least squared clearance, in half cells, that a distance in metres needs.
@@ -69,21 +74,20 @@ class FreeSpace {
   void mark(std::span<const Point> echoes);
   /// Forgets all that was marked.
   void forget();
-  bool marked() const { return any_marked_; }
+  bool marked() const { return !marked_.empty(); }
 
  private:
   std::size_t index(CellIndex c) const {
-    return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(map_.width()) + static_cast<std::size_t>(c.x);
+    return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(map().width()) + static_cast<std::size_t>(c.x);
   }
   void push_away(CellIndex obstacle);
 
-  OccupancyGrid map_;
+  std::shared_ptr<const KnownSpace> known_;
   PlanningParameters parameters_;
   std::uint16_t hard_square_ = 0, preferred_square_ = 0, explained_square_ = 0;
-  std::vector<std::uint16_t> mapped_;     // clearances by the map alone
-  std::vector<std::uint16_t> clearance_;  // with what was marked
-  std::vector<std::uint8_t> cost_;        // by squared clearance, up to preferred_square_
-  bool any_marked_ = false;
+  std::vector<std::uint16_t> marked_;         // clearances with what was marked; empty: nothing was
+  const std::uint16_t* clearance_ = nullptr;  // those, or the map's
+  std::vector<std::uint8_t> cost_;            // by squared clearance, up to preferred_square_
 };
 
 }  // namespace waitpoint::executive

@@ -30,6 +30,9 @@ struct Plan {
 
 class RoutePlanner {
  public:
+  RoutePlanner(std::shared_ptr<const KnownSpace> known, const PlanningParameters& parameters)
+      : space_(std::move(known), parameters) {}
+  /// With a map that nobody shares.
   RoutePlanner(OccupancyGrid map, const PlanningParameters& parameters) : space_(std::move(map), parameters) {}
 
   /// Plans with what is known and marked. A start that is not passable is first left for the nearest passable cell in
