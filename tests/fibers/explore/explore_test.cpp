@@ -144,37 +144,6 @@ TEST(Explore, EveryWayToFailIsReportedInItsWords) {
   EXPECT_TRUE(contains(words(spins), "no progress"));
 }
 
-TEST(Explore, AnExpectationThatFailsIsCaughtAndReportedOnce) {
-  int runs = 0;
-  const ExploreReport report = explore([&] {
-    ++runs;
-    atomic<int> turn{0};
-    thread other([&] { turn.store(1); });
-    EXPECT_EQ(turn.load(), 0) << "the other was first";
-    other.join();
-  });
-  EXPECT_FALSE(report.passed);
-  EXPECT_GT(runs, 3);
-  EXPECT_TRUE(contains(report.text, "expectation at ")) << report;
-  EXPECT_TRUE(contains(report.text, "the other was first")) << report;
-}
-
-TEST(Explore, ABodyThatSkipsTheTestSkipsItOnce) {
-  testing::TestPartResultArray told;
-  {
-    testing::ScopedFakeTestPartResultReporter test(
-        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &told);
-    explore([] {
-      thread other([] {});
-      other.join();
-      GTEST_SKIP() << "there is no device";
-    });
-  }
-  ASSERT_EQ(told.size(), 1);
-  EXPECT_TRUE(told.GetTestPartResult(0).skipped());
-  EXPECT_TRUE(contains(told.GetTestPartResult(0).message(), "there is no device"));
-}
-
 TEST(Explore, TheTokenRepeatsTheFailure) {
   const auto body = [] { count_to_three(2); };
   const ExploreReport found = explore(body, {.minimize = false});
