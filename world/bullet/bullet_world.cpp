@@ -6,11 +6,10 @@
 
 #include "core/error.hpp"
 #include "world/bullet/dynamics.hpp"
-#include "world/fcl/senses.hpp"
+#include "world/fcl/vehicle_world.hpp"
 #include "world/motion/first_contact.hpp"
 #include "world/planar/separation.hpp"
 #include "world/start_check.hpp"
-#include "world/vehicles/vehicle.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -21,8 +20,6 @@ using Kind = BaseDescription::Kind;
 // drives goes further than is seen by it beforehand (2 cm).
 constexpr double part_s_max = 0.01, loose_part_s_max = 0.002, way_m_max = 0.015;
 constexpr double parts_max = 1000;
-
-std::uint32_t number(BodyId id) { return static_cast<std::uint32_t>(id); }
 
 bool goes_anyway(Kind kind) { return kind == Kind::omni || kind == Kind::aerial; }
 
@@ -56,14 +53,11 @@ std::vector<Shape> standing_shapes(const std::vector<Obstacle>& obstacles) {
 /// Of an obstacle, how it moves; none of what is new or stands.
 using MaybeMoving = std::optional<LooseSolid>;
 
-class BulletWorld final : public World {
+class BulletWorld final : public VehicleWorld {
  public:
   BulletWorld(const WorldDescription& description, std::uint64_t seed);
 
-  const WorldDescription& description() const override { return description_; }
-  void command(BodyId id, Velocity velocity) override { vehicles_.at(index(id)).command(velocity, steps_); }
   void step() override;
-  std::uint64_t steps() const override { return steps_; }
   void reset(std::uint64_t seed) override;
 
   std::optional<std::string> move_body(BodyId id, const Pose& pose) override;
@@ -71,26 +65,7 @@ class BulletWorld final : public World {
   bool remove_obstacle(const std::string& name) override;
   std::optional<std::string> push(const std::string& name, Point force_n, Duration time) override;
 
-  const BodyState& body(BodyId id) const override { return vehicles_.at(index(id)).state(); }
   std::span<const LooseState> loose() const override { return loose_; }
-  const OdometerReading& odometer(BodyId id) const override { return vehicles_.at(index(id)).odometer(); }
-  BatteryState battery(BodyId id) const override { return vehicles_.at(index(id)).battery(elapsed_s()); }
-  const ImuSample& imu(BodyId id) const override { return senses_.imu(number(id)); }
-  const PositionFix& position_fix(BodyId id) const override { return senses_.position_fix(number(id)); }
-
-  void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const override {
-    senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, elapsed_s(), out);
-  }
-  void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const override {
-    senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
-  }
-  std::uint32_t bumpers(BodyId id) const override { return senses_.bumpers(vehicles_.at(index(id)), number(id)); }
-  void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const override {
-    senses_.infrareds(vehicles_.at(index(id)), number(id), reading_number, volts);
-  }
-  double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const override {
-    return senses_.cast(beam, range_max_m, own);
-  }
 
  private:
   /// A force that goes on acting, on what bears that name.
@@ -100,7 +75,6 @@ class BulletWorld final : public World {
     std::uint64_t last_step;
   };
 
-  double elapsed_s() const { return static_cast<double>(steps_) * step_s_; }
   void show();
   void latch();
   void move();
@@ -109,19 +83,11 @@ class BulletWorld final : public World {
   void publish_loose(std::uint32_t loose);
   std::uint64_t parts_of_step() const;
 
-  /// Its place among the obstacles; behind the last if there is none.
-  std::size_t find_obstacle(const std::string& name) const;
-  std::optional<std::string> body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const;
   std::vector<MaybeMoving> moving() const;
   void change_obstacles(std::vector<Obstacle> obstacles, const std::vector<MaybeMoving>& moving);
   void make_dynamics(const std::vector<MaybeMoving>& moving);
 
-  WorldDescription description_;
   const std::vector<Obstacle> first_obstacles_;
-  const double step_s_;
-  std::uint64_t steps_ = 0;
-  std::vector<Vehicle> vehicles_;
-  Senses senses_;
   std::optional<Dynamics> dynamics_;
   std::vector<DriveAim> forces_;  // of each vehicle's drive
   std::vector<LooseState> loose_;
@@ -134,12 +100,7 @@ class BulletWorld final : public World {
 };
 
 BulletWorld::BulletWorld(const WorldDescription& description, std::uint64_t seed)
-    : description_(description),
-      first_obstacles_(description.obstacles),
-      step_s_(description.step.seconds()),
-      senses_(description_, {}, {}) {
-  WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
-  WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
+    : VehicleWorld(description, {}, {}), first_obstacles_(description.obstacles) {
   WAITPOINT_CHECK(loose_overlaps(description_).empty(), "something loose starts inside something solid");
   for (const BodyDescription& body : description_.bodies) forces_.push_back(forces_of(body));
   reset(seed);
@@ -290,22 +251,6 @@ std::optional<std::string> BulletWorld::move_body(BodyId id, const Pose& pose) {
   dynamics_->place_hull(number(id), pose, vehicle.state().height_m);
   dynamics_->set_velocity(number(id), {});
   return std::nullopt;
-}
-
-std::optional<std::string> BulletWorld::body_met(const Shape& shape, const Outline& outline,
-                                                 std::uint32_t except) const {
-  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
-    if (i != except && heights_overlap(shape, vehicles_[i].shape()) &&
-        separation(outline, vehicles_[i].outline()).distance_m <= contact_gap_m)
-      return description_.bodies[i].name;
-  }
-  return std::nullopt;
-}
-
-std::size_t BulletWorld::find_obstacle(const std::string& name) const {
-  const std::vector<Obstacle>& all = description_.obstacles;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Obstacle& other) { return other.name == name; });
-  return static_cast<std::size_t>(found - all.begin());
 }
 
 std::vector<MaybeMoving> BulletWorld::moving() const {

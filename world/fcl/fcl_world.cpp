@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "world/fcl/senses.hpp"
+#include "world/fcl/vehicle_world.hpp"
 #include "world/motion/contact_loop.hpp"
 #include "world/planar/separation.hpp"
 #include "world/slice/footprints.hpp"
 #include "world/start_check.hpp"
-#include "world/vehicles/vehicle.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -27,16 +26,11 @@ Heights swept_heights(const Heights& at_start, double climb_m) {
   return {at_start.low_m + low - 2 * contact_gap_m, at_start.high_m + high + 2 * contact_gap_m};
 }
 
-std::uint32_t number(BodyId id) { return static_cast<std::uint32_t>(id); }
-
-class FclWorld final : public World {
+class FclWorld final : public VehicleWorld {
  public:
   FclWorld(const WorldDescription& description, std::uint64_t seed);
 
-  const WorldDescription& description() const override { return description_; }
-  void command(BodyId id, Velocity velocity) override { vehicles_.at(index(id)).command(velocity, steps_); }
   void step() override;
-  std::uint64_t steps() const override { return steps_; }
   void reset(std::uint64_t seed) override;
 
   std::optional<std::string> move_body(BodyId id, const Pose& pose) override;
@@ -46,45 +40,18 @@ class FclWorld final : public World {
     return "there are no forces in a kinematic world";
   }
 
-  const BodyState& body(BodyId id) const override { return vehicles_.at(index(id)).state(); }
   std::span<const LooseState> loose() const override { return {}; }
-  const OdometerReading& odometer(BodyId id) const override { return vehicles_.at(index(id)).odometer(); }
-  BatteryState battery(BodyId id) const override { return vehicles_.at(index(id)).battery(elapsed_s()); }
-  const ImuSample& imu(BodyId id) const override { return senses_.imu(number(id)); }
-  const PositionFix& position_fix(BodyId id) const override { return senses_.position_fix(number(id)); }
-
-  void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const override {
-    senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, elapsed_s(), out);
-  }
-  void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const override {
-    senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
-  }
-  std::uint32_t bumpers(BodyId id) const override { return senses_.bumpers(vehicles_.at(index(id)), number(id)); }
-  void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const override {
-    senses_.infrareds(vehicles_.at(index(id)), number(id), reading_number, volts);
-  }
-  double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const override {
-    return senses_.cast(beam, range_max_m, own);
-  }
 
  private:
-  double elapsed_s() const { return static_cast<double>(steps_) * step_s_; }
   void latch();
   void move();
   void find_meetings(std::uint32_t body, double path_max_m, double climb_max_m);
   void publish();
 
-  std::vector<Obstacle>::iterator find_obstacle(const std::string& name);
   void change_obstacles(std::vector<Obstacle> obstacles);
-  std::optional<std::string> body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const;
 
-  WorldDescription description_;
   std::optional<std::vector<Obstacle>> first_obstacles_;  // of the start, once they have been changed
-  const double step_s_;
-  std::uint64_t steps_ = 0;
-  std::vector<Vehicle> vehicles_;
-  Senses senses_;          // bodies as published at the last step but one: where the last step began
-  Footprints footprints_;  // the same obstacles; none where FCL finds neighbours
+  Footprints footprints_;                                 // the same obstacles; none where FCL finds neighbours
 
   // Buffers of one call, kept so that steps allocate nothing.
   ContactLoop contacts_;
@@ -94,12 +61,8 @@ class FclWorld final : public World {
 };
 
 FclWorld::FclWorld(const WorldDescription& description, std::uint64_t seed)
-    : description_(description),
-      step_s_(description.step.seconds()),
-      senses_(description_, shapes_of(description_.obstacles), shapes_of(description_.bodies)),
+    : VehicleWorld(description, shapes_of(description.obstacles), shapes_of(description.bodies)),
       footprints_(footprints_of(description)) {
-  WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
-  WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
   reset(seed);
 }
 
@@ -195,27 +158,12 @@ std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
   return std::nullopt;
 }
 
-std::optional<std::string> FclWorld::body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const {
-  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
-    const Vehicle& other = vehicles_[i];
-    if (i != except && heights_overlap(shape, other.shape()) &&
-        separation(outline, other.outline()).distance_m <= contact_gap_m)
-      return other.description().name;
-  }
-  return std::nullopt;
-}
-
-std::vector<Obstacle>::iterator FclWorld::find_obstacle(const std::string& name) {
-  std::vector<Obstacle>& all = description_.obstacles;
-  return std::find_if(all.begin(), all.end(), [&](const Obstacle& obstacle) { return obstacle.name == name; });
-}
-
 std::optional<std::string> FclWorld::put_obstacle(const Obstacle& obstacle) {
   if (auto body = body_met(obstacle.shape, outline_of(obstacle.shape), Scene::none)) return body;
   std::vector<Obstacle> obstacles = description_.obstacles;
-  const auto place = find_obstacle(obstacle.name) - description_.obstacles.begin();
-  if (static_cast<std::size_t>(place) < obstacles.size())
-    obstacles[static_cast<std::size_t>(place)] = obstacle;
+  const std::size_t place = find_obstacle(obstacle.name);
+  if (place < obstacles.size())
+    obstacles[place] = obstacle;
   else
     obstacles.push_back(obstacle);
   change_obstacles(std::move(obstacles));
@@ -223,10 +171,10 @@ std::optional<std::string> FclWorld::put_obstacle(const Obstacle& obstacle) {
 }
 
 bool FclWorld::remove_obstacle(const std::string& name) {
-  const auto place = find_obstacle(name);
-  if (place == description_.obstacles.end()) return false;
+  const std::size_t place = find_obstacle(name);
   std::vector<Obstacle> obstacles = description_.obstacles;
-  obstacles.erase(obstacles.begin() + (place - description_.obstacles.begin()));
+  if (place == obstacles.size()) return false;
+  obstacles.erase(obstacles.begin() + static_cast<std::ptrdiff_t>(place));
   change_obstacles(std::move(obstacles));
   return true;
 }

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/fcl/vehicle_world.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "world/motion/contact_loop.hpp"
+#include "world/planar/separation.hpp"
+#include "world/start_check.hpp"
+
+namespace waitpoint::world {
+
+VehicleWorld::VehicleWorld(const WorldDescription& description, std::span<const Shape> standing,
+                           std::span<const Shape> movers)
+    : description_(description), step_s_(description.step.seconds()), senses_(description_, standing, movers) {
+  WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
+  WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
+}
+
+std::size_t VehicleWorld::find_obstacle(const std::string& name) const {
+  const std::vector<Obstacle>& all = description_.obstacles;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Obstacle& other) { return other.name == name; });
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+std::optional<std::string> VehicleWorld::body_met(const Shape& shape, const Outline& outline,
+                                                  std::uint32_t except) const {
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
+    const Vehicle& other = vehicles_[i];
+    if (i != except && heights_overlap(shape, other.shape()) &&
+        separation(outline, other.outline()).distance_m <= contact_gap_m)
+      return other.description().name;
+  }
+  return std::nullopt;
+}
+
+}  // namespace waitpoint::world
