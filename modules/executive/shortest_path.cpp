@@ -38,31 +38,28 @@ std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIn
                 bucket_count);
   WAITPOINT_CHECK(space.passable(start) && space.passable(goal), "a way from or to a cell that is not passable");
   path.clear();
-  const auto width = static_cast<std::uint32_t>(space.map().width());
-  nodes_.assign(std::size_t{width} * static_cast<std::uint32_t>(space.map().height()), {unreachable, none, false});
+  nodes_.begin(space.map().width(), space.map().height(), {unreachable, none, false});
   for (auto& bucket : buckets_) bucket.clear();
   opened_ = 0;
-  const auto index = [&](CellIndex c) {
-    return static_cast<std::uint32_t>(c.y) * width + static_cast<std::uint32_t>(c.x);
-  };
-  nodes_[index(start)].cost = 0;
+  node(start).cost = 0;
   std::uint32_t priority = least_cost(start, goal);
-  open(priority, index(start));
+  open(priority, start);
   while (opened_ > 0) {
     auto& bucket = buckets_[priority % bucket_count];
     if (bucket.empty()) {
       ++priority;
       continue;
     }
-    const std::uint32_t i = bucket.back();
+    const CellIndex cell = bucket.back();
     bucket.pop_back();
     --opened_;
-    if (nodes_[i].closed) continue;
-    nodes_[i].closed = true;
-    const CellIndex cell = {static_cast<std::int32_t>(i % width), static_cast<std::int32_t>(i / width)};
+    Node& reached = node(cell);
+    if (reached.closed) continue;
+    reached.closed = true;
     if (cell == goal) {
-      walk_back(space, start, goal, path);
-      return nodes_[i].cost;
+      const std::uint32_t cost = reached.cost;
+      walk_back(start, goal, path);
+      return cost;
     }
     expand(space, cell, goal);
   }
@@ -70,31 +67,25 @@ std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIn
 }
 
 void ShortestPath::expand(const FreeSpace& space, CellIndex cell, CellIndex goal) {
-  const auto width = static_cast<std::uint32_t>(space.map().width());
-  const std::uint32_t cost =
-      nodes_[static_cast<std::uint32_t>(cell.y) * width + static_cast<std::uint32_t>(cell.x)].cost;
+  const std::uint32_t cost = node(cell).cost;
   for (std::uint32_t k = 0; k < steps.size(); ++k) {
     const CellIndex next = {cell.x + steps[k].x, cell.y + steps[k].y};
     if (!space.passable(next)) continue;
-    const std::uint32_t i = static_cast<std::uint32_t>(next.y) * width + static_cast<std::uint32_t>(next.x);
-    Node& node = nodes_[i];
-    if (node.closed) continue;
+    Node& neighbour = node(next);
+    if (neighbour.closed) continue;
     const std::uint32_t next_cost = cost + steps[k].length * space.cell_cost(next);
-    if (next_cost >= node.cost) continue;
-    node.cost = next_cost;
-    node.came_by = static_cast<std::uint8_t>(k);
-    open(next_cost + least_cost(next, goal), i);
+    if (next_cost >= neighbour.cost) continue;
+    neighbour.cost = next_cost;
+    neighbour.came_by = static_cast<std::uint8_t>(k);
+    open(next_cost + least_cost(next, goal), next);
   }
 }
 
-void ShortestPath::walk_back(const FreeSpace& space, CellIndex start, CellIndex goal,
-                             std::vector<CellIndex>& path) const {
-  const auto width = static_cast<std::uint32_t>(space.map().width());
+void ShortestPath::walk_back(CellIndex start, CellIndex goal, std::vector<CellIndex>& path) {
   CellIndex cell = goal;
   path.push_back(cell);
   while (cell != start) {
-    const Node& node = nodes_[static_cast<std::uint32_t>(cell.y) * width + static_cast<std::uint32_t>(cell.x)];
-    const Step& step = steps[node.came_by];
+    const Step& step = steps[node(cell).came_by];
     cell = {cell.x - step.x, cell.y - step.y};
     path.push_back(cell);
   }

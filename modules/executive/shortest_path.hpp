@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "modules/executive/free_space.hpp"
+#include "modules/executive/search_grid.hpp"
 
 namespace waitpoint::executive {
 
@@ -31,14 +32,13 @@ class ShortestPath {
   static constexpr std::size_t bucket_count = 1024;
   static constexpr std::uint8_t none = 255;
 
-  void open(std::uint32_t priority, std::uint32_t node) {
-    buckets_[priority % bucket_count].push_back(node), ++opened_;
-  }
+  void open(std::uint32_t priority, CellIndex cell) { buckets_[priority % bucket_count].push_back(cell), ++opened_; }
   void expand(const FreeSpace& space, CellIndex cell, CellIndex goal);
-  void walk_back(const FreeSpace& space, CellIndex start, CellIndex goal, std::vector<CellIndex>& path) const;
+  void walk_back(CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
+  Node& node(CellIndex cell) { return nodes_(cell.x, cell.y); }
 
-  std::vector<Node> nodes_;
-  std::array<std::vector<std::uint32_t>, bucket_count> buckets_;
+  SearchGrid<Node> nodes_;
+  std::array<std::vector<CellIndex>, bucket_count> buckets_;
   std::size_t opened_ = 0;
 };
 

@@ -59,13 +59,12 @@ struct RequestType;
 
 inline constexpr std::size_t activities_max = 19;  // SERV_NMAX_RQST_ID - 1
 
-/// A slot of the module's table of activities. Guarded by the lock on the control data.
+/// Guarded by the lock on the control data.
 struct Activity {
-  State state = State::ether;  ///< ETHER: free, or ended with its final reply still to be sent
-  bool in_use = false;
-  bool replied = false;      ///< its final reply is sent: of a ZOMBIE
-  bool interrupt = false;    ///< told to go to INTER
-  bool interrupted = false;  ///< went there: whatever its codels say, it ends with report ACTIVITY_INTERRUPTED
+  State state = State::ether;  ///< ETHER: ended, its final reply still to be sent
+  bool replied = false;        ///< its final reply is sent: of a ZOMBIE
+  bool interrupt = false;      ///< told to go to INTER
+  bool interrupted = false;    ///< went there: whatever its codels say, it ends with report ACTIVITY_INTERRUPTED
   const RequestType* type = nullptr;
   std::int32_t number = -1;
   std::uint32_t send_id = 0;

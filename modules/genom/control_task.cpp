@@ -33,8 +33,7 @@ void ControlTask::run() {
 }
 
 void ControlTask::end_activities() {
-  for (Activity& a : module_.activities()) {
-    if (!a.in_use) continue;
+  for (Activity& a : module_.activities().used()) {
     if (a.state == State::zombie && !a.replied) {
       if (a.report == ok) a.report = module_.report(StandardReport::activity_failed);
       a.replied = true;
@@ -44,7 +43,7 @@ void ControlTask::end_activities() {
     if (a.interrupted) a.report = module_.report(StandardReport::activity_interrupted);
     if (a.type->kind == RequestKind::init && a.report == ok) init_done_ = true;
     reply(LetterKind::final_reply, a);
-    a = Activity();
+    module_.activities().free(a);
   }
 }
 
@@ -70,24 +69,16 @@ Report ControlTask::execute(const RequestType& type, const Letter& letter) {
   for (const ExecutionTask& task : module_.tasks_)
     if (task.suspended()) return module_.report(StandardReport::exec_task_suspended);
   if (!init_done_ && type.kind != RequestKind::init) return module_.report(StandardReport::wait_init_request);
-  auto& table = module_.activities();
-  if (std::any_of(table.begin(), table.end(), [](const Activity& a) { return a.state == State::zombie; }))
-    return module_.report(StandardReport::wait_abort_zombie_activity);
-  std::int32_t slot = -1;
-  for (std::size_t i = 0; i < table.size() && slot < 0; ++i) {
-    const std::size_t at = (static_cast<std::size_t>(next_slot_) + i) % table.size();
-    if (!table[at].in_use) slot = static_cast<std::int32_t>(at);
-  }
-  if (slot < 0) return module_.report(StandardReport::too_many_activities);
+  ActivityTable& table = module_.activities();
+  for (const Activity& a : table.used())
+    if (a.state == State::zombie) return module_.report(StandardReport::wait_abort_zombie_activity);
+  if (table.full()) return module_.report(StandardReport::too_many_activities);
   Payload output;
   if (const Report refused = type.control(letter.payload, output); refused != ok) return refused;
-  next_slot_ = (slot + 1) % static_cast<std::int32_t>(table.size());
   interrupt_incompatible(type);
-  Activity& a = table[static_cast<std::size_t>(slot)];
+  Activity& a = table.add();
   a.state = State::init;
-  a.in_use = true;
   a.type = &type;
-  a.number = slot;
   a.send_id = letter.send_id;
   a.client = letter.reply_to;
   a.input = letter.payload;
@@ -95,8 +86,8 @@ Report ControlTask::execute(const RequestType& type, const Letter& letter) {
 }
 
 void ControlTask::interrupt_incompatible(const RequestType& type) {
-  for (Activity& a : module_.activities())
-    if (a.in_use && names(type.interrupts, a.type->name)) interrupt(a);
+  for (Activity& a : module_.activities().used())
+    if (names(type.interrupts, a.type->name)) interrupt(a);
 }
 
 bool ControlTask::interruptible(State state) const {
@@ -108,9 +99,9 @@ void ControlTask::interrupt(Activity& a) {
   if (a.state == State::init) {
     a.report = module_.report(StandardReport::activity_interrupted);
     reply(LetterKind::final_reply, a);
-    a = Activity();
+    module_.activities().free(a);
   } else if (a.state == State::zombie) {
-    a = Activity();
+    module_.activities().free(a);
   } else if (interruptible(a.state)) {
     a.interrupt = true;
     a.type->task->signal();
@@ -118,10 +109,8 @@ void ControlTask::interrupt(Activity& a) {
 }
 
 Report ControlTask::abort(std::int32_t activity) {
-  auto& table = module_.activities();
   if (activity == AbortInput::end_module) {
-    const bool busy = std::any_of(table.begin(), table.end(), [](const Activity& a) { return a.in_use; });
-    if (busy) return module_.report(StandardReport::system_error);
+    if (!module_.activities().empty()) return module_.report(StandardReport::system_error);
     ending_ = true;
     module_.mailbox().event().release();
     return ok;
@@ -130,26 +119,25 @@ Report ControlTask::abort(std::int32_t activity) {
     for (ExecutionTask& task : module_.tasks_) task.resume();
     return ok;
   }
-  if (activity < 0 || activity >= static_cast<std::int32_t>(table.size()))
-    return module_.report(StandardReport::unknown_activity);
-  Activity& a = table[static_cast<std::size_t>(activity)];
-  if (!a.in_use) return module_.report(StandardReport::activity_already_ended);
-  interrupt(a);
+  if (!ActivityTable::is_number(activity)) return module_.report(StandardReport::unknown_activity);
+  Activity* const found = module_.activities().find(activity);
+  if (found == nullptr) return module_.report(StandardReport::activity_already_ended);
+  interrupt(*found);
   return ok;
 }
 
 // Whether an activity that `candidate` has to wait for is still there: a ZOMBIE does nothing any more.
 bool ControlTask::blocked(const Activity& candidate) const {
-  for (const Activity& a : module_.activities()) {
-    if (&a == &candidate || !a.in_use || a.state == State::init || a.state == State::zombie) continue;
+  for (const Activity& a : module_.activities().used()) {
+    if (&a == &candidate || a.state == State::init || a.state == State::zombie) continue;
     if (names(candidate.type->interrupts, a.type->name)) return true;
   }
   return false;
 }
 
 void ControlTask::start_activities() {
-  for (Activity& a : module_.activities()) {
-    if (!a.in_use || a.state != State::init || blocked(a)) continue;
+  for (Activity& a : module_.activities().used()) {
+    if (a.state != State::init || blocked(a)) continue;
     a.state = State::start;
     reply(LetterKind::intermediate_reply, a);
     a.type->task->signal();
@@ -158,8 +146,8 @@ void ControlTask::start_activities() {
 
 void ControlTask::write_status() {
   ModuleStatus status;
-  for (const Activity& a : module_.activities())
-    if (a.in_use) status.activities.push_back({a.number, a.type->number, a.state});
+  for (const Activity& a : module_.activities().used())
+    status.activities.push_back({a.number, a.type->number, a.state});
   for (const ExecutionTask& task : module_.tasks_) {
     status.missed_periods += static_cast<std::uint64_t>(task.missed_periods());
     status.suspended |= task.suspended();

@@ -11,7 +11,7 @@
 // them.
 #pragma once
 
-#include "modules/genom/activity.hpp"
+#include "modules/genom/activity_table.hpp"
 #include "modules/genom/module_watch.hpp"
 #include "modules/genom/poster.hpp"
 
@@ -75,7 +75,6 @@ class ControlTask {
   Module& module_;
   Poster<ModuleStatus>& poster_;
   ModuleWatch* watch_ = nullptr;
-  std::int32_t next_slot_ = 0;
   bool init_done_ = true;
   bool ending_ = false;
   bool interrupt_end_ = true;

@@ -131,7 +131,7 @@ class Module {
   };
 
   RequestType& add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts);
-  std::array<Activity, activities_max>& activities() { return activities_; }
+  ActivityTable& activities() { return activities_; }
   bool ending() const { return control_.ending(); }
 
   struct Link {
@@ -148,7 +148,7 @@ class Module {
   threads::mutex control_data_{"control data"};
   threads::mutex functional_data_{"functional data"};
   std::deque<RequestType> requests_;
-  std::array<Activity, activities_max> activities_;
+  ActivityTable activities_;
   std::deque<ExecutionTask> tasks_;
   std::vector<std::unique_ptr<OutputPosterBase>> outputs_;
   std::vector<Link> links_;

@@ -12,7 +12,19 @@ class OutputPosterBase {
   /// Takes over the automatic source, if there is one: at the end of every wake-up.
   virtual void update() = 0;
   /// Gives what was written since the last time.
-  virtual void give() = 0;
+  void give() {
+    if (!written_) return;  // mostly: this is asked after every codel
+    written_ = false;
+    give_staged();
+  }
+
+ protected:
+  void has_written() { written_ = true; }
+
+ private:
+  virtual void give_staged() = 0;
+
+  bool written_ = false;
 };
 
 template <HasFields T>
@@ -24,23 +36,21 @@ class OutputPoster : public OutputPosterBase {
   /// From codels of the poster's task.
   void write(const T& value) {
     staged_ = value;
-    written_ = true;
+    has_written();
   }
   void update() override {
     if (automatic_ != nullptr) write(*automatic_);
   }
-  void give() override {
-    if (!written_) return;
-    written_ = false;
+
+ private:
+  void give_staged() override {
     threads::access_hardware(poster_.latency());
     poster_.write(staged_);
   }
 
- private:
   Poster<T>& poster_;
   const T* automatic_;
   T staged_{};
-  bool written_ = false;
 };
 
 }  // namespace waitpoint::genom
