@@ -12,6 +12,7 @@
 #include <map>
 
 #include "modules/bridge/experiment.hpp"
+#include "tests/bench/floors.hpp"
 #include "tests/bench/rows.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tools/papers_modules.hpp"
@@ -21,9 +22,25 @@ namespace {
 
 struct Case {
   std::string scenario;
-  double must;  // times real time
+  int floors = 1;                   // with as many times the robots
+  std::optional<double> must = {};  // times real time
+  Duration at_most = std::chrono::minutes(10);
 };
-const std::vector<Case> cases = {{"office.yaml", 50}, {"office-10.yaml", 8}};
+const std::vector<Case> cases = {{"office.yaml", 1, 50},
+                                 {"office-10.yaml", 1, 8},
+                                 {"office-10.yaml", 10, 5},
+                                 {"office-10.yaml", 100, std::nullopt, std::chrono::seconds(5)}};
+
+// Many floors are for the engine that is made for many robots; the digest is the same with either.
+bridge::Scenario scenario_of(const Case& of) {
+  bridge::Scenario scenario = runs::shipped(of.scenario);
+  if (of.floors > 1) {
+    scenario = side_by_side(scenario, of.floors);
+    scenario.engine = world::Engine::slice;
+  }
+  scenario.until = std::min(scenario.until, of.at_most);
+  return scenario;
+}
 
 std::int64_t clock_ns(clockid_t clock) {
   timespec now{};
@@ -86,7 +103,8 @@ Speed carry_out(const bridge::Scenario& scenario, const std::string& what, Costs
 
 class Bench {
  public:
-  void run(const Case& of, const bridge::Scenario& scenario, int repeats) {
+  void run(const Case& of, int repeats) {
+    const bridge::Scenario scenario = scenario_of(of);
     const std::string bench = scenario.name;
     double by_wall = 0, by_processor = 0;
     for (int i = 1; i <= repeats; ++i) {
@@ -133,7 +151,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     Bench bench;
-    for (const Case& of : cases) bench.run(of, runs::shipped(of.scenario), repeats);
+    for (const Case& of : cases) bench.run(of, repeats);
     if (!json.empty()) write_json(json, bench.rows());
     return 0;
   } catch (const BadInput& error) {
