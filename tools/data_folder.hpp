@@ -6,5 +6,7 @@ namespace waitpoint::tools {
 
 /// An absolute path: PREFIX/share/waitpoint.
 extern const char* const data_folder;
+/// Of libraries that are loaded by name: PREFIX/lib.../waitpoint.
+extern const char* const library_folder;
 
 }  // namespace waitpoint::tools

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "tools/data_folder.hpp"
+#include "tools/exec/program_file.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -28,24 +28,10 @@ std::filesystem::path commands() {
                  "the commands for gdb are not installed: expected " + (installed / "waitpoint-gdb.py").string());
 }
 
-bool is_program(const std::filesystem::path& path) {
-  return std::filesystem::is_regular_file(path) && access(path.c_str(), X_OK) == 0;
-}
-
-/// As a shell would find it.
-bool can_be_run(const std::string& name) {
-  if (name.find('/') != std::string::npos) return is_program(name);
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (is_program(std::filesystem::path(folder.empty() ? "." : folder) / name)) return true;
-  return false;
-}
-
 }  // namespace
 
 void debug(const DebugOptions& options) {
-  if (!options.own && !can_be_run(options.words.front()))
+  if (!options.own && find_program(options.words.front()).empty())
     throw BadInput("gdb", "there is no program '" + options.words.front() + "'");
   std::vector<std::string> words = {"gdb", "-q", "-x", commands().string()};
   words.insert(words.end(), options.gdb_options.begin(), options.gdb_options.end());

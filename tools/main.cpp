@@ -2,10 +2,12 @@
 #include "tools/main.hpp"
 
 #include <cstdio>
+#include <string_view>
 
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/scenario_reader.hpp"
 #include "tools/debug.hpp"
+#include "tools/exec/exec.hpp"
 #include "tools/explore/explore.hpp"
 #include "tools/options.hpp"
 #include "tools/papers_modules.hpp"
@@ -38,13 +40,16 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
     if (const auto* run = std::get_if<tools::RunOptions>(&options)) return tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
+    if (const auto* executed = std::get_if<tools::ExecOptions>(&options)) return tools::exec(*executed);
     if (const auto* explored = std::get_if<tools::ExploreOptions>(&options)) return tools::explore(*explored, types);
     std::fputs(std::get<tools::ShownText>(options).text.c_str(), stdout);
     return 0;
   } catch (const BadInput& error) {
     std::fflush(stdout);
     std::fprintf(stderr, "waitpoint: %s\n", error.what());
-    return 2;
+    // Every other status may be that of the program.
+    const bool is_exec = argc > 1 && std::string_view(argv[1]) == "exec";
+    return is_exec ? tools::exec_failed : 2;
   } catch (const std::exception& error) {
     std::fflush(stdout);
     std::fprintf(stderr, "waitpoint: the run failed: %s\n", error.what());

@@ -273,6 +273,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
                      "  waitpoint gdb [OPTIONS OF GDB] -- run SCENARIO ...\n"
                      "  waitpoint gdb [OPTIONS OF GDB] -- PROGRAM ...");
   ExploreArguments explore(app);
+  ExecArguments exec(app);
   // After the commands are added, which would inherit it.
   app.footer(
       "waitpoint COMMAND --help tells more. Exit status: 0 as the scenario expects, 1 an expectation failed or a\n"
@@ -282,6 +283,12 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (argc > 1 && std::string_view(argv[1]) == "gdb") {
     if (words.empty() || (words[0] != "--help" && words[0] != "-h")) return debug_options(words, commands_of(app));
     argc = 3;  // the rest is not ours
+  }
+  std::vector<std::string> program;
+  if (argc > 1 && std::string_view(argv[1]) == "exec") {
+    const auto dashes = std::find(words.begin(), words.end(), "--");
+    if (dashes != words.end()) program.assign(dashes + 1, words.end());
+    argc = 2 + static_cast<int>(dashes - words.begin());  // the rest is not ours
   }
   try {
     app.parse(argc, argv);
@@ -295,8 +302,9 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   for (const CLI::App* command : app.get_subcommands()) refuse_empty_words(*command);
   if (run->parsed()) return run_options(arguments);
   if (explore.parsed()) return explore.options();
+  if (exec.parsed()) return exec.options(program);
   if (check->parsed()) return CheckOptions{arguments.scenario, arguments.assignments};
-  throw BadInput("command line", "expected a command, run, check or explore; waitpoint --help tells more");
+  throw BadInput("command line", "expected a command, run, check, explore or exec; waitpoint --help tells more");
 }
 
 }  // namespace waitpoint::tools

@@ -11,6 +11,7 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/chooser.hpp"
+#include "tools/exec/exec_options.hpp"
 #include "tools/explore/explore_options.hpp"
 
 namespace waitpoint::tools {
@@ -57,7 +58,7 @@ struct ShownText {
   std::string text;
 };
 
-using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, DebugOptions, ShownText>;
+using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, ShownText>;
 
 /// Reads the arguments, and WAITPOINT_SEED where --seed is not given. Throws BadInput, one clear line, for what it does
 /// not understand. `version` is the text of --version.

@@ -40,7 +40,7 @@ void report_overflow(const Task& task) {
   describe_run(task);
   SignalSafeText advice;
   advice.add("  its stack has ").add(std::uint64_t{bytes(size)} / 1024).add(" KiB; ");
-  if (size == StackSize::large) {
+  if (size >= StackSize::large) {
     advice.add("there is none larger: what is large belongs on the heap\n");
   } else {
     advice.add("a larger one: ").add(size == StackSize::small ? "StackSize::medium (64 KiB) or " : "");

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/sanitizer.hpp"
+#include "fibers/kernel/thread_pointer.hpp"
 
 // The Itanium C++ ABI has it; libc++'s <cxxabi.h> has not.
 namespace __cxxabiv1 {
@@ -81,12 +82,14 @@ struct Globals {
 // Of the thread that runs the fibers: looking them up costs as much as the switch.
 Globals* globals = nullptr;
 int* error_number = nullptr;
+void* own_thread_pointer = nullptr;
 
 }  // namespace
 
 void bind_to_thread() {
   globals = reinterpret_cast<Globals*>(__cxxabiv1::__cxa_get_globals());
   error_number = &errno;
+  own_thread_pointer = thread_pointer();
 }
 
 void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), void* argument) {
@@ -103,6 +106,8 @@ void switch_fiber(Fiber& from, Fiber& to) {
   globals->caught_exceptions = to.thread_state.caught_exceptions;
   globals->uncaught_exceptions = to.thread_state.uncaught_exceptions;
   *error_number = to.thread_state.error_number;
+  if (__builtin_expect(from.thread_pointer != to.thread_pointer, 0))
+    set_thread_pointer(to.thread_pointer != nullptr ? to.thread_pointer : own_thread_pointer);
   void* target = to.context;
   to.context = nullptr;
   if (__builtin_expect(sanitizer::present, 0)) return jump_seen(from, target, to);

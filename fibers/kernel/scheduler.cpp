@@ -58,7 +58,7 @@ void Scheduler::restart(std::uint64_t seed) {
   first_robot_ = last_robot_ = nullptr;
   culprit_ = nullptr;
   first_abandoned_ = nullptr;
-  executed_ = turns_given_ = 0;
+  executed_ = switches_ = turns_given_ = 0;
   live_tasks_ = made_ = 0;
   state_ = RunState::idle;
   cause_ = StopCause::none;
@@ -88,7 +88,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   if (unwinding_ || tasks_ >= most_tasks_) return nullptr;
   Stack stack;
   // Sanitizers make frames larger, and put a report together on the stack of the task that is found out.
-  const StackSize size = sanitizer::present ? StackSize::large : options.stack;
+  const StackSize size = sanitizer::present && options.stack < StackSize::large ? StackSize::large : options.stack;
   if (!arena_.take(size, stack) && (size == options.stack || !arena_.take(options.stack, stack))) return nullptr;
   // The record lies at the high end of the task's own stack: one page for both.
   char* top = stack.high - (sizeof(Task) + 63) / 64 * 64 - 64;

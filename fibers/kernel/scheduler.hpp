@@ -199,6 +199,8 @@ class Scheduler {
   Robot* first_robot() const { return first_robot_; }
   /// Events executed so far, by tasks of all robots.
   std::uint64_t events() const { return executed_; }
+  /// Times that a fiber was left for another.
+  std::uint64_t switches() const { return switches_; }
   bool unwinding() const { return unwinding_; }
   /// Tasks that are left, and how many there may be at once: at most tasks_max.
   std::uint32_t tasks() const { return tasks_; }
@@ -320,6 +322,7 @@ class Scheduler {
   std::uint64_t epoch_;
   std::uint64_t searches_ = 0;
   std::uint64_t executed_ = 0;
+  std::uint64_t switches_ = 0;
   std::uint32_t live_tasks_ = 0;
   std::uint32_t tasks_ = 0;
   std::uint32_t made_ = 0;  // tasks so far

@@ -68,6 +68,7 @@ inline EventKey Scheduler::next_key() const {
 // stack is to keep few cache lines.
 inline void Scheduler::leave(Fiber& from, Fiber& to) {
   if (&from == &to) return;
+  ++switches_;
   switch_fiber(from, to);
   if (ended_ != nullptr) reclaim_ended();
 }

@@ -17,7 +17,7 @@ constexpr std::uint32_t shifts = 53;
 constexpr int madv_guard_install = 102;
 // A process may have 65 530 mappings by default, and every mprotect-ed page splits one into three.
 constexpr std::uint32_t protected_pages_max = 25000;
-constexpr std::uint32_t slots_max[3] = {1u << 20, 1u << 17, 1u << 14};
+constexpr std::uint32_t slots_max[stack_sizes] = {1u << 20, 1u << 17, 1u << 14, 1u << 15};
 
 // The free list's link lies at the high end, in the page that is touched anyway.
 std::uint32_t& link(const Stack& stack) { return reinterpret_cast<std::uint32_t*>(stack.high)[-1]; }
@@ -33,24 +33,25 @@ std::size_t bytes_max() {
 
 StackArena::StackArena() {
   sanitizer::look();
+  for (const StackSize size : {StackSize::small, StackSize::medium, StackSize::large}) reserve(range_of(size), size);
+}
+
+void StackArena::reserve(Range& range, StackSize of) {
   const std::size_t most = bytes_max();
-  for (int i = 0; i < 3; ++i) {
-    Range& range = ranges_[i];
-    // A machine with little address space to give (limits, strict overcommit) gets fewer slots, not a failure.
-    for (range.slots = slots_max[i]; range.slots > 0; range.slots /= 2) {
-      const std::size_t size = range.slots * bytes(static_cast<StackSize>(i));
-      if (size > most) continue;
-      void* base =
-          mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
-      if (base == MAP_FAILED) continue;
-      range.base = static_cast<char*>(base);
-      break;
-    }
+  // A machine with little address space to give (limits, strict overcommit) gets fewer slots, not a failure.
+  for (range.slots = slots_max[static_cast<int>(of)]; range.slots > 0; range.slots /= 2) {
+    const std::size_t size = range.slots * bytes(of);
+    if (size > most) continue;
+    void* base =
+        mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+    if (base == MAP_FAILED) continue;
+    range.base = static_cast<char*>(base);
+    break;
   }
 }
 
 StackArena::~StackArena() {
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < stack_sizes; ++i)
     if (ranges_[i].base != nullptr) munmap(ranges_[i].base, ranges_[i].slots * bytes(static_cast<StackSize>(i)));
 }
 
@@ -73,7 +74,8 @@ Stack StackArena::describe(const Range& range, StackSize size, std::uint32_t slo
 }
 
 bool StackArena::take(StackSize size, Stack& stack) {
-  Range& range = ranges_[static_cast<int>(size)];
+  Range& range = range_of(size);
+  if (range.base == nullptr && range.slots == 0 && size == StackSize::program) reserve(range, size);
   if (range.free_first != none) {
     stack = describe(range, size, range.free_first);
     range.free_first = link(stack);
@@ -95,7 +97,7 @@ bool StackArena::guards(const Stack& stack, const char* address) {
 void StackArena::give_back(const Stack& stack) {
   WAITPOINT_CHECK(intact(stack), "a task ran over the end of its stack");
   if (sanitizer::present) sanitizer::close_stack(stack);
-  Range& range = ranges_[static_cast<int>(stack.size)];
+  Range& range = range_of(stack.size);
   link(stack) = range.free_first;
   range.free_first = stack.slot;
 }

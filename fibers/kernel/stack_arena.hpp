@@ -2,7 +2,7 @@
 // The stacks of all fibers, in address ranges reserved once.
 //
 // One range a size class, cut into slots of equal size; a slot is reused last in, first out, so that its pages are
-// warm:
+// warm (that of programs' stacks, which is vast, is reserved when one is asked for):
 //
 //   low                                                                  high
 //   | guard page |  ... grows down ...  stack | shift |   | guard page | ...
@@ -20,9 +20,13 @@
 
 namespace waitpoint::kernel {
 
-enum class StackSize : std::uint8_t { small, medium, large };  ///< 16, 64, 256 KiB
+/// 16, 64, 256 KiB; 8 MiB, as the threads of programs have.
+enum class StackSize : std::uint8_t { small, medium, large, program };
+inline constexpr int stack_sizes = 4;
 
-constexpr std::size_t bytes(StackSize size) { return std::size_t{16384} << (2 * static_cast<int>(size)); }
+constexpr std::size_t bytes(StackSize size) {
+  return size == StackSize::program ? std::size_t{8} << 20 : std::size_t{16384} << (2 * static_cast<int>(size));
+}
 
 enum class Guard : std::uint8_t { page, canary };
 
@@ -64,10 +68,12 @@ class StackArena {
   };
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 
+  Range& range_of(StackSize size) { return ranges_[static_cast<int>(size)]; }
+  void reserve(Range& range, StackSize size);
   Stack describe(const Range& range, StackSize size, std::uint32_t slot) const;
   bool install_guard(char* page);
 
-  Range ranges_[3];
+  Range ranges_[stack_sizes];
   std::uint32_t protected_pages_ = 0;
 };
 

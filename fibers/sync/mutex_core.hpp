@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exclusive ownership: what mutex, timed_mutex and their recursive kin have in common.
 //
-// A lock has one owner or none; the locks that a task owns hang in a list in it. Both are written here alone, by own()
-// and disown(). A release with waiters hands the lock to one of them, of the chooser's choice: nobody comes between.
+// A lock has one owner or none (kernel/ownership.hpp). A release with waiters hands the lock to one of them, of the
+// chooser's choice: nobody comes between.
 #pragma once
 
+#include "fibers/kernel/ownership.hpp"
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/misuse.hpp"
 
 namespace waitpoint::sync {
-
-/// Makes `task` the owner of `object`, which nobody owns.
-inline void own(kernel::Object& object, kernel::Task& task) {
-  object.owner = &task;
-  object.next_held = task.held;
-  task.held = &object;
-}
-
-/// Takes `object` from its owner.
-void disown(kernel::Object& object);
 
 class MutexCore {
  public:

@@ -23,7 +23,7 @@ bool priority_mutex::acquire(Time deadline) {
     if (deadline <= running->local_time) return false;
     return sync::block(object_, deadline);  // unlock() makes the woken one the owner
   }
-  sync::own(object_, *running);
+  kernel::own(object_, *running);
   kernel::hold(*running, lock_);
   return true;
 }
@@ -32,10 +32,10 @@ void priority_mutex::unlock() {
   if (!sync::before_releasing(Operation::unlock, object_)) return;
   WAITPOINT_CHECK(object_.owner == running, sync::about(object_, "a task unlocks a mutex that it does not hold"));
   kernel::let_go(*running, lock_);
-  sync::disown(object_);
+  kernel::disown(object_);
   kernel::Task* const next = kernel::wake_most_urgent(*running->scheduler, object_);
   if (next == nullptr) return;
-  sync::own(object_, *next);
+  kernel::own(object_, *next);
   kernel::hold(*next, lock_);
 }
 

@@ -37,7 +37,7 @@ bool shared_mutex::lock_before(Time deadline) {
 
 bool shared_mutex::acquire(Time deadline) {
   if (object_.owner == nullptr && readers_.empty()) {
-    sync::own(object_, *running);
+    kernel::own(object_, *running);
     return true;
   }
   if (deadline <= running->local_time) return false;
@@ -54,7 +54,7 @@ void shared_mutex::unlock() {
   if (!sync::before_releasing(Operation::unlock, object_)) return;
   WAITPOINT_CHECK(object_.owner == running,
                   sync::about(object_, "a task unlocks a shared mutex that it does not hold as a writer"));
-  sync::disown(object_);
+  kernel::disown(object_);
   hand_over(true);
 }
 
@@ -136,7 +136,7 @@ void shared_mutex::hand_over(bool readers_first) {
   Task* writer = object_.first_waiter;
   while (writer->shared_wait || chosen-- != 0) writer = writer->next_waiter;
   running->scheduler->wake(*writer);
-  sync::own(object_, *writer);
+  kernel::own(object_, *writer);
 }
 
 }  // namespace waitpoint

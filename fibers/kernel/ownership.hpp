@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who holds what, for locks of one holder: an object knows its owner, and what a task owns hangs in a list in it, so
+// that cycles of owners are found. Both are written here alone.
+#pragma once
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::kernel {
+
+/// Makes `task` the owner of `object`, which nobody owns.
+inline void own(Object& object, Task& task) {
+  object.owner = &task;
+  object.next_held = task.held;
+  task.held = &object;
+}
+
+/// Takes `object` from its owner.
+inline void disown(Object& object) {
+  // Locks are mostly given up in the reverse order of their taking: the first link is the right one.
+  Object** link = &object.owner->held;
+  while (*link != &object) link = &(*link)->next_held;
+  *link = object.next_held;
+  object.owner = nullptr;
+}
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cancellation points: calls in which a thread that is cancelled leaves, as POSIX lists them.
+#pragma once
+
+#include "fibers/posix/waiting.hpp"
+
+namespace waitpoint::posix {
+
+/// Leaves the running thread, if it was cancelled and does not forbid it.
+void leave_if_cancelled();
+
+/// A call that waits and is a cancellation point, while it lasts: pthread_cancel() ends the wait.
+class CancellationPoint {
+ public:
+  /// Leaves the thread if it was cancelled before.
+  CancellationPoint() {
+    leave_if_cancelled();
+    this_thread().in_cancellation_point = true;
+  }
+  ~CancellationPoint() { this_thread().in_cancellation_point = false; }
+  CancellationPoint(const CancellationPoint&) = delete;
+  CancellationPoint& operator=(const CancellationPoint&) = delete;
+
+  /// Whether the wait that has just ended was ended by a cancellation: what the call has to put right comes first, then
+  /// leave_if_cancelled().
+  bool was_cancelled() const { return this_thread().cancelled && !this_thread().cancel_disabled; }
+  /// Sleeps; leaves the thread if it is cancelled meanwhile.
+  void wait_until(Time time) const;
+};
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/clocks.hpp"
+
+#include <sys/time.h>
+#include <sys/times.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/waiting.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+
+std::int64_t begin_ns(clockid_t clock) {
+  switch (clock) {
+    case CLOCK_REALTIME:
+    case CLOCK_REALTIME_COARSE:
+    case CLOCK_REALTIME_ALARM:
+    case CLOCK_TAI: return first_date_s * second_ns;
+    case CLOCK_MONOTONIC:
+    case CLOCK_MONOTONIC_RAW:
+    case CLOCK_MONOTONIC_COARSE:
+    case CLOCK_BOOTTIME:
+    case CLOCK_BOOTTIME_ALARM: return first_uptime_s * second_ns;
+    default: return 0;
+  }
+}
+
+// Before main(), time stands still at the start of the run.
+Time now() { return is_simulated() ? read_clock() : Time(); }
+
+}  // namespace
+
+bool is_clock(clockid_t clock) {
+  // Processor-time clocks of threads are negative numbers (pthread_getcpuclockid).
+  return (clock >= CLOCK_REALTIME && clock <= CLOCK_TAI && clock != 10) || clock < 0;
+}
+
+std::int64_t reading_ns(clockid_t clock, Time time) { return begin_ns(clock) + time.ns(); }
+
+Duration span(const timespec& time) {
+  std::int64_t ns = 0;
+  if (__builtin_mul_overflow(static_cast<std::int64_t>(time.tv_sec), second_ns, &ns) ||
+      __builtin_add_overflow(ns, static_cast<std::int64_t>(time.tv_nsec), &ns))
+    return time.tv_sec < 0 ? Duration() : Duration::max();
+  return Duration::from_ns(ns);
+}
+
+Time later(Time from, Duration span) {
+  std::int64_t ns = 0;
+  return __builtin_add_overflow(from.ns(), span.ns(), &ns) ? Time::max() : Time::from_ns(ns);
+}
+
+Time when(clockid_t clock, const timespec& reading) {
+  const Duration since_its_zero = span(reading);
+  if (since_its_zero == Duration::max()) return Time::max();
+  const std::int64_t ns = since_its_zero.ns() - begin_ns(clock);
+  return ns < 0 ? Time() : Time::from_ns(ns);
+}
+
+timespec to_timespec(std::int64_t ns) { return {ns / second_ns, ns % second_ns}; }
+
+Time read_clock() {
+  kernel::Task& task = *kernel::running;
+  kernel::compute(task, cost_of_clock_reading);
+  return kernel::local_time(task);
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept {
+  if (!is_clock(clock)) {
+    errno = EINVAL;
+    return -1;
+  }
+  *time = to_timespec(reading_ns(clock, posix::now()));
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int clock_getres(clockid_t clock, timespec* resolution) noexcept {
+  if (!is_clock(clock)) {
+    errno = EINVAL;
+    return -1;
+  }
+  if (resolution != nullptr) *resolution = {0, 1};
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int gettimeofday(timeval* __restrict time, void* __restrict zone) noexcept {
+  const timespec read = to_timespec(reading_ns(CLOCK_REALTIME, posix::now()));
+  *time = {read.tv_sec, read.tv_nsec / 1000};
+  if (zone != nullptr) *static_cast<struct timezone*>(zone) = {};
+  return 0;
+}
+
+WAITPOINT_INTERPOSED time_t time(time_t* time) noexcept {
+  const time_t read = reading_ns(CLOCK_REALTIME, posix::now()) / second_ns;
+  if (time != nullptr) *time = read;
+  return read;
+}
+
+WAITPOINT_INTERPOSED int timespec_get(timespec* time, int base) noexcept {
+  if (base != TIME_UTC) return 0;
+  *time = to_timespec(reading_ns(CLOCK_REALTIME, posix::now()));
+  return base;
+}
+
+WAITPOINT_INTERPOSED clock_t clock() noexcept { return reading_ns(CLOCK_PROCESS_CPUTIME_ID, posix::now()) / 1000; }
+
+WAITPOINT_INTERPOSED clock_t times(tms* buffer) noexcept {
+  const std::int64_t tick_ns = second_ns / sysconf(_SC_CLK_TCK);
+  const Time read = posix::now();
+  if (buffer != nullptr) *buffer = {reading_ns(CLOCK_PROCESS_CPUTIME_ID, read) / tick_ns, 0, 0, 0};
+  return reading_ns(CLOCK_MONOTONIC, read) / tick_ns;
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/deadlock.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include "fibers/posix/waitable.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+// "mutex jobs_lock", or with its address where no symbol of the program names it.
+void print_object(const kernel::Object& object) {
+  const Waitable* const waitable = waitable_of(object);
+  if (waitable == nullptr) {
+    std::fprintf(stderr, "%s", std::strcmp(object.kind, "thread") == 0 ? "the end of a thread" : object.kind);
+    return;
+  }
+  Dl_info info{};
+  std::fprintf(stderr, "%s ", object.kind);
+  if (dladdr(waitable->address, &info) == 0 || info.dli_sname == nullptr) {
+    std::fprintf(stderr, "at %p", waitable->address);
+    return;
+  }
+  const auto offset = static_cast<const char*>(waitable->address) - static_cast<const char*>(info.dli_saddr);
+  std::fprintf(stderr, offset == 0 ? "%s" : "%s+%td", info.dli_sname, offset);
+}
+
+}  // namespace
+
+void report_deadlock(const kernel::Scheduler& scheduler) {
+  constexpr long long second_ns = 1'000'000'000;
+  const long long now_ns = scheduler.global_time().ns();
+  const bool stuck = scheduler.stop_cause() != kernel::StopCause::no_progress;
+  std::fprintf(stderr, "waitpoint: %s at %lld.%09lld s of virtual time\n", stuck ? "deadlock" : "no progress",
+               now_ns / second_ns, now_ns % second_ns);
+  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
+    std::fprintf(stderr, "  %s", task->name);
+    if (task->blocked_on != nullptr) {
+      std::fprintf(stderr, " waits for ");
+      print_object(*task->blocked_on);
+      if (const kernel::Task* owner = task->blocked_on->owner; owner != nullptr)
+        std::fprintf(stderr, ", %s %s", std::strcmp(task->blocked_on->kind, "thread") == 0 ? "that is" : "held by",
+                     owner == task ? "itself" : owner->name);
+    }
+    std::fprintf(stderr, "\n");
+  }
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// syscall(): futexes are simulated, on which std::atomic::wait, latches, futures, guards of static variables and many
+// libraries stand; a few other calls have simulated answers; the rest go to the kernel.
+#include <linux/futex.h>
+#include <sched.h>
+#include <sys/random.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstdint>
+
+#include "fibers/posix/clocks.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/waiting.hpp"
+#include "fibers/posix/word.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+long fail(int error) {
+  errno = error;
+  return -1;
+}
+
+long wait(std::uint32_t* address, std::uint32_t expected, Time deadline, std::uint32_t mask) {
+  if (mask == 0) return fail(EINVAL);
+  if (!is_simulated()) refuse("a thread waits before main() begins");
+  Word& word = word_at(address);
+  pass(kernel::Operation::wait, &word.object);
+  if (__atomic_load_n(address, __ATOMIC_RELAXED) != expected) return fail(EAGAIN);
+  if (deadline <= kernel::running->local_time) return fail(ETIMEDOUT);
+  this_thread().futex_mask = mask;
+  return block(word.object, deadline) ? 0 : fail(ETIMEDOUT);
+}
+
+long wake(std::uint32_t* address, std::uint32_t most, std::uint32_t mask) {
+  if (mask == 0) return fail(EINVAL);
+  if (!is_simulated()) return 0;
+  Word& word = word_at(address);
+  pass(kernel::Operation::notify_one, &word.object);
+  long woken = 0;
+  if (mask == FUTEX_BITSET_MATCH_ANY) {
+    while (woken < most && wake_one(word.object) != nullptr) ++woken;
+    return woken;
+  }
+  for (kernel::Task *task = word.object.first_waiter, *next = nullptr; task != nullptr && woken < most; task = next) {
+    next = task->next_waiter;
+    if ((thread_of(*task).futex_mask & mask) == 0) continue;
+    kernel::running->scheduler->wake(*task);
+    ++woken;
+  }
+  return woken;
+}
+
+// Of those that are left after some were woken, at most so many wait at another address from now on.
+long requeue(std::uint32_t* from, std::uint32_t most_woken, std::uint32_t most_moved, std::uint32_t* to) {
+  // Nobody can tell a thread that was moved from one that was woken for nothing, which futexes may do: its owner looks
+  // at the value again and waits there.
+  (void)to;
+  const std::uint64_t most = std::uint64_t{most_woken} + most_moved;
+  return wake(from, most > INT32_MAX ? INT32_MAX : static_cast<std::uint32_t>(most), FUTEX_BITSET_MATCH_ANY);
+}
+
+long operate_and_wake(std::uint32_t* first, std::uint32_t most, std::uint32_t most_second, std::uint32_t* second,
+                      std::uint32_t code) {
+  const std::uint32_t operation = code >> 28 & 7, comparison = code >> 24 & 15;
+  std::uint32_t operand = code >> 12 & 0xFFF;
+  const std::uint32_t compared = code & 0xFFF, old = *second;
+  if ((code >> 31) != 0) operand = 1U << (operand & 31);
+  switch (operation) {
+    case FUTEX_OP_SET: *second = operand; break;
+    case FUTEX_OP_ADD: *second = old + operand; break;
+    case FUTEX_OP_OR: *second = old | operand; break;
+    case FUTEX_OP_ANDN: *second = old & ~operand; break;
+    case FUTEX_OP_XOR: *second = old ^ operand; break;
+    default: return fail(ENOSYS);
+  }
+  const auto a = static_cast<std::int32_t>(old), b = static_cast<std::int32_t>(compared);
+  const bool holds[] = {a == b, a != b, a<b, a <= b, a> b, a >= b};
+  if (comparison >= sizeof holds) return fail(ENOSYS);
+  const long woken = wake(first, most, FUTEX_BITSET_MATCH_ANY);
+  return holds[comparison] ? woken + wake(second, most_second, FUTEX_BITSET_MATCH_ANY) : woken;
+}
+
+long futex(std::uint32_t* address, int operation, std::uint32_t value, const timespec* timeout, std::uint32_t* second,
+           std::uint32_t third) {
+  const clockid_t clock = (operation & FUTEX_CLOCK_REALTIME) != 0 ? CLOCK_REALTIME : CLOCK_MONOTONIC;
+  const auto count = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(timeout));
+  const int what = operation & FUTEX_CMD_MASK;
+  if ((what == FUTEX_WAIT || what == FUTEX_WAIT_BITSET) && timeout != nullptr && !is_valid(*timeout))
+    return fail(EINVAL);
+  switch (what) {
+    case FUTEX_WAIT:
+      return wait(address, value,
+                  timeout == nullptr ? Time::max() : later(kernel::local_time(*kernel::running), span(*timeout)),
+                  FUTEX_BITSET_MATCH_ANY);
+    case FUTEX_WAIT_BITSET:
+      return wait(address, value, timeout == nullptr ? Time::max() : when(clock, *timeout), third);
+    case FUTEX_WAKE: return wake(address, value, FUTEX_BITSET_MATCH_ANY);
+    case FUTEX_WAKE_BITSET: return wake(address, value, third);
+    case FUTEX_CMP_REQUEUE:
+      if (__atomic_load_n(address, __ATOMIC_RELAXED) != third) return fail(EAGAIN);
+      return requeue(address, value, count, second);
+    case FUTEX_REQUEUE: return requeue(address, value, count, second);
+    case FUTEX_WAKE_OP: return operate_and_wake(address, value, count, second, third);
+    default: return fail(ENOSYS);
+  }
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED long syscall(long number, ...) noexcept {
+  va_list more;
+  va_start(more, number);
+  long a[6];
+  for (long& word : a) word = va_arg(more, long);
+  va_end(more);
+  switch (number) {
+    case SYS_futex:
+      return futex(reinterpret_cast<std::uint32_t*>(a[0]), static_cast<int>(a[1]), static_cast<std::uint32_t>(a[2]),
+                   reinterpret_cast<const timespec*>(a[3]), reinterpret_cast<std::uint32_t*>(a[4]),
+                   static_cast<std::uint32_t>(a[5]));
+    case SYS_gettid: return gettid();
+    case SYS_sched_yield: return sched_yield();
+    case SYS_getrandom:
+      return static_cast<long>(
+          getrandom(reinterpret_cast<void*>(a[0]), static_cast<std::size_t>(a[1]), static_cast<unsigned>(a[2])));
+    case SYS_clock_gettime: return clock_gettime(static_cast<clockid_t>(a[0]), reinterpret_cast<timespec*>(a[1]));
+    default: return WAITPOINT_NEXT(syscall)(number, a[0], a[1], a[2], a[3], a[4], a[5]);
+  }
+}
+
+WAITPOINT_INTERPOSED pid_t gettid() noexcept {
+  return is_simulated() ? this_thread().id : static_cast<pid_t>(WAITPOINT_NEXT(syscall)(SYS_gettid));
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// pthread_once_t, as glibc's: 0 not done, 2 done, and between them 1.
+#include <pthread.h>
+#include <threads.h>
+
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/waiting.hpp"
+#include "fibers/posix/word.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr int fresh = 0, under_way = 1, done = 2;
+
+void end(int* flag, int state) {
+  *flag = state;
+  if (!is_simulated()) return;
+  Word& word = word_at(flag);
+  pass(kernel::Operation::release, &word.object);
+  kernel::running->scheduler->wake_all(word.object);
+}
+
+// A function that is left by an exception or a cancellation was not called: another thread tries again.
+struct Attempt {
+  ~Attempt() { end(flag, completed ? done : fresh); }
+  int* flag;
+  bool completed = false;
+};
+
+int call(int* flag, void (*function)()) {
+  while (*flag != done) {
+    if (is_simulated()) {
+      Word& word = word_at(flag);
+      pass(kernel::Operation::call_once, &word.object);
+      if (*flag == under_way) {
+        block(word.object, Time::max());
+        continue;
+      }
+      if (*flag == done) break;
+    }
+    *flag = under_way;
+    Attempt attempt{flag};
+    function();
+    attempt.completed = true;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int pthread_once(pthread_once_t* once, void (*function)()) { return call(once, function); }
+WAITPOINT_INTERPOSED int __pthread_once(pthread_once_t* once, void (*function)()) { return call(once, function); }
+WAITPOINT_INTERPOSED void call_once(once_flag* flag, void (*function)()) {
+  call(reinterpret_cast<int*>(flag), function);
+}

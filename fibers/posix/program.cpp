@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/program.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "fibers/posix/deadlock.hpp"
+#include "fibers/posix/interposed.hpp"
+
+namespace waitpoint::posix {
+
+Record* record = nullptr;
+
+namespace {
+
+constexpr char preload_variable[] = "LD_PRELOAD";
+
+struct Body {
+  int (*function)(void*);
+  void* argument;
+};
+
+// main() returns into exit(), as in the C library; but it may leave by pthread_exit() too.
+void* run_body(void* body) {
+  const Body& of = *static_cast<Body*>(body);
+  std::exit(of.function(of.argument));
+}
+
+// Programs that this one starts are not simulated: what was put in front of the libraries they preload is taken away.
+void clear_environment() {
+  unsetenv(record_variable);
+  const char* const preloaded = std::getenv(preload_variable);
+  const char* const others = preloaded == nullptr ? nullptr : std::strchr(preloaded, ':');
+  if (others == nullptr)
+    unsetenv(preload_variable);
+  else
+    setenv(preload_variable, others + 1, 1);
+}
+
+void map_record() {
+  const char* const text = std::getenv(record_variable);
+  if (text == nullptr) return;
+  const int descriptor = std::atoi(text);
+  void* memory = mmap(nullptr, sizeof(Record), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  close(descriptor);
+  if (memory == MAP_FAILED || static_cast<Record*>(memory)->mark != Record::mark_of_version)
+    refuse("this library and the waitpoint that started it are not of one version");
+  record = static_cast<Record*>(memory);
+}
+
+// The C library calls it before those of libraries that are made with threads: by then they must be simulated.
+[[gnu::constructor(101)]] void begin() {
+  if (record != nullptr) return;
+  map_record();
+  if (record == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
+  clear_environment();
+}
+
+}  // namespace
+
+void refuse(const char* reason) {
+  std::fprintf(stderr, "waitpoint: exec: %s\n", reason);
+  _exit(status_of_own_errors);
+}
+
+void run_program(int (*body)(void*), void* argument, const char* name) {
+  begin();
+  new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
+  kernel::Scheduler& scheduler = record->scheduler;
+  const char* const slash = std::strrchr(name, '/');
+  scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
+  record->began = true;
+  static constinit Thread thread;
+  static constinit Body of;
+  of = {body, argument};
+  thread.start.posix = run_body;
+  thread.argument = &of;
+  kernel::Task* const task =
+      scheduler.spawn(record->robot, {.name = "main", .stack = kernel::StackSize::program}, run_thread, &thread);
+  if (task == nullptr) refuse("there is no address space for the stacks of threads");
+  adopt_main_thread(thread, *task);
+  const kernel::RunState state = scheduler.run_before(Time::max());
+  // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).
+  if (state == kernel::RunState::stopped && scheduler.stop_cause() == kernel::StopCause::ended) std::exit(0);
+  report_deadlock(scheduler);
+  std::fflush(nullptr);
+  _exit(status_of_deadlock);
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The simulation that a program is: made before its main(), which becomes the first of its tasks.
+#pragma once
+
+#include "fibers/posix/record.hpp"
+#include "fibers/posix/thread.hpp"
+
+namespace waitpoint::posix {
+
+/// Null outside `waitpoint exec`.
+extern Record* record;
+
+/// Runs `body` as the first thread of the simulation, and the others with it, until the process exits.
+[[noreturn]] void run_program(int (*body)(void*), void* argument, const char* name);
+
+/// Ends the process for a reason of ours, told in one line.
+[[noreturn]] void refuse(const char* reason);
+
+}  // namespace waitpoint::posix

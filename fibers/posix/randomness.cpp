@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Random numbers that programs ask the system for: a stream of the seed, the same in every run of it.
+#include <sys/random.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+
+#include "core/digest.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/program.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+std::uint64_t draws = 0;
+
+std::uint64_t draw() {
+  constexpr std::uint64_t of_the_system = 0x67657472616E646F;  // "getrando": no other stream has these numbers
+  const std::uint64_t seed = record != nullptr ? record->settings.seed : 0;
+  return Digest::mix((seed ^ of_the_system) + ++draws * 0x9E3779B97F4A7C15u);
+}
+
+void fill(void* buffer, std::size_t size) {
+  for (std::size_t at = 0; at < size; at += sizeof(std::uint64_t)) {
+    const std::uint64_t word = draw();
+    std::memcpy(static_cast<char*>(buffer) + at, &word, size - at < sizeof word ? size - at : sizeof word);
+  }
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED ssize_t getrandom(void* buffer, std::size_t size, unsigned flags) {
+  if ((flags & ~(GRND_NONBLOCK | GRND_RANDOM | GRND_INSECURE)) != 0) {
+    errno = EINVAL;
+    return -1;
+  }
+  fill(buffer, size);
+  return static_cast<ssize_t>(size);
+}
+
+WAITPOINT_INTERPOSED int getentropy(void* buffer, std::size_t size) {
+  if (size > 256) {
+    errno = EIO;
+    return -1;
+  }
+  fill(buffer, size);
+  return 0;
+}
+
+WAITPOINT_INTERPOSED std::uint32_t arc4random() noexcept { return static_cast<std::uint32_t>(draw() >> 32); }
+WAITPOINT_INTERPOSED void arc4random_buf(void* buffer, std::size_t size) noexcept { fill(buffer, size); }
+WAITPOINT_INTERPOSED std::uint32_t arc4random_uniform(std::uint32_t bound) noexcept {
+  return static_cast<std::uint32_t>((draw() >> 32) * bound >> 32);
+}
+
+// libstdc++'s std::random_device, which asks the processor: unsigned random_device::_M_getval().
+WAITPOINT_INTERPOSED unsigned _ZNSt13random_device9_M_getvalEv(void*) { return static_cast<unsigned>(draw() >> 32); }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Calls that sleep: virtual time passes, and no other.
+#include <sched.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/clocks.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/waiting.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+void sleep_until(Time time) {
+  const CancellationPoint point;
+  point.wait_until(time);
+}
+
+void sleep_for(Duration span) { sleep_until(later(kernel::local_time(*kernel::running), span)); }
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int clock_nanosleep(clockid_t clock, int flags, const timespec* time, timespec* remaining) {
+  if (!is_simulated()) return WAITPOINT_NEXT(clock_nanosleep)(clock, flags, time, remaining);
+  if (!is_clock(clock) || clock == CLOCK_THREAD_CPUTIME_ID || !is_valid(*time) || time->tv_sec < 0) return EINVAL;
+  if ((flags & TIMER_ABSTIME) != 0)
+    sleep_until(when(clock, *time));
+  else
+    posix::sleep_for(span(*time));
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int nanosleep(const timespec* time, timespec* remaining) {
+  if (!is_simulated()) return WAITPOINT_NEXT(nanosleep)(time, remaining);
+  const int error = clock_nanosleep(CLOCK_REALTIME, 0, time, remaining);
+  if (error == 0) return 0;
+  errno = error;
+  return -1;
+}
+
+WAITPOINT_INTERPOSED unsigned sleep(unsigned seconds) {
+  if (!is_simulated()) return WAITPOINT_NEXT(sleep)(seconds);
+  posix::sleep_for(std::chrono::seconds(seconds));
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int usleep(useconds_t microseconds) {
+  if (!is_simulated()) return WAITPOINT_NEXT(usleep)(microseconds);
+  posix::sleep_for(std::chrono::microseconds(microseconds));
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int thrd_sleep(const timespec* time, timespec* remaining) {
+  const int error = clock_nanosleep(CLOCK_REALTIME, 0, time, remaining);
+  return error == 0 ? 0 : error == EINTR ? -1 : -2;
+}
+
+WAITPOINT_INTERPOSED int sched_yield() noexcept {
+  if (!is_simulated()) return 0;
+  kernel::compute(*kernel::running, cost_of_giving_way);
+  kernel::running->scheduler->yield();
+  return 0;
+}
+
+WAITPOINT_INTERPOSED void thrd_yield() noexcept { sched_yield(); }

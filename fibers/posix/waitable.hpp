@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the kernel needs to know of a primitive of the program, beside the primitive's own bytes.
+//
+// These are too few for it: they hold a pointer to it, null where they are all zero, as static initialisers leave them.
+// Objects of four bytes (futexes, spin locks, once flags) have no room even for that, and are found by their address.
+// As programs let mutexes go without destroying them (std::mutex does), what was at an address is taken again by the
+// next object there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::posix {
+
+struct Waitable {
+  enum class Kind : std::uint8_t { mutex, condition, rwlock, semaphore, barrier, word };
+
+  Waitable(Kind kind_of, const char* name, const void* at) : object(name), kind(kind_of), address(at) {}
+  bool idle() const { return object.owner == nullptr && object.first_waiter == nullptr; }
+
+  kernel::Object object;
+  Kind kind;
+  const void* address;
+  Waitable* next_of_bucket = nullptr;
+};
+
+/// Room for any kind.
+inline constexpr std::size_t waitable_bytes_max = 256;
+
+/// The waitable of this kind kept for `address`; null if there is none.
+Waitable* find_waitable(const void* address, Waitable::Kind kind);
+/// A cell for a new waitable at `address`, which is found there from now on.
+void* fresh_cell(const void* address);
+/// Gives up the cell of a primitive that is destroyed.
+void forget(Waitable& waitable);
+/// Whose object it is, for reports; null if it is of no primitive.
+const Waitable* waitable_of(const kernel::Object& object);
+
+template <class T>
+T& make_waitable(const void* address) {
+  static_assert(sizeof(T) <= waitable_bytes_max);
+  void* const cell = fresh_cell(address);
+  Waitable* const next = static_cast<Waitable*>(cell)->next_of_bucket;
+  T* const made = new (cell) T(address);
+  made->next_of_bucket = next;
+  return *made;
+}
+
+/// What `slot`, a word of the primitive at `address`, points to: made at its first use.
+template <class T>
+T& waitable_at(T*& slot, const void* address) {
+  if (__builtin_expect(slot == nullptr, 0)) slot = &make_waitable<T>(address);
+  return *slot;
+}
+
+/// The same for a primitive without room for a word.
+template <class T>
+T& waitable_at(const void* address) {
+  if (Waitable* found = find_waitable(address, T::kind_of_all); found != nullptr) return *static_cast<T*>(found);
+  return make_waitable<T>(address);
+}
+
+}  // namespace waitpoint::posix

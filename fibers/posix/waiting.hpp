@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Waitpoints of a program's threads.
+//
+// A program declares no computing times, so its threads are at one instant until one sleeps. But loops that poll must
+// end: reading a clock and giving way take a little virtual time, and so do some hundred uses of primitives.
+#pragma once
+
+#include "fibers/kernel/local_clock.hpp"
+#include "fibers/posix/thread.hpp"
+
+namespace waitpoint::posix {
+
+inline constexpr std::uint32_t operations_at_one_instant = 512;
+inline constexpr Duration cost_of_operations = Duration(std::chrono::microseconds(1));
+inline constexpr Duration cost_of_clock_reading = Duration(std::chrono::nanoseconds(50));
+inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microseconds(1));
+
+/// The running thread's event at its place in the order of all; returns when it is the least.
+inline void pass(kernel::Operation operation, kernel::Object* object) {
+  kernel::Task& task = *kernel::running;
+  Thread& thread = thread_of(task);
+  if (++thread.operations >= operations_at_one_instant) {
+    thread.operations = 0;
+    kernel::compute(task, cost_of_operations);
+  }
+  task.scheduler->waitpoint(operation, object);
+}
+
+/// Blocks the running thread on `object`; false if the deadline came first.
+inline bool block(kernel::Object& object, Time deadline) {
+  return kernel::running->scheduler->block(object, deadline) == kernel::Wake::woken;
+}
+
+/// Wakes one of those that wait, of the chooser's choice; null if there is none.
+inline kernel::Task* wake_one(kernel::Object& object) { return kernel::running->scheduler->wake_one(object); }
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/exec_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "tools/option_values.hpp"
+
+namespace waitpoint::tools {
+
+ExecArguments::ExecArguments(CLI::App& app)
+    : command_(app.add_subcommand("exec",
+                                  "Runs a program with its threads as simulated ones, in virtual time (docs/exec.md):\n"
+                                  "  waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS...]")) {
+  command_
+      ->add_option("--seed", seed_,
+                   "from which the schedule and random numbers follow (default:\n$WAITPOINT_SEED, or 1)")
+      ->type_name("N");
+  command_
+      ->add_option("--strategy", strategy_,
+                   "random, the default: threads that could go on at one instant do so in an\n"
+                   "order of the seed's; fifo: a thread goes on until it waits")
+      ->type_name("S");
+  command_->add_flag("--quiet", quiet_, "no line about the run at its end, unless it failed")->disable_flag_override();
+  command_->footer(
+      "The exit status is the program's own; 124 if its threads wait for each other for ever, 125 if it\n"
+      "cannot be run.");
+}
+
+bool ExecArguments::parsed() const { return command_->parsed(); }
+
+ExecOptions ExecArguments::options(const std::vector<std::string>& words) const {
+  if (words.empty()) throw BadInput("exec", "expected what to run: waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");
+  ExecOptions options;
+  options.words = words;
+  options.quiet = quiet_;
+  std::string where = "--seed", seed = seed_;
+  if (const char* const given = std::getenv("WAITPOINT_SEED"); seed.empty() && given != nullptr) {
+    where = "WAITPOINT_SEED";
+    seed = given;
+  }
+  if (!seed.empty() && !parse_number(seed, options.seed)) refuse(where, "a whole number from 0 to 2^64 - 1", seed);
+  if (strategy_ == "fifo")
+    options.order = kernel::Order::fifo;
+  else if (strategy_ != "random")
+    refuse("--strategy", "random or fifo", strategy_);
+  return options;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of `waitpoint exec [OPTIONS] -- PROGRAM ARGUMENTS...`. None of the words behind the dashes is looked at.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fibers/kernel/chooser.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace waitpoint::tools {
+
+struct ExecOptions {
+  std::uint64_t seed = 1;
+  kernel::Order order = kernel::Order::seeded;
+  bool quiet = false;
+  std::vector<std::string> words;  ///< the program and its arguments: at least one
+};
+
+/// The arguments as they are written.
+class ExecArguments {
+ public:
+  /// Adds the command with its options.
+  explicit ExecArguments(CLI::App& app);
+
+  /// Whether the command line has it.
+  bool parsed() const;
+  /// What they say, for a program of these words; BadInput where they cannot be meant.
+  ExecOptions options(const std::vector<std::string>& words) const;
+
+ private:
+  CLI::App* command_;
+  std::string seed_, strategy_ = "random";
+  bool quiet_ = false;
+};
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/program_file.hpp"
+
+#include <elf.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace waitpoint::tools {
+namespace {
+
+bool is_program(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
+}
+
+template <class T>
+bool read(std::ifstream& file, std::uint64_t offset, T& value) {
+  file.seekg(static_cast<std::streamoff>(offset));
+  return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
+}
+
+// A program with an interpreter is loaded by the dynamic linker, which preloads.
+std::string trouble_of_elf(std::ifstream& file) {
+  Elf64_Ehdr header;
+  if (!read(file, 0, header) || header.e_ident[EI_CLASS] != ELFCLASS64 || header.e_machine != EM_X86_64)
+    return "is not a program for x86-64";
+  for (int i = 0; i < header.e_phnum; ++i) {
+    Elf64_Phdr part;
+    if (!read(file, header.e_phoff + static_cast<std::uint64_t>(i) * header.e_phentsize, part)) break;
+    if (part.p_type == PT_INTERP) return "";
+  }
+  return "is linked statically: nothing can be put in front of its C library";
+}
+
+std::string trouble_of_script(std::ifstream& file) {
+  std::string line, interpreter;
+  file.seekg(2);
+  std::getline(file, line);
+  std::istringstream(line) >> interpreter;
+  if (!is_program(interpreter)) return "is a script whose interpreter '" + interpreter + "' is missing";
+  return cannot_be_simulated(interpreter);
+}
+
+}  // namespace
+
+std::filesystem::path find_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) return is_program(name) ? name : "";
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path file = std::filesystem::path(folder.empty() ? "." : folder) / name;
+    if (is_program(file)) return file;
+  }
+  return "";
+}
+
+std::string cannot_be_simulated(const std::filesystem::path& program) {
+  struct stat of {};
+  if (stat(program.c_str(), &of) == 0 && (of.st_mode & (S_ISUID | S_ISGID)) != 0)
+    return "changes its user or group: the system preloads nothing into it";
+  std::ifstream file(program, std::ios::binary);
+  char magic[4] = {};
+  if (!file.read(magic, sizeof magic)) return "cannot be read";
+  if (std::memcmp(magic, ELFMAG, SELFMAG) == 0) return trouble_of_elf(file);
+  if (magic[0] == '#' && magic[1] == '!') return trouble_of_script(file);
+  return "is neither a program nor a script";
+}
+
+}  // namespace waitpoint::tools

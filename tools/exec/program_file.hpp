@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The file of a program, as a shell would find it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace waitpoint::tools {
+
+/// Whether there is a program of this name: a path, or a name to be looked for in PATH. Its path; empty if there is
+/// none.
+std::filesystem::path find_program(const std::string& name);
+
+/// Why a library cannot be preloaded into the program, or into what interprets it if it is a script; empty if it can.
+std::string cannot_be_simulated(const std::filesystem::path& program);
+
+}  // namespace waitpoint::tools
