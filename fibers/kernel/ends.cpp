@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/scheduler_steps.hpp"
 
 namespace waitpoint::kernel {
 
@@ -60,6 +61,21 @@ void Scheduler::unwind() {
     Task& task = *last_task_;
     switch_to(task);
     WAITPOINT_CHECK(last_task_ != &task, "a task went on although the run is over");
+  }
+}
+
+void Scheduler::keep_running_task_only() {
+  ready_.clear();
+  present_.clear();
+  for (Task *task = first_task_, *next = nullptr; task != nullptr; task = next) {
+    next = task->next;
+    if (task == running) continue;
+    if (task->event.in_list()) events_.remove(task->event);
+    if (task->state == TaskState::blocked) remove_waiter(*task);
+    unlink(*task);
+    if (task->service) continue;
+    --live_tasks_;
+    --task->robot->live_tasks;
   }
 }
 

@@ -178,6 +178,11 @@ inline void Scheduler::prepare_coming() const {
   for (std::ptrdiff_t line = 0; line < stack_lines_fetched; ++line) fetch(stack + 64 * line);
 }
 
+Time Scheduler::next_event_time() const {
+  if (paused_ != nullptr) return paused_->local_time;
+  return ready_.empty() ? next_key().time : now_;
+}
+
 void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
   task.attention = static_cast<std::uint8_t>(needed ? task.attention | reason : task.attention & ~reason);
   if (&task == running) end_free_passes(task);

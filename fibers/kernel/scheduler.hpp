@@ -110,6 +110,9 @@ class Scheduler {
   /// Takes every task that is left off its stack: blocking calls report Wake::unwinding. The run is over then. The
   /// youngest task goes first: what a task borrows from its maker's frames is still there.
   void unwind();
+  /// In a process that was forked from within a task: the others are not there any more, whatever they held or waited
+  /// for. Their stacks stay as they are.
+  void keep_running_task_only();
   /// Gives up the running task, which cannot or does not leave its frames while it is unwound: what they own leaks.
   [[noreturn]] void abandon();
   /// The tasks given up so, linked by `next`.
@@ -192,6 +195,9 @@ class Scheduler {
 
   /// Events in the list: those of tasks that can go on or wait with a finite timeout, and those of timers.
   std::uint32_t pending_events() const { return events_.size() + ready_.size() + present_.size(); }
+
+  /// When the next event is due; Time::max() if there is none.
+  Time next_event_time() const;
 
   Time global_time() const { return now_; }
   Chooser& chooser() { return chooser_; }

@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "fibers/posix/clocks.hpp"
 #include "fibers/posix/deadlock.hpp"
+#include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/interposed.hpp"
 
 namespace waitpoint::posix {
@@ -18,6 +20,8 @@ Record* record = nullptr;
 namespace {
 
 constexpr char preload_variable[] = "LD_PRELOAD";
+
+constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
 
 struct Body {
   int (*function)(void*);
@@ -52,6 +56,22 @@ void map_record() {
   record = static_cast<Record*>(memory);
 }
 
+// While threads wait for what comes from outside, the run comes out at the end of each instant.
+void run_to_end(kernel::Scheduler& scheduler) {
+  Time until = Time::max();
+  for (;;) {
+    const kernel::RunState state = scheduler.run_before(until);
+    if (state == kernel::RunState::stopped) return;
+    if (look_outside(state == kernel::RunState::idle)) {
+      until = later(scheduler.global_time(), nanosecond);
+    } else if (state == kernel::RunState::idle) {
+      return;
+    } else {
+      until = anybody_waits_outside() ? later(scheduler.next_event_time(), nanosecond) : Time::max();
+    }
+  }
+}
+
 // The C library calls it before those of libraries that are made with threads: by then they must be simulated.
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
@@ -73,6 +93,7 @@ void run_program(int (*body)(void*), void* argument, const char* name) {
   kernel::Scheduler& scheduler = record->scheduler;
   const char* const slash = std::strrchr(name, '/');
   scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
+  scheduler.set_delivery(deliver_signals);
   record->began = true;
   static constinit Thread thread;
   static constinit Body of;
@@ -83,9 +104,9 @@ void run_program(int (*body)(void*), void* argument, const char* name) {
       scheduler.spawn(record->robot, {.name = "main", .stack = kernel::StackSize::program}, run_thread, &thread);
   if (task == nullptr) refuse("there is no address space for the stacks of threads");
   adopt_main_thread(thread, *task);
-  const kernel::RunState state = scheduler.run_before(Time::max());
+  run_to_end(scheduler);
   // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).
-  if (state == kernel::RunState::stopped && scheduler.stop_cause() == kernel::StopCause::ended) std::exit(0);
+  if (scheduler.stop_cause() == kernel::StopCause::ended) std::exit(0);
   report_deadlock(scheduler);
   std::fflush(nullptr);
   _exit(status_of_deadlock);

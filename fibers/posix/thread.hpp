@@ -34,6 +34,8 @@ struct Thread {
   bool in_cancellation_point = false;
   bool exiting = false;
 
+  std::uint64_t signals = 0;  ///< sent by other threads, to be handled: bit n is signal n + 1
+
   /// Primitives used since virtual time was last moved for that: see waiting.hpp.
   std::uint32_t operations = 0;
   /// Of a wait on a futex: which wake-ups are for it.

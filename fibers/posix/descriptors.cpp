@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/descriptors.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/waiting.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr int known_max = 65536;  // descriptors beyond are taken for outside ones
+std::uint64_t inside[known_max / 64];
+
+/// A thread that waits: on its own stack.
+struct Waiter {
+  kernel::Task* task;
+  pollfd* descriptors;
+  nfds_t count;
+  bool outside;
+  Waiter* next;
+  Waiter* previous;
+};
+Waiter* first = nullptr;
+Waiter* last = nullptr;
+int waiting_outside = 0;
+
+kernel::Object descriptors_object{"descriptor"};
+
+int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
+  const int error = errno;
+  const int ready = WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
+  errno = error;
+  return ready;
+}
+
+void add(Waiter& waiter) {
+  waiter.next = nullptr;
+  waiter.previous = last;
+  (last == nullptr ? first : last->next) = &waiter;
+  last = &waiter;
+  if (waiter.outside) ++waiting_outside;
+}
+
+void remove(Waiter& waiter) {
+  (waiter.previous == nullptr ? first : waiter.previous->next) = waiter.next;
+  (waiter.next == nullptr ? last : waiter.next->previous) = waiter.previous;
+  if (waiter.outside) --waiting_outside;
+}
+
+// Those whose descriptors are ready go on.
+bool wake_ready(bool outside_too) {
+  bool any = false;
+  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+    if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too)) continue;
+    if (poll_now(waiter->descriptors, waiter->count) == 0) continue;
+    waiter->task->scheduler->wake(*waiter->task);
+    any = true;
+  }
+  return any;
+}
+
+// Waits in real time for any of all descriptors that threads wait for.
+void wait_really() {
+  nfds_t count = 0;
+  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) count += waiter->count;
+  auto* const all = static_cast<pollfd*>(std::malloc((count + 1) * sizeof(pollfd)));
+  if (all == nullptr) refuse("there is no memory to wait for descriptors");
+  nfds_t at = 0;
+  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+    std::memcpy(all + at, waiter->descriptors, waiter->count * sizeof(pollfd));
+    at += waiter->count;
+  }
+  poll_now(all, count, -1);  // a signal's handler may have made one ready: the caller looks
+  std::free(all);
+}
+
+}  // namespace
+
+bool anybody_waits_outside() { return waiting_outside > 0; }
+
+void note_inside(int descriptor, bool is) {
+  if (descriptor < 0 || descriptor >= known_max) return;
+  const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
+  std::uint64_t& word = inside[descriptor / 64];
+  word = is ? word | bit : word & ~bit;
+}
+
+bool is_inside(int descriptor) {
+  return descriptor >= 0 && descriptor < known_max && (inside[descriptor / 64] >> (descriptor % 64) & 1) != 0;
+}
+
+void note_fork() { std::memset(inside, 0, sizeof inside); }
+
+void forget_waiters() {
+  first = last = nullptr;
+  waiting_outside = 0;
+}
+
+int wait_for(pollfd* descriptors, nfds_t count, Time deadline) {
+  kernel::Task& task = *kernel::running;
+  Waiter waiter{&task, descriptors, count, false, nullptr, nullptr};
+  for (nfds_t i = 0; i < count; ++i)
+    if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) waiter.outside = true;
+  if (!waiter.outside)
+    if (const int ready = poll_now(descriptors, count); ready != 0) return ready;
+  if (deadline <= task.local_time) return poll_now(descriptors, count);
+  task.scheduler->enter(descriptors_object);
+  add(waiter);
+  // The run comes out at the end of each instant while somebody waits outside.
+  if (waiter.outside) task.scheduler->pause();
+  block(descriptors_object, deadline);
+  remove(waiter);
+  return poll_now(descriptors, count);
+}
+
+bool wait_for(int descriptor, short events, Time deadline) {
+  pollfd one{descriptor, events, 0};
+  return wait_for(&one, 1, deadline) != 0;
+}
+
+void look_at_descriptors() {
+  if (first != nullptr) wake_ready(false);
+}
+
+bool look_outside(bool may_wait) {
+  if (wake_ready(true)) return true;
+  if (!may_wait || waiting_outside == 0) return false;
+  wait_really();
+  wake_ready(true);
+  return true;
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Waiting for descriptors. What is behind them is real (pipes, sockets, files), so that dup, fork and exec keep
+// working; only who waits, for how long and in which order is simulated: a call that would block its thread waits here
+// until the descriptor is ready, and is made then.
+//
+// A descriptor is inside as long as only this program has its ends: then it becomes ready by what a thread of this
+// program does, and is looked at when one has done something. All others are outside: whether something has come there
+// depends on the real time, so that they are looked at only when no thread can go on at the present instant, and waited
+// for in real time only when none can at all.
+#pragma once
+
+#include <poll.h>
+
+#include "core/time.hpp"
+
+namespace waitpoint::posix {
+
+/// Threads that wait now: they are ready when the system says so of any of their descriptors.
+bool anybody_waits_outside();
+
+/// A descriptor was made by this program for itself, or is another name of such a one; it is closed.
+void note_inside(int descriptor, bool inside);
+bool is_inside(int descriptor);
+/// A child has copies of all of them: nothing is inside any more.
+void note_fork();
+/// In the child: nobody waits there.
+void forget_waiters();
+
+/// The running thread waits until any of the descriptors is ready or `deadline` comes. As poll(): how many are, which
+/// is in their `revents`; 0 at the deadline. Where all are inside it goes on at once if one is ready.
+int wait_for(pollfd* descriptors, nfds_t count, Time deadline);
+/// For one descriptor; whether it is ready.
+bool wait_for(int descriptor, short events, Time deadline = Time::max());
+
+/// Something was done with a descriptor that others may wait for.
+void look_at_descriptors();
+
+/// From outside all threads, at the end of an instant: looks at what threads wait for, and waits in real time if
+/// `may_wait`. Whether one of them goes on.
+bool look_outside(bool may_wait);
+
+}  // namespace waitpoint::posix

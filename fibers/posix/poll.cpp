@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Waiting for several descriptors: poll, select and epoll, with their timeouts in virtual time.
+#include <poll.h>
+#include <sys/epoll.h>
+#include <sys/select.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/clocks.hpp"
+#include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/waiting.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+Time deadline_in(Duration span) { return later(kernel::local_time(*kernel::running), span); }
+Time deadline_in_ms(int timeout_ms) {
+  return timeout_ms < 0 ? Time::max() : deadline_in(std::chrono::milliseconds(timeout_ms));
+}
+
+int wait(pollfd* descriptors, nfds_t count, Time deadline) {
+  const CancellationPoint point;
+  pass(kernel::Operation::poll, nullptr);
+  const int ready = wait_for(descriptors, count, deadline);
+  // A loop that asks without waiting is to end.
+  if (ready == 0) read_clock();
+  leave_if_cancelled();
+  return ready;
+}
+
+// The descriptors of three sets, as poll() has them.
+class Sets {
+ public:
+  Sets(int count, fd_set* readable, fd_set* writable, fd_set* urgent)
+      : count_(count < FD_SETSIZE ? count : FD_SETSIZE), sets_{readable, writable, urgent} {
+    for (int fd = 0; fd < count_; ++fd) {
+      short events = 0;
+      for (int i = 0; i < 3; ++i)
+        if (sets_[i] != nullptr && FD_ISSET(fd, sets_[i])) events = static_cast<short>(events | asked[i]);
+      if (events != 0) polled_[size_++] = {fd, events, 0};
+    }
+  }
+  pollfd* polled() { return polled_; }
+  nfds_t size() const { return size_; }
+
+  /// Leaves in the sets what is ready, and returns how many bits that are; -1 where there is no such descriptor.
+  int keep_ready() {
+    for (nfds_t i = 0; i < size_; ++i)
+      if ((polled_[i].revents & POLLNVAL) != 0) {
+        errno = EBADF;
+        return -1;
+      }
+    int bits = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (sets_[i] == nullptr) continue;
+      FD_ZERO(sets_[i]);
+      for (nfds_t k = 0; k < size_; ++k)
+        if ((polled_[k].events & asked[i]) != 0 && (polled_[k].revents & answered[i]) != 0) {
+          FD_SET(polled_[k].fd, sets_[i]);
+          ++bits;
+        }
+    }
+    return bits;
+  }
+
+ private:
+  static constexpr short asked[3] = {POLLIN, POLLOUT, POLLPRI};
+  static constexpr short answered[3] = {POLLIN | POLLHUP | POLLERR, POLLOUT | POLLERR, POLLPRI};
+
+  int count_;
+  fd_set* sets_[3];
+  pollfd polled_[FD_SETSIZE];
+  nfds_t size_ = 0;
+};
+
+int select_before(int count, fd_set* readable, fd_set* writable, fd_set* urgent, Time deadline) {
+  Sets sets(count, readable, writable, urgent);
+  wait(sets.polled(), sets.size(), deadline);
+  return sets.keep_ready();
+}
+
+int fail(int error) {
+  errno = error;
+  return -1;
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int poll(pollfd* descriptors, nfds_t count, int timeout_ms) {
+  if (!is_simulated()) return WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
+  return posix::wait(descriptors, count, deadline_in_ms(timeout_ms));
+}
+
+WAITPOINT_INTERPOSED int ppoll(pollfd* descriptors, nfds_t count, const timespec* timeout, const sigset_t* mask) {
+  if (!is_simulated()) return WAITPOINT_NEXT(ppoll)(descriptors, count, timeout, mask);
+  if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
+  return posix::wait(descriptors, count, timeout == nullptr ? Time::max() : deadline_in(span(*timeout)));
+}
+
+WAITPOINT_INTERPOSED int select(int count, fd_set* __restrict readable, fd_set* __restrict writable,
+                                fd_set* __restrict urgent, timeval* __restrict timeout) {
+  if (!is_simulated()) return WAITPOINT_NEXT(select)(count, readable, writable, urgent, timeout);
+  if (count < 0 || (timeout != nullptr && (timeout->tv_sec < 0 || timeout->tv_usec < 0))) return fail(EINVAL);
+  if (timeout == nullptr) return select_before(count, readable, writable, urgent, Time::max());
+  // Linux leaves in it the time that was not waited.
+  const Time deadline = deadline_in(span({timeout->tv_sec, timeout->tv_usec * 1000}));
+  const int ready = select_before(count, readable, writable, urgent, deadline);
+  const std::int64_t left_ns = (deadline - kernel::running->local_time).ns();
+  const timespec left = to_timespec(left_ns > 0 ? left_ns : 0);
+  *timeout = {left.tv_sec, left.tv_nsec / 1000};
+  return ready;
+}
+
+WAITPOINT_INTERPOSED int pselect(int count, fd_set* __restrict readable, fd_set* __restrict writable,
+                                 fd_set* __restrict urgent, const timespec* __restrict timeout,
+                                 const sigset_t* __restrict mask) {
+  if (!is_simulated()) return WAITPOINT_NEXT(pselect)(count, readable, writable, urgent, timeout, mask);
+  if (count < 0 || (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0))) return fail(EINVAL);
+  return select_before(count, readable, writable, urgent,
+                       timeout == nullptr ? Time::max() : deadline_in(span(*timeout)));
+}
+
+// An epoll descriptor is itself ready when one of those it watches is.
+WAITPOINT_INTERPOSED int epoll_pwait(int descriptor, epoll_event* events, int most, int timeout_ms,
+                                     const sigset_t* mask) {
+  if (!is_simulated()) return WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, timeout_ms, mask);
+  pollfd one{descriptor, POLLIN, 0};
+  posix::wait(&one, 1, deadline_in_ms(timeout_ms));
+  return WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, 0, mask);
+}
+
+WAITPOINT_INTERPOSED int epoll_wait(int descriptor, epoll_event* events, int most, int timeout_ms) {
+  return epoll_pwait(descriptor, events, most, timeout_ms, nullptr);
+}
