@@ -24,6 +24,8 @@ struct Shape {
   double length_m = 0, width_m = 0;  ///< box: along its own x and y
   double radius_m = 0;               ///< cylinder
   double z_low_m = 0, z_high_m = 1;
+
+  friend bool operator==(const Shape&, const Shape&) = default;
 };
 
 /// Something that stands; with a mass, a dynamic world lets it be pushed.

@@ -46,6 +46,14 @@ Json grey() { return {{"r", 0.6}, {"g", 0.6}, {"b", 0.65}, {"a", 1.0}}; }
 
 }  // namespace
 
+Schema clock() {
+  Json all{{"title", "waitpoint.Clock"}};
+  all.update(object({{"clock", instant()}}));
+  return {"waitpoint.Clock", all.dump()};
+}
+
+std::string clock(Time time) { return Json{{"clock", of(time)}}.dump(); }
+
 Schema frame_transform() {
   return schema("FrameTransform", {{"timestamp", instant()},
                                    {"parent_frame_id", text()},
@@ -132,10 +140,9 @@ Schema scene_update() {
   return schema("SceneUpdate", {{"entities", list(entity)}});
 }
 
-std::string scene_update(Time time, const std::string& frame, std::span<const world::Obstacle> obstacles) {
+std::string scene_update(Time time, const std::string& frame, std::span<const world::Shape> shapes) {
   Json cubes = Json::array(), cylinders = Json::array();
-  for (const world::Obstacle& obstacle : obstacles) {
-    const world::Shape& shape = obstacle.shape;
+  for (const world::Shape& shape : shapes) {
     const double height_m = shape.z_high_m - shape.z_low_m;
     Json part{{"pose", of(shape.pose, (shape.z_low_m + shape.z_high_m) / 2)}};
     if (shape.kind == world::Shape::Kind::box) {

@@ -15,12 +15,15 @@ namespace waitpoint::tools::foxglove {
 struct Schema {
   std::string name, text;
 };
+Schema clock();
 Schema frame_transform();
 Schema laser_scan();
 Schema log();
 Schema pose_in_frame();
 Schema scene_update();
 
+/// The virtual time, as ROS tells it; Foxglove has no schema of its own for that.
+std::string clock(Time time);
 /// Where `child` is in `parent`.
 std::string frame_transform(Time time, const std::string& parent, const std::string& child, const Pose& pose,
                             double z_m = 0);
@@ -30,6 +33,6 @@ std::string laser_scan(const posters::LaserReading& scan, const std::string& fra
 std::string log(Time time, const std::string& who, const std::string& text, bool is_warning = false);
 std::string pose_in_frame(Time time, const std::string& frame, const Pose& pose);
 /// Boxes and cylinders that stay.
-std::string scene_update(Time time, const std::string& frame, std::span<const world::Obstacle> obstacles);
+std::string scene_update(Time time, const std::string& frame, std::span<const world::Shape> shapes);
 
 }  // namespace waitpoint::tools::foxglove

@@ -8,101 +8,72 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr Duration sampling = std::chrono::milliseconds(100);
-constexpr const char* root = "world";
-
-std::uint16_t add(McapFile& file, const foxglove::Schema& schema) { return file.add_schema(schema.name, schema.text); }
-
-std::string clock_text(Time now) {
-  constexpr std::int64_t second = 1'000'000'000;
-  return fmt::format(R"({{"clock":{{"sec":{},"nsec":{}}}}})", now.ns() / second, now.ns() % second);
+std::uint16_t number_of(McapFile& file, const foxglove::Schema& schema) {
+  return file.add_schema(schema.name, schema.text);
 }
 
 }  // namespace
 
 McapRecording::McapRecording(const std::filesystem::path& path, const bridge::Scenario& scenario)
-    : scenario_(scenario),
+    : ViewerRecording(scenario),
       file_(path),
-      transform_(add(file_, foxglove::frame_transform())),
-      scan_(add(file_, foxglove::laser_scan())),
-      log_(add(file_, foxglove::log())),
-      pose_(add(file_, foxglove::pose_in_frame())),
-      scene_(add(file_, foxglove::scene_update())),
-      time_(file_.add_schema("waitpoint.Clock",
-                             R"({"title":"waitpoint.Clock","type":"object","properties":{"clock":{"type":"object",)"
-                             R"("properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}}}})")),
+      transform_(number_of(file_, foxglove::frame_transform())),
+      scan_(number_of(file_, foxglove::laser_scan())),
+      log_(number_of(file_, foxglove::log())),
+      pose_(number_of(file_, foxglove::pose_in_frame())),
+      scene_(number_of(file_, foxglove::scene_update())),
+      time_(number_of(file_, foxglove::clock())),
       frames_(file_.add_channel(transform_, "/tf")),
       world_(file_.add_channel(scene_, "/world")),
       clock_(file_.add_channel(time_, "/clock")) {}
 
-void McapRecording::begin(bridge::Experiment& experiment) {
-  for (std::size_t i = 0; i < scenario_.robots.size(); ++i) {
-    const std::string& name = scenario_.robots[i].name;
-    const auto channel = [&](std::uint16_t schema, const std::string& topic) {
-      return file_.add_channel(schema, "/" + name + "/" + topic);
-    };
-    RobotPosters posters(scenario_.robots[i], *experiment.robots()[i]);
-    std::vector<std::uint16_t> scans;
-    for (const RobotPosters::Laser& laser : posters.lasers) scans.push_back(channel(scan_, laser.name));
-    const std::uint16_t odometry = channel(pose_, "odometry"), position = channel(pose_, "position");
-    const std::uint16_t truth = channel(pose_, "truth");
-    robots_.push_back({std::move(posters), std::make_unique<ModuleLog>(), std::move(scans), odometry, position, truth,
-                       channel(log_, "modules")});
-    experiment.robots()[i]->set_watch(robots_.back().modules.get());
-  }
+void McapRecording::add(const OfRobot& robot) {
+  const auto channel = [&](std::uint16_t schema, const std::string& topic) {
+    return file_.add_channel(schema, "/" + robot.name + "/" + topic);
+  };
+  Channels& of = channels_.emplace_back();
+  for (const RobotPosters::Laser& laser : robot.posters.lasers) of.scans.push_back(channel(scan_, laser.name));
+  of.odometry = channel(pose_, "odometry");
+  of.position = channel(pose_, "position");
+  of.truth = channel(pose_, "truth");
+  of.log = channel(log_, "modules");
 }
 
-void McapRecording::record(const bridge::Experiment& experiment, Time now) {
-  const world::World& world = experiment.world();
-  const bool is_sampled = !sampled_ || now - *sampled_ >= sampling;
-  if (is_sampled) {
-    file_.write(clock_, now, clock_text(now));
-    // Its time is that of the first message, whenever that was: the same world is the same text.
-    std::string drawn = foxglove::scene_update(Time(), root, world.description().obstacles);
-    if (drawn != drawn_) file_.write(world_, now, drawn_ = std::move(drawn));
-    sampled_ = now;
-  }
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const std::string& name = scenario_.robots[i].name;
-    const world::BodyState& body = world.body(world::BodyId(static_cast<std::uint32_t>(i)));
-    const Pose& truth = body.pose;
-    if (is_sampled) {
-      file_.write(frames_, now, foxglove::frame_transform(now, root, name, truth, body.height_m));
-      file_.write(robots_[i].truth, now, foxglove::pose_in_frame(now, root, truth));
-    }
-    record_robot(robots_[i], name, now);
-  }
+void McapRecording::write_clock() { file_.write(clock_, now_, foxglove::clock(now_)); }
+
+// Its time is that of the first message, whenever that was: the same world is the same text.
+void McapRecording::write_obstacles(const std::vector<world::Shape>& shapes) {
+  file_.write(world_, now_, foxglove::scene_update(Time(), root, shapes));
 }
 
-void McapRecording::record_robot(OfRobot& robot, const std::string& name, Time now) {
-  record_modules(robot, now);
-  const std::string believed = name + "/position";
-  if (const auto odometry = robot.posters.odometry())
-    file_.write(robot.odometry, now, foxglove::pose_in_frame(odometry->position.date, root, odometry->position.pose));
-  if (const auto fused = robot.posters.position()) {
-    const Pose& pose = fused->position.pose;
-    file_.write(robot.position, now, foxglove::pose_in_frame(fused->position.date, root, pose));
-    file_.write(frames_, now, foxglove::frame_transform(fused->position.date, root, believed, pose));
-  }
-  for (std::size_t k = 0; k < robot.posters.lasers.size(); ++k) {
-    RobotPosters::Laser& laser = robot.posters.lasers[k];
-    const auto scan = robot.posters.scan(laser);
-    if (!scan) continue;
-    const std::string frame = name + "/" + laser.name;
-    file_.write(
-        frames_, now,
-        foxglove::frame_transform(scan->date, believed, frame, laser.description.mount, laser.description.height_m));
-    file_.write(robot.scans[k], now, foxglove::laser_scan(*scan, frame));
-  }
+void McapRecording::write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
+                                    double height_m) {
+  file_.write(frames_, now_, foxglove::frame_transform(date, parent, child, pose, height_m));
 }
 
-void McapRecording::record_modules(OfRobot& robot, Time now) {
-  for (const ModuleLog::Line& line : robot.modules->take())
-    file_.write(robot.log, now, foxglove::log(line.date, line.module, line.text, line.is_bad));
+void McapRecording::write_truth(const OfRobot& robot, Time date, const world::BodyState& body) {
+  file_.write(channels_[robot.number].truth, now_, foxglove::pose_in_frame(date, root, body.pose));
 }
 
-void McapRecording::commit(const bridge::RunResult& result) {
-  for (OfRobot& robot : robots_) record_modules(robot, Time() + result.simulated);
+void McapRecording::write_odometry(const OfRobot& robot, const posters::Odometry& odometry) {
+  const posters::PositionEstimate& position = odometry.position;
+  file_.write(channels_[robot.number].odometry, now_, foxglove::pose_in_frame(position.date, root, position.pose));
+}
+
+void McapRecording::write_position(const OfRobot& robot, const posters::PositionEstimate& position) {
+  file_.write(channels_[robot.number].position, now_, foxglove::pose_in_frame(position.date, root, position.pose));
+}
+
+void McapRecording::write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
+                               const posters::LaserReading& scan) {
+  file_.write(channels_[robot.number].scans[laser], now_, foxglove::laser_scan(scan, frame));
+}
+
+void McapRecording::write_log(const OfRobot& robot, const ModuleLog::Line& line) {
+  file_.write(channels_[robot.number].log, now_, foxglove::log(line.date, line.module, line.text, line.is_bad));
+}
+
+void McapRecording::close(const bridge::RunResult& result) {
   for (const bridge::RobotResult& robot : result.robots) {
     const std::uint16_t goals = file_.add_channel(log_, "/" + robot.name + "/goals");
     for (const bridge::GoalResult& goal : robot.goals) {

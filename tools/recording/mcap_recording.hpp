@@ -12,38 +12,41 @@
 #pragma once
 
 #include "tools/recording/mcap_file.hpp"
-#include "tools/recording/module_log.hpp"
-#include "tools/recording/recording.hpp"
-#include "tools/recording/robot_posters.hpp"
+#include "tools/recording/viewer_recording.hpp"
 
 namespace waitpoint::tools {
 
-class McapRecording final : public Recording {
+class McapRecording final : public ViewerRecording {
  public:
   /// Throws BadInput if the file cannot be written.
   McapRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
-  void begin(bridge::Experiment& experiment) override;
 
  private:
-  struct OfRobot {
-    RobotPosters posters;
-    std::unique_ptr<ModuleLog> modules;
-    std::vector<std::uint16_t> scans;  // channels
+  /// Of a robot.
+  struct Channels {
+    std::vector<std::uint16_t> scans;
     std::uint16_t odometry, position, truth, log;
   };
 
-  void record(const bridge::Experiment& experiment, Time now) override;
-  void commit(const bridge::RunResult& result) override;
-  void record_robot(OfRobot& robot, const std::string& name, Time now);
-  void record_modules(OfRobot& robot, Time now);
+  void add(const OfRobot& robot) override;
+  void set_time(Time now) override { now_ = now; }
+  void write_clock() override;
+  void write_obstacles(const std::vector<world::Shape>& shapes) override;
+  void write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
+                       double height_m) override;
+  void write_truth(const OfRobot& robot, Time date, const world::BodyState& body) override;
+  void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) override;
+  void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
+  void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
+                  const posters::LaserReading& scan) override;
+  void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
+  void close(const bridge::RunResult& result) override;
 
-  const bridge::Scenario& scenario_;
   McapFile file_;
   std::uint16_t transform_, scan_, log_, pose_, scene_, time_;  // schemas
   std::uint16_t frames_, world_, clock_;                        // channels
-  std::vector<OfRobot> robots_;
-  std::string drawn_;  // of the world, as it was recorded last
-  std::optional<Time> sampled_;
+  std::vector<Channels> channels_;                              // of each robot
+  Time now_;
 };
 
 }  // namespace waitpoint::tools

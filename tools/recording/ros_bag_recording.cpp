@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/recording/ros_bag_recording.hpp"
 
-#include <algorithm>
 #include <exception>
-#include <tuple>
 
 #include "core/error.hpp"
 #include "core/exact_math.hpp"
@@ -11,31 +9,22 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr Duration sampling = std::chrono::milliseconds(100);
-constexpr const char* root = "world";
-
 RosBagFile::Place place(Time time, const std::string& frame, const Pose& pose, double z_m = 0) {
   const auto [sin_half, cos_half] = exact::sincos(pose.heading / 2);
   return {time.ns(), frame, pose.x, pose.y, z_m, sin_half, cos_half};
 }
 
-RosBagFile::Solid solid(const world::Shape& shape) {
+RosBagFile::Solid solid(const world::Shape& shape, const std::string& frame) {
   const double height_m = shape.z_high_m - shape.z_low_m;
-  const RosBagFile::Place middle = place(Time(), root, shape.pose, (shape.z_low_m + shape.z_high_m) / 2);
+  const RosBagFile::Place middle = place(Time(), frame, shape.pose, (shape.z_low_m + shape.z_high_m) / 2);
   if (shape.kind == world::Shape::Kind::box) return {true, middle, {shape.length_m, shape.width_m, height_m}};
   return {false, middle, {2 * shape.radius_m, 2 * shape.radius_m, height_m}};
-}
-
-// All that tells one from another; the frame and the time are the same for all.
-auto identity(const RosBagFile::Solid& solid) {
-  const RosBagFile::Place& place = solid.place;
-  return std::tuple(solid.is_box, place.x, place.y, place.z, place.sin_half, place.cos_half, solid.size);
 }
 
 }  // namespace
 
 RosBagRecording::RosBagRecording(const std::filesystem::path& path, const bridge::Scenario& scenario)
-    : scenario_(scenario), file_(path) {
+    : ViewerRecording(scenario), file_(path) {
   try {
     bag_ = std::make_unique<RosBagFile>(file_.written_to().string());
   } catch (const std::exception& failure) {
@@ -43,79 +32,47 @@ RosBagRecording::RosBagRecording(const std::filesystem::path& path, const bridge
   }
 }
 
-void RosBagRecording::begin(bridge::Experiment& experiment) {
-  for (std::size_t i = 0; i < scenario_.robots.size(); ++i) {
-    bridge::Robot& robot = *experiment.robots()[i];
-    robots_.push_back({robot.name(), RobotPosters(scenario_.robots[i], robot), std::make_unique<ModuleLog>()});
-    robot.set_watch(robots_.back().modules.get());
-  }
-}
-
-void RosBagRecording::record(const bridge::Experiment& experiment, Time now) {
-  bag_->set_time(now.ns());
-  const world::World& world = experiment.world();
-  const bool is_sampled = !sampled_ || now - *sampled_ >= sampling;
-  if (is_sampled) {
-    sampled_ = now;
-    bag_->write_clock();
-    record_world(world.description().obstacles);
-  }
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const std::string& name = robots_[i].name;
-    if (is_sampled) {
-      const world::BodyState& body = world.body(world::BodyId(static_cast<std::uint32_t>(i)));
-      const RosBagFile::Place truth = place(now, root, body.pose, body.height_m);
-      bag_->write_transform(truth, name);
-      bag_->write_pose("/" + name + "/truth", truth);
-    }
-    record_robot(robots_[i]);
-  }
-}
-
-void RosBagRecording::record_robot(OfRobot& robot) {
-  record_modules(robot);
-  const std::string believed = robot.name + "/position";
-  if (const auto odometry = robot.posters.odometry()) {
-    const posters::PositionEstimate& position = odometry->position;
-    bag_->write_odometry("/" + robot.name + "/odometry", place(position.date, root, position.pose, odometry->height_m),
-                         position.covariance, robot.name, odometry->v_m_s, odometry->w_rad_s);
-  }
-  if (const auto fused = robot.posters.position()) {
-    const RosBagFile::Place position = place(fused->position.date, root, fused->position.pose);
-    bag_->write_pose("/" + believed, position, fused->position.covariance);
-    bag_->write_transform(position, believed);
-  }
-  for (RobotPosters::Laser& laser : robot.posters.lasers) {
-    const auto scan = robot.posters.scan(laser);
-    if (!scan) continue;
-    const std::string frame = robot.name + "/" + laser.name;
-    const world::LaserDescription& device = laser.description;
-    bag_->write_transform(place(scan->date, believed, device.mount, device.height_m), frame);
-    bag_->write_scan("/" + frame, {scan->date.ns(),
-                                   frame,
-                                   scan->first_angle_rad,
-                                   scan->angle_step_rad,
-                                   scan->range_max_m,
-                                   {scan->range_m.begin(), scan->range_m.end()}});
-  }
-}
-
-void RosBagRecording::record_modules(OfRobot& robot) {
-  for (const ModuleLog::Line& line : robot.modules->take())
-    bag_->write_log("/" + robot.name + "/modules", line.date.ns(), robot.name + "/" + line.module, line.text,
-                    line.is_bad);
-}
-
-void RosBagRecording::record_world(const std::vector<world::Obstacle>& obstacles) {
+void RosBagRecording::write_obstacles(const std::vector<world::Shape>& shapes) {
   std::vector<RosBagFile::Solid> solids;
-  for (const world::Obstacle& obstacle : obstacles) solids.push_back(solid(obstacle.shape));
-  if (std::ranges::equal(solids, drawn_, {}, identity, identity)) return;
+  for (const world::Shape& shape : shapes) solids.push_back(solid(shape, root));
   bag_->write_solids("/world", solids);
-  drawn_ = std::move(solids);
 }
 
-void RosBagRecording::commit(const bridge::RunResult&) {
-  for (OfRobot& robot : robots_) record_modules(robot);
+void RosBagRecording::write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
+                                      double height_m) {
+  bag_->write_transform(place(date, parent, pose, height_m), child);
+}
+
+void RosBagRecording::write_truth(const OfRobot& robot, Time date, const world::BodyState& body) {
+  bag_->write_pose("/" + robot.name + "/truth", place(date, root, body.pose, body.height_m));
+}
+
+void RosBagRecording::write_odometry(const OfRobot& robot, const posters::Odometry& odometry) {
+  const posters::PositionEstimate& position = odometry.position;
+  bag_->write_odometry("/" + robot.name + "/odometry", place(position.date, root, position.pose, odometry.height_m),
+                       position.covariance, robot.name, odometry.v_m_s, odometry.w_rad_s);
+}
+
+void RosBagRecording::write_position(const OfRobot& robot, const posters::PositionEstimate& position) {
+  bag_->write_pose("/" + robot.name + "/position", place(position.date, root, position.pose), position.covariance);
+}
+
+void RosBagRecording::write_scan(const OfRobot&, std::size_t, const std::string& frame,
+                                 const posters::LaserReading& scan) {
+  bag_->write_scan("/" + frame, {scan.date.ns(),
+                                 frame,
+                                 scan.first_angle_rad,
+                                 scan.angle_step_rad,
+                                 scan.range_max_m,
+                                 {scan.range_m.begin(), scan.range_m.end()}});
+}
+
+void RosBagRecording::write_log(const OfRobot& robot, const ModuleLog::Line& line) {
+  bag_->write_log("/" + robot.name + "/modules", line.date.ns(), robot.name + "/" + line.module, line.text,
+                  line.is_bad);
+}
+
+void RosBagRecording::close(const bridge::RunResult&) {
   bag_->close();
   file_.commit();
 }

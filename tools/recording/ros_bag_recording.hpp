@@ -13,38 +13,33 @@
 #pragma once
 
 #include "tools/output_file.hpp"
-#include "tools/recording/module_log.hpp"
-#include "tools/recording/recording.hpp"
-#include "tools/recording/robot_posters.hpp"
 #include "tools/recording/ros_bag_file.hpp"
+#include "tools/recording/viewer_recording.hpp"
 
 namespace waitpoint::tools {
 
-class RosBagRecording final : public Recording {
+class RosBagRecording final : public ViewerRecording {
  public:
   /// Throws BadInput if the file cannot be written.
   RosBagRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
-  void begin(bridge::Experiment& experiment) override;
 
  private:
-  struct OfRobot {
-    std::string name;
-    RobotPosters posters;
-    std::unique_ptr<ModuleLog> modules;
-  };
+  void add(const OfRobot&) override {}
+  void set_time(Time now) override { bag_->set_time(now.ns()); }
+  void write_clock() override { bag_->write_clock(); }
+  void write_obstacles(const std::vector<world::Shape>& shapes) override;
+  void write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
+                       double height_m) override;
+  void write_truth(const OfRobot& robot, Time date, const world::BodyState& body) override;
+  void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) override;
+  void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
+  void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
+                  const posters::LaserReading& scan) override;
+  void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
+  void close(const bridge::RunResult& result) override;
 
-  void record(const bridge::Experiment& experiment, Time now) override;
-  void commit(const bridge::RunResult& result) override;
-  void record_robot(OfRobot& robot);
-  void record_modules(OfRobot& robot);
-  void record_world(const std::vector<world::Obstacle>& obstacles);
-
-  const bridge::Scenario& scenario_;
   OutputFile file_;
   std::unique_ptr<RosBagFile> bag_;
-  std::vector<OfRobot> robots_;
-  std::vector<RosBagFile::Solid> drawn_;  // as they were recorded last
-  std::optional<Time> sampled_;
 };
 
 }  // namespace waitpoint::tools
