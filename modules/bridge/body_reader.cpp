@@ -35,28 +35,24 @@ world::OdometryErrors read_odometry(const YamlNode& node, Kind kind) {
        "turn_noise_rad_per_sqrt_rad", "slips_per_m", "slip_m", "slip_turn_rad", "units_per_m", "units_per_rad",
        "wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
   world::OdometryErrors errors;
-  errors.travel_scale = map.number("travel_scale", positive_number, errors.travel_scale);
-  errors.turn_scale = map.number("turn_scale", positive_number, errors.turn_scale);
-  errors.drift_rad_per_m = map.number("drift_rad_per_m", any_number, errors.drift_rad_per_m);
-  errors.travel_noise_m_per_sqrt_m =
-      map.number("travel_noise_m_per_sqrt_m", number_from_zero, errors.travel_noise_m_per_sqrt_m);
-  errors.turn_noise_rad_per_sqrt_m =
-      map.number("turn_noise_rad_per_sqrt_m", number_from_zero, errors.turn_noise_rad_per_sqrt_m);
-  errors.turn_noise_rad_per_sqrt_rad =
-      map.number("turn_noise_rad_per_sqrt_rad", number_from_zero, errors.turn_noise_rad_per_sqrt_rad);
+  map.read("travel_scale", errors.travel_scale, positive_number);
+  map.read("turn_scale", errors.turn_scale, positive_number);
+  map.read("drift_rad_per_m", errors.drift_rad_per_m, any_number);
+  map.read("travel_noise_m_per_sqrt_m", errors.travel_noise_m_per_sqrt_m, number_from_zero);
+  map.read("turn_noise_rad_per_sqrt_m", errors.turn_noise_rad_per_sqrt_m, number_from_zero);
+  map.read("turn_noise_rad_per_sqrt_rad", errors.turn_noise_rad_per_sqrt_rad, number_from_zero);
   constexpr NumberRange slips{0, 1000, "a number from 0 to 1000"};
-  errors.slips_per_m = map.number("slips_per_m", slips, errors.slips_per_m);
-  errors.slip_m = map.number("slip_m", number_from_zero, errors.slip_m);
-  errors.slip_turn_rad = map.number("slip_turn_rad", number_from_zero, errors.slip_turn_rad);
-  errors.units_per_m = map.number("units_per_m", positive_number, errors.units_per_m);
-  errors.units_per_rad = map.number("units_per_rad", positive_number, errors.units_per_rad);
+  map.read("slips_per_m", errors.slips_per_m, slips);
+  map.read("slip_m", errors.slip_m, number_from_zero);
+  map.read("slip_turn_rad", errors.slip_turn_rad, number_from_zero);
+  map.read("units_per_m", errors.units_per_m, positive_number);
+  map.read("units_per_rad", errors.units_per_rad, positive_number);
   only_for(map, has_two_sides(kind), "differential or skid_steer",
            {"wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
-  errors.wheel_diameter_ratio = map.number("wheel_diameter_ratio", positive_number, errors.wheel_diameter_ratio);
-  errors.wheel_base_ratio = map.number("wheel_base_ratio", positive_number, errors.wheel_base_ratio);
-  errors.wheel_noise_m_per_sqrt_m =
-      map.number("wheel_noise_m_per_sqrt_m", number_from_zero, errors.wheel_noise_m_per_sqrt_m);
-  errors.wheel_ticks_per_m = map.number("wheel_ticks_per_m", positive_number, errors.wheel_ticks_per_m);
+  map.read("wheel_diameter_ratio", errors.wheel_diameter_ratio, positive_number);
+  map.read("wheel_base_ratio", errors.wheel_base_ratio, positive_number);
+  map.read("wheel_noise_m_per_sqrt_m", errors.wheel_noise_m_per_sqrt_m, number_from_zero);
+  map.read("wheel_ticks_per_m", errors.wheel_ticks_per_m, positive_number);
   return errors;
 }
 
@@ -68,13 +64,13 @@ void read_kind(const YamlMap& map, world::BaseDescription& base) {
   only_for(map, base.kind == Kind::ackermann, "ackermann", {"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"});
   only_for(map, base.kind == Kind::aerial, "aerial", {"climb_max_m_s", "climb_acceleration_m_s2"});
   constexpr NumberRange longer{1, 1e9, "a number of at least 1"};
-  base.effective_axle_ratio = map.number("effective_axle_ratio", longer, base.effective_axle_ratio);
-  base.wheelbase_m = map.number("wheelbase_m", positive_number, base.wheelbase_m);
+  map.read("effective_axle_ratio", base.effective_axle_ratio, longer);
+  map.read("wheelbase_m", base.wheelbase_m, positive_number);
   constexpr NumberRange steering{least_positive, 89, "degrees above 0, at most 89"};
-  base.steering_max_rad = map.degrees("steering_max_deg", steering, base.steering_max_rad);
-  base.steering_rate_rad_s = map.degrees("steering_rate_deg_s", positive_number, base.steering_rate_rad_s);
-  base.climb_max_m_s = map.number("climb_max_m_s", positive_number, base.climb_max_m_s);
-  base.climb_acceleration_m_s2 = map.number("climb_acceleration_m_s2", positive_number, base.climb_acceleration_m_s2);
+  map.read_degrees("steering_max_deg", base.steering_max_rad, steering);
+  map.read_degrees("steering_rate_deg_s", base.steering_rate_rad_s, positive_number);
+  map.read("climb_max_m_s", base.climb_max_m_s, positive_number);
+  map.read("climb_acceleration_m_s2", base.climb_acceleration_m_s2, positive_number);
 }
 
 world::BaseDescription read_base(const YamlNode& node, world::BaseDescription base) {
@@ -101,20 +97,20 @@ world::BaseDescription read_base(const YamlNode& node, world::BaseDescription ba
                      "battery_capacity_s",
                      "battery_capacity_m"});
   read_kind(map, base);
-  base.v_max_m_s = map.number("v_max_m_s", positive_number, base.v_max_m_s);
-  base.w_max_rad_s = map.number("w_max_rad_s", positive_number, base.w_max_rad_s);
-  base.v_acceleration_m_s2 = map.number("v_acceleration_m_s2", positive_number, base.v_acceleration_m_s2);
-  base.w_acceleration_rad_s2 = map.number("w_acceleration_rad_s2", positive_number, base.w_acceleration_rad_s2);
-  base.mass_kg = map.number("mass_kg", mass_number, base.mass_kg);
-  base.drive_force_n = map.number("drive_force_n", positive_number, base.drive_force_n);
-  base.grip = map.number("grip", positive_number, base.grip);
-  base.axle_m = map.number("axle_m", positive_number, base.axle_m);
-  base.watchdog = map.duration("watchdog_ms", 1ms, base.watchdog);
+  map.read("v_max_m_s", base.v_max_m_s, positive_number);
+  map.read("w_max_rad_s", base.w_max_rad_s, positive_number);
+  map.read("v_acceleration_m_s2", base.v_acceleration_m_s2, positive_number);
+  map.read("w_acceleration_rad_s2", base.w_acceleration_rad_s2, positive_number);
+  map.read("mass_kg", base.mass_kg, mass_number);
+  map.read("drive_force_n", base.drive_force_n, positive_number);
+  map.read("grip", base.grip, positive_number);
+  map.read("axle_m", base.axle_m, positive_number);
+  map.read("watchdog_ms", base.watchdog, 1ms);
   if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry, base.kind);
-  base.battery_volts_full = map.number("battery_volts_full", positive_number, base.battery_volts_full);
-  base.battery_volts_empty = map.number("battery_volts_empty", positive_number, base.battery_volts_empty);
-  base.battery_capacity_s = map.number("battery_capacity_s", positive_number, base.battery_capacity_s);
-  base.battery_capacity_m = map.number("battery_capacity_m", positive_number, base.battery_capacity_m);
+  map.read("battery_volts_full", base.battery_volts_full, positive_number);
+  map.read("battery_volts_empty", base.battery_volts_empty, positive_number);
+  map.read("battery_capacity_s", base.battery_capacity_s, positive_number);
+  map.read("battery_capacity_m", base.battery_capacity_m, positive_number);
   return base;
 }
 
@@ -133,23 +129,23 @@ world::BatteryDescription read_battery(const YamlNode& node) {
       {"volts_full", "volts_empty", "resistance_ohm", "resolution_v", "capacity_ah", "rated_h", "peukert", "charge",
        "off_v", "idle_a", "drive_a_per_m_s", "turn_a_per_rad_s", "climb_a_per_m_s", "stalled_a"});
   world::BatteryDescription battery;
-  battery.volts_full = map.number("volts_full", positive_number, battery.volts_full);
-  battery.volts_empty = map.number("volts_empty", number_from_zero, battery.volts_empty);
+  map.read("volts_full", battery.volts_full, positive_number);
+  map.read("volts_empty", battery.volts_empty, number_from_zero);
   if (battery.volts_empty > battery.volts_full) throw node.written.bad("expected volts_empty to be at most volts_full");
-  battery.resistance_ohm = map.number("resistance_ohm", number_from_zero, battery.resistance_ohm);
-  battery.resolution_v = map.number("resolution_v", number_from_zero, battery.resolution_v);
-  battery.capacity_ah = map.number("capacity_ah", positive_number, battery.capacity_ah);
-  battery.rated_h = map.number("rated_h", positive_number, battery.rated_h);
+  map.read("resistance_ohm", battery.resistance_ohm, number_from_zero);
+  map.read("resolution_v", battery.resolution_v, number_from_zero);
+  map.read("capacity_ah", battery.capacity_ah, positive_number);
+  map.read("rated_h", battery.rated_h, positive_number);
   constexpr NumberRange exponent{1, 2, "a number from 1 to 2"};
-  battery.peukert = map.number("peukert", exponent, battery.peukert);
+  map.read("peukert", battery.peukert, exponent);
   constexpr NumberRange part{least_positive, 1, "a part above 0, at most 1"};
-  battery.charge = map.number("charge", part, battery.charge);
-  battery.off_v = map.number("off_v", number_from_zero, battery.off_v);
-  battery.idle_a = map.number("idle_a", number_from_zero, battery.idle_a);
-  battery.drive_a_per_m_s = map.number("drive_a_per_m_s", number_from_zero, battery.drive_a_per_m_s);
-  battery.turn_a_per_rad_s = map.number("turn_a_per_rad_s", number_from_zero, battery.turn_a_per_rad_s);
-  battery.climb_a_per_m_s = map.number("climb_a_per_m_s", number_from_zero, battery.climb_a_per_m_s);
-  battery.stalled_a = map.number("stalled_a", number_from_zero, battery.stalled_a);
+  map.read("charge", battery.charge, part);
+  map.read("off_v", battery.off_v, number_from_zero);
+  map.read("idle_a", battery.idle_a, number_from_zero);
+  map.read("drive_a_per_m_s", battery.drive_a_per_m_s, number_from_zero);
+  map.read("turn_a_per_rad_s", battery.turn_a_per_rad_s, number_from_zero);
+  map.read("climb_a_per_m_s", battery.climb_a_per_m_s, number_from_zero);
+  map.read("stalled_a", battery.stalled_a, number_from_zero);
   return battery;
 }
 

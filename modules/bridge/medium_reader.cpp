@@ -34,12 +34,14 @@ io::Medium read_medium(const YamlNode& node) {
   io::Medium medium;
   read_latency(map.require("latency_ms"), medium);
   constexpr NumberRange per_metre_range{0, 1e6, "a number from 0 to 1000000"};
-  medium.latency_per_metre = Duration::from_seconds(map.number("latency_us_per_m", per_metre_range, 0) * 1e-6);
-  medium.bandwidth_bit_s = map.count("bandwidth_bit_s", 1, 1'000'000'000'000, medium.bandwidth_bit_s);
-  medium.queue_bytes = map.count("queue_bytes", 0, 1'000'000'000, medium.queue_bytes);
-  medium.range_m = map.number("range_m", positive_number, medium.range_m);
-  medium.range_check = map.duration("range_check_ms", 1ms, medium.range_check);
-  medium.loss = map.number("loss", {0, 1, "a probability from 0 to 1"}, medium.loss);
+  double latency_us_per_m = 0;
+  map.read("latency_us_per_m", latency_us_per_m, per_metre_range);
+  medium.latency_per_metre = Duration::from_seconds(latency_us_per_m * 1e-6);
+  map.read("bandwidth_bit_s", medium.bandwidth_bit_s, 1, 1'000'000'000'000);
+  map.read("queue_bytes", medium.queue_bytes, 0, 1'000'000'000);
+  map.read("range_m", medium.range_m, positive_number);
+  map.read("range_check_ms", medium.range_check, 1ms);
+  map.read("loss", medium.loss, {0, 1, "a probability from 0 to 1"});
   return medium;
 }
 

@@ -170,7 +170,7 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   if (const YamlNode* height = own.find("start_height_m")) {
     if (robot.body.base.kind != world::BaseDescription::Kind::aerial)
       throw height->written.bad("expected no start_height_m: " + title + " does not fly");
-    robot.body.start_height_m = own.number("start_height_m", number_from_zero);
+    own.read("start_height_m", robot.body.start_height_m, number_from_zero);
   }
   if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
   return robot;

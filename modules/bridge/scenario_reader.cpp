@@ -32,7 +32,8 @@ Expectation read_expectation(const YamlNode& node) {
     }
     if (!expect.all_goals_reached) expect.goals_reached = read_count(*goals, "goals_reached", 0, count_max);
   }
-  if (map.has("collisions")) expect.collisions = map.count("collisions", 0, count_max, 0);
+  if (const YamlNode* collisions = map.find("collisions"))
+    expect.collisions = read_count(*collisions, "collisions", 0, count_max);
   if (map.has("position_error_max_m"))
     expect.position_error_max_m = map.number("position_error_max_m", number_from_zero);
   return expect;
@@ -64,7 +65,7 @@ void read_shapes(const YamlNode& list, double height_m, Scenario& scenario) {
 void read_world(const YamlNode& node, Scenario& scenario) {
   const YamlMap map(node, "the world", {"step_ms", "engine", "include", "map", "shape_height_m", "shapes"});
   if (const YamlNode* step = map.find("step_ms")) {
-    scenario.step = map.duration("step_ms", 1ms, scenario.step);
+    map.read("step_ms", scenario.step, 1ms);
     if (scenario.step > Duration(1s))
       throw step->written.bad("expected step_ms to be at most 1000, found " + described(*step));
   }
@@ -72,7 +73,8 @@ void read_world(const YamlNode& node, Scenario& scenario) {
   scenario.engine = engines[map.one_of("engine", {"fcl", "slice", "bullet"}, 0)];
   if (const YamlNode* engine = map.find("engine")) scenario.engine_written = engine->written;
   if (const YamlNode* map_file = map.find("map")) scenario.map = read_map(*map_file);
-  const double height_m = map.number("shape_height_m", positive_number, height_default_m);
+  double height_m = height_default_m;
+  map.read("shape_height_m", height_m, positive_number);
   if (const YamlNode* shapes = map.find("shapes")) read_shapes(*shapes, height_m, scenario);
 }
 
@@ -116,7 +118,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   scenario.name = map.text("name", file.stem().string());
   scenario.description = map.text("description", "");
   if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);
-  scenario.until = map.duration("until_s", 1s, scenario.until);
+  map.read("until_s", scenario.until, 1s);
   if (const YamlNode* world = map.find("world")) read_world(*world, scenario);
   if (const YamlNode* medium = map.find("medium")) scenario.medium = read_medium(*medium);
   const YamlNode* types = map.find("robot_types");

@@ -14,6 +14,13 @@ using world::Shape;
 constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
 constexpr NumberRange turn{-3600, 3600, "degrees within ten turns"};
 
+/// From -pi to pi; 0 where it is left out.
+double read_heading(const YamlMap& map) {
+  double heading_rad = 0;
+  map.read_degrees("heading_deg", heading_rad, turn);
+  return exact::wrap_angle(heading_rad);
+}
+
 void read_corners(const YamlMap& map, Shape& shape) {
   if (map.has("centre_m") || map.has("size_m") || map.has("radius_m") || map.has("heading_deg")) {
     throw map.node().written.bad("expected " + map.what() +
@@ -35,7 +42,7 @@ void read_about_centre(const YamlMap& map, bool centre_needed, Shape& shape) {
   }
   Point centre;
   if (centre_needed || map.has("centre_m")) centre = read_point(map.require("centre_m"), "centre_m");
-  shape.pose = {centre.x, centre.y, exact::wrap_angle(map.degrees("heading_deg", turn, 0))};
+  shape.pose = {centre.x, centre.y, read_heading(map)};
   if (map.has("radius_m")) {
     shape.kind = Shape::Kind::cylinder;
     shape.radius_m = map.number("radius_m", positive_number);
@@ -53,9 +60,8 @@ Shape read_shape(const YamlMap& map, bool of_world, std::optional<double> height
   } else {
     read_about_centre(map, of_world, shape);
   }
-  shape.z_low_m = map.number("low_m", number_from_zero, 0);
-  shape.z_high_m =
-      height_m ? map.number("height_m", positive_number, *height_m) : map.number("height_m", positive_number);
+  map.read("low_m", shape.z_low_m, number_from_zero);
+  shape.z_high_m = height_m && !map.has("height_m") ? *height_m : map.number("height_m", positive_number);
   if (shape.z_high_m <= shape.z_low_m) {
     throw map.node().written.bad("expected height_m of " + map.what() + " to be above its low_m");
   }
@@ -76,11 +82,12 @@ world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t
                     {"name", "corners_m", "centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m", "known",
                      "mass_kg", "friction"});
   map.text("name", name);
-  world::Obstacle obstacle{name, read_shape(map, true, height_m), map.truth("known", true)};
-  if (map.has("mass_kg")) obstacle.mass_kg = map.number("mass_kg", mass_number);
+  world::Obstacle obstacle{name, read_shape(map, true, height_m)};
+  map.read("known", obstacle.known);
+  map.read("mass_kg", obstacle.mass_kg, mass_number);
   if (const YamlNode* friction = map.find("friction")) {
     if (!obstacle.loose()) throw friction->written.bad("expected no friction: " + map.what() + " has no mass_kg");
-    obstacle.friction = map.number("friction", number_from_zero);
+    map.read("friction", obstacle.friction, number_from_zero);
   }
   return obstacle;
 }
@@ -99,7 +106,7 @@ Pose read_pose(const YamlNode& node, std::string_view what) {
   if (node.kind == YamlNode::Kind::map) {
     const YamlMap map(node, std::string(what), {"x_m", "y_m", "heading_deg"});
     const double x = map.number("x_m", coordinate), y = map.number("y_m", coordinate);
-    return {x, y, exact::wrap_angle(map.degrees("heading_deg", turn, 0))};
+    return {x, y, read_heading(map)};
   }
   const std::vector<double> numbers = read_numbers(node, what, 2, 3, coordinate);
   const double heading_deg = numbers.size() == 3 ? read_number(node.items[2], "heading_deg", turn) : 0;

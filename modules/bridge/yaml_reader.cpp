@@ -99,35 +99,10 @@ double YamlMap::number(std::string_view key, const NumberRange& range) const {
   return read_number(require(key), key, range);
 }
 
-double YamlMap::number(std::string_view key, const NumberRange& range, double otherwise) const {
-  return has(key) ? number(key, range) : otherwise;
-}
-
-std::uint64_t YamlMap::count(std::string_view key, std::uint64_t low, std::uint64_t high,
-                             std::uint64_t otherwise) const {
-  return has(key) ? read_count(*find(key), key, low, high) : otherwise;
-}
-
-bool YamlMap::truth(std::string_view key, bool otherwise) const {
-  return has(key) ? read_truth(*find(key), key) : otherwise;
-}
-
 std::string YamlMap::text(std::string_view key) const { return read_text(require(key), key); }
 
 std::string YamlMap::text(std::string_view key, const std::string& otherwise) const {
   return has(key) ? text(key) : otherwise;
-}
-
-Duration YamlMap::duration(std::string_view key, Duration unit, Duration otherwise) const {
-  if (!has(key)) return otherwise;
-  const double seconds = number(key, {1e-6, 1e9, "a positive number"}) * unit.seconds();
-  const Duration duration = Duration::from_seconds(seconds);
-  if (duration <= Duration()) refuse(*find(key), key, "at least a nanosecond");
-  return duration;
-}
-
-double YamlMap::degrees(std::string_view key, const NumberRange& range, double otherwise_rad) const {
-  return has(key) ? radians(number(key, range)) : otherwise_rad;
 }
 
 std::size_t YamlMap::one_of(std::string_view key, std::initializer_list<std::string_view> words,
@@ -139,6 +114,34 @@ std::size_t YamlMap::one_of(std::string_view key, std::initializer_list<std::str
     if (names[i] == text) return i;
   }
   refuse(*find(key), key, joined(names));
+}
+
+void YamlMap::read(std::string_view key, double& value, const NumberRange& range) const {
+  if (has(key)) value = number(key, range);
+}
+
+void YamlMap::read(std::string_view key, std::uint32_t& value, std::uint32_t low, std::uint32_t high) const {
+  if (has(key)) value = static_cast<std::uint32_t>(read_count(*find(key), key, low, high));
+}
+
+void YamlMap::read(std::string_view key, std::uint64_t& value, std::uint64_t low, std::uint64_t high) const {
+  if (has(key)) value = read_count(*find(key), key, low, high);
+}
+
+void YamlMap::read(std::string_view key, bool& value) const {
+  if (has(key)) value = read_truth(*find(key), key);
+}
+
+void YamlMap::read(std::string_view key, Duration& value, Duration unit) const {
+  if (!has(key)) return;
+  const double seconds = number(key, {1e-6, 1e9, "a positive number"}) * unit.seconds();
+  const Duration duration = Duration::from_seconds(seconds);
+  if (duration <= Duration()) refuse(*find(key), key, "at least a nanosecond");
+  value = duration;
+}
+
+void YamlMap::read_degrees(std::string_view key, double& value_rad, const NumberRange& range) const {
+  if (has(key)) value_rad = radians(number(key, range));
 }
 
 double radians(double degrees) { return degrees / 180 * exact::pi; }

@@ -54,17 +54,19 @@ class YamlMap {
   const YamlNode& require(std::string_view key) const;
 
   double number(std::string_view key, const NumberRange& range) const;
-  double number(std::string_view key, const NumberRange& range, double otherwise) const;
-  std::uint64_t count(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t otherwise) const;
-  bool truth(std::string_view key, bool otherwise) const;
   std::string text(std::string_view key) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
-  /// A positive duration, of a number times `unit`, at least a nanosecond.
-  Duration duration(std::string_view key, Duration unit, Duration otherwise) const;
-  /// A number of degrees, in radians.
-  double degrees(std::string_view key, const NumberRange& range, double otherwise_rad) const;
   /// The index of the key's word in `words`.
   std::size_t one_of(std::string_view key, std::initializer_list<std::string_view> words, std::size_t otherwise) const;
+
+  // What the key says goes into `value`, which stays what it is where the key is left out.
+  void read(std::string_view key, double& value, const NumberRange& range) const;
+  void read(std::string_view key, std::uint32_t& value, std::uint32_t low, std::uint32_t high) const;
+  void read(std::string_view key, std::uint64_t& value, std::uint64_t low, std::uint64_t high) const;
+  void read(std::string_view key, bool& value) const;
+  /// A positive duration, of a number times `unit`, at least a nanosecond.
+  void read(std::string_view key, Duration& value, Duration unit) const;
+  void read_degrees(std::string_view key, double& value_rad, const NumberRange& range) const;
 
  private:
   const YamlNode& node_;
