@@ -29,8 +29,12 @@ std::optional<Reply> Client::receive(Duration timeout) {
 }
 
 Reply Client::call(const std::string& module, const std::string& request, const Payload& input) {
+  const auto try_to_send = [&] {
+    mailbox_.keep_room_for(sent_ + 1);
+    return send(module, request, input);
+  };
   std::optional<std::uint32_t> id;
-  while (!(id = send(module, request, input))) threads::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (!(id = try_to_send())) threads::this_thread::sleep_for(std::chrono::milliseconds(1));
   for (;;) {
     const std::optional<Reply> reply = receive();
     if (reply->send_id == *id && reply->final) return *reply;

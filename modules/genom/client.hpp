@@ -34,7 +34,8 @@ class Client {
   /// wait).
   std::optional<Reply> receive(Duration timeout = Duration::max());
 
-  /// Sends a request and waits for its final reply; replies to other requests meanwhile are dropped.
+  /// Sends a request and waits for its final reply, which comes however many others are unread; those are dropped. To
+  /// wait for a limited time, send() and receive().
   template <HasFields In = Nothing>
   Reply call(const std::string& module, const std::string& request, const In& input = {}) {
     return call(module, request, Payload(input));

@@ -27,7 +27,8 @@ Mailbox::Mailbox(std::string owner) : owner_(std::move(owner)), name_(hash(owner
 bool Mailbox::post(const Letter& letter) {
   {
     const std::lock_guard guard(mutex_);
-    if (letters_.size() == letters_max) return false;
+    const bool awaited = letter.kind != LetterKind::request && letter.send_id == awaited_;
+    if (letters_.size() >= letters_max && !awaited) return false;
     letters_.push_back(letter);
   }
   threads::record(name_, hash(letter));

@@ -5,6 +5,7 @@
 //   client <--- replies ----------- (intermediate: the activity started; final: it ended, with report and output)
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <mutex>
 #include <string>
@@ -38,6 +39,9 @@ class Mailbox {
 
   /// Puts a letter in and signals the owner; false if the mailbox is full.
   bool post(const Letter& letter);
+  /// From now on replies to the owner's request `send_id`, and to no other one, find room beyond the bound: the owner
+  /// waits for them, and would for ever.
+  void keep_room_for(std::uint32_t send_id) { awaited_ = send_id; }
   /// Takes the oldest letter; false if there is none. Does not wait.
   bool take(Letter& letter);
 
@@ -51,6 +55,7 @@ class Mailbox {
   threads::mutex mutex_{"mailbox"};
   threads::counting_semaphore<> event_{0, "mailbox event"};
   std::deque<Letter> letters_;
+  std::atomic<std::uint32_t> awaited_ = 0;  // by numbers from 1 on
 };
 
 }  // namespace waitpoint::genom

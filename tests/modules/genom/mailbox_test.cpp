@@ -105,6 +105,41 @@ TEST(Client, ACallWaitsForItsOwnFinalReply) {
   });
 }
 
+TEST(Client, ACallHasItsReplyThoughTheMailboxIsFullOfOthers) {
+  EchoRobot robot;
+  ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms});
+  robot.module.add_activity<Number, Number>("Go", task, {.exec = [](Act&) { return State::ether; }});
+  robot.run([&] {
+    for (std::size_t i = 0; i < Mailbox::letters_max; ++i) {
+      EXPECT_TRUE(robot.client.send("m", "Echo", Number{1}));
+      sleep_for(1ms);
+    }
+    EXPECT_EQ(robot.client.call("m", "Echo", Number{5}).output.as<Number>().value, 5);
+    for (std::size_t i = 0; i < Mailbox::letters_max; ++i) {
+      EXPECT_TRUE(robot.client.send("m", "Echo", Number{1}));
+      sleep_for(1ms);
+    }
+    EXPECT_TRUE(robot.client.call("m", "Go", Number()).final);
+  });
+}
+
+TEST(Mailbox, KeepsRoomForRepliesToOneRequestOnly) {
+  const waitpoint::Report report = simulate([] {
+    Mailbox mailbox("owner");
+    Letter letter;
+    letter.kind = LetterKind::final_reply;
+    letter.send_id = 7;
+    mailbox.keep_room_for(8);
+    for (std::size_t i = 0; i < Mailbox::letters_max; ++i) EXPECT_TRUE(mailbox.post(letter));
+    EXPECT_FALSE(mailbox.post(letter));
+    letter.send_id = 8;
+    EXPECT_TRUE(mailbox.post(letter));
+    letter.kind = LetterKind::request;  // of somebody else, by his own numbers
+    EXPECT_FALSE(mailbox.post(letter));
+  });
+  EXPECT_TRUE(report.passed) << report;
+}
+
 TEST(Letters, EveryPartOfThemIsPartOfTheDigest) {
   const auto digest = [](const std::function<void(Letter&)>& change) {
     const waitpoint::Report report = simulate([&] {
