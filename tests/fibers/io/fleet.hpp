@@ -56,6 +56,4 @@ inline void in_every_order(const std::vector<std::string>& names, const Medium& 
   }
 }
 
-inline Time at(Duration d) { return Time() + d; }
-
 }  // namespace waitpoint::io

@@ -19,18 +19,6 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-// In many orders: `body` with a call that waits for 5 ms, and what lets it then; whether it was in time.
-void expect_both(const std::function<bool()>& body) {
-  int in_time = 0, late = 0;
-  for (std::uint64_t number = 0; number <= 60; ++number) {
-    const Report report = simulate([&] { ++(body() ? in_time : late); }, order_number(number));
-    ASSERT_TRUE(report.passed) << report;
-    ASSERT_FALSE(testing::Test::HasFailure()) << "in order " << number;
-  }
-  EXPECT_GT(in_time, 5);
-  EXPECT_GT(late, 5);
-}
-
 // `wait` within a task, `let` at 5 ms: what the one came to.
 Status at_one_instant(const std::function<Status()>& wait, const std::function<void()>& let) {
   Status status = Status::ok;

@@ -17,8 +17,6 @@ using namespace std::chrono_literals;
 using this_thread::sleep_for;
 using this_thread::sleep_until;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(Clock, BothShowTheLocalVirtualTime) {
   in_order([] {
     const steady_clock::time_point steady = steady_clock::now();

@@ -16,8 +16,6 @@ using namespace std::chrono_literals;
 using kernel::ClockKind;
 using kernel::ClockOptions;
 
-Time at(Duration d) { return Time() + d; }
-
 // What `body` costs as a thread with that clock.
 Duration cost_with(const ClockOptions& clock, const std::function<void()>& body) {
   Duration cost;

@@ -17,8 +17,6 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(Mutex, ExcludesOthersInEveryOrder) {
   in_every_order([] {
     mutex m;

@@ -17,8 +17,6 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(CallOnce, OneCallsAndTheOthersWaitForItsReturn) {
   std::set<int> callers;
   for (std::uint64_t number = 0; number <= seeds_tried; ++number) {

@@ -10,6 +10,9 @@
 
 namespace waitpoint {
 
+/// So long after the beginning.
+inline Time at(Duration time) { return Time() + time; }
+
 inline constexpr std::uint64_t seeds_tried = 25;
 
 /// The options of the default order (`number` 0), or of a seeded one.
@@ -24,6 +27,20 @@ inline void in_every_order(const std::function<void()>& body) {
     ASSERT_TRUE(report.passed) << report;
     ASSERT_FALSE(testing::Test::HasFailure()) << "in order " << number;
   }
+}
+
+/// Runs `body`, which says which of two ways it went, in the default order and in many seeded ones; each must pass, and
+/// both ways must come up, more than now and then.
+inline void expect_both(const std::function<bool()>& body) {
+  constexpr std::uint64_t orders = 60;
+  int one = 0, other = 0;
+  for (std::uint64_t number = 0; number <= orders; ++number) {
+    const Report report = simulate([&] { ++(body() ? one : other); }, order_number(number));
+    ASSERT_TRUE(report.passed) << report;
+    ASSERT_FALSE(testing::Test::HasFailure()) << "in order " << number;
+  }
+  EXPECT_GT(one, 5);
+  EXPECT_GT(other, 5);
 }
 
 /// Runs `body` in the default order; it must pass.

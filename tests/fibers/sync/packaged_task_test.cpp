@@ -15,8 +15,6 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(PackagedTask, GivesWhatItsFunctionReturnsOrThrows) {
   in_every_order([] {
     packaged_task<int(int, std::unique_ptr<int>)> sums([](int a, std::unique_ptr<int> b) {

@@ -20,8 +20,6 @@ using namespace std::chrono_literals;
 using this_thread::sleep_for;
 using this_thread::sleep_until;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(PeriodicTimer, TicksAt75HertzToTheNanosecond) {
   in_every_order([] {
     periodic_timer timer(Period::hertz(75));

@@ -17,8 +17,6 @@ using namespace std::chrono_literals;
 using kernel::LockProtocol;
 using this_thread::sleep_until;
 
-Time at(Duration d) { return Time() + d; }
-
 // As on Mars: a middle thread delays the high one for as long as it likes.
 
 template <class Mutex>

@@ -18,8 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_until;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(Processor, ComputingTimesDelayEachOtherByPriority) {
   in_every_order([] {
     Shared s;

@@ -16,8 +16,6 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(RecursiveMutex, IsHeldUntilTheLastOfAsManyUnlocks) {
   in_every_order([] {
     recursive_mutex m;

@@ -19,8 +19,6 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(SharedMutex, HasOneWriterOrManyReadersInEveryOrder) {
   in_every_order([] {
     shared_timed_mutex m;

@@ -20,8 +20,6 @@ using this_thread::handle_signal;
 using this_thread::raise_signal;
 using this_thread::sleep_for;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(Signals, AreDeliveredAtTheNextWaitpointAndNotAmidstComputing) {
   in_every_order([] {
     std::string seen;

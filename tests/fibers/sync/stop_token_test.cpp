@@ -18,8 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(StopToken, SeesWhatItsSourceWasAsked) {
   in_every_order([] {
     stop_source source;

@@ -18,8 +18,6 @@ using namespace std::chrono_literals;
 using this_thread::sleep_for;
 using this_thread::sleep_until;
 
-Time at(Duration d) { return Time() + d; }
-
 TEST(Timer, FiresOnceAtItsTimeBeforeTheTasksOfThatInstant) {
   in_every_order([] {
     std::vector<Time> fired;
