@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "fibers/explore/environment.hpp"
 #include "fibers/explore/explain.hpp"
+#include "fibers/explore/play.hpp"
 #include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 
@@ -170,24 +171,11 @@ void Campaign::tell(const Found& found) {
   text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_line(checks_);
 }
 
+// Of a schedule that is written out nothing else is run, so that a debugger stops in no other; but which memory tasks
+// share is learned.
 Outcome Campaign::play(const Token& token) {
-  if (token.strategy.empty()) {
-    // Nothing but that schedule is run, so that a debugger stops in no other; but which memory tasks share is learned.
-    if (races::present()) (void)take_profile(body_, profile_);
-    Fifo rest;
-    return body_.run(rest, {.deviations = token.deviations});
-  }
-  (void)take_profile(body_, profile_);
-  const std::unique_ptr<Strategy> strategy = make_strategy(token.strategy);
-  // An exhaustive one comes to a schedule by those before it.
-  for (std::uint64_t number = strategy->is_exhaustive() ? 0 : token.number;; ++number) {
-    strategy->begin(number, Draws(token.seed, token.strategy, number), profile_);
-    const Outcome outcome = body_.run(*strategy);
-    if (number == token.number) return outcome;
-    if (!strategy->end())
-      throw BadInput("replay", "expected schedule " + std::to_string(token.number) + ", but there are only " +
-                                   std::to_string(number + 1));
-  }
+  if (!token.strategy.empty() || races::present()) (void)take_profile(body_, profile_);
+  return exploration::play(body_, token, profile_);
 }
 
 // What is wrong with it as the run of that token; empty if nothing is.

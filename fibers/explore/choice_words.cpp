@@ -17,7 +17,9 @@ std::string wakes(const Task& task, std::uint32_t chosen, std::uint32_t count) {
   return "wakes waiter " + std::to_string(chosen + 1) + " of " + std::to_string(count);
 }
 
-std::string words(Choice choice, const Task& task, std::uint32_t chosen, std::uint32_t count) {
+}  // namespace
+
+std::string in_words(Choice choice, const Task& task, std::uint32_t chosen, std::uint32_t count) {
   switch (choice) {
     case Choice::waiter: return wakes(task, chosen, count);
     case Choice::spurious: return chosen != 0 ? "goes on for nothing" : "waits";
@@ -26,8 +28,6 @@ std::string words(Choice choice, const Task& task, std::uint32_t chosen, std::ui
   }
 }
 
-}  // namespace
-
 void ChoiceWords::say(const Task& task, const std::string& chosen, const std::string& instead) {
   text_ = "at " + to_string(task.scheduler->global_time()) + " s: " + about_to(task) + ", " + chosen;
   other_ = instead;
@@ -35,9 +35,9 @@ void ChoiceWords::say(const Task& task, const std::string& chosen, const std::st
 
 std::uint32_t ChoiceWords::among(Choice choice, const Task& task, std::uint32_t count) {
   const bool is_asked = is_it();
-  const std::string instead = is_asked ? words(choice, task, instead_, count) : "";
+  const std::string instead = is_asked ? in_words(choice, task, instead_, count) : "";
   const std::uint32_t chosen = explorer_.among(choice, task, count);
-  if (is_asked) say(task, words(choice, task, chosen, count), instead);
+  if (is_asked) say(task, in_words(choice, task, chosen, count), instead);
   return chosen;
 }
 

@@ -9,6 +9,10 @@
 
 namespace waitpoint::exploration {
 
+/// What `task` does by an alternative of `count`, other than one between tasks: "wakes thread#3", "goes on for
+/// nothing".
+std::string in_words(Choice choice, const Task& task, std::uint32_t alternative, std::uint32_t count);
+
 class ChoiceWords final : public kernel::Decisions {
  public:
   /// Of decision `number`, which is not one between tasks, against its alternative `instead`.

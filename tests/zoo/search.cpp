@@ -2,7 +2,6 @@
 #include "tests/zoo/search.hpp"
 
 #include "fibers/explore/explore.hpp"
-#include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::zoo {
 
@@ -19,16 +18,6 @@ std::optional<Found> Search::find(const std::string& strategy, std::uint64_t see
     if (!tried->end()) return std::nullopt;
   }
   return std::nullopt;
-}
-
-exploration::Outcome Search::play(const exploration::Token& token) {
-  if (token.strategy.empty()) {
-    exploration::Fifo rest;
-    return body_.run(rest, {.deviations = token.deviations});
-  }
-  const auto strategy = exploration::make_strategy(token.strategy);
-  strategy->begin(token.number, exploration::Draws(token.seed, token.strategy, token.number), profile_);
-  return body_.run(*strategy);
 }
 
 }  // namespace waitpoint::zoo

@@ -6,8 +6,7 @@
 #include <string>
 
 #include "fibers/explore/minimize.hpp"
-#include "fibers/explore/profile.hpp"
-#include "fibers/explore/token.hpp"
+#include "fibers/explore/play.hpp"
 
 namespace waitpoint::zoo {
 
@@ -25,7 +24,7 @@ class Search {
   /// The first failure among `most` schedules of `strategy`; nothing if there is none, or all are tried.
   std::optional<Found> find(const std::string& strategy, std::uint64_t seed, std::uint64_t most);
   /// The run of that token.
-  exploration::Outcome play(const exploration::Token& token);
+  exploration::Outcome play(const exploration::Token& token) { return exploration::play(body_, token, profile_); }
   exploration::Body& body() { return body_; }
 
  private:

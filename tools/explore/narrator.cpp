@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/number_text.hpp"
+#include "fibers/explore/choice_words.hpp"
 #include "fibers/explore/timeline.hpp"
 #include "fibers/sync/object_names.hpp"
 
@@ -53,12 +54,7 @@ std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
 std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t count) {
   const std::uint32_t chosen = explorer_.among(choice, task, count);
   tell([&](const Decision& decision) {
-    const std::string one = about_to(task);
-    switch (choice) {
-      case Choice::spurious: return one + (decision.chosen != 0 ? ": its wait ends for nothing" : ": it waits");
-      case Choice::loss: return one + (decision.chosen != 0 ? ": the datagram is lost" : ": the datagram arrives");
-      default: return fmt::format("{}: of {} waiters number {} is served", one, count, decision.chosen + 1);
-    }
+    return about_to(task) + " " + exploration::in_words(choice, task, decision.chosen, count);
   });
   return chosen;
 }
