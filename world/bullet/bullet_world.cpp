@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "world/bullet/drive_forces.hpp"
 #include "world/bullet/dynamics.hpp"
 #include "world/fcl/vehicle_world.hpp"
 #include "world/motion/first_contact.hpp"
@@ -14,27 +15,10 @@
 namespace waitpoint::world {
 namespace {
 
-using Kind = BaseDescription::Kind;
-
 // The parts in which Bullet makes a step: while nothing loose moves, and while something does. In one part nothing that
 // drives goes further than is seen by it beforehand (2 cm).
 constexpr double part_s_max = 0.01, loose_part_s_max = 0.002, way_m_max = 0.015;
 constexpr double parts_max = 1000;
-
-bool goes_anyway(Kind kind) { return kind == Kind::omni || kind == Kind::aerial; }
-
-/// What the drive of a body has: by default twice what its greatest accelerations take.
-DriveAim forces_of(const BodyDescription& body) {
-  const BaseDescription& base = body.base;
-  const double grip_n = base.grip * base.mass_kg * gravity_m_s2;
-  DriveAim forces;
-  forces.force_n = base.drive_force_n > 0 ? base.drive_force_n : 2 * base.mass_kg * base.v_acceleration_m_s2;
-  if (base.kind != Kind::aerial) forces.force_n = std::min(forces.force_n, grip_n);
-  forces.side_force_n = goes_anyway(base.kind) ? forces.force_n : grip_n;
-  forces.torque_nm = 2 * inertia_kg_m2(body.shape, base.mass_kg) * base.w_acceleration_rad_s2;
-  forces.climb_force_n = 2 * base.mass_kg * base.climb_acceleration_m_s2;
-  return forces;
-}
 
 /// That fraction of the way from one to the other.
 Velocity between(const Velocity& from, const Velocity& to, double fraction) {
@@ -130,7 +114,7 @@ void BulletWorld::make_dynamics(const std::vector<MaybeMoving>& moving) {
   dynamics_.emplace(standing_shapes(description_.obstacles));
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
     const BodyDescription& body = description_.bodies[i];
-    dynamics_->add_hull(body.shape, body.base.mass_kg, body.base.kind == Kind::aerial);
+    dynamics_->add_hull(body.shape, body.base.mass_kg, body.base.kind == BaseDescription::Kind::aerial);
     dynamics_->place_hull(i, vehicles_[i].state().pose, vehicles_[i].state().height_m);
     dynamics_->set_velocity(i, vehicles_[i].state().velocity);
   }

@@ -1,42 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/bullet/dynamics.hpp"
 
-#include <btBulletDynamicsCommon.h>
-
 #include <algorithm>
 #include <deque>
+
+#include "core/exact_math.hpp"
+#include "world/bullet/bullet_shapes.hpp"
+#include "world/bullet/hull.hpp"
 
 namespace waitpoint::world {
 namespace {
 
-static_assert(sizeof(btScalar) == sizeof(double), "Bullet is to compute in double precision");
-
-// Bullet rounds the edges of what it finds contacts of, other than of two boxes, by this much.
-constexpr double rounding_m = 0.002;
 // Slower than this for two seconds (of Bullet's own), something is at rest.
 constexpr double rest_m_s = 1e-3, rest_rad_s = 1e-3;
 constexpr int iterations = 50;
 
 enum Group : int { of_floor = 1, of_standing = 2, of_rolling = 4, of_flying = 8, of_loose = 16 };
-
-btVector3 vector(SpaceVector v) { return {v.x, v.y, v.z}; }
-SpaceVector space_vector(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-btMatrix3x3 upright(double heading_rad) {
-  const auto [s, c] = exact::sincos(heading_rad);
-  return {c, -s, 0, s, c, 0, 0, 0, 1};
-}
-
-std::unique_ptr<btCollisionShape> collision_shape(Shape::Kind kind, SpaceVector size_m) {
-  const btVector3 half = 0.5 * vector(size_m);
-  std::unique_ptr<btConvexInternalShape> shape;
-  if (kind == Shape::Kind::cylinder)
-    shape = std::make_unique<btCylinderShapeZ>(half);
-  else
-    shape = std::make_unique<btBoxShape>(half);
-  shape->setMargin(std::min(rounding_m, 0.1 * half[half.minAxis()]));
-  return shape;
-}
 
 // Bullet's own way there takes the C library's sine, whose bits depend on the processor.
 btQuaternion turned(const btQuaternion& now, const btVector3& spin_rad_s, double step_s) {
@@ -47,12 +26,6 @@ btQuaternion turned(const btQuaternion& now, const btVector3& spin_rad_s, double
   return (btQuaternion(axis.x(), axis.y(), axis.z(), c) * now).normalized();
 }
 
-// Of length 1, on which a body turns by so much. Turns of a step are below half a turn, but for blows.
-double chord_of_arc(double turn_rad) {
-  const double half = 0.5 * turn_rad;
-  return half == 0 ? 1 : std::max(exact::sin(half) / half, 0.5);
-}
-
 struct Standing {
   std::unique_ptr<btCollisionShape> shape;
   btCollisionObject object;
@@ -61,93 +34,6 @@ struct Standing {
     object.setCollisionShape(shape.get());
     object.setWorldTransform(at);
     object.setFriction(1);
-  }
-};
-
-/// A drive: motors between a hull and the floor, each as strong as it is.
-///
-/// Its rows are velocities of the hull: along, across, about (and upwards, in the air). The solver finds the impulses
-/// that bring them to their targets, each within force times step, together with all contacts: so a drive that is held
-/// by a wall gives its greatest force and no more, and one that nothing holds reaches its target exactly.
-class Drive final : public btTypedConstraint {
- public:
-  Drive(btRigidBody& hull, bool flies) : btTypedConstraint(MAX_CONSTRAINT_TYPE, hull), flies_(flies) {}
-
-  /// What it tries from now on. The motors act at `from_centre`, a level vector of the world from the hull's centre,
-  /// along and across that direction.
-  void aim(const DriveAim& aim, Point direction, Point from_centre) {
-    aim_ = aim;
-    direction_ = direction;
-    from_centre_ = from_centre;
-  }
-
-  void getInfo1(btConstraintInfo1* info) override {
-    info->m_numConstraintRows = flies_ ? 4 : 3;
-    info->nub = 0;
-  }
-
-  void getInfo2(btConstraintInfo2* info) override {
-    const btVector3 at(from_centre_.x, from_centre_.y, 0);
-    const btVector3 along(direction_.x, direction_.y, 0), across(-direction_.y, direction_.x, 0), up(0, 0, 1);
-    set(*info, 0, along, at.cross(along), aim_.velocity.v_m_s, aim_.force_n);
-    set(*info, 1, across, at.cross(across), aim_.velocity.side_m_s, aim_.side_force_n);
-    set(*info, 2, btVector3(0, 0, 0), up, aim_.velocity.w_rad_s, aim_.torque_nm);
-    if (flies_) set(*info, 3, up, btVector3(0, 0, 0), aim_.velocity.climb_m_s, aim_.climb_force_n);
-  }
-
-  void setParam(int, btScalar, int) override {}
-  btScalar getParam(int, int) const override { return 0; }
-
- private:
-  static void set(btConstraintInfo2& info, int row, const btVector3& way, const btVector3& turn, double target,
-                  double force) {
-    const int first = row * info.rowskip;
-    for (int k = 0; k < 3; ++k) {
-      info.m_J1linearAxis[first + k] = way[k];
-      info.m_J1angularAxis[first + k] = turn[k];
-    }
-    info.m_constraintError[first] = target;
-    info.m_upperLimit[first] = force / info.fps;
-    info.m_lowerLimit[first] = -force / info.fps;
-  }
-
-  bool flies_;
-  DriveAim aim_;
-  Point direction_ = {1, 0}, from_centre_;
-};
-
-struct Hull {
-  Shape in_body;
-  std::unique_ptr<btCollisionShape> shape;
-  btRigidBody body;
-  Drive drive;
-  double heading_rad = 0;  // of the body
-  btVector3 placed = {0, 0, 0};
-  double placed_heading_rad = 0, turned_rad = 0, last_turn_rad = 0;
-  bool touched = false;
-
-  Hull(const Shape& s, double mass_kg, bool flies)
-      : in_body(s),
-        shape(collision_shape(s.kind, size_of(s))),
-        body(info(s, mass_kg, shape.get())),
-        drive(body, flies) {
-    body.setFriction(flies ? 0 : hull_friction);
-    body.setActivationState(DISABLE_DEACTIVATION);
-    body.setAngularFactor({0, 0, 1});
-    if (flies)
-      body.setFlags(body.getFlags() | BT_DISABLE_WORLD_GRAVITY);
-    else
-      body.setLinearFactor({1, 1, 0});
-  }
-  static btRigidBody::btRigidBodyConstructionInfo info(const Shape& s, double mass_kg, btCollisionShape* shape) {
-    // No inertia is an infinite one, to Bullet.
-    return {mass_kg, nullptr, shape, {0, 0, inertia_kg_m2(s, mass_kg)}};
-  }
-
-  // From the shape's centre to the body's origin, in the world.
-  Point origin_from_centre(double at_heading_rad) const {
-    const Point p = transform({0, 0, at_heading_rad}, in_body.pose.position());
-    return {-p.x, -p.y};
   }
 };
 
@@ -240,7 +126,7 @@ struct Dynamics::Bodies {
     }
   }
   ~Bodies() {
-    for (Hull& hull : hulls) steps.removeConstraint(&hull.drive);
+    for (Hull& hull : hulls) steps.removeConstraint(&hull.drive());
     while (steps.getNumCollisionObjects() > 0)
       steps.removeCollisionObject(steps.getCollisionObjectArray()[steps.getNumCollisionObjects() - 1]);
   }
@@ -256,7 +142,7 @@ struct Dynamics::Bodies {
         presses = presses || manifold.getContactPoint(k).getAppliedImpulse() > 0;
       if (!presses) continue;
       for (const btCollisionObject* body : {manifold.getBody0(), manifold.getBody1()})
-        if (body->getUserIndex() >= 0) hulls[static_cast<std::size_t>(body->getUserIndex())].touched = true;
+        if (body->getUserIndex() >= 0) hulls[static_cast<std::size_t>(body->getUserIndex())].touch();
     }
   }
 };
@@ -266,10 +152,10 @@ Dynamics::~Dynamics() = default;
 
 void Dynamics::add_hull(const Shape& shape, double mass_kg, bool flies) {
   Hull& hull = bodies_->hulls.emplace_back(shape, mass_kg, flies);
-  hull.body.setUserIndex(static_cast<int>(bodies_->hulls.size()) - 1);
+  hull.body().setUserIndex(static_cast<int>(bodies_->hulls.size()) - 1);
   const int meets = of_standing | of_rolling | of_flying | of_loose | (flies ? of_floor : 0);
-  bodies_->steps.addRigidBody(&hull.body, flies ? of_flying : of_rolling, meets);
-  bodies_->steps.addConstraint(&hull.drive);
+  bodies_->steps.addRigidBody(&hull.body(), flies ? of_flying : of_rolling, meets);
+  bodies_->steps.addConstraint(&hull.drive());
 }
 
 void Dynamics::add_loose(const LooseSolid& solid) {
@@ -277,40 +163,17 @@ void Dynamics::add_loose(const LooseSolid& solid) {
   bodies_->steps.addRigidBody(&loose.body, of_loose, of_floor | of_standing | of_rolling | of_flying | of_loose);
 }
 
-void Dynamics::place_hull(std::uint32_t number, const Pose& body, double height_m) {
-  Hull& hull = bodies_->hulls[number];
-  const Pose centre = compose(body, hull.in_body.pose);
-  const double z_m = height_m + 0.5 * (hull.in_body.z_low_m + hull.in_body.z_high_m);
-  hull.placed = {centre.x, centre.y, z_m};
-  hull.heading_rad = hull.placed_heading_rad = body.heading;
-  hull.turned_rad = hull.last_turn_rad = 0;
-  hull.touched = false;
-  hull.body.setWorldTransform(btTransform(upright(centre.heading), hull.placed));
+void Dynamics::place_hull(std::uint32_t hull, const Pose& body, double height_m) {
+  bodies_->hulls[hull].place(body, height_m);
 }
-
-void Dynamics::set_velocity(std::uint32_t number, const Velocity& velocity) {
-  Hull& hull = bodies_->hulls[number];
-  const auto [s, c] = exact::sincos(hull.heading_rad);
-  const Point arm = hull.origin_from_centre(hull.heading_rad);
-  const double w = velocity.w_rad_s;
-  hull.body.setLinearVelocity({c * velocity.v_m_s - s * velocity.side_m_s + w * arm.y,
-                               s * velocity.v_m_s + c * velocity.side_m_s - w * arm.x, velocity.climb_m_s});
-  hull.body.setAngularVelocity({0, 0, w});
+void Dynamics::set_velocity(std::uint32_t hull, const Velocity& velocity) {
+  bodies_->hulls[hull].set_velocity(velocity);
 }
-
-void Dynamics::aim(std::uint32_t number, const DriveAim& aim, double step_s) {
-  Hull& hull = bodies_->hulls[number];
-  const double middle_rad = hull.heading_rad + 0.5 * aim.velocity.w_rad_s * step_s;
-  const auto [s, c] = exact::sincos(middle_rad);
-  DriveAim along_chord = aim;
-  const double shortening = chord_of_arc(aim.velocity.w_rad_s * step_s);
-  along_chord.velocity.v_m_s *= shortening;
-  along_chord.velocity.side_m_s *= shortening;
-  hull.drive.aim(along_chord, {c, s}, hull.origin_from_centre(middle_rad));
-}
+void Dynamics::aim(std::uint32_t hull, const DriveAim& aim, double step_s) { bodies_->hulls[hull].aim(aim, step_s); }
+BodyMotion Dynamics::motion(std::uint32_t hull) const { return bodies_->hulls[hull].motion(); }
 
 void Dynamics::push_hull(std::uint32_t hull, Point force_n) {
-  bodies_->hulls[hull].body.applyCentralForce({force_n.x, force_n.y, 0});
+  bodies_->hulls[hull].body().applyCentralForce({force_n.x, force_n.y, 0});
 }
 
 void Dynamics::push_loose(std::uint32_t loose, Point force_n) {
@@ -320,36 +183,9 @@ void Dynamics::push_loose(std::uint32_t loose, Point force_n) {
 
 void Dynamics::step(double step_s) {
   bodies_->steps.stepSimulation(step_s, 0);
-  for (Hull& hull : bodies_->hulls) {
-    hull.last_turn_rad = step_s * hull.body.getAngularVelocity().z();
-    hull.turned_rad += hull.last_turn_rad;
-    hull.heading_rad = hull.placed_heading_rad + hull.turned_rad;
-    btTransform at = hull.body.getWorldTransform();
-    at.setBasis(upright(hull.heading_rad + hull.in_body.pose.heading));
-    hull.body.setWorldTransform(at);
-  }
+  for (Hull& hull : bodies_->hulls) hull.stepped(step_s);
   for (Loose& loose : bodies_->loose) loose.read();
   bodies_->find_touches();
-}
-
-BodyMotion Dynamics::motion(std::uint32_t number) const {
-  const Hull& hull = bodies_->hulls[number];
-  const btVector3 moved = hull.body.getWorldTransform().getOrigin() - hull.placed;
-  const Point before = hull.origin_from_centre(hull.placed_heading_rad),
-              now = hull.origin_from_centre(hull.heading_rad);
-  const btVector3& v = hull.body.getLinearVelocity();
-  const double w = hull.body.getAngularVelocity().z();
-  // Of the origin, as the drive saw it.
-  const double middle_rad = hull.heading_rad - 0.5 * hull.last_turn_rad;
-  const double shortening = chord_of_arc(hull.last_turn_rad);
-  const Point arm = hull.origin_from_centre(middle_rad);
-  const Point velocity = {v.x() - w * arm.y, v.y() + w * arm.x};
-  const auto [s, c] = exact::sincos(middle_rad);
-  return {{moved.x() + (now.x - before.x), moved.y() + (now.y - before.y)},
-          hull.turned_rad,
-          moved.z(),
-          {(c * velocity.x + s * velocity.y) / shortening, w, (c * velocity.y - s * velocity.x) / shortening, v.z()},
-          hull.touched};
 }
 
 const LooseSolid& Dynamics::loose(std::uint32_t number) const { return bodies_->loose[number].solid; }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A robot as a rigid body of Bullet's: upright, turned about the vertical alone, with a drive.
+//
+// Bullet moves the centre of its shape; poses and velocities here are those of the body's origin, as everywhere else.
+// Its heading is counted up from its turns, not read back from Bullet's matrix.
+#pragma once
+
+#include <memory>
+
+#include "world/bullet/drive.hpp"
+
+namespace waitpoint::world {
+
+class Hull {
+ public:
+  /// The shape is in the body's frame; it must be placed before it moves.
+  Hull(const Shape& shape, double mass_kg, bool flies);
+
+  btRigidBody& body() { return body_; }
+  Drive& drive() { return drive_; }
+
+  /// See Dynamics for these.
+  void place(const Pose& pose, double height_m);
+  void set_velocity(const Velocity& velocity);
+  void aim(const DriveAim& aim, double step_s);
+  BodyMotion motion() const;
+
+  /// After a step of Bullet's.
+  void stepped(double step_s);
+  void touch() { touched_ = true; }
+
+ private:
+  Point origin_from_centre(double heading_rad) const;
+
+  Shape in_body_;
+  std::unique_ptr<btCollisionShape> shape_;
+  btRigidBody body_;
+  Drive drive_;
+  double heading_rad_ = 0;
+  btVector3 placed_ = {0, 0, 0};  // the centre
+  double placed_heading_rad_ = 0, turned_rad_ = 0, last_turn_rad_ = 0;
+  bool touched_ = false;
+};
+
+}  // namespace waitpoint::world
