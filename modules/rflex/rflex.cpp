@@ -14,12 +14,6 @@ using namespace std::chrono_literals;
 namespace {
 constexpr double height_time_s = 0.5;  // in which a small error of height is to a third of it
 
-Pose ring_mount(std::uint32_t number, std::uint32_t count, double radius_m) {
-  const double bearing = 2 * exact::pi * number / count;
-  const auto [s, c] = exact::sincos(bearing);
-  return {radius_m * c, radius_m * s, exact::wrap_angle(bearing)};
-}
-
 void check(const InfraredCalibration& of) {
   if (!(of.gain_per_v > 0)) throw BadInput("infrared.gain_per_v", "expected more than 0");
   if (!(of.exponent < 0)) throw BadInput("infrared.exponent", "expected less than 0");
@@ -59,6 +53,24 @@ Rflex::Rflex(genom::ModuleSetup& setup)
     take_bumpers();
     take_infrareds();
   });
+  add_motions();
+  add_activity<Nothing, posters::Battery>("MonitorBattery", motion_, {.exec = [this](auto& activity) {
+                                            activity.output = battery_;
+                                            return battery_.low ? State::ether : State::exec;
+                                          }});
+  add_control<posters::KnownPose>("SetPos", [this](const posters::KnownPose& input, Nothing&) {
+    set_position(input.pose);
+    return genom::ok;
+  });
+  add_switches();
+  add_activity<Nothing, posters::Bumpers>("MonitorBumpers", motion_, {.exec = [this](auto& activity) {
+                                            activity.output = bumpers_;
+                                            return bumpers_.pressed != 0 ? State::ether : State::exec;
+                                          }});
+  add_calibration();
+}
+
+void Rflex::add_motions() {
   const std::vector<std::string> motions = {"TrackSpeedStart", "GotoSpeed", "Stop"};
   const auto halt = [this](auto&) {
     drive(0, 0, 0, 0);
@@ -87,35 +99,19 @@ Rflex::Rflex(genom::ModuleSetup& setup)
                             .inter = halt},
                            motions);
   add_activity<Nothing>("Stop", motion_, {.exec = halt}, motions);
-  add_activity<Nothing, posters::Battery>("MonitorBattery", motion_, {.exec = [this](auto& activity) {
-                                            activity.output = battery_;
-                                            return battery_.low ? State::ether : State::exec;
-                                          }});
-  add_control<posters::KnownPose>("SetPos", [this](const posters::KnownPose& input, Nothing&) {
-    set_position(input.pose);
-    return genom::ok;
-  });
-  const auto switch_sonars = [this](bool on) {
-    return [this, on](const Nothing&, Nothing&) -> Report {
-      command_.sonars_on = on;
+}
+
+void Rflex::add_switches() {
+  const auto switched = [](bool& what, bool on) {
+    return [&what, on](const Nothing&, Nothing&) -> Report {
+      what = on;
       return genom::ok;
     };
   };
-  add_control<Nothing>("SonarOn", switch_sonars(true));
-  add_control<Nothing>("SonarOff", switch_sonars(false));
-  const auto switch_infrared = [this](bool on) {
-    return [this, on](const Nothing&, Nothing&) -> Report {
-      infrared_on_ = on;
-      return genom::ok;
-    };
-  };
-  add_control<Nothing>("InfraredOn", switch_infrared(true));
-  add_control<Nothing>("InfraredOff", switch_infrared(false));
-  add_activity<Nothing, posters::Bumpers>("MonitorBumpers", motion_, {.exec = [this](auto& activity) {
-                                            activity.output = bumpers_;
-                                            return bumpers_.pressed != 0 ? State::ether : State::exec;
-                                          }});
-  add_calibration();
+  add_control<Nothing>("SonarOn", switched(command_.sonars_on, true));
+  add_control<Nothing>("SonarOff", switched(command_.sonars_on, false));
+  add_control<Nothing>("InfraredOn", switched(infrared_on_, true));
+  add_control<Nothing>("InfraredOff", switched(infrared_on_, false));
 }
 
 void Rflex::add_calibration() {
@@ -179,14 +175,7 @@ void Rflex::show_sonars(const posters::BaseReading& report) {
   Bounded<SonarRing, 4> rings = parameters_.sonar_rings;
   if (rings.empty())
     rings.push_back({static_cast<std::uint32_t>(report.sonar_m.size()), parameters_.sonar_ring_radius_m});
-  posters::Sonars sonars;
-  sonars.date = report.date;
-  std::size_t sonar = 0;
-  for (const SonarRing& ring : rings) {
-    for (std::uint32_t i = 0; i < ring.count && sonar < report.sonar_m.size(); ++i)
-      sonars.echoes.push_back({ring_mount(i, ring.count, ring.radius_m), report.sonar_m[sonar++]});
-  }
-  sonars_.write(sonars);
+  sonars_.write(sonar_echoes(report, rings));
 }
 
 void Rflex::take_bumpers() {
@@ -199,16 +188,7 @@ void Rflex::take_bumpers() {
 void Rflex::take_infrareds() {
   posters::InfraredReading reading;
   if (!infrared_on_ || infrared_reading_.read(reading) == genom::PosterStatus::empty) return;
-  const InfraredCalibration& of = parameters_.infrared;
-  posters::Infrareds infrareds;
-  infrareds.date = reading.date;
-  const std::uint32_t count = static_cast<std::uint32_t>(reading.volts.size());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double volts = reading.volts[i];
-    const double range_m = volts > 0 ? exact::exp(of.exponent * exact::log(of.gain_per_v * volts)) : of.range_max_m;
-    infrareds.echoes.push_back({ring_mount(i, count, of.ring_radius_m), std::min(range_m, of.range_max_m)});
-  }
-  infrareds_poster_.write(infrareds);
+  infrareds_poster_.write(infrared_echoes(reading, parameters_.infrared));
 }
 
 void Rflex::take_motion_sensors() {

@@ -21,32 +21,10 @@
 #include "modules/posters/inertial.hpp"
 #include "modules/posters/navigation.hpp"
 #include "modules/rflex/dead_reckoning.hpp"
+#include "modules/rflex/echoes.hpp"
 #include "modules/rflex/gyro_turn.hpp"
 
 namespace waitpoint::rflex {
-
-/// Sonars at equal angles about the robot's centre, the first straight ahead.
-struct SonarRing {
-  std::uint32_t count = 0;
-  double radius_m = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(field("count", &SonarRing::count), field("radius_m", &SonarRing::radius_m));
-  }
-};
-
-/// (gain_per_v V)^exponent is the range of an infrared range finder, in metres.
-struct InfraredCalibration {
-  double gain_per_v = 3.7, exponent = -1;
-  double range_max_m = 0.8;  ///< what is farther counts as no echo
-  double ring_radius_m = 0.25;
-
-  static constexpr auto fields() {
-    using I = InfraredCalibration;
-    return std::tuple(field("gain_per_v", &I::gain_per_v), field("exponent", &I::exponent),
-                      field("range_max_m", &I::range_max_m), field("ring_radius_m", &I::ring_radius_m));
-  }
-};
 
 /// What can be set of the module.
 struct Parameters {
@@ -109,6 +87,8 @@ class Rflex : public genom::Module {
   void take_bumpers();
   void take_infrareds();
   void take_motion_sensors();
+  void add_motions();
+  void add_switches();
   void add_calibration();
   void track_reference();
   void drive(double v_m_s, double w_rad_s, double side_m_s, double climb_m_s);

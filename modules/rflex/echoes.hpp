@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the range finders of a base say, as echoes with the places of their devices: rings of sonars and of infrared
+// range finders, at equal angles about the robot's centre, the first straight ahead.
+#pragma once
+
+#include <span>
+
+#include "modules/posters/base.hpp"
+
+namespace waitpoint::rflex {
+
+struct SonarRing {
+  std::uint32_t count = 0;
+  double radius_m = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(field("count", &SonarRing::count), field("radius_m", &SonarRing::radius_m));
+  }
+};
+
+/// (gain_per_v V)^exponent is the range of an infrared range finder, in metres.
+struct InfraredCalibration {
+  double gain_per_v = 3.7, exponent = -1;
+  double range_max_m = 0.8;  ///< what is farther counts as no echo
+  double ring_radius_m = 0.25;
+
+  static constexpr auto fields() {
+    using I = InfraredCalibration;
+    return std::tuple(field("gain_per_v", &I::gain_per_v), field("exponent", &I::exponent),
+                      field("range_max_m", &I::range_max_m), field("ring_radius_m", &I::ring_radius_m));
+  }
+};
+
+/// Of sonars ring by ring; those beyond the rings' count are left out.
+posters::Sonars sonar_echoes(const posters::BaseReading& report, std::span<const SonarRing> rings);
+posters::Infrareds infrared_echoes(const posters::InfraredReading& reading, const InfraredCalibration& calibration);
+
+}  // namespace waitpoint::rflex
