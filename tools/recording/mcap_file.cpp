@@ -126,6 +126,42 @@ void McapFile::end_chunk() {
   chunk_first_ns_ = chunk_last_ns_ = 0;
 }
 
+std::string McapFile::as_record(const ChunkPlace& place) {
+  Fields offsets;
+  for (const auto& [on, offset] : place.index_offsets) offsets.number(on).number(offset);
+  return Fields()
+      .number(place.first_ns)
+      .number(place.last_ns)
+      .number(place.offset)
+      .number(place.length)
+      .map(offsets)
+      .number(place.index_length)
+      .text("")  // no compression
+      .number(place.size)
+      .number(place.size)
+      .as_record(chunk_index);
+}
+
+std::string McapFile::statistics_record() const {
+  Fields counts;
+  std::uint64_t sum = 0;
+  for (const auto& [on, count] : messages_) {
+    counts.number(on).number(count);
+    sum += count;
+  }
+  return Fields()
+      .number(sum)
+      .number(static_cast<std::uint16_t>(schemas_.size()))
+      .number(static_cast<std::uint32_t>(channels_.size()))
+      .number(std::uint32_t{0})  // attachments
+      .number(std::uint32_t{0})  // metadata
+      .number(static_cast<std::uint32_t>(chunks_.size()))
+      .number(sum == 0 ? 0 : first_ns_)
+      .number(last_ns_)
+      .map(counts)
+      .as_record(statistics);
+}
+
 void McapFile::finish() {
   end_chunk();
   append(Fields().number(checksum_).as_record(data_end));
@@ -141,39 +177,9 @@ void McapFile::finish() {
   add_group(schema, schemas_);
   add_group(channel, channels_);
   std::vector<std::string> places;
-  for (const ChunkPlace& place : chunks_) {
-    Fields offsets;
-    for (const auto& [on, offset] : place.index_offsets) offsets.number(on).number(offset);
-    places.push_back(Fields()
-                         .number(place.first_ns)
-                         .number(place.last_ns)
-                         .number(place.offset)
-                         .number(place.length)
-                         .map(offsets)
-                         .number(place.index_length)
-                         .text("")
-                         .number(place.size)
-                         .number(place.size)
-                         .as_record(chunk_index));
-  }
+  for (const ChunkPlace& place : chunks_) places.push_back(as_record(place));
   add_group(chunk_index, places);
-  Fields counts;
-  std::uint64_t sum = 0;
-  for (const auto& [on, count] : messages_) {
-    counts.number(on).number(count);
-    sum += count;
-  }
-  add_group(statistics, {Fields()
-                             .number(sum)
-                             .number(static_cast<std::uint16_t>(schemas_.size()))
-                             .number(static_cast<std::uint32_t>(channels_.size()))
-                             .number(std::uint32_t{0})  // attachments
-                             .number(std::uint32_t{0})  // metadata
-                             .number(static_cast<std::uint32_t>(chunks_.size()))
-                             .number(sum == 0 ? 0 : first_ns_)
-                             .number(last_ns_)
-                             .map(counts)
-                             .as_record(statistics)});
+  add_group(statistics, {statistics_record()});
   const std::uint64_t offsets_start = summary_start + summary.size();
   for (const Group& group : groups)
     summary += Fields().number(group.operation).number(group.offset).number(group.length).as_record(summary_offset);

@@ -45,6 +45,8 @@ class McapFile {
 
   void append(std::string_view bytes);
   void end_chunk();
+  static std::string as_record(const ChunkPlace& place);
+  std::string statistics_record() const;
 
   OutputFile file_;
   std::uint64_t size_ = 0;
