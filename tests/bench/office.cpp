@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 #include <time.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 
 #include "modules/bridge/experiment.hpp"
 #include "tests/bench/floors.hpp"
-#include "tests/bench/rows.hpp"
+#include "tests/bench/program.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tools/papers_modules.hpp"
 
@@ -145,19 +144,12 @@ class Bench {
 int main(int argc, char** argv) {
   CLI::App app("How fast the shipped scenarios run, and what each module costs.");
   int repeats = 3;
-  std::string json;
   app.add_option("--repeats", repeats, "missions of which the fastest counts")->check(CLI::Range(1, 1000));
-  app.add_option("--json", json, "file for the rows");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  return run_program(app, argc, argv, [&] {
     Bench bench;
     for (const Case& of : cases) bench.run(of, repeats);
-    if (!json.empty()) write_json(json, bench.rows());
-    return 0;
-  } catch (const BadInput& error) {
-    fmt::print(stderr, "office: {}\n", error.what());
-    return 2;
-  }
+    return bench.rows();
+  });
 }
 
 }  // namespace

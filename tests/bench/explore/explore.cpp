@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -16,7 +15,7 @@
 #include "tests/bench/explore/body.hpp"
 #include "tests/bench/explore/throughput.hpp"
 #include "tests/bench/kernel/measured.hpp"
-#include "tests/bench/rows.hpp"
+#include "tests/bench/program.hpp"
 #include "tests/project.hpp"
 
 namespace waitpoint::bench {
@@ -128,19 +127,12 @@ class Bench {
 int main(int argc, char** argv) {
   CLI::App app("How many distinct schedules a second, and what a switch point costs.");
   double seconds = 5;
-  std::string json;
   app.add_option("--seconds", seconds, "for each figure")->check(CLI::Range(0.1, 1000.0));
-  app.add_option("--json", json, "file for the rows");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  return run_program(app, argc, argv, [&] {
     Bench bench(seconds);
     bench.run();
-    if (!json.empty()) write_json(json, bench.rows());
-    return 0;
-  } catch (const BadInput& error) {
-    fmt::print(stderr, "explore: {}\n", error.what());
-    return 2;
-  }
+    return bench.rows();
+  });
 }
 
 }  // namespace

@@ -5,14 +5,12 @@
 // what disturbs the machine disturbs all alike.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
-#include "core/error.hpp"
 #include "tests/bench/kernel/cases.hpp"
 #include "tests/bench/kernel/measured.hpp"
-#include "tests/bench/rows.hpp"
+#include "tests/bench/program.hpp"
 #include "tests/bench/surroundings.hpp"
 
 namespace waitpoint::bench {
@@ -183,31 +181,24 @@ bool is_wanted(const Case& of, const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app("How fast the kernel is, beside its peers and the limit.");
   Options options;
-  std::string json;
   bool no_peers = false, no_hooks = false, quick = false;
   app.add_flag("--no-peers", no_peers, "us and the limit alone");
   app.add_flag("--no-hooks", no_hooks, "without the measurements with a watch on the kernel");
   app.add_flag("--quick", quick, "two short measurements each, and no million tasks");
   app.add_option("--case", options.pattern, "only the workloads in whose names this is");
   app.add_option("--repeats", options.repeats, "measurements of which the best counts")->check(CLI::Range(1, 1000));
-  app.add_option("--json", json, "file for the rows");
-  CLI11_PARSE(app, argc, argv);
-  options.peers = !no_peers;
-  options.hooks = !no_hooks;
-  if (quick) options.repeats = 2, options.budget_ms = 40, options.tasks_max = 100'000;
-  try {
+  return run_program(app, argc, argv, [&] {
+    options.peers = !no_peers;
+    options.hooks = !no_hooks;
+    if (quick) options.repeats = 2, options.budget_ms = 40, options.tasks_max = 100'000;
     fmt::print("{}", surroundings({"libboost-context-dev", "libsystemc-dev", "libsimgrid-dev", "libboost-fiber-dev"}));
     Bench bench(options, std::filesystem::canonical("/proc/self/exe").parent_path());
     bench.print_heading();
     for (const Case& of : cases())
       if (is_wanted(of, options)) bench.run(of);
     bench.print_sum();
-    if (!json.empty()) write_json(json, bench.rows());
-    return 0;
-  } catch (const BadInput& error) {
-    fmt::print(stderr, "kernel: {}\n", error.what());
-    return 2;
-  }
+    return bench.rows();
+  });
 }
 
 }  // namespace

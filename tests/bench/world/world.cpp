@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <time.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "tests/bench/rows.hpp"
+#include "tests/bench/program.hpp"
 #include "tests/bench/surroundings.hpp"
 #include "tests/bench/world/contenders.hpp"
 
@@ -221,18 +220,15 @@ class Bench {
 int main(int argc, char** argv) {
   CLI::App app("How fast planar scans are, beside peers: 361 beams over half a turn, 30 m.");
   int repeats = 15;
-  std::string json, pattern;
+  std::string pattern;
   bool no_peers = false, quick = false;
   app.add_flag("--no-peers", no_peers, "us and the grid alone");
   app.add_flag("--quick", quick, "few passes");
   app.add_option("--case", pattern, "only the places in whose names this is");
   app.add_option("--repeats", repeats, "passes of which the fastest counts")->check(CLI::Range(1, 10000));
-  app.add_option("--json", json, "file for the rows");
-  CLI11_PARSE(app, argc, argv);
-  if (quick) repeats = 3;
-  try {
+  return run_program(app, argc, argv, [&] {
     fmt::print("{}", surroundings({fcl_name, embree_name, box2d_name}));
-    Bench bench(!no_peers, repeats);
+    Bench bench(!no_peers, quick ? 3 : repeats);
     for (const std::size_t robots : {0, 100}) {
       for (const auto make : {&office, &warehouse}) {
         const Place place = make(robots);
@@ -243,12 +239,8 @@ int main(int argc, char** argv) {
       }
     }
     bench.print_sum();
-    if (!json.empty()) write_json(json, bench.rows());
-    return 0;
-  } catch (const BadInput& error) {
-    fmt::print(stderr, "world: {}\n", error.what());
-    return 2;
-  }
+    return bench.rows();
+  });
 }
 
 }  // namespace
