@@ -74,6 +74,115 @@ double squared_error(const Pose& truth, const segloc::PoseEstimate& estimate) {
   return sum;
 }
 
+class Tour {
+ public:
+  Tour(const Room& room, const std::vector<Point>& way, const TourOptions& options)
+      : room_(room),
+        way_(way),
+        options_(options),
+        odometer_(options.odometry, options.seed),
+        extraction_(options.extraction),
+        noise_(options.seed, "r", "sick.range") {
+    const Point ahead = way[1] - way[0];
+    truth_ = {way[0].x, way[0].y, exact::atan2(ahead.y, ahead.x)};
+    odometer_.set(truth_);
+    segloc::PoseEstimate start{truth_, {}};
+    start.covariance[0] = start.covariance[4] = start.covariance[8] = 1e-6;
+    result_.filter = std::make_unique<segloc::SegmentMapFilter>(options.filter, start);
+    echoes_->mount = options.mount;
+  }
+
+  TourResult drive() {
+    while (next_ < way_.size()) {
+      go_on();
+      if (options_.slip_scan > 0 && result_.scans == options_.slip_scan) truth_ = compose(truth_, options_.slip);
+      const double time_s = static_cast<double>(result_.scans) * steps_a_scan * step_s;
+      scan(time_s);
+      observe();
+      compare();
+      ++result_.scans;
+      if (options_.after_scan) options_.after_scan(time_s, truth_, *result_.filter);
+    }
+    const auto scans = static_cast<double>(result_.scans);
+    for (double TourResult::*mean : {&TourResult::error_m_mean, &TourResult::nees_mean, &TourResult::observe_us_mean,
+                                     &TourResult::matched_mean, &TourResult::segments_mean, &TourResult::used_mean})
+      result_.*mean /= scans;
+    result_.landmarks_end = result_.filter->landmarks().size();
+    return std::move(result_);
+  }
+
+ private:
+  // To the way points, until the next scan.
+  void go_on() {
+    for (int step = 0; step < steps_a_scan && next_ < way_.size(); ++step) {
+      const Point goal = between(truth_, {way_[next_].x, way_[next_].y, 0}).position();
+      if (length(goal) < 0.15) {
+        ++next_;
+        continue;
+      }
+      const double bearing = exact::atan2(goal.y, goal.x);
+      const double w = std::clamp(2.0 * bearing, -options_.turn_rad_s, options_.turn_rad_s);
+      const double v = std::fabs(bearing) > 0.6 ? 0.0 : options_.speed_m_s;
+      truth_ = compose(truth_, small_step(v * step_s, w * step_s));
+      odometer_.move(v * step_s, w * step_s);
+      result_.way_m += v * step_s;
+    }
+  }
+
+  void scan(double time_s) {
+    others_.clear();
+    for (const Walker& walker : options_.walkers) others_.push_back(walker.at(time_s));
+    room_.scan(compose(truth_, options_.mount), options_.laser, noise_, result_.scans, others_, echoes_->scan);
+    extraction_.extract(*echoes_, *segments_);
+  }
+
+  void observe() {
+    const auto before = std::chrono::steady_clock::now();
+    segloc::PoseEstimate motion = odometer_.take();
+    for (double& variance : motion.covariance) variance *= options_.odometry_covariance_scale;
+    result_.filter->predict(motion);
+    const segloc::Observed seen = result_.filter->observe(*segments_);
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
+    result_.observe_us_mean += took.count();
+    result_.observe_us_max = std::max(result_.observe_us_max, took.count());
+    result_.matched_mean += seen.matched;
+    result_.segments_mean += seen.segments;
+    result_.used_mean += seen.used;
+    result_.added += seen.added;
+    result_.merged += seen.merged;
+    result_.forgotten += seen.forgotten;
+    result_.strayed += seen.strayed;
+  }
+
+  // What filter and odometry believe, with the truth.
+  void compare() {
+    const segloc::PoseEstimate estimate = result_.filter->position();
+    const double error = length(estimate.pose.position() - truth_.position());
+    result_.error_m_mean += error;
+    result_.error_m_max = std::max(result_.error_m_max, error);
+    result_.error_m_end = error;
+    result_.nees_mean += squared_error(truth_, estimate);
+    result_.heading_error_rad_max =
+        std::max(result_.heading_error_rad_max, std::fabs(exact::wrap_angle(estimate.pose.heading - truth_.heading)));
+    result_.odometry_error_m_end = length(odometer_.pose().position() - truth_.position());
+    result_.odometry_error_m_max = std::max(result_.odometry_error_m_max, result_.odometry_error_m_end);
+    result_.landmarks_max = std::max(result_.landmarks_max, result_.filter->landmarks().size());
+  }
+
+  const Room& room_;
+  const std::vector<Point>& way_;
+  const TourOptions& options_;
+  Pose truth_;
+  std::size_t next_ = 1;
+  Odometer odometer_;
+  sick::SegmentExtraction extraction_;
+  RandomStream noise_;
+  std::unique_ptr<posters::Echoes> echoes_ = std::make_unique<posters::Echoes>();
+  std::unique_ptr<posters::Segments> segments_ = std::make_unique<posters::Segments>();
+  std::vector<Disc> others_;
+  TourResult result_;  // its means are sums on the way
+};
+
 }  // namespace
 
 Disc Walker::at(double time_s) const {
@@ -84,82 +193,7 @@ Disc Walker::at(double time_s) const {
 }
 
 TourResult drive(const Room& room, const std::vector<Point>& way, const TourOptions& options) {
-  const Point ahead = way[1] - way[0];
-  Pose truth{way[0].x, way[0].y, exact::atan2(ahead.y, ahead.x)};
-  TourResult result;
-  segloc::PoseEstimate start{truth, {}};
-  start.covariance[0] = start.covariance[4] = start.covariance[8] = 1e-6;
-  result.filter = std::make_unique<segloc::SegmentMapFilter>(options.filter, start);
-  Odometer odometer(options.odometry, options.seed);
-  odometer.set(truth);
-  sick::SegmentExtraction extraction(options.extraction);
-  const RandomStream noise(options.seed, "r", "sick.range");
-  const auto echoes = std::make_unique<posters::Echoes>();
-  const auto segments = std::make_unique<posters::Segments>();
-  echoes->mount = options.mount;
-  std::vector<Disc> others;
-
-  std::size_t next = 1;
-  double error_sum = 0, nees_sum = 0, us_sum = 0;
-  while (next < way.size()) {
-    for (int step = 0; step < steps_a_scan && next < way.size(); ++step) {
-      const Point goal = between(truth, {way[next].x, way[next].y, 0}).position();
-      if (length(goal) < 0.15) {
-        ++next;
-        continue;
-      }
-      const double bearing = exact::atan2(goal.y, goal.x);
-      const double w = std::clamp(2.0 * bearing, -options.turn_rad_s, options.turn_rad_s);
-      const double v = std::fabs(bearing) > 0.6 ? 0.0 : options.speed_m_s;
-      truth = compose(truth, small_step(v * step_s, w * step_s));
-      odometer.move(v * step_s, w * step_s);
-      result.way_m += v * step_s;
-    }
-    if (options.slip_scan > 0 && result.scans == options.slip_scan) truth = compose(truth, options.slip);
-    const double time_s = static_cast<double>(result.scans) * steps_a_scan * step_s;
-    others.clear();
-    for (const Walker& walker : options.walkers) others.push_back(walker.at(time_s));
-    room.scan(compose(truth, options.mount), options.laser, noise, result.scans, others, echoes->scan);
-    extraction.extract(*echoes, *segments);
-    const auto before = std::chrono::steady_clock::now();
-    segloc::PoseEstimate motion = odometer.take();
-    for (double& variance : motion.covariance) variance *= options.odometry_covariance_scale;
-    result.filter->predict(motion);
-    const segloc::Observed seen = result.filter->observe(*segments);
-    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - before;
-
-    const segloc::PoseEstimate estimate = result.filter->position();
-    const double error = length(estimate.pose.position() - truth.position());
-    result.error_m_max = std::max(result.error_m_max, error);
-    result.error_m_end = error;
-    result.heading_error_rad_max =
-        std::max(result.heading_error_rad_max, std::fabs(exact::wrap_angle(estimate.pose.heading - truth.heading)));
-    result.odometry_error_m_end = length(odometer.pose().position() - truth.position());
-    result.odometry_error_m_max = std::max(result.odometry_error_m_max, result.odometry_error_m_end);
-    result.landmarks_max = std::max(result.landmarks_max, result.filter->landmarks().size());
-    error_sum += error;
-    nees_sum += squared_error(truth, estimate);
-    us_sum += took.count();
-    result.observe_us_max = std::max(result.observe_us_max, took.count());
-    result.matched_mean += seen.matched;
-    result.segments_mean += seen.segments;
-    result.used_mean += seen.used;
-    result.added += seen.added;
-    result.merged += seen.merged;
-    result.forgotten += seen.forgotten;
-    result.strayed += seen.strayed;
-    ++result.scans;
-    if (options.after_scan) options.after_scan(time_s, truth, *result.filter);
-  }
-  const auto scans = static_cast<double>(result.scans);
-  result.error_m_mean = error_sum / scans;
-  result.nees_mean = nees_sum / scans;
-  result.observe_us_mean = us_sum / scans;
-  result.matched_mean /= scans;
-  result.segments_mean /= scans;
-  result.used_mean /= scans;
-  result.landmarks_end = result.filter->landmarks().size();
-  return result;
+  return Tour(room, way, options).drive();
 }
 
 }  // namespace waitpoint::synthetic
