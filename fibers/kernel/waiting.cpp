@@ -6,6 +6,12 @@
 #include "fibers/kernel/scheduler_steps.hpp"
 
 namespace waitpoint::kernel {
+namespace {
+
+// Of more waiters one of the first is woken: to wake each of many would else take the square of their number.
+constexpr std::uint32_t choice_of_waiters_max = 256;
+
+}  // namespace
 
 void Scheduler::adopt(Object& object) {
   object.epoch = epoch_;
@@ -41,7 +47,7 @@ Task* Scheduler::wake_a_waiter(Object& object) {
   if (unwinding_ || object.epoch != epoch_) return nullptr;
   if (chooser_.order() != Order::fifo) {
     std::uint32_t count = 0;
-    for (Task* t = chosen; t != nullptr; t = t->next_waiter) ++count;
+    for (Task* t = chosen; t != nullptr && count < choice_of_waiters_max; t = t->next_waiter) ++count;
     for (std::uint32_t i = chooser_.waiter(*running, count); i > 0; --i) chosen = chosen->next_waiter;
   }
   make_ready(*chosen);
