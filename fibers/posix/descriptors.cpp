@@ -123,6 +123,11 @@ bool wait_for(int descriptor, short events, Time deadline) {
   return wait_for(&one, 1, deadline) != 0;
 }
 
+bool wait_for_reader(int descriptor, int patience_ms) {
+  pollfd one{descriptor, POLLOUT, 0};
+  return poll_now(&one, 1, patience_ms) > 0;
+}
+
 void look_at_descriptors() {
   if (first != nullptr) wake_ready(false);
 }

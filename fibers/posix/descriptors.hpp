@@ -32,6 +32,10 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline);
 /// For one descriptor; whether it is ready.
 bool wait_for(int descriptor, short events, Time deadline = Time::max());
 
+/// Waits in real time until `descriptor` can be written, and lets no other thread go on meanwhile; false if it cannot
+/// after so long.
+bool wait_for_reader(int descriptor, int patience_ms);
+
 /// Something was done with a descriptor that others may wait for.
 void look_at_descriptors();
 

@@ -33,10 +33,16 @@ Class class_of(int descriptor) {
 
 bool blocks(int descriptor) { return (fcntl(descriptor, F_GETFL) & O_NONBLOCK) == 0; }
 
+// Whoever reads outside what is written mostly needs nothing but time, which is none of ours. But it may wait for
+// another thread of this program.
+constexpr int patience_with_readers_ms = 1000;
+
 // Before a call that may block on `descriptor`: its event, and the wait.
 void prepare(int descriptor, kernel::Operation operation, short events, bool may_block) {
   const CancellationPoint point;
   pass(operation, nullptr);
+  if (may_block && events == POLLOUT && !is_inside(descriptor) && wait_for_reader(descriptor, patience_with_readers_ms))
+    return;
   if (may_block && blocks(descriptor)) wait_for(descriptor, events);
   leave_if_cancelled();
 }

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Programs of Debian, unmodified, run by `waitpoint exec`: debian_test.py BUILD [--long].
+
+Their output is the native one, a seed is one run, another seed another. With --long, on 50 MB and a hundred runs each.
+"""
+
+import hashlib
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+LONG = "--long" in sys.argv and not sys.argv.remove("--long")
+WAITPOINT = BUILD / "tools/waitpoint"
+INPUT_BYTES = 50_000_000 if LONG else 3_000_000
+RUNS_OF_A_SEED = 100 if LONG else 3
+PYTHON = "/usr/bin/python3"
+
+QUEUE_PROGRAM = """
+import queue, threading, time
+letters, taken, lock = queue.Queue(5), [], threading.Lock()
+def produce(who):
+    for i in range(200): letters.put((who, i))
+def consume():
+    while (letter := letters.get()) is not None:
+        with lock: taken.append(letter)
+        if len(taken) % 50 == 0: time.sleep(0.01)
+producers = [threading.Thread(target=produce, args=(i,)) for i in range(3)]
+consumers = [threading.Thread(target=consume) for _ in range(3)]
+for thread in producers + consumers: thread.start()
+for thread in producers: thread.join()
+for _ in consumers: letters.put(None)
+for thread in consumers: thread.join()
+print(sorted(taken) == [(who, i) for who in range(3) for i in range(200)], len(taken))
+"""
+
+ASYNCIO_PROGRAM = """
+import asyncio, threading, time
+async def serve(reader, writer):
+    line = await reader.readline()
+    await asyncio.sleep(0.5)
+    writer.write(line.upper()); await writer.drain(); writer.close()
+async def ask(port, number):
+    reader, writer = await asyncio.open_connection('127.0.0.1', port)
+    writer.write(b'hello %d\\n' % number); await writer.drain()
+    line = await reader.readline(); writer.close()
+    return line
+def work(number):
+    for _ in range(100): time.sleep(0.001)
+    return number
+async def main():
+    server = await asyncio.start_server(serve, '127.0.0.1', 0)
+    port = server.sockets[0].getsockname()[1]
+    loop = asyncio.get_running_loop()
+    print(await asyncio.gather(*[ask(port, i) for i in range(20)]))
+    print(await asyncio.gather(*[loop.run_in_executor(None, work, i) for i in range(8)]))
+asyncio.run(main())
+"""
+
+PERL_PROGRAM = """
+use threads; use threads::shared; use Thread::Queue;
+my $queue = Thread::Queue->new(); my $sum :shared = 0;
+my @threads = map { threads->create(sub { while (defined(my $x = $queue->dequeue())) { lock($sum); $sum += $x; } }) } 1 .. 4;
+$queue->enqueue($_) for 1 .. 500; $queue->end(); $_->join() for @threads; print "sum $sum\\n";
+"""
+
+
+class Summary:
+    """The line about a run."""
+
+    def __init__(self, text):
+        found = re.search(r"waitpoint: (\S+): (\d+) threads, (\d+) at once, (\d+) events, (\d+) switches, "
+                          r"([0-9.]+) s of virtual time, digest (wp1:[0-9a-f]{16})", text)
+        if not found:
+            raise AssertionError(f"no line about the run in: {text}")
+        self.at_once, self.switches = int(found[3]), int(found[5])
+        self.seconds, self.digest = float(found[6]), found[7]
+
+
+def execute(seed, *command, stdin=None):
+    """Returns the exit status, a hash of standard output, and what was said on the error stream."""
+    words = [WAITPOINT, "exec", "--seed", seed, "--", *command]
+    done = subprocess.run([str(word) for word in words], stdin=stdin, capture_output=True, timeout=300)
+    return done.returncode, hashlib.sha256(done.stdout).hexdigest(), done.stderr.decode(errors="replace")
+
+
+def native(*command):
+    done = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True, timeout=300)
+    return done.returncode, hashlib.sha256(done.stdout).hexdigest()
+
+
+class Exec(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if hasattr(Exec, "folder"):
+            return
+        if not (BUILD / "libwaitpoint-exec.so").exists():
+            raise unittest.SkipTest("this build has no library for programs")
+        folder = tempfile.TemporaryDirectory()
+        unittest.addModuleCleanup(folder.cleanup)
+        Exec.folder = pathlib.Path(folder.name)
+        Exec.bytes = cls.folder / "bytes"
+        Exec.lines = cls.folder / "lines"
+        draws = random.Random(1)
+        words = [draws.randbytes(draws.randrange(2, 40)) for _ in range(2000)]
+        with cls.bytes.open("wb") as file:
+            while file.tell() < INPUT_BYTES:
+                file.write(b"".join(draws.choices(words, k=1000)))
+        with cls.lines.open("w") as file:
+            while file.tell() < INPUT_BYTES:
+                file.write("".join(f"{draws.randrange(10**7)}\n" for _ in range(1000)))
+
+    def compile(self, source, *libraries):
+        program = self.folder / pathlib.Path(source).stem
+        compiler = "gcc" if source.endswith(".c") else "g++"
+        if not program.exists():
+            done = subprocess.run([compiler, "-O1", "-pthread", HERE / source, "-o", program, *libraries],
+                                  capture_output=True, text=True)
+            if done.returncode != 0:
+                self.skipTest(done.stderr.splitlines()[0])
+        return program
+
+    def check(self, *command, switches=1000):
+        """As native; one seed is one run, another one another; with four threads at once, and many switches."""
+        if not shutil.which(str(command[0])):
+            self.skipTest(f"there is no {command[0]}")
+        expected = native(*command)
+        digests = []
+        for seed in [1] * RUNS_OF_A_SEED + [2, 3]:
+            status, output, text = execute(seed, *command, stdin=subprocess.DEVNULL)
+            self.assertEqual((status, output), expected, f"seed {seed}: {text}")
+            summary = Summary(text)
+            self.assertGreaterEqual(summary.at_once, 4)
+            if LONG:
+                self.assertGreaterEqual(summary.switches, switches)
+            digests.append(summary.digest)
+        self.assertEqual(len(set(digests[:-2])), 1, "a seed came to several runs")
+        self.assertEqual(len(set(digests[-3:])), 3, "seeds came to the same run")
+        if LONG:
+            print(f"{command[0]}: {summary.at_once} threads at once, {summary.switches} switches, {len(digests)} runs", file=sys.stderr)
+
+
+class Programs(Exec):
+    def test_zstd(self):
+        self.check("zstd", "-T4", "-B131072" if LONG else "-B65536", "-c", self.bytes)
+
+    def test_xz(self):
+        self.check("xz", "-T4", "-0", "--block-size=16384", "-c", self.bytes)
+
+    def test_pigz(self):
+        self.check("pigz", "-p4", "-c", self.bytes)
+
+    def test_pbzip2(self):
+        self.check("pbzip2", "-p4", "-b1", "-c", self.bytes)
+
+    def test_sort(self):
+        self.check("sort", "--parallel=4", "-S200M", self.lines)
+
+    def test_python_with_threads_and_a_queue(self):
+        self.check(PYTHON, "-c", QUEUE_PROGRAM)
+
+    def test_python_with_asyncio(self):
+        self.check(PYTHON, "-c", ASYNCIO_PROGRAM)
+
+    def test_perl_with_threads(self):
+        self.check("perl", "-e", PERL_PROGRAM)
+
+    def test_a_program_with_tbb(self):
+        self.check(self.compile("tbb_program.cpp", "-ltbb"))
+
+    def test_a_program_with_libuv(self):
+        self.check(self.compile("uv_program.c", "-luv"))
+
+
+class Ends(Exec):
+    """However a program ends, its exit status is its own, and what it came to is told."""
+
+    def end(self, way):
+        return execute(1, self.compile("ends.c"), way)
+
+    def test_by_exit_of_any_thread(self):
+        for way, expected in (("", 7), ("exit", 3), ("_exit", 4), ("main leaves", 0)):
+            status, _, text = self.end(way)
+            self.assertEqual(status, expected, way)
+            self.assertGreaterEqual(Summary(text).seconds, 2)
+
+    def test_by_a_signal(self):
+        for way, expected in (("abort", -6), ("crash", -11), ("kill", -9), ("overflow", -11)):
+            status, _, text = self.end(way)
+            self.assertEqual(status, expected, way)
+            self.assertGreaterEqual(Summary(text).seconds, 2, "not known up to its last event")
+            self.assertIn(f"it was ended by signal {-expected}", text)
+            self.assertRegex(text, r"replay: waitpoint exec --seed 1 -- \S+ends ")
+
+    def test_by_a_deadlock_that_is_explained(self):
+        status, _, text = self.end("deadlock")
+        self.assertEqual(status, 124)
+        self.assertIn("deadlock at 4.", text)
+        self.assertRegex(text, r"main waits for mutex (right|at 0x\w+), held by thread 1\n")
+        self.assertRegex(text, r"thread 1 waits for mutex (left|at 0x\w+), held by main\n")
+        self.assertIn("replay: waitpoint exec --seed 1 --", text)
+
+
+class Refusals(Exec):
+    def refused(self, *words):
+        done = subprocess.run([str(WAITPOINT), "exec", *words], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 125)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        return done.stderr
+
+    def test_say_what_is_wrong(self):
+        self.assertIn("there is no program 'nosuch'", self.refused("--", "nosuch"))
+        self.assertIn("expected what to run", self.refused())
+        self.assertIn("expected what to run", self.refused("--"))
+        self.assertIn("--seed: expected a whole number from 0 to 2^64 - 1, found 'x'", self.refused("--seed", "x", "--", "true"))
+        self.assertIn("--strategy: expected random or fifo, found 'best'", self.refused("--strategy", "best", "--", "true"))
+        self.assertIn("unknown option '--sed', did you mean '--seed'?", self.refused("--sed", "1", "--", "true"))
+
+    def test_of_programs_that_nothing_can_be_preloaded_into(self):
+        static = self.folder / "static"
+        (self.folder / "empty.c").write_text("int main(void) { return 0; }\n")
+        subprocess.run(["gcc", "-static", self.folder / "empty.c", "-o", static], check=True)
+        self.assertIn("is linked statically", self.refused("--", str(static)))
+        static.chmod(0o4755)
+        self.assertIn("changes its user or group", self.refused("--", str(static)))
+        text = self.folder / "text"
+        text.write_text("neither\n")
+        text.chmod(0o755)
+        self.assertIn("is neither a program nor a script", self.refused("--", str(text)))
+
+
+if __name__ == "__main__":
+    unittest.main()
