@@ -94,6 +94,7 @@ void run_program(int (*body)(void*), void* argument, const char* name) {
   const char* const slash = std::strrchr(name, '/');
   scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
   scheduler.set_delivery(deliver_signals);
+  record->running = &kernel::running;
   record->began = true;
   static constinit Thread thread;
   static constinit Body of;

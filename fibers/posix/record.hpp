@@ -32,8 +32,9 @@ struct Record {
   // Written by the program.
   bool began = false;  ///< the scheduler is there
   std::uint32_t threads_made = 0;
-  std::uint32_t threads_most = 0;  ///< at once
-  kernel::Robot robot;             ///< the program
+  std::uint32_t threads_most = 0;          ///< at once
+  kernel::Task* const* running = nullptr;  ///< in the program: where it keeps its running task
+  kernel::Robot robot;                     ///< the program
   union {
     kernel::Scheduler scheduler;
   };

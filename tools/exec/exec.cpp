@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/exec/exec.hpp"
 
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/personality.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +20,7 @@
 #include "fibers/posix/record.hpp"
 #include "tools/data_folder.hpp"
 #include "tools/exec/program_file.hpp"
+#include "tools/exec/watchdog.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -92,15 +95,19 @@ std::string replay_line(const ExecOptions& options) {
   _exit(exec_failed);
 }
 
+constexpr int looks_ms = 1000;
+
 pid_t child = 0;
 void pass_on(int signal) { kill(child, signal); }
 
 /// Signals of the terminal go to the program too, and it decides; others are passed on to it.
-int wait_for_end() {
+int wait_for_end(Watchdog watchdog) {
   signal(SIGINT, SIG_IGN);
   signal(SIGQUIT, SIG_IGN);
   for (const int signal : {SIGTERM, SIGHUP, SIGUSR1, SIGUSR2}) std::signal(signal, pass_on);
   int status = 0;
+  const int end = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
+  for (pollfd one{end, POLLIN, 0}; end >= 0 && poll(&one, 1, looks_ms) <= 0;) watchdog.look();
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   for (const int signal : {SIGINT, SIGQUIT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2}) std::signal(signal, SIG_DFL);
@@ -138,7 +145,7 @@ int exec(const ExecOptions& options) {
   child = fork();
   if (child < 0) throw BadInput("exec", std::string("no process can be made: ") + std::strerror(errno));
   if (child == 0) become(options, program, preloaded, record.descriptor());
-  const int status = wait_for_end();
+  const int status = wait_for_end(Watchdog(*record, child));
   const int own = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   if (record->began) {
     const bool failed = WIFSIGNALED(status) || own == posix::status_of_deadlock;

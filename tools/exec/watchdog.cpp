@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/watchdog.hpp"
+
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr double patience_s = 10;  // of processor time
+
+// proc(5): utime and stime are the 14th and 15th field; the 2nd, in parentheses, may hold anything.
+double processor_s(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const std::size_t end = text.rfind(')');
+  unsigned long user = 0, system = 0;
+  if (end == std::string::npos ||
+      std::sscanf(text.c_str() + end + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu", &user, &system) != 2)
+    return 0;
+  return static_cast<double>(user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+bool read(pid_t process, const void* from, void* to, std::size_t size) {
+  const iovec here{to, size}, there{const_cast<void*>(from), size};
+  return process_vm_readv(process, &here, 1, &there, 1, 0) == static_cast<ssize_t>(size);
+}
+
+// Of the thread that runs in the program; empty if it cannot be known.
+std::string running_thread(const posix::Record& record, pid_t process) {
+  const kernel::Task* task = nullptr;
+  char name[kernel::name_size] = {};
+  if (!read(process, record.running, &task, sizeof task) || task == nullptr) return "";
+  if (!read(process, reinterpret_cast<const char*>(task) + offsetof(kernel::Task, name), name, sizeof name)) return "";
+  name[sizeof name - 1] = '\0';
+  return name;
+}
+
+}  // namespace
+
+void Watchdog::look() {
+  if (!record_.began) return;
+  const double now_s = processor_s(program_);
+  if (const std::uint64_t events = record_.scheduler.events(); events != events_ || since_s_ == 0) {
+    events_ = events;
+    since_s_ = now_s;
+    told_ = false;
+  }
+  if (told_ || now_s - since_s_ < patience_s) return;
+  told_ = true;
+  const std::string thread = running_thread(record_, program_);
+  std::fprintf(stderr,
+               "waitpoint: %s has computed for %.0f s, at %s s of virtual time, without a call that is simulated: if "
+               "it waits for another\n"
+               "           thread in a loop without calls, it waits for ever\n",
+               thread.empty() ? "a thread" : ("thread '" + thread + "'").c_str(), now_s - since_s_,
+               to_string(record_.scheduler.global_time()).c_str());
+}
+
+}  // namespace waitpoint::tools
