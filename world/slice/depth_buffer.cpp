@@ -104,38 +104,36 @@ void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending
   question({outline, solid, 0, last, where.near_m2}, beams());
 }
 
-void DepthBuffer::lower(const Slice& slice) {
-  const Tree& tree = slice.tree();
-  if (tree.empty() || beams_ == 0) return;
-  const View from = view(tree.middle(), tree.extent_m());
+// Shows `ask` what is in sight and not hidden, near to far, by its number in the tree.
+template <class Ask>
+void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Ask ask) {
+  if (nodes.empty() || beams_ == 0) return;
   pending_.clear();
-  push_in_sight(tree.node(0).bounds, from, tree.node(0).child);
+  push_in_sight(nodes[0].bounds, from, nodes[0].child);
   while (!pending_.empty()) {
     const Pending next = pending_.back();
     pending_.pop_back();
     if (hidden(next)) continue;
     if (next.child >= 0) {
-      push_in_sight(tree.node(next.child).bounds, from, tree.node(next.child).child);
+      const TreeNode& node = nodes[static_cast<std::size_t>(next.child)];
+      push_in_sight(node.bounds, from, node.child);
     } else {
-      const auto in_tree = static_cast<std::size_t>(~next.child);
-      ask(slice.outline(in_tree), slice.solid(in_tree), next);
+      ask(static_cast<std::size_t>(~next.child), next);
     }
   }
 }
 
+void DepthBuffer::lower(const Slice& slice) {
+  const Tree& tree = slice.tree();
+  walk(tree.nodes(), view(tree.middle(), tree.extent_m()),
+       [&](std::size_t in_tree, const Pending& where) { ask(slice.outline(in_tree), slice.solid(in_tree), where); });
+}
+
 void DepthBuffer::lower(const MovingSolids& solids, double height_m, std::uint32_t except) {
-  if (beams_ == 0) return;
-  const View from = view({0, 0}, solids.extent_m());
-  Sight sight;
-  for (std::size_t eight = 0; eight < solids.bounds().size(); ++eight) {
-    for (unsigned seen = kernels_->look(solids.bounds()[eight], from, sight); seen != 0; seen &= seen - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(seen));
-      const std::size_t at = eight * EightBounds::width + i;
-      const std::uint32_t solid = solids.first_solid() + static_cast<std::uint32_t>(at);
-      const Pending where = {sight.near_m2[i], 0, sight.first[i], sight.last[i]};
-      if (solid != except && solids.reaches(at, height_m) && !hidden(where)) ask(solids.outline(at), solid, where);
-    }
-  }
+  walk(solids.nodes(), view({0, 0}, solids.extent_m()), [&](std::size_t at, const Pending& where) {
+    const std::uint32_t solid = solids.first_solid() + static_cast<std::uint32_t>(at);
+    if (solid != except && solids.reaches(at, height_m)) ask(solids.outline(at), solid, where);
+  });
 }
 
 }  // namespace waitpoint::world

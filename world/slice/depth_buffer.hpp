@@ -5,7 +5,7 @@
 //   lower(slice) one walk of its tree, near to far: a rectangle's corners give its interval of beams; where nearer hits
 //                already fill that, it is dropped, else its children are looked at, or the solid is asked about each
 //                beam
-//   lower(moving) the same for a flat list
+//   lower(moving) the same for the tree of those that move
 //
 // Floats cull, with margins; hits are those of hit_distance(), so the ranges are those of asking every solid, to the
 // last bit, in whatever order. A buffer is used again and again: only a scan of more beams than any before allocates.
@@ -55,6 +55,8 @@ class DepthBuffer {
   View view(Point middle, double extent_m) const;
   bool hidden(const Pending& what) const;
   bool hidden(float near_m2, std::int32_t first, std::int32_t last) const;
+  template <class Ask>
+  void walk(std::span<const TreeNode> nodes, const View& from, Ask ask);
   void push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children);
   void ask(const Outline& outline, std::uint32_t solid, const Pending& where);
   Beams beams();

@@ -2,11 +2,9 @@
 #include "world/slice/footprints.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 
-#include "core/error.hpp"
 #include "world/planar/separation.hpp"
+#include "world/slice/overlap_walk.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -29,27 +27,8 @@ Footprints::Footprints(std::span<const Shape> shapes, const Kernels& of) : kerne
 // Shows `visit` a few solids more than those whose bounds overlap these, until it returns false.
 template <class Visit>
 void Footprints::visit(const Bounds& bounds, Visit visit) const {
-  if (tree_.empty()) return;
-  const Bounds b = {bounds.low - tree_.middle(), bounds.high - tree_.middle()};
-  // Where the tree ends nothing is missed: what is beyond it by more than a float can be is beyond it all the same.
-  const double margin_m = float_margin_m(tree_.extent_m());
-  const FloatBounds wanted = {static_cast<float>(b.low.x - margin_m), static_cast<float>(b.low.y - margin_m),
-                              static_cast<float>(b.high.x + margin_m), static_cast<float>(b.high.y + margin_m)};
-  std::array<std::int32_t, 512> pending;
-  std::size_t count = 0;
-  pending[count++] = 0;
-  while (count > 0) {
-    const TreeNode& node = tree_.node(pending[--count]);
-    for (unsigned met = kernels_->overlap(node.bounds, wanted); met != 0; met &= met - 1) {
-      const std::int32_t child = node.child[static_cast<std::size_t>(std::countr_zero(met))];
-      if (child >= 0) {
-        WAITPOINT_CHECK(count < pending.size(), "a tree of solids far out of balance");
-        pending[count++] = child;
-      } else if (!visit(static_cast<std::uint32_t>(~child))) {
-        return;
-      }
-    }
-  }
+  walk_overlapping(tree_.nodes(), {bounds.low - tree_.middle(), bounds.high - tree_.middle()},
+                   float_margin_m(tree_.extent_m()), *kernels_, visit);
 }
 
 void Footprints::near(const Bounds& bounds, double margin_m, double z_low_m, double z_high_m,

@@ -37,6 +37,12 @@ void EightBounds::set(int at, const Bounds& bounds, Point middle, double margin_
   high_y[at] = static_cast<float>(b.high.y);
 }
 
+TreeNode TreeNode::empty() {
+  TreeNode node = {EightBounds::nowhere(), {}};
+  node.child.fill(none);
+  return node;
+}
+
 struct Tree::Builder {
   using Group = std::span<std::uint32_t>;
 
@@ -110,7 +116,7 @@ struct Tree::Builder {
       *largest = largest->first(first);
     }
 
-    TreeNode node = {EightBounds::nowhere(), {}};
+    TreeNode node = TreeNode::empty();
     for (std::size_t i = 0; i < count; ++i) {
       node.bounds.set(static_cast<int>(i), bounds(parts[i]), tree.middle_, float_margin_m(tree.extent_m_));
       node.child[i] = parts[i].size() == 1 ? ~static_cast<std::int32_t>(parts[i].front()) : build(parts[i], level + 1);

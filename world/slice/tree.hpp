@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,9 +28,14 @@ struct alignas(32) EightBounds {
 };
 
 struct TreeNode {
+  /// In place of a child; its rectangle is nowhere.
+  static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+
   EightBounds bounds;
-  /// Of each rectangle: another node, or ~number of a solid. Where there is none, its rectangle is nowhere.
+  /// Of each rectangle: another node, or ~number of a solid; where there are fewer than eight, none are the last ones.
   std::array<std::int32_t, EightBounds::width> child;
+
+  static TreeNode empty();
 };
 
 /// How far coordinates of at most `extent_m`, rounded to float, can lie beside themselves, and much more than doubles
@@ -41,9 +47,8 @@ class Tree {
   /// Over solids with these bounds, numbered from 0.
   explicit Tree(std::span<const Bounds> solids);
 
-  bool empty() const { return nodes_.empty(); }
-  /// The root is node 0.
-  const TreeNode& node(std::int32_t number) const { return nodes_[static_cast<std::size_t>(number)]; }
+  /// The first is the root; none over nothing.
+  std::span<const TreeNode> nodes() const { return nodes_; }
   /// What the rectangles are relative to, and the greatest coordinate there.
   Point middle() const { return middle_; }
   double extent_m() const { return extent_m_; }

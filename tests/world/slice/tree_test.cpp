@@ -22,13 +22,13 @@ struct Found {
 
 void visit(const Tree& tree, std::span<const Bounds> solids, std::int32_t number, std::vector<Bounds>& above,
            Found& found) {
-  const TreeNode& node = tree.node(number);
+  const TreeNode& node = tree.nodes()[static_cast<std::size_t>(number)];
   ++found.nodes;
   found.levels = std::max(found.levels, static_cast<int>(above.size()) + 1);
   for (std::size_t i = 0; i < EightBounds::width; ++i) {
     above.push_back(rectangle(node.bounds, i));
     if (above.back().low.x > 1e29) {
-      EXPECT_EQ(node.child[i], 0) << "nothing is nowhere";
+      EXPECT_EQ(node.child[i], TreeNode::none) << "nothing is nowhere";
     } else if (node.child[i] >= 0) {
       ++found.children;
       EXPECT_GT(node.child[i], number);
@@ -92,7 +92,7 @@ TEST(Tree, IsFullAndFlatWhereSolidsAreSpreadEvenly) {
   EXPECT_EQ(found.nodes, 1 + 8 + 64 + 512);
 }
 
-TEST(Tree, OfNothingIsEmpty) { EXPECT_TRUE(Tree({}).empty()); }
+TEST(Tree, OfNothingIsEmpty) { EXPECT_TRUE(Tree({}).nodes().empty()); }
 
 }  // namespace
 }  // namespace waitpoint::world

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What of a tree of rectangles overlaps one more, in floats.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "core/error.hpp"
+#include "world/slice/kernels.hpp"
+
+namespace waitpoint::world {
+
+/// Shows `visit` the solids whose rectangles overlap `bounds` (relative to what theirs are relative to) grown by
+/// `margin_m`, which must exceed the rounding to float, until it returns false. The root is the first node.
+template <class Visit>
+void walk_overlapping(std::span<const TreeNode> nodes, const Bounds& bounds, double margin_m, const Kernels& kernels,
+                      Visit visit) {
+  if (nodes.empty()) return;
+  const Bounds b = bounds.grown(margin_m);
+  // Where the tree ends nothing is missed: what is beyond it by more than a float can be is beyond it all the same.
+  const FloatBounds wanted = {static_cast<float>(b.low.x), static_cast<float>(b.low.y), static_cast<float>(b.high.x),
+                              static_cast<float>(b.high.y)};
+  std::array<std::int32_t, 512> pending;
+  std::size_t count = 0;
+  pending[count++] = 0;
+  while (count > 0) {
+    const TreeNode& node = nodes[static_cast<std::size_t>(pending[--count])];
+    for (unsigned met = kernels.overlap(node.bounds, wanted); met != 0; met &= met - 1) {
+      const std::int32_t child = node.child[static_cast<std::size_t>(std::countr_zero(met))];
+      if (child >= 0) {
+        WAITPOINT_CHECK(count < pending.size(), "a tree of solids far out of balance");
+        pending[count++] = child;
+      } else if (!visit(static_cast<std::uint32_t>(~child))) {
+        return;
+      }
+    }
+  }
+}
+
+}  // namespace waitpoint::world
