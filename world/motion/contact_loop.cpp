@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/motion/contact_loop.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <tuple>
 
 #include "core/error.hpp"
@@ -10,14 +12,17 @@ namespace waitpoint::world {
 void ContactLoop::clear() {
   bodies_.clear();
   pairs_.clear();
+  events_.clear();
 }
 
-void ContactLoop::add_body(const Mover& body) { bodies_.push_back({body, std::nullopt, std::nullopt, false}); }
+void ContactLoop::add_body(const Mover& body) { bodies_.push_back({body, std::nullopt, std::nullopt}); }
 
 void ContactLoop::add_obstacle(std::uint32_t body, const Outline& obstacle, const Heights& heights) {
   Body& b = bodies_[body];
   const std::optional<Contact> contact = first_contact(b.mover, Mover(obstacle, heights), 0);
-  if (contact && (!b.obstacle || contact->fraction < *b.obstacle)) b.obstacle = contact->fraction;
+  if (!contact || (b.obstacle && contact->fraction >= *b.obstacle)) return;
+  b.obstacle = contact->fraction;
+  wait_for({contact->fraction, body, none});
 }
 
 void ContactLoop::add_pair(std::uint32_t body, std::uint32_t other) {
@@ -26,44 +31,74 @@ void ContactLoop::add_pair(std::uint32_t body, std::uint32_t other) {
   const Point p = a.start().centre, q = b.start().centre;
   const bool in_order = std::tie(p.x, p.y, a.heights().low_m) < std::tie(q.x, q.y, b.heights().low_m);
   Pair pair = {in_order ? body : other, in_order ? other : body, std::nullopt};
-  pair.contact = first_contact(bodies_[pair.first].mover, bodies_[pair.second].mover, 0);
+  Body &first = bodies_[pair.first], &second = bodies_[pair.second];
+  pair.contact = first_contact(first.mover, second.mover, 0);
+  pair.next_of_first = first.pairs;
+  pair.next_of_second = second.pairs;
+  first.pairs = second.pairs = static_cast<std::uint32_t>(pairs_.size());
+  if (pair.contact) wait_for({pair.contact->fraction, none, first.pairs});
   pairs_.push_back(pair);
 }
 
-std::optional<double> ContactLoop::earliest() const {
-  std::optional<double> time;
-  const auto take = [&](double t) {
-    if (!time || t < *time) time = t;
-  };
-  for (const Body& body : bodies_) {
-    if (!body.stop && body.obstacle) take(*body.obstacle);
+void ContactLoop::wait_for(const Event& event) {
+  events_.push_back(event);
+  std::push_heap(events_.begin(), events_.end(), std::greater<>());
+}
+
+// Whether it is still so: stops change what comes.
+bool ContactLoop::holds(const Event& event) const {
+  if (event.pair == none) return !bodies_[event.body].stop && bodies_[event.body].obstacle == event.time;
+  const std::optional<Contact>& contact = pairs_[event.pair].contact;
+  return contact && contact->fraction == event.time;
+}
+
+std::optional<double> ContactLoop::earliest() {
+  while (!events_.empty() && !holds(events_.front())) {
+    std::pop_heap(events_.begin(), events_.end(), std::greater<>());
+    events_.pop_back();
   }
-  for (const Pair& pair : pairs_) {
-    if (pair.contact) take(pair.contact->fraction);
-  }
-  return time;
+  if (events_.empty()) return std::nullopt;
+  return events_.front().time;
+}
+
+void ContactLoop::stops_now(std::uint32_t body) {
+  if (bodies_[body].stops_now) return;
+  bodies_[body].stops_now = true;
+  stopping_.push_back(body);
 }
 
 void ContactLoop::judge(double now) {
-  for (Body& body : bodies_) body.stops_now = !body.stop && body.obstacle == now;
-  for (const Pair& pair : pairs_) {
-    if (!pair.contact || pair.contact->fraction != now) continue;
-    Body &first = bodies_[pair.first], &second = bodies_[pair.second];
-    if (pair.contact->first_closes && first.mover.moves()) first.stops_now = true;
-    if (pair.contact->second_closes && second.mover.moves()) second.stops_now = true;
-    WAITPOINT_CHECK(first.stops_now || second.stops_now, "a contact that nobody's motion closes");
+  stopping_.clear();
+  while (earliest() == now) {
+    std::pop_heap(events_.begin(), events_.end(), std::greater<>());
+    const Event event = events_.back();
+    events_.pop_back();
+    if (event.pair == none) {
+      stops_now(event.body);
+      continue;
+    }
+    const Pair& pair = pairs_[event.pair];
+    if (pair.contact->first_closes && bodies_[pair.first].mover.moves()) stops_now(pair.first);
+    if (pair.contact->second_closes && bodies_[pair.second].mover.moves()) stops_now(pair.second);
+    WAITPOINT_CHECK(bodies_[pair.first].stops_now || bodies_[pair.second].stops_now,
+                    "a contact that nobody's motion closes");
   }
 }
 
 void ContactLoop::stop_judged(double now) {
-  for (Body& body : bodies_) {
-    if (!body.stops_now) continue;
+  for (const std::uint32_t number : stopping_) {
+    Body& body = bodies_[number];
     body.stop = now;
     body.mover = body.mover.stopped_at(now);
+    body.stops_now = false;
   }
-  for (Pair& pair : pairs_) {
-    const Body &first = bodies_[pair.first], &second = bodies_[pair.second];
-    if (first.stops_now || second.stops_now) pair.contact = first_contact(first.mover, second.mover, now);
+  for (const std::uint32_t number : stopping_) {
+    for (std::uint32_t at = bodies_[number].pairs; at != none;) {
+      Pair& pair = pairs_[at];
+      pair.contact = first_contact(bodies_[pair.first].mover, bodies_[pair.second].mover, now);
+      if (pair.contact) wait_for({pair.contact->fraction, none, at});
+      at = pair.first == number ? pair.next_of_first : pair.next_of_second;
+    }
   }
 }
 

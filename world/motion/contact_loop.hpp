@@ -5,6 +5,8 @@
 // state before it; a body whose own motion closes a gap stops there for the rest of the step, one that only opens gaps
 // (driven into from behind, say) goes on; the contacts of whoever stopped are found anew from that instant. Every pair
 // is computed in the order of its bodies' positions, so neither numbers nor names of bodies can change an outcome.
+//
+// Contacts wait in a heap, and each body knows its pairs: a step costs by what happens in it.
 #pragma once
 
 #include <cstdint>
@@ -27,27 +29,43 @@ class ContactLoop {
   void add_pair(std::uint32_t body, std::uint32_t other);
   void run();
 
+  std::uint32_t bodies() const { return static_cast<std::uint32_t>(bodies_.size()); }
   /// After run(): the fraction of its arc at which the body stops; none if it moves to the end.
   const std::optional<double>& stop(std::uint32_t body) const { return bodies_[body].stop; }
 
  private:
+  static constexpr std::uint32_t none = 0xFFFFFFFFu;
+
   struct Body {
     Mover mover;
     std::optional<double> obstacle;  ///< first contact with something that does not move
     std::optional<double> stop;
     bool stops_now = false;
+    std::uint32_t pairs = none;  ///< the last of its pairs; others behind it
   };
   struct Pair {
     std::uint32_t first, second;
     std::optional<Contact> contact;
+    std::uint32_t next_of_first = none, next_of_second = none;
+  };
+  /// A contact as it was when it was found.
+  struct Event {
+    double time;
+    std::uint32_t body, pair;  ///< one of them none: a body's first obstacle, or a pair
+    bool operator>(const Event& other) const { return time > other.time; }
   };
 
-  std::optional<double> earliest() const;
+  void wait_for(const Event& event);
+  bool holds(const Event& event) const;
+  std::optional<double> earliest();
   void judge(double now);
+  void stops_now(std::uint32_t body);
   void stop_judged(double now);
 
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;
+  std::vector<Event> events_;            // a heap, the earliest first
+  std::vector<std::uint32_t> stopping_;  // at this instant
 };
 
 }  // namespace waitpoint::world
