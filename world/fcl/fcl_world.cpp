@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/fcl/fcl_world.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/error.hpp"
 #include "world/fcl/vehicle_world.hpp"
-#include "world/motion/contact_loop.hpp"
+#include "world/motion/meetings.hpp"
 #include "world/planar/separation.hpp"
 #include "world/slice/footprints.hpp"
 #include "world/start_check.hpp"
@@ -18,15 +15,7 @@ Footprints footprints_of(const WorldDescription& description) {
   return Footprints(description.engine == Engine::slice ? shapes_of(description.obstacles) : std::vector<Shape>{});
 }
 
-/// The heights that a solid has during a step, and a little more if it climbs; else exactly its own, so that what
-/// stands on another, or under it, does not meet it.
-Heights swept_heights(const Heights& at_start, double climb_m) {
-  if (climb_m == 0) return at_start;
-  const double low = std::min(climb_m, 0.0), high = std::max(climb_m, 0.0);
-  return {at_start.low_m + low - 2 * contact_gap_m, at_start.high_m + high + 2 * contact_gap_m};
-}
-
-class FclWorld final : public VehicleWorld {
+class FclWorld final : public VehicleWorld, private MeetingPlace {
  public:
   FclWorld(const WorldDescription& description, std::uint64_t seed);
 
@@ -45,24 +34,31 @@ class FclWorld final : public VehicleWorld {
  private:
   void latch();
   void move();
-  void find_meetings(std::uint32_t body, double path_max_m, double climb_max_m);
   void publish();
+
+  const Outline& outline(std::uint32_t body) const override { return vehicles_[body].outline(); }
+  Mover mover(std::uint32_t body) const override;
+  void near(const Bounds& bounds, std::vector<std::uint32_t>& found) const override;
+  Mover obstacle(std::uint32_t obstacle) const override;
 
   void change_obstacles(std::vector<Obstacle> obstacles);
 
   std::optional<std::vector<Obstacle>> first_obstacles_;  // of the start, once they have been changed
   Footprints footprints_;                                 // the same obstacles; none where FCL finds neighbours
 
-  // Buffers of one call, kept so that steps allocate nothing.
-  ContactLoop contacts_;
+  std::vector<double> reaches_m_;  // of the bodies
+  Meetings meetings_;
+
+  // Of one step.
   std::vector<Arc> arcs_;
-  std::vector<Mover> movers_;
-  std::vector<std::uint32_t> near_;
+  std::vector<Meetings::Motion> motions_;
 };
 
 FclWorld::FclWorld(const WorldDescription& description, std::uint64_t seed)
     : VehicleWorld(description, shapes_of(description.obstacles), shapes_of(description.bodies)),
-      footprints_(footprints_of(description)) {
+      footprints_(footprints_of(description)),
+      meetings_(*this, shapes_of(description.bodies)) {
+  for (const BodyDescription& body : description_.bodies) reaches_m_.push_back(reach_m(body.shape));
   reset(seed);
 }
 
@@ -73,7 +69,9 @@ void FclWorld::reset(std::uint64_t seed) {
     first_obstacles_.reset();
   }
   vehicles_.clear();
+  vehicles_.reserve(description_.bodies.size());
   for (const BodyDescription& body : description_.bodies) vehicles_.emplace_back(body, seed);
+  meetings_.forget();
   senses_.restart(seed);
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) senses_.place(i, vehicles_[i]);
 }
@@ -95,47 +93,33 @@ void FclWorld::latch() {
 }
 
 void FclWorld::move() {
-  contacts_.clear();
-  movers_.clear();
-  double path_max_m = 0, climb_max_m = 0;
-  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
-    const Vehicle& vehicle = vehicles_[i];
-    movers_.emplace_back(vehicle.description().shape, vehicle.outline(), arcs_[i], vehicle.state().height_m);
-    contacts_.add_body(movers_[i]);
-    path_max_m = std::max(path_max_m, movers_[i].path_m());
-    climb_max_m = std::max(climb_max_m, std::fabs(movers_[i].climb_m()));
-  }
-  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
-    if (movers_[i].moves()) find_meetings(i, path_max_m, climb_max_m);
-  }
-  contacts_.run();
+  motions_.clear();
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i)
+    motions_.push_back({path_m(arcs_[i], reaches_m_[i]), arcs_[i].moves()});
+  meetings_.step(motions_);
 }
 
-void FclWorld::find_meetings(std::uint32_t body, double path_max_m, double climb_max_m) {
-  const Mover& mover = movers_[body];
-  const Heights heights = swept_heights(mover.heights(), mover.climb_m());
-  const Bounds swept = bounds_of(mover.start()).grown(mover.path_m() + 2 * contact_gap_m);
+Mover FclWorld::mover(std::uint32_t body) const {
+  const Vehicle& vehicle = vehicles_[body];
+  return {vehicle.description().shape, vehicle.outline(), arcs_[body], vehicle.state().height_m};
+}
+
+Mover FclWorld::obstacle(std::uint32_t obstacle) const {
+  const Shape& shape = description_.obstacles[obstacle].shape;
+  return Mover(senses_.standing().outline(obstacle), {shape.z_low_m, shape.z_high_m});
+}
+
+void FclWorld::near(const Bounds& bounds, std::vector<std::uint32_t>& found) const {
+  const Heights any;
   if (description_.engine == Engine::slice)
-    footprints_.near(swept, Scene::padding_m, heights.low_m, heights.high_m, near_);
+    footprints_.near(bounds, Scene::padding_m, any.low_m, any.high_m, found);
   else
-    senses_.standing().near(swept, heights.low_m, heights.high_m, near_);
-  for (const std::uint32_t obstacle : near_) {
-    const Shape& shape = description_.obstacles[obstacle].shape;
-    contacts_.add_obstacle(body, senses_.standing().outline(obstacle), {shape.z_low_m, shape.z_high_m});
-  }
-  if (vehicles_.size() == 1) return;
-  // The others may climb too.
-  const double margin_m = climb_max_m > 0 ? climb_max_m + 2 * contact_gap_m : 0;
-  senses_.movers().near(swept.grown(path_max_m), heights.low_m - margin_m, heights.high_m + margin_m, near_);
-  for (const std::uint32_t other : near_) {
-    // Of two that both move, the first asks.
-    if (other > body || (other != body && !movers_[other].moves())) contacts_.add_pair(body, other);
-  }
+    senses_.standing().near(bounds, any.low_m, any.high_m, found);
 }
 
 void FclWorld::publish() {
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
-    vehicles_[i].publish(steps_, description_.step, arcs_[i], contacts_.stop(i));
+    vehicles_[i].publish(steps_, description_.step, arcs_[i], meetings_.stop(i));
     senses_.moved(i, vehicles_[i], steps_);
   }
 }
@@ -145,13 +129,15 @@ std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
   Vehicle& vehicle = vehicles_.at(index(id));
   const Shape shape = vehicle.shape();
   const Outline outline = outline_of(shape, pose);
-  senses_.standing().near(bounds_of(outline).grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, near_);
-  for (const std::uint32_t obstacle : near_) {
+  std::vector<std::uint32_t> obstacles;
+  senses_.standing().near(bounds_of(outline).grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, obstacles);
+  for (const std::uint32_t obstacle : obstacles) {
     if (separation(outline, senses_.standing().outline(obstacle)).distance_m <= contact_gap_m)
       return description_.obstacles[obstacle].name;
   }
   if (auto other = body_met(shape, outline, own)) return other;
   vehicle.put(pose);
+  meetings_.forget();
   senses_.put(own, pose);
   // To the others' sensors it stands there already, as if it had been published so at the last step but one.
   senses_.place(own, vehicle);
@@ -185,6 +171,7 @@ void FclWorld::change_obstacles(std::vector<Obstacle> obstacles) {
   description_.obstacles = std::move(obstacles);
   senses_.stand(shapes_of(description_.obstacles));
   footprints_ = footprints_of(description_);
+  meetings_.forget();
 }
 
 }  // namespace

@@ -91,13 +91,16 @@ struct Closing {
 
 }  // namespace
 
+// A disc turns within itself: of it only the centre counts.
+double reach_m(const Shape& shape) {
+  const double core = shape.kind == Shape::Kind::box ? 0.5 * exact::hypot(shape.length_m, shape.width_m) : 0;
+  return length(shape.pose.position()) + core;
+}
+
 Mover::Mover(const Shape& shape, const Outline& start, const Arc& arc, double height_m)
     : shape_(&shape), start_(start), heights_{shape.z_low_m + height_m, shape.z_high_m + height_m}, arc_(arc) {
-  const double core = shape.kind == Shape::Kind::box ? 0.5 * exact::hypot(shape.length_m, shape.width_m) : 0;
-  const double reach = length(shape.pose.position()) + core;
-  const double distance = arc.planar_length_m(), turn = std::fabs(arc.turn_rad);
-  path_m_ = distance + turn * reach;
-  bend_m_ = turn * (distance + turn * reach);
+  path_m_ = world::path_m(arc, reach_m(shape));
+  bend_m_ = std::fabs(arc.turn_rad) * path_m_;
 }
 
 Outline Mover::at(double fraction) const {

@@ -42,6 +42,13 @@ struct PointVelocities {
   }
 };
 
+/// No point of a shape that is fixed to a body is farther than this from the body's origin.
+double reach_m(const Shape& shape);
+/// No point of a body of that reach moves further than this in the plane along the arc.
+inline double path_m(const Arc& arc, double reach_m) {
+  return arc.planar_length_m() + std::fabs(arc.turn_rad) * reach_m;
+}
+
 /// An outline on its arc, over one step.
 class Mover {
  public:
