@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "world/motion/first_contact.hpp"
+#include "world/slice/footprints.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -16,22 +17,30 @@ bool meet(const Shape& shape_a, const Outline& a, const Shape& shape_b, const Ou
 }  // namespace
 
 std::vector<StartOverlap> start_overlaps(const WorldDescription& description) {
-  std::vector<StartOverlap> overlaps;
-  std::vector<Outline> bodies;
+  std::vector<Shape> obstacles, bodies;
+  for (const Obstacle& obstacle : description.obstacles) obstacles.push_back(obstacle.shape);
   for (const BodyDescription& body : description.bodies) {
-    const Outline outline = outline_of(body.shape, body.start);
-    const Shape shape = raised(body.shape, body.start_height_m);
-    for (const Obstacle& obstacle : description.obstacles) {
-      if (meet(shape, outline, obstacle.shape, outline_of(obstacle.shape))) {
-        overlaps.push_back({body.name, obstacle.name, false});
-      }
+    bodies.push_back(raised(body.shape, body.start_height_m));
+    bodies.back().pose = compose(body.start, body.shape.pose);
+  }
+  const Footprints of_obstacles(obstacles), of_bodies(bodies);
+  std::vector<StartOverlap> overlaps;
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const Shape& shape = bodies[i];
+    const Outline outline = outline_of(description.bodies[i].shape, description.bodies[i].start);
+    const Bounds bounds = bounds_of(outline);
+    of_obstacles.near(bounds, 2 * contact_gap_m, shape.z_low_m, shape.z_high_m, near);
+    for (const std::uint32_t obstacle : near) {
+      if (meet(shape, outline, obstacles[obstacle], outline_of(obstacles[obstacle])))
+        overlaps.push_back({description.bodies[i].name, description.obstacles[obstacle].name, false});
     }
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const BodyDescription& other = description.bodies[i];
-      if (meet(shape, outline, raised(other.shape, other.start_height_m), bodies[i]))
-        overlaps.push_back({body.name, other.name, true});
+    of_bodies.near(bounds, 2 * contact_gap_m, shape.z_low_m, shape.z_high_m, near);
+    for (const std::uint32_t other : near) {
+      const BodyDescription& body = description.bodies[other];
+      if (other < i && meet(shape, outline, bodies[other], outline_of(body.shape, body.start)))
+        overlaps.push_back({description.bodies[i].name, body.name, true});
     }
-    bodies.push_back(outline);
   }
   return overlaps;
 }
