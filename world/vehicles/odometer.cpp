@@ -14,6 +14,10 @@ bool wheels_err(const OdometryErrors& e) {
          e.wheel_ticks_per_m != 0;
 }
 
+bool walks_at_random(const OdometryErrors& e) {
+  return e.travel_noise_m_per_sqrt_m != 0 || e.turn_noise_rad_per_sqrt_m != 0 || e.turn_noise_rad_per_sqrt_rad != 0;
+}
+
 }  // namespace
 
 std::int64_t UnitCounter::add(double units) {
@@ -28,6 +32,7 @@ Odometer::Odometer(const BaseDescription& base, std::uint64_t seed, std::string_
     : errors_(base.odometry),
       axle_m_(base.axle_m),
       wheels_err_(wheels_err(base.odometry)),
+      random_(walks_at_random(base.odometry)),
       noise_(seed, robot, "odometry"),
       wheel_noise_(seed, robot, "odometry.wheels"),
       slip_(seed, robot, "odometry.slip") {}
@@ -41,7 +46,7 @@ void Odometer::add(std::uint64_t step, double step_s, const Arc& moved) {
   Motion counted = {moved.distance_m, moved.turn_rad};
   if (wheels_err_) counted = of_wheels(step, counted);
   const double d = std::fabs(counted.travel_m), a = std::fabs(counted.turn_rad);
-  const auto [travel_noise, turn_noise] = noise_.normal_pair(step);
+  const auto [travel_noise, turn_noise] = random_ ? noise_.normal_pair(step) : std::array<double, 2>{};
   double travel_m = e.travel_scale * counted.travel_m + e.travel_noise_m_per_sqrt_m * std::sqrt(d) * travel_noise;
   const double turn_variance = e.turn_noise_rad_per_sqrt_m * e.turn_noise_rad_per_sqrt_m * d +
                                e.turn_noise_rad_per_sqrt_rad * e.turn_noise_rad_per_sqrt_rad * a;

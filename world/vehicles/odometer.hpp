@@ -55,7 +55,7 @@ class Odometer {
 
   OdometryErrors errors_;
   double axle_m_;
-  bool wheels_err_;
+  bool wheels_err_, random_;
   RandomStream noise_, wheel_noise_, slip_;
   UnitCounter travel_, turn_, side_;
   std::array<UnitCounter, 2> ticks_;  // left, right
