@@ -34,7 +34,7 @@ int check(const tools::CheckOptions& options, std::span<const genom::ModuleType>
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
   // The first of a name counts.
   std::vector<genom::ModuleType> types = std::move(own);
-  for (genom::ModuleType& type : tools::papers_modules()) types.push_back(std::move(type));
+  for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
   try {
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
     if (const auto* run = std::get_if<tools::RunOptions>(&options)) return tools::run(*run, types);

@@ -81,7 +81,7 @@ int read_and_run(int argc, const char* const* argv, std::span<const genom::Modul
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
   // The first of a name counts.
   std::vector<genom::ModuleType> types = std::move(own);
-  for (genom::ModuleType& type : tools::papers_modules()) types.push_back(std::move(type));
+  for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
   try {
     return read_and_run(argc, argv, types);
   } catch (const BadInput& error) {

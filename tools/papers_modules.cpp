@@ -6,6 +6,7 @@
 #include "modules/rflex/rflex.hpp"
 #include "modules/segloc/segloc.hpp"
 #include "modules/sick/sick.hpp"
+#include "modules/wander/wander.hpp"
 
 namespace waitpoint::tools {
 
@@ -13,6 +14,12 @@ std::vector<genom::ModuleType> papers_modules() {
   return {genom::module_type<ndd::Ndd>("ndd"), genom::module_type<pom::Pom>("pom"),
           genom::module_type<rflex::Rflex>("rflex"), genom::module_type<segloc::Segloc>("segloc"),
           genom::module_type<sick::Sick>("sick")};
+}
+
+std::vector<genom::ModuleType> shipped_modules() {
+  std::vector<genom::ModuleType> types = papers_modules();
+  types.push_back(genom::module_type<wander::Wander>("wander"));
+  return types;
 }
 
 }  // namespace waitpoint::tools

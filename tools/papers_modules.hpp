@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's five modules, by the names that scenarios use: ndd, pom, rflex, segloc, sick.
+// The modules that come with waitpoint, by the names that scenarios use.
 #pragma once
 
 #include <vector>
@@ -8,6 +8,9 @@
 
 namespace waitpoint::tools {
 
+/// The paper's five: ndd, pom, rflex, segloc, sick.
 std::vector<genom::ModuleType> papers_modules();
+/// Those, and wander.
+std::vector<genom::ModuleType> shipped_modules();
 
 }  // namespace waitpoint::tools

@@ -11,45 +11,12 @@
 #include "modules/bridge/scenario_reader.hpp"
 #include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
-#include "modules/posters/laser.hpp"
 #include "tests/project.hpp"
 #include "tests/tools/folder.hpp"
 #include "tools/papers_modules.hpp"
 
 namespace waitpoint {
 namespace {
-
-// What Stage's `wander` does, more or less: ahead where there is room, else turns.
-class Wanderer : public genom::Module {
- public:
-  explicit Wanderer(genom::ModuleSetup& setup)
-      : Module(setup, 92),
-        task_(add_task("main", {.period_ms = std::chrono::milliseconds(100), .delay_ms = {}, .cost_us = {}})),
-        scan_(read_poster<posters::LaserReading>("scan")),
-        laser_(add_poster<posters::LaserCommand>("laser", task_, &laser_command_)),
-        base_(add_poster<posters::BaseCommand>("base", task_, &base_command_)) {
-    laser_command_.on = true;
-    task_.set_permanent([this] { decide(); });
-  }
-
- private:
-  void decide() {
-    posters::LaserReading scan;
-    if (scan_.read(scan) == genom::PosterStatus::empty) return;
-    double nearest_m = scan.range_max_m;  // in the middle third
-    for (std::size_t i = scan.range_m.size() / 3; i < scan.range_m.size() * 2 / 3; ++i)
-      nearest_m = std::min(nearest_m, static_cast<double>(scan.range_m[i]));
-    base_command_.v_m_s = nearest_m > 0.8 ? 0.4 : 0;
-    base_command_.w_rad_s = nearest_m > 0.8 ? 0 : 0.6;
-  }
-
-  genom::ExecutionTask& task_;
-  genom::PosterLink<posters::LaserReading>& scan_;
-  posters::LaserCommand laser_command_;
-  posters::BaseCommand base_command_;
-  genom::OutputPoster<posters::LaserCommand>& laser_;
-  genom::OutputPoster<posters::BaseCommand>& base_;
-};
 
 // Goes where its parameters say.
 class Driver : public genom::Module {
@@ -94,8 +61,7 @@ class StageRobots : public testing::Test {
     return bridge::read_scenario(write("s.yaml", "format: 1\nworld: {engine: slice, map: " + map + "}\n" + rest));
   }
   static bridge::RunResult run(const bridge::Scenario& scenario, Duration until) {
-    std::vector<genom::ModuleType> types = tools::papers_modules();
-    types.push_back(genom::module_type<Wanderer>("wander"));
+    std::vector<genom::ModuleType> types = tools::shipped_modules();
     types.push_back(genom::module_type<Driver>("driver"));
     bridge::Experiment experiment(scenario, types, {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
     experiment.run_before(Time() + until);
@@ -131,6 +97,22 @@ TEST_F(StageRobots, FindTheirWayWithThePapersModules) {
     EXPECT_EQ(robot.goals_reached(), 1u) << robot.name;
   }
   EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST_F(StageRobots, WanderWithoutGoalsAndWithoutCollisions) {
+  std::string map = room +
+                    "define bot position( size [0.4 0.4 0.3] drive \"diff\"\n"
+                    "  ranger( sensor( samples 181 fov 180 range [0 8] ) ) )\n";
+  for (int i = 0; i < 6; ++i) {
+    const std::string x = std::to_string(1 + i % 2 * 5), y = std::to_string(1 + i / 2 * 2);
+    map += "bot( pose [" + x + " " + y + " 0 " + std::to_string(50 * i) + "] )\n";
+  }
+  const bridge::RunResult result = run(wandering(write("six.world", map), "ranger_0"), std::chrono::seconds(60));
+  ASSERT_EQ(result.robots.size(), 6u);
+  for (const bridge::RobotResult& robot : result.robots) {
+    EXPECT_EQ(robot.collisions, 0u) << robot.name;
+    EXPECT_GT(robot.distance_m, 5) << robot.name;
+  }
 }
 
 TEST_F(StageRobots, MoveAsTheirDriveCan) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where to, for who has nowhere to go: ahead where there is room, and slower the less there is; else about on the spot,
+// to the side that had more room when the way ended, until it is clear again; and backwards from what it stalls at.
+//
+//           |<-- clear_m -->|<--- slow_m --->|
+//     +---+ . . . . . . . . . . . . . . . . .      2 half_width_m: the lane ahead
+//     | > |   turns here       slows here     v_m_s
+//     +---+ . . . . . . . . . . . . . . . . .
+#pragma once
+
+#include "core/fields.hpp"
+#include "modules/posters/base.hpp"
+#include "modules/posters/laser.hpp"
+
+namespace waitpoint::wander {
+
+struct Parameters {
+  double v_m_s = 0.4, w_rad_s = 0.8;
+  double clear_m = 0.6;  ///< turns about when something in the lane is nearer than this to the range finder
+  double slow_m = 0.6;   ///< full speed where the lane is clear so far beyond that
+  double half_width_m = 0.35;
+  Duration back_off_ms = std::chrono::seconds(1);  ///< backwards, after it has stalled
+  bool on = true;                                  ///< from the start; otherwise from the request Go
+
+  static constexpr auto fields() {
+    return std::tuple(field("v_m_s", &Parameters::v_m_s), field("w_rad_s", &Parameters::w_rad_s),
+                      field("clear_m", &Parameters::clear_m), field("slow_m", &Parameters::slow_m),
+                      field("half_width_m", &Parameters::half_width_m), field("back_off_ms", &Parameters::back_off_ms),
+                      field("on", &Parameters::on));
+  }
+};
+
+class Way {
+ public:
+  explicit Way(const Parameters& parameters) : parameters_(parameters) {}
+
+  /// What to tell the base at `now`, by the last scan of a range finder that looks ahead with its middle.
+  void decide(const posters::LaserReading& scan, bool stalled, Time now, posters::BaseCommand& command);
+
+ private:
+  struct Room {
+    double ahead_m;          ///< in the lane
+    double left_m, right_m;  ///< mean ranges
+  };
+  Room room(const posters::LaserReading& scan) const;
+
+  Parameters parameters_;
+  double turning_ = 0;  // to the left 1, to the right -1; 0: not
+  Time back_until_;
+};
+
+}  // namespace waitpoint::wander
