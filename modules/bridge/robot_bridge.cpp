@@ -222,8 +222,10 @@ void RobotBridge::exchange(Time date) {
 bool RobotBridge::powered() const { return !robot_.body.battery || !world_.battery(body_).empty_at; }
 
 void RobotBridge::give_arrived(Time now) {
-  posters::LaserReading reading;
   for (Laser& laser : lasers_) {
+    const std::optional<Time> next = laser.line.next_arrival();
+    if (!next || *next > now) continue;
+    posters::LaserReading reading;
     while (laser.line.take(now, reading)) laser.poster->write(reading);
   }
 }
