@@ -28,7 +28,8 @@ configure() {
 # Peers of the benchmarks that were installed since build/ was set up: Meson looks for libraries only then.
 look_for_peers() {
   local peer
-  for peer in kernel-boost-fiber: kernel-simgrid: kernel-systemc: world.p/world_of_embree world.p/world_of_box2d; do
+  for peer in kernel-boost-fiber: kernel-simgrid: kernel-systemc: world.p/world_of_embree world.p/world_of_box2d \
+    world.p/world_of_bullet world.p/world_of_ode; do
     if ! grep -qF "tests/bench/$peer" "$build/build.ninja"; then
       meson setup --reconfigure "$build" "$root" >&2
       return

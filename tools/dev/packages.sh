@@ -12,7 +12,8 @@ declare -A debian=(
   [wraps]=''
   [valgrind]='valgrind'
   [bench]='libbenchmark-dev'
-  [peers]='libsystemc-dev libsimgrid-dev libboost-fiber-dev libembree-dev libbox2d-dev'
+  [peers]='libsystemc-dev libsimgrid-dev libboost-fiber-dev libembree-dev libbox2d-dev
+           libode-dev'
   [check]='clang-format clang-tidy'
   [format]='clang-format'
 )
@@ -25,7 +26,8 @@ declare -A upstream=(
   [wraps]='Debian'"'"'s source packages'
   [valgrind]='valgrind'
   [bench]='Google Benchmark'
-  [peers]='SystemC 2.3.4, SimGrid 3.32, Boost.Fiber 1.74, Embree 3.13, Box2D 2.4 (each is left out where it is missing)'
+  [peers]='SystemC 2.3.4, SimGrid 3.32, Boost.Fiber 1.74, Embree 3.13, Box2D 2.4,
+           ODE 0.16 (each is left out where it is missing)'
   [check]='clang-format and clang-tidy 14'
   [format]='clang-format 14'
 )

@@ -46,5 +46,7 @@ std::unique_ptr<Contender> our_fcl_trees(const Place& place);
 std::unique_ptr<Contender> grid_of_5_cm(const Place& place);
 std::unique_ptr<Contender> embree(const Place& place);
 std::unique_ptr<Contender> box2d(const Place& place);
+std::unique_ptr<Contender> bullet(const Place& place);
+std::unique_ptr<Contender> ode(const Place& place);
 
 }  // namespace waitpoint::bench

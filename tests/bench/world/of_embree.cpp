@@ -8,26 +8,11 @@
 
 #include "core/error.hpp"
 #include "tests/bench/world/contenders.hpp"
-#include "world/planar/outline.hpp"
 
 namespace waitpoint::bench {
 namespace {
 
-constexpr std::size_t packet = 16, sides = 16;
-
-std::vector<Point> corners(const world::Shape& shape) {
-  const world::Outline outline = world::outline_of(shape);
-  if (outline.is_box) {
-    const world::CorePoints points = world::core_points(outline);
-    return {points.begin(), points.end()};
-  }
-  std::vector<Point> around;
-  for (std::size_t i = 0; i < sides; ++i) {
-    const auto [s, c] = exact::sincos(2 * exact::pi * static_cast<double>(i) / sides);
-    around.push_back(outline.centre + outline.radius_m * Point{c, s});
-  }
-  return around;
-}
+constexpr std::size_t packet = 16;
 
 class ByEmbree : public Contender {
  public:

@@ -125,4 +125,19 @@ Place warehouse(std::size_t robots) {
   return place;
 }
 
+std::vector<Point> corners(const Shape& shape) {
+  const world::Outline outline = world::outline_of(shape);
+  if (outline.is_box) {
+    const world::CorePoints points = world::core_points(outline);
+    return {points.begin(), points.end()};
+  }
+  constexpr int sides = 16;
+  std::vector<Point> around;
+  for (int i = 0; i < sides; ++i) {
+    const auto [s, c] = exact::sincos(2 * exact::pi * i / sides);
+    around.push_back(outline.centre + outline.radius_m * Point{c, s});
+  }
+  return around;
+}
+
 }  // namespace waitpoint::bench

@@ -22,4 +22,7 @@ Place office(std::size_t robots);
 /// 200 x 200 m: racks, pallets and columns, 5 000 obstacles.
 Place warehouse(std::size_t robots);
 
+/// The corners of an outline, counter-clockwise, for who has no discs: of one, sixteen on it.
+std::vector<Point> corners(const world::Shape& shape);
+
 }  // namespace waitpoint::bench

@@ -17,12 +17,14 @@
 #include "tests/bench/program.hpp"
 #include "tests/bench/surroundings.hpp"
 #include "tests/bench/world/contenders.hpp"
+#include "tests/bench/world/crowds.hpp"
 
 namespace waitpoint::bench {
 namespace {
 
 constexpr const char *us = "waitpoint", *fcl_trees = "waitpoint, fcl", *grid = "grid", *fcl_name = "libfcl-dev",
-                     *embree_name = "libembree-dev", *box2d_name = "libbox2d-dev";
+                     *embree_name = "libembree-dev", *box2d_name = "libbox2d-dev", *bullet_name = "libbullet-dev",
+                     *ode_name = "libode-dev";
 
 struct Subject {
   std::string name;
@@ -40,6 +42,16 @@ const std::vector<Subject> subjects = {
     {box2d_name, true, &box2d},
 #else
     {box2d_name, true, nullptr},
+#endif
+#ifdef WAITPOINT_BENCH_BULLET
+    {bullet_name, true, &bullet},
+#else
+    {bullet_name, true, nullptr},
+#endif
+#ifdef WAITPOINT_BENCH_ODE
+    {ode_name, true, &ode},
+#else
+    {ode_name, true, nullptr},
 #endif
 };
 
@@ -135,8 +147,10 @@ class Bench {
     print(place.name + ", does a disc collide", entries, "ns a query", 1 / answers_, of_collisions);
   }
 
-  void print_sum() const {
-    fmt::print("{} of {} musts met, {} of {} aims\n", met_[0], bounds_[0], met_[1], bounds_[1]);
+  /// With those of other figures of this run.
+  void print_sum(const Figures& others) const {
+    fmt::print("{} of {} musts met, {} of {} aims\n", met_[0] + others.musts().met, bounds_[0] + others.musts().all,
+               met_[1] + others.aims().met, bounds_[1] + others.aims().all);
   }
   const std::vector<Row>& rows() const { return rows_; }
 
@@ -217,17 +231,26 @@ class Bench {
   std::vector<Row> rows_;
 };
 
+/// Without peers.
+const std::vector<std::pair<const char*, void (*)(bool quick, Figures&)>> figures_alone = {
+    {"collisions", &collisions_of_a_hundred},
+    {"stage", &stages_worlds},
+    {"simple robots", &simple_robots},
+    {"obstacles", &growing_grounds},
+};
+
 int main(int argc, char** argv) {
-  CLI::App app("How fast planar scans are, beside peers: 361 beams over half a turn, 30 m.");
+  CLI::App app("How fast planar scans are, beside peers: 361 beams over half a turn, 30 m; what crowds cost.");
   int repeats = 15;
   std::string pattern;
   bool no_peers = false, quick = false;
   app.add_flag("--no-peers", no_peers, "us and the grid alone");
   app.add_flag("--quick", quick, "few passes");
-  app.add_option("--case", pattern, "only the places in whose names this is");
+  app.add_option("--case", pattern,
+                 "only the places, or 'collisions', 'stage', 'simple robots', 'obstacles', in whose names this is");
   app.add_option("--repeats", repeats, "passes of which the fastest counts")->check(CLI::Range(1, 10000));
   return run_program(app, argc, argv, [&] {
-    fmt::print("{}", surroundings({fcl_name, embree_name, box2d_name}));
+    fmt::print("{}", surroundings({fcl_name, embree_name, box2d_name, bullet_name, ode_name}));
     Bench bench(!no_peers, quick ? 3 : repeats);
     for (const std::size_t robots : {0, 100}) {
       for (const auto make : {&office, &warehouse}) {
@@ -238,8 +261,13 @@ int main(int argc, char** argv) {
         if (robots > 0) bench.steps(place);
       }
     }
-    bench.print_sum();
-    return bench.rows();
+    Figures figures;
+    for (const auto& [name, measure] : figures_alone)
+      if (std::string_view(name).find(pattern) != std::string_view::npos) measure(quick, figures);
+    bench.print_sum(figures);
+    std::vector<Row> rows = bench.rows();
+    rows.insert(rows.end(), figures.rows().begin(), figures.rows().end());
+    return rows;
   });
 }
 
