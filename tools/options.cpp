@@ -15,21 +15,6 @@
 namespace waitpoint::tools {
 namespace {
 
-std::uint64_t seed_of(const std::string& where, const std::string& text) {
-  std::uint64_t seed = 0;
-  if (!parse_number(text, seed)) refuse(where, "a whole number from 0 to 2^64 - 1", text);
-  return seed;
-}
-
-SeedRange range_of(const std::string& text) {
-  SeedRange range;
-  const std::size_t dots = text.find("..");
-  const bool good = dots != std::string::npos && parse_number(std::string_view(text).substr(0, dots), range.first) &&
-                    parse_number(std::string_view(text).substr(dots + 2), range.last) && range.first <= range.last;
-  if (!good) refuse("--seeds", "FIRST..LAST", text);
-  return range;
-}
-
 /// As the arguments are written, before their values are understood.
 struct Arguments {
   std::string scenario, seed, seeds, order, until, speed, journal, replay_journal;
@@ -178,7 +163,7 @@ RunOptions run_options(const Arguments& arguments) {
   if (options.check) check_writes_nothing(arguments);
   if (!arguments.seeds.empty()) {
     check_alone(arguments);
-    options.seeds = range_of(arguments.seeds);
+    options.seeds = seed_range_of("--seeds", arguments.seeds);
   }
   if (arguments.order == "seeded") {
     options.order = kernel::Order::seeded;

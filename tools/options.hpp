@@ -13,12 +13,9 @@
 #include "fibers/kernel/chooser.hpp"
 #include "tools/exec/exec_options.hpp"
 #include "tools/explore/explore_options.hpp"
+#include "tools/option_values.hpp"
 
 namespace waitpoint::tools {
-
-struct SeedRange {
-  std::uint64_t first = 1, last = 1;  ///< both run
-};
 
 /// `waitpoint run SCENARIO ...`
 struct RunOptions {

@@ -207,6 +207,26 @@ class Ends(Exec):
         self.assertIn("replay: waitpoint exec --seed 1 --", text)
 
 
+class Seeds(Exec):
+    """A campaign ends at the first seed that fails, and says how to see it again."""
+
+    def test_find_a_lost_update_without_compiling_the_program_anew(self):
+        program = self.compile("lost_update.c")
+        done = subprocess.run([str(WAITPOINT), "exec", "--seeds", "1..200", "--", str(program)], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("an update was lost", done.stderr)
+        seed = re.search(r"seed (\d+) failed, after \d+ that did not: exit status 1", done.stderr)[1]
+        self.assertIn(f"replay: waitpoint exec --seed {seed} -- {program}", done.stderr)
+        self.assertEqual(execute(seed, program)[0], 1)
+
+    def test_that_all_end_well_are_counted_with_their_schedules(self):
+        program = self.compile("lost_update.c")
+        done = subprocess.run([str(WAITPOINT), "exec", "--seeds", "1..20", "--", str(program), "locked"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"lost_update: 20 seeds, \d+ schedules, none failed")
+
+
 class Refusals(Exec):
     def refused(self, *words):
         done = subprocess.run([str(WAITPOINT), "exec", *words], capture_output=True, text=True)
@@ -220,6 +240,7 @@ class Refusals(Exec):
         self.assertIn("expected what to run", self.refused())
         self.assertIn("expected what to run", self.refused("--"))
         self.assertIn("--seed: expected a whole number from 0 to 2^64 - 1, found 'x'", self.refused("--seed", "x", "--", "true"))
+        self.assertIn("--seeds: expected FIRST..LAST, found '5..1'", self.refused("--seeds", "5..1", "--", "true"))
         self.assertIn("--strategy: expected random or fifo, found 'best'", self.refused("--strategy", "best", "--", "true"))
         self.assertIn("unknown option '--sed', did you mean '--seed'?", self.refused("--sed", "1", "--", "true"))
 

@@ -5,8 +5,6 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
-#include "core/number_text.hpp"
-#include "tools/option_values.hpp"
 
 namespace waitpoint::tools {
 
@@ -41,7 +39,11 @@ ExecOptions ExecArguments::options(const std::vector<std::string>& words) const 
     where = "WAITPOINT_SEED";
     seed = given;
   }
-  if (!seed.empty() && !parse_number(seed, options.seed)) refuse(where, "a whole number from 0 to 2^64 - 1", seed);
+  if (!seed.empty()) options.seed = seed_of(where, seed);
+  if (!seeds_.empty()) {
+    if (!seed_.empty()) throw BadInput("--seeds", "cannot be used together with --seed");
+    options.seeds = seed_range_of("--seeds", seeds_);
+  }
   if (strategy_ == "fifo")
     options.order = kernel::Order::fifo;
   else if (strategy_ != "random")

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fibers/kernel/chooser.hpp"
+#include "tools/option_values.hpp"
 
 namespace CLI {
 class App;
@@ -17,6 +19,7 @@ namespace waitpoint::tools {
 struct ExecOptions {
   std::uint64_t seed = 1;
   kernel::Order order = kernel::Order::seeded;
+  std::optional<SeedRange> seeds;  ///< instead of `seed`: a run for each, to the first that fails
   bool quiet = false;
   std::vector<std::string> words;  ///< the program and its arguments: at least one
 };
@@ -34,7 +37,7 @@ class ExecArguments {
 
  private:
   CLI::App* command_;
-  std::string seed_, strategy_ = "random";
+  std::string seed_, seeds_, strategy_ = "random";
   bool quiet_ = false;
 };
 
