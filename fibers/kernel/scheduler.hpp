@@ -154,6 +154,8 @@ class Scheduler {
   void wake_all(Object& object);
   /// Wakes `task`, which must be blocked: for primitives that choose among their waiters themselves.
   void wake(Task& task);
+  /// `task`, which must be blocked, waits for `to` from now on, as long as before; nobody may hold either object.
+  void move_waiter(Task& task, Object& to);
   /// As wake_one, but the first: for timers, which are no tasks and leave no choice.
   Task* wake_first(Object& object);
   /// Makes `object` belong to this run; true if it was not yet, so that a primitive can take its initial state.

@@ -42,6 +42,11 @@ Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
 
 void Scheduler::wake(Task& task) { make_ready(task); }
 
+void Scheduler::move_waiter(Task& task, Object& to) {
+  remove_waiter(task);
+  append_waiter(to, task);
+}
+
 Task* Scheduler::wake_a_waiter(Object& object) {
   Task* chosen = object.first_waiter;
   if (unwinding_ || object.epoch != epoch_) return nullptr;

@@ -12,8 +12,6 @@ namespace {
 // Whom a sleeping thread waits for: nobody ever comes but a cancellation.
 kernel::Object sleepers{"sleep"};
 
-bool is_to_leave(const Thread& thread) { return thread.cancelled && !thread.cancel_disabled && !thread.exiting; }
-
 }  // namespace
 
 void leave_if_cancelled() {

@@ -6,6 +6,9 @@
 
 namespace waitpoint::posix {
 
+/// Whether `thread` was cancelled, does not forbid it, and is not on its way out.
+inline bool is_to_leave(const Thread& thread) { return thread.cancelled && !thread.cancel_disabled && !thread.exiting; }
+
 /// Leaves the running thread, if it was cancelled and does not forbid it.
 void leave_if_cancelled();
 
@@ -23,7 +26,9 @@ class CancellationPoint {
 
   /// Whether the wait that has just ended was ended by a cancellation: what the call has to put right comes first, then
   /// leave_if_cancelled().
-  bool was_cancelled() const { return this_thread().cancelled && !this_thread().cancel_disabled; }
+  bool was_cancelled() const { return is_to_leave(this_thread()); }
+  /// As posix::block(), but does not begin to wait if the thread was cancelled at its waitpoint.
+  bool block(kernel::Object& object, Time deadline) const { return !was_cancelled() && posix::block(object, deadline); }
   /// Sleeps; leaves the thread if it is cancelled meanwhile.
   void wait_until(Time time) const;
 };

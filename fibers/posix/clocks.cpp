@@ -41,7 +41,13 @@ bool is_clock(clockid_t clock) {
   return (clock >= CLOCK_REALTIME && clock <= CLOCK_TAI && clock != 10) || clock < 0;
 }
 
-std::int64_t reading_ns(clockid_t clock, Time time) { return begin_ns(clock) + time.ns(); }
+std::int64_t reading_ns(clockid_t clock, Time time) {
+  if (clock == CLOCK_PROCESS_CPUTIME_ID) return spent_by_all.ns();
+  if (clock == CLOCK_THREAD_CPUTIME_ID) return is_simulated() ? this_thread().spent.ns() : 0;
+  // As glibc and the kernel number those of others: the complement of a process, or of a thread, above three bits.
+  if (clock < 0) return (clock & 4) == 0 ? spent_by_all.ns() : spent_by(~(clock >> 3)).ns();
+  return begin_ns(clock) + time.ns();
+}
 
 Duration span(const timespec& time) {
   std::int64_t ns = 0;
@@ -66,9 +72,8 @@ Time when(clockid_t clock, const timespec& reading) {
 timespec to_timespec(std::int64_t ns) { return {ns / second_ns, ns % second_ns}; }
 
 Time read_clock() {
-  kernel::Task& task = *kernel::running;
-  kernel::compute(task, cost_of_clock_reading);
-  return kernel::local_time(task);
+  spend(cost_of_clock_reading);
+  return kernel::local_time(*kernel::running);
 }
 
 }  // namespace waitpoint::posix

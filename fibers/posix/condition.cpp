@@ -39,7 +39,7 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   const std::uint32_t depth = release(mutex);
   bool came = true;
   if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
-    came = deadline > kernel::running->local_time && block(known.object, deadline);
+    came = deadline > kernel::running->local_time && point.block(known.object, deadline);
   pass(kernel::Operation::lock, &mutex.object);
   const int error = lock(mutex, type_of(*bytes), Time::max());
   mutex.depth = depth;

@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <sys/random.h>
 #include <sys/syscall.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -56,13 +57,20 @@ long wake(std::uint32_t* address, std::uint32_t most, std::uint32_t mask) {
   return woken;
 }
 
-// Of those that are left after some were woken, at most so many wait at another address from now on.
+// Of those that are left after some were woken, at most so many wait at another address from now on. Returns how many
+// were woken or moved.
 long requeue(std::uint32_t* from, std::uint32_t most_woken, std::uint32_t most_moved, std::uint32_t* to) {
-  // Nobody can tell a thread that was moved from one that was woken for nothing, which futexes may do: its owner looks
-  // at the value again and waits there.
-  (void)to;
-  const std::uint64_t most = std::uint64_t{most_woken} + most_moved;
-  return wake(from, most > INT32_MAX ? INT32_MAX : static_cast<std::uint32_t>(most), FUTEX_BITSET_MATCH_ANY);
+  long count = wake(from, most_woken, FUTEX_BITSET_MATCH_ANY);
+  if (count < 0 || from == to) return count;
+  kernel::Object& target = word_at(to).object;
+  kernel::running->scheduler->enter(target);
+  for (kernel::Task* task = word_at(from).object.first_waiter; task != nullptr && most_moved > 0; --most_moved) {
+    kernel::Task* const next = task->next_waiter;
+    kernel::running->scheduler->move_waiter(*task, target);
+    task = next;
+    ++count;
+  }
+  return count;
 }
 
 long operate_and_wake(std::uint32_t* first, std::uint32_t most, std::uint32_t most_second, std::uint32_t* second,
@@ -70,6 +78,7 @@ long operate_and_wake(std::uint32_t* first, std::uint32_t most, std::uint32_t mo
   const std::uint32_t operation = code >> 28 & 7, comparison = code >> 24 & 15;
   std::uint32_t operand = code >> 12 & 0xFFF;
   const std::uint32_t compared = code & 0xFFF, old = *second;
+  if ((operand & 0x800) != 0) operand |= 0xFFFFF000;  // a negative number of 12 bits
   if ((code >> 31) != 0) operand = 1U << (operand & 31);
   switch (operation) {
     case FUTEX_OP_SET: *second = operand; break;
@@ -91,8 +100,10 @@ long futex(std::uint32_t* address, int operation, std::uint32_t value, const tim
   const clockid_t clock = (operation & FUTEX_CLOCK_REALTIME) != 0 ? CLOCK_REALTIME : CLOCK_MONOTONIC;
   const auto count = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(timeout));
   const int what = operation & FUTEX_CMD_MASK;
-  if ((what == FUTEX_WAIT || what == FUTEX_WAIT_BITSET) && timeout != nullptr && !is_valid(*timeout))
+  if ((what == FUTEX_WAIT || what == FUTEX_WAIT_BITSET) && timeout != nullptr &&
+      (!is_valid(*timeout) || timeout->tv_sec < 0))
     return fail(EINVAL);
+  if (reinterpret_cast<std::uintptr_t>(address) % sizeof *address != 0) return fail(EINVAL);
   switch (what) {
     case FUTEX_WAIT:
       return wait(address, value,
@@ -132,6 +143,15 @@ WAITPOINT_INTERPOSED long syscall(long number, ...) noexcept {
     case SYS_getrandom:
       return static_cast<long>(
           getrandom(reinterpret_cast<void*>(a[0]), static_cast<std::size_t>(a[1]), static_cast<unsigned>(a[2])));
+    case SYS_nanosleep: return nanosleep(reinterpret_cast<timespec*>(a[0]), reinterpret_cast<timespec*>(a[1]));
+    case SYS_clock_nanosleep: {
+      const int error = clock_nanosleep(static_cast<clockid_t>(a[0]), static_cast<int>(a[1]),
+                                        reinterpret_cast<timespec*>(a[2]), reinterpret_cast<timespec*>(a[3]));
+      return error == 0 ? 0 : fail(error);
+    }
+    case SYS_clock_getres: return clock_getres(static_cast<clockid_t>(a[0]), reinterpret_cast<timespec*>(a[1]));
+    case SYS_gettimeofday: return gettimeofday(reinterpret_cast<timeval*>(a[0]), reinterpret_cast<void*>(a[1]));
+    case SYS_time: return time(reinterpret_cast<time_t*>(a[0]));
     case SYS_clock_gettime: return clock_gettime(static_cast<clockid_t>(a[0]), reinterpret_cast<timespec*>(a[1]));
     default: return WAITPOINT_NEXT(syscall)(number, a[0], a[1], a[2], a[3], a[4], a[5]);
   }

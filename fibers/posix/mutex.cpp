@@ -39,11 +39,14 @@ int lock_again(Mutex& mutex, int type) {
   return 0;
 }
 
-int lock_before(pthread_mutex_t* bytes, Time deadline, bool has_deadline, bool is_valid_deadline) {
+int lock_before(pthread_mutex_t* bytes, Time deadline, bool is_valid_deadline) {
   Mutex& mutex = mutex_of(bytes);
   mutex.is_robust = (bytes->__data.__kind & robust_bit) != 0;
   pass(kernel::Operation::lock, &mutex.object);
-  if (has_deadline && !is_valid_deadline && mutex.object.owner != nullptr) return EINVAL;
+  // What the owner locks again looks at no deadline, unless it is to wait for itself.
+  const bool is_known = mutex.object.owner == kernel::running && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP &&
+                        type_of(*bytes) != PTHREAD_MUTEX_ADAPTIVE_NP;
+  if (!is_valid_deadline && mutex.object.owner != nullptr && !is_known) return EINVAL;
   return lock(mutex, type_of(*bytes), deadline);
 }
 
@@ -141,7 +144,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept 
 
 // Before main() there is one thread: no lock is in its way.
 WAITPOINT_INTERPOSED int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
-  return is_simulated() ? lock_before(mutex, Time::max(), false, true) : 0;
+  return is_simulated() ? lock_before(mutex, Time::max(), true) : 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
@@ -156,7 +159,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid
                                                  const timespec* deadline) noexcept {
   if (clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC) return EINVAL;
   if (!is_simulated()) return 0;
-  return lock_before(mutex, when(clock, *deadline), true, is_valid(*deadline));
+  return lock_before(mutex, when(clock, *deadline), is_valid(*deadline));
 }
 
 WAITPOINT_INTERPOSED int pthread_mutex_timedlock(pthread_mutex_t* mutex, const timespec* deadline) noexcept {

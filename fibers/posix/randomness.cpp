@@ -35,7 +35,8 @@ void fill(void* buffer, std::size_t size) {
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED ssize_t getrandom(void* buffer, std::size_t size, unsigned flags) {
-  if ((flags & ~(GRND_NONBLOCK | GRND_RANDOM | GRND_INSECURE)) != 0) {
+  constexpr unsigned of_either = GRND_RANDOM | GRND_INSECURE;
+  if ((flags & ~(GRND_NONBLOCK | of_either)) != 0 || (flags & of_either) == of_either) {
     errno = EINVAL;
     return -1;
   }

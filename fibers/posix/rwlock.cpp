@@ -19,10 +19,10 @@ struct RwLock : Waitable {
   explicit RwLock(const void* address) : Waitable(kind_of_all, "read-write lock", address) {}
 
   bool free() const { return object.owner == nullptr && readers == 0; }
-  bool has_waiting_writer() const {
-    for (const kernel::Task* task = object.first_waiter; task != nullptr; task = task->next_waiter)
-      if (!task->shared_wait) return true;
-    return false;
+  kernel::Task* first_waiting_writer() const {
+    kernel::Task* task = object.first_waiter;
+    while (task != nullptr && task->shared_wait) task = task->next_waiter;
+    return task;
   }
 
   std::uint32_t readers = 0;  ///< who hold it together
@@ -31,9 +31,13 @@ struct RwLock : Waitable {
 // As glibc's: `__flags` is the kind, `__readers` and its kin are not needed.
 RwLock& lock_of(pthread_rwlock_t* lock) { return waitable_at(*reinterpret_cast<RwLock**>(lock), lock); }
 
+bool prefers_writers(const pthread_rwlock_t& bytes) {
+  return bytes.__data.__flags == PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP;
+}
+
 // glibc's readers pass waiting writers, but where the lock was made to prefer these.
 bool readers_wait(const pthread_rwlock_t& bytes, const RwLock& lock) {
-  return bytes.__data.__flags == PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP && lock.has_waiting_writer();
+  return prefers_writers(bytes) && lock.first_waiting_writer() != nullptr;
 }
 
 int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
@@ -53,6 +57,16 @@ int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
   return came ? 0 : ETIMEDOUT;
 }
 
+// All that wait to read hold it together.
+void admit_readers(RwLock& lock) {
+  for (kernel::Task *task = lock.object.first_waiter, *next = nullptr; task != nullptr; task = next) {
+    next = task->next_waiter;
+    if (!task->shared_wait) continue;
+    ++lock.readers;
+    kernel::running->scheduler->wake(*task);
+  }
+}
+
 int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::lock, &lock.object);
@@ -63,21 +77,23 @@ int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
   }
   if (!valid) return EINVAL;
   if (deadline <= kernel::running->local_time) return ETIMEDOUT;
-  return block(lock.object, deadline) ? 0 : ETIMEDOUT;
+  if (block(lock.object, deadline)) return 0;
+  // Readers may have waited for this thread alone.
+  if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) admit_readers(lock);
+  return ETIMEDOUT;
 }
 
 // Who was chosen gets the free lock, and if that is a reader, all readers with it.
-void hand_on(RwLock& lock) {
-  kernel::Task* const first = wake_one(lock.object);
+void hand_on(RwLock& lock, bool prefers_writers) {
+  kernel::Task* first = prefers_writers ? lock.first_waiting_writer() : nullptr;
+  if (first != nullptr)
+    kernel::running->scheduler->wake(*first);
+  else
+    first = wake_one(lock.object);
   if (first == nullptr) return;
   if (!first->shared_wait) return kernel::own(lock.object, *first);
   ++lock.readers;
-  for (kernel::Task *task = lock.object.first_waiter, *next = nullptr; task != nullptr; task = next) {
-    next = task->next_waiter;
-    if (!task->shared_wait) continue;
-    ++lock.readers;
-    kernel::running->scheduler->wake(*task);
-  }
+  admit_readers(lock);
 }
 
 int unlock(pthread_rwlock_t* bytes) {
@@ -87,7 +103,7 @@ int unlock(pthread_rwlock_t* bytes) {
     kernel::disown(lock.object);
   else if (lock.readers > 0)
     --lock.readers;
-  if (lock.free()) hand_on(lock);
+  if (lock.free()) hand_on(lock, prefers_writers(*bytes));
   return 0;
 }
 

@@ -43,7 +43,7 @@ int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
     return 0;
   }
   if (!is_valid_deadline) return fail(EINVAL);
-  const bool came = deadline > kernel::running->local_time && block(known.object, deadline);
+  const bool came = deadline > kernel::running->local_time && point.block(known.object, deadline);
   if (point.was_cancelled()) leave_if_cancelled();
   return came ? 0 : fail(ETIMEDOUT);
 }
@@ -73,8 +73,12 @@ void let_go(Named& named) {
   std::free(&named);
 }
 
-// A slash, and none behind it.
-bool is_name(const char* name) { return name[0] == '/' && name[1] != '\0' && std::strchr(name + 1, '/') == nullptr; }
+// As the files that glibc makes of them, "sem.NAME": a slash, which may be missing, and none behind it.
+bool is_name(const char* name) {
+  if (*name == '/') ++name;
+  const std::size_t length = std::strlen(name);
+  return length > 0 && length <= NAME_MAX - 4 && std::strchr(name, '/') == nullptr;
+}
 
 Named* make_named(const char* name, unsigned count) {
   auto* named = static_cast<Named*>(std::calloc(1, sizeof(Named)));

@@ -29,6 +29,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int clock_nanosleep(clockid_t clock, int flags, const timespec* time, timespec* remaining) {
   if (!is_simulated()) return WAITPOINT_NEXT(clock_nanosleep)(clock, flags, time, remaining);
+  if (clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME_COARSE || clock == CLOCK_MONOTONIC_COARSE) return ENOTSUP;
   if (!is_clock(clock) || clock == CLOCK_THREAD_CPUTIME_ID || !is_valid(*time) || time->tv_sec < 0) return EINVAL;
   if ((flags & TIMER_ABSTIME) != 0)
     sleep_until(when(clock, *time));
@@ -62,11 +63,13 @@ WAITPOINT_INTERPOSED int thrd_sleep(const timespec* time, timespec* remaining) {
   return error == 0 ? 0 : error == EINTR ? -1 : -2;
 }
 
-WAITPOINT_INTERPOSED int sched_yield() noexcept {
+// No cancellation point; but a thread that may be cancelled anywhere is.
+WAITPOINT_INTERPOSED int sched_yield() {
   if (!is_simulated()) return 0;
-  kernel::compute(*kernel::running, cost_of_giving_way);
+  spend(cost_of_giving_way);
   kernel::running->scheduler->yield();
+  if (this_thread().cancel_at_once) leave_if_cancelled();
   return 0;
 }
 
-WAITPOINT_INTERPOSED void thrd_yield() noexcept { sched_yield(); }
+WAITPOINT_INTERPOSED void thrd_yield() { sched_yield(); }

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
@@ -27,6 +28,9 @@ void __pthread_unregister_cancel(__pthread_unwind_buf_t* buffer);
 }
 
 namespace waitpoint::posix {
+
+Duration spent_by_all;
+
 namespace {
 
 Thread* main_thread = nullptr;
@@ -71,11 +75,18 @@ Thread* find(pthread_t id) {
   return area == nullptr ? nullptr : thread_of_area(area);
 }
 
+Duration spent_by(int id) {
+  for (const kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
+    if (thread_of(*task).id == id) return thread_of(*task).spent;
+  return {};
+}
+
 void adopt_main_thread(Thread& thread, kernel::Task& task) {
   main_thread = &thread;
   thread.task = &task;
   thread.area = own_thread_area();
   thread.id = getpid();
+  std::strncpy(thread.name, program_invocation_short_name, sizeof thread.name - 1);
   thread_of_area(thread.area) = &thread;
   count_threads();
 }
@@ -92,6 +103,7 @@ int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, 
   thread.is_c11 = is_c11;
   thread.argument = argument;
   thread.detached = is_detached(attributes);
+  std::memcpy(thread.name, this_thread().name, sizeof thread.name);
   char name[kernel::name_size];
   std::snprintf(name, sizeof name, "thread %u", record->threads_made);
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
@@ -146,7 +158,7 @@ void end_thread(Thread& thread) {
 int join(pthread_t id, void** result, Time deadline) {
   Thread* const thread = find(id);
   if (thread == nullptr) return ESRCH;
-  if (thread == &this_thread()) return EDEADLK;
+  if (thread == &this_thread()) return deadline == Time() ? EBUSY : EDEADLK;
   if (thread->detached || thread->has_joiner) return EINVAL;
   if (!thread->ended && this_thread().end.first_waiter != nullptr)
     for (const kernel::Task* waiter = this_thread().end.first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
@@ -156,7 +168,7 @@ int join(pthread_t id, void** result, Time deadline) {
   if (!thread->ended) {
     if (deadline <= kernel::running->local_time) return deadline == Time() ? EBUSY : ETIMEDOUT;
     thread->has_joiner = true;
-    const bool came = block(thread->end, deadline);
+    const bool came = point.block(thread->end, deadline);
     thread->has_joiner = false;
     if (!thread->ended) {
       if (point.was_cancelled()) leave_if_cancelled();

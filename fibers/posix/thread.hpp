@@ -3,10 +3,14 @@
 #pragma once
 
 #include <pthread.h>
+#include <sched.h>
 
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::posix {
+
+/// What the uses of primitives and clocks of all threads have cost: the processor time of the process.
+extern Duration spent_by_all;
 
 /// How the function of a thread is called.
 union StartRoutine {
@@ -26,6 +30,16 @@ struct Thread {
   void* result = nullptr;
   int id = 0;  ///< what gettid() says
   kernel::Object end{"thread"};
+
+  // What programs may write and read again; it changes nothing.
+  char name[16] = {};
+  int policy = SCHED_OTHER;
+  int priority = 0;
+  cpu_set_t processors{};
+  bool has_processors = false;  ///< of its own: else those of the process
+
+  /// What its uses of primitives and clocks have cost: its processor time.
+  Duration spent;
 
   // Cancellation.
   bool cancelled = false;  ///< it is to leave at its next cancellation point
@@ -51,6 +65,9 @@ inline bool is_simulated() { return kernel::running != nullptr; }
 
 /// The thread with this id; null if it is none of ours.
 Thread* find(pthread_t id);
+
+/// The processor time of the thread with this gettid(); none if it has ended.
+Duration spent_by(int id);
 
 /// Makes a thread; an error number.
 int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument);

@@ -15,13 +15,21 @@ inline constexpr Duration cost_of_operations = Duration(std::chrono::microsecond
 inline constexpr Duration cost_of_clock_reading = Duration(std::chrono::nanoseconds(50));
 inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microseconds(1));
 
+/// The running thread computes for so long.
+inline void spend(Duration cost) {
+  kernel::Task& task = *kernel::running;
+  thread_of(task).spent += cost;
+  spent_by_all += cost;
+  kernel::compute(task, cost);
+}
+
 /// The running thread's event at its place in the order of all; returns when it is the least.
 inline void pass(kernel::Operation operation, kernel::Object* object) {
   kernel::Task& task = *kernel::running;
   Thread& thread = thread_of(task);
   if (++thread.operations >= operations_at_one_instant) {
     thread.operations = 0;
-    kernel::compute(task, cost_of_operations);
+    spend(cost_of_operations);
   }
   task.scheduler->waitpoint(operation, object);
 }
