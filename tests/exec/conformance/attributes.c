@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What can be asked of threads and told to them: names, stacks, priorities, processors.
+#include "harness.h"
+
+#include <limits.h>
+#include <sched.h>
+#include <stdint.h>
+
+static void* sleep_long(void* unused) {
+  sleep_ms(5000);
+  return unused;
+}
+
+CASE(a_name_is_read_as_it_was_written) {
+  char name[16] = "";
+  EXPECT_IS(pthread_setname_np(pthread_self(), "worker"), 0);
+  EXPECT_IS(pthread_getname_np(pthread_self(), name, sizeof name), 0);
+  EXPECT(strcmp(name, "worker") == 0);
+}
+CASE(another_thread_is_named) {
+  char name[16] = "";
+  const pthread_t id = start(sleep_long, NULL);
+  EXPECT_IS(pthread_setname_np(id, "a b"), 0);
+  EXPECT_IS(pthread_getname_np(id, name, sizeof name), 0);
+  EXPECT(strcmp(name, "a b") == 0);
+  EXPECT_IS(pthread_getname_np(pthread_self(), name, sizeof name), 0);
+  EXPECT(strcmp(name, "a b") != 0);
+}
+CASE(a_name_of_15_bytes_is_not_cut) {
+  char name[16] = "";
+  EXPECT_IS(pthread_setname_np(pthread_self(), "123456789012345"), 0);
+  EXPECT_IS(pthread_getname_np(pthread_self(), name, sizeof name), 0);
+  EXPECT(strcmp(name, "123456789012345") == 0);
+}
+CASE(a_name_of_16_bytes_is_refused) { EXPECT_IS(pthread_setname_np(pthread_self(), "1234567890123456"), ERANGE); }
+CASE(a_name_wants_room_for_16_bytes) {
+  char name[15];
+  EXPECT_IS(pthread_getname_np(pthread_self(), name, sizeof name), ERANGE);
+}
+static void* own_name(void* name) {
+  EXPECT_IS(pthread_getname_np(pthread_self(), name, 16), 0);
+  return NULL;
+}
+CASE(a_new_thread_has_its_makers_name) {
+  char name[16] = "";
+  pthread_setname_np(pthread_self(), "maker");
+  join(start(own_name, name));
+  EXPECT(strcmp(name, "maker") == 0);
+}
+CASE(main_has_the_programs_name) {
+  char name[16] = "";
+  own_name(name);
+  EXPECT(strcmp(name, "attributes") == 0);
+}
+
+static void* own_stack(void* unused) {
+  pthread_attr_t attributes;
+  void* low = NULL;
+  size_t size = 0, guard = 77;
+  int state = -1;
+  EXPECT_IS(pthread_getattr_np(pthread_self(), &attributes), 0);
+  EXPECT_IS(pthread_attr_getstack(&attributes, &low, &size), 0);
+  EXPECT((char*)&size >= (char*)low && (char*)&size < (char*)low + size);
+  EXPECT(size >= (size_t)PTHREAD_STACK_MIN);
+  EXPECT_IS(pthread_attr_getguardsize(&attributes, &guard), 0);
+  EXPECT(guard % 4096 == 0);
+  EXPECT_IS(pthread_attr_getdetachstate(&attributes, &state), 0);
+  EXPECT_IS(state, PTHREAD_CREATE_JOINABLE);
+  EXPECT_IS(pthread_attr_destroy(&attributes), 0);
+  return unused;
+}
+CASE(getattr_tells_the_stack_of_a_thread) { join(start(own_stack, NULL)); }
+CASE(getattr_tells_the_stack_of_main) { own_stack(NULL); }
+CASE(getattr_tells_the_stack_of_another_thread) {
+  pthread_attr_t mine, its;
+  void *my_low, *its_low;
+  size_t size;
+  const pthread_t id = start(sleep_long, NULL);
+  EXPECT_IS(pthread_getattr_np(pthread_self(), &mine), 0);
+  EXPECT_IS(pthread_getattr_np(id, &its), 0);
+  pthread_attr_getstack(&mine, &my_low, &size);
+  pthread_attr_getstack(&its, &its_low, &size);
+  EXPECT(my_low != its_low);
+}
+CASE(getattr_tells_that_a_thread_is_detached) {
+  pthread_attr_t attributes;
+  int state = -1;
+  const pthread_t id = start(sleep_long, NULL);
+  pthread_detach(id);
+  EXPECT_IS(pthread_getattr_np(id, &attributes), 0);
+  pthread_attr_getdetachstate(&attributes, &state);
+  EXPECT_IS(state, PTHREAD_CREATE_DETACHED);
+}
+
+static void* use_stack(void* bytes) {
+  const size_t size = (size_t)(uintptr_t)bytes;
+  volatile char* const block = __builtin_alloca(size);
+  for (size_t at = 0; at < size; at += 1024) block[at] = 1;
+  return NULL;
+}
+static pthread_t start_with_stack(size_t size, void* (*function)(void*), void* argument) {
+  pthread_attr_t attributes;
+  pthread_t id;
+  EXPECT_IS(pthread_attr_init(&attributes), 0);
+  EXPECT_IS(pthread_attr_setstacksize(&attributes, size), 0);
+  EXPECT_IS(pthread_create(&id, &attributes, function, argument), 0);
+  return id;
+}
+CASE(a_thread_can_use_the_stack_that_was_asked_for) {
+  join(start_with_stack(4 << 20, use_stack, (void*)(3 << 20)));
+  join(start_with_stack(PTHREAD_STACK_MIN, use_stack, (void*)2048));
+}
+CASE(a_thread_can_use_a_stack_larger_than_the_default) {
+  join(start_with_stack(32 << 20, use_stack, (void*)(28 << 20)));
+}
+CASE(a_thread_can_use_most_of_the_default_stack) { join(start(use_stack, (void*)(7 << 20))); }
+
+static char* own_low;
+static void* where(void* unused) {
+  char local;
+  EXPECT(&local >= own_low && &local < own_low + (1 << 20));
+  return unused;
+}
+CASE(a_thread_runs_on_the_stack_that_it_was_given) {
+  pthread_attr_t attributes;
+  pthread_t id;
+  EXPECT_IS(posix_memalign((void**)&own_low, 4096, 1 << 20), 0);
+  pthread_attr_init(&attributes);
+  EXPECT_IS(pthread_attr_setstack(&attributes, own_low, 1 << 20), 0);
+  EXPECT_IS(pthread_create(&id, &attributes, where, NULL), 0);
+  join(id);
+}
+
+CASE(attributes_of_threads_have_defaults) {
+  pthread_attr_t attributes;
+  int value = -1;
+  size_t size = 0;
+  EXPECT_IS(pthread_attr_init(&attributes), 0);
+  EXPECT_IS(pthread_attr_getdetachstate(&attributes, &value), 0);
+  EXPECT_IS(value, PTHREAD_CREATE_JOINABLE);
+  EXPECT_IS(pthread_attr_getschedpolicy(&attributes, &value), 0);
+  EXPECT_IS(value, SCHED_OTHER);
+  EXPECT_IS(pthread_attr_getscope(&attributes, &value), 0);
+  EXPECT_IS(value, PTHREAD_SCOPE_SYSTEM);
+  EXPECT_IS(pthread_attr_getinheritsched(&attributes, &value), 0);
+  EXPECT_IS(value, PTHREAD_INHERIT_SCHED);
+  EXPECT_IS(pthread_attr_getstacksize(&attributes, &size), 0);
+  EXPECT(size >= (size_t)PTHREAD_STACK_MIN);
+}
+CASE(attributes_of_threads_refuse_what_is_none) {
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  EXPECT_IS(pthread_attr_setdetachstate(&attributes, 77), EINVAL);
+  EXPECT_IS(pthread_attr_setstacksize(&attributes, 1), EINVAL);
+  EXPECT_IS(pthread_attr_setschedpolicy(&attributes, 77), EINVAL);
+  EXPECT_IS(pthread_attr_setinheritsched(&attributes, 77), EINVAL);
+  EXPECT_IS(pthread_attr_setscope(&attributes, 77), EINVAL);
+}
+
+CASE(a_threads_policy_is_the_default_one) {
+  int policy = -1;
+  struct sched_param parameters = {77};
+  const pthread_t id = start(sleep_long, NULL);
+  EXPECT_IS(pthread_getschedparam(id, &policy, &parameters), 0);
+  EXPECT_IS(policy, SCHED_OTHER);
+  EXPECT_IS(parameters.sched_priority, 0);
+}
+CASE(a_policy_is_read_as_it_was_written) {
+  int policy = -1;
+  struct sched_param parameters = {0};
+  const pthread_t id = start(sleep_long, NULL);
+  EXPECT_IS(pthread_setschedparam(id, SCHED_BATCH, &parameters), 0);
+  EXPECT_IS(pthread_getschedparam(id, &policy, &parameters), 0);
+  EXPECT_IS(policy, SCHED_BATCH);
+}
+CASE(a_priority_out_of_the_policys_range_is_refused) {
+  const struct sched_param parameters = {77};
+  const pthread_t id = start(sleep_long, NULL);
+  EXPECT_IS(pthread_setschedparam(id, SCHED_OTHER, &parameters), EINVAL);
+  EXPECT_IS(pthread_setschedprio(id, 77), EINVAL);
+  EXPECT_IS(pthread_setschedprio(id, 0), 0);
+}
+CASE(a_policy_that_is_none_is_refused) {
+  const struct sched_param parameters = {0};
+  EXPECT_IS(pthread_setschedparam(start(sleep_long, NULL), 77, &parameters), EINVAL);
+}
+
+CASE(a_thread_has_processors) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  const pthread_t id = start(sleep_long, NULL);
+  EXPECT_IS(pthread_getaffinity_np(id, sizeof set, &set), 0);
+  EXPECT(CPU_COUNT(&set) >= 1);
+}
+CASE(processors_are_read_as_they_were_written) {
+  cpu_set_t all, one, read;
+  const pthread_t id = start(sleep_long, NULL);
+  EXPECT_IS(pthread_getaffinity_np(id, sizeof all, &all), 0);
+  int first = 0;
+  while (!CPU_ISSET(first, &all)) ++first;
+  CPU_ZERO(&one);
+  CPU_SET(first, &one);
+  EXPECT_IS(pthread_setaffinity_np(id, sizeof one, &one), 0);
+  EXPECT_IS(pthread_getaffinity_np(id, sizeof read, &read), 0);
+  EXPECT(CPU_EQUAL(&read, &one));
+  EXPECT_IS(pthread_getaffinity_np(pthread_self(), sizeof read, &read), 0);
+  EXPECT(CPU_EQUAL(&read, &all));
+}
+CASE(no_processors_are_refused) {
+  cpu_set_t none;
+  CPU_ZERO(&none);
+  EXPECT_IS(pthread_setaffinity_np(start(sleep_long, NULL), sizeof none, &none), EINVAL);
+}
+CASE(the_level_of_concurrency_is_read_as_it_was_written) {
+  EXPECT_IS(pthread_setconcurrency(7), 0);
+  EXPECT_IS(pthread_getconcurrency(), 7);
+  EXPECT_IS(pthread_setconcurrency(-1), EINVAL);
+}

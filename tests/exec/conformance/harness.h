@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A program of cases. Each holds a sentence of POSIX, C11 or the Linux manual pages against what the calls do:
+//
+//   PROGRAM --list    its cases, one a line: the exit status that shows that all is as the texts say, and the name
+//   PROGRAM CASE      does one; where something else comes of it, says so and ends with status 1
+//
+// Nothing of waitpoint is in here: the same program runs on the threads of the system and on simulated ones. What a
+// case writes to its output must be the same in each simulated run of one seed.
+#pragma once
+
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE
+#endif
+#include <errno.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+struct conformance_case {
+  const char* name;
+  void (*body)(void);
+  int status;
+  struct conformance_case* next;
+};
+
+static struct conformance_case* first_case;
+static struct conformance_case** last_link = &first_case;
+
+#define CASE(name) CASE_ENDING_WITH(0, name)
+#define CASE_ENDING_WITH(status, name)                                   \
+  static void name(void);                                                \
+  static struct conformance_case case_##name = {#name, name, status, 0}; \
+  __attribute__((constructor)) static void add_##name(void) {            \
+    *last_link = &case_##name;                                           \
+    last_link = &case_##name.next;                                       \
+  }                                                                      \
+  static void name(void)
+
+static inline void expect_equal(const char* file, int line, const char* text, long long is, long long expected) {
+  if (is == expected) return;
+  fprintf(stderr, "%s:%d: %s is %lld, not %lld (errno %d)\n", file, line, text, is, expected, errno);
+  _exit(1);
+}
+
+#define EXPECT(condition) expect_equal(__FILE__, __LINE__, #condition, (condition) ? 1 : 0, 1)
+#define EXPECT_IS(value, expected) expect_equal(__FILE__, __LINE__, #value, (long long)(value), (long long)(expected))
+/// Of calls that return -1 and set errno.
+#define EXPECT_FAILS(call, number)                              \
+  do {                                                          \
+    errno = 0;                                                  \
+    EXPECT_IS(call, -1);                                        \
+    expect_equal(__FILE__, __LINE__, "errno", errno, (number)); \
+  } while (0)
+
+static inline long long now_ns(clockid_t clock) {
+  struct timespec time;
+  EXPECT_IS(clock_gettime(clock, &time), 0);
+  return time.tv_sec * 1000000000LL + time.tv_nsec;
+}
+
+/// So long after what the clock shows now; before it, if negative.
+static inline struct timespec in_ms(clockid_t clock, long long ms) {
+  const long long ns = now_ns(clock) + ms * 1000000;
+  const struct timespec time = {ns / 1000000000, ns % 1000000000};
+  return time;
+}
+
+/// A time in the future with too many nanoseconds.
+static inline struct timespec invalid_time(clockid_t clock) {
+  struct timespec time = in_ms(clock, 5000);
+  time.tv_nsec = 1000000000;
+  return time;
+}
+
+static inline void sleep_ms(long ms) {
+  const struct timespec time = {ms / 1000, ms % 1000 * 1000000};
+  nanosleep(&time, NULL);
+}
+/// Long enough for the other threads to come to where they wait.
+static inline void let_others_wait(void) { sleep_ms(4); }
+
+static inline pthread_t start(void* (*function)(void*), void* argument) {
+  pthread_t id;
+  EXPECT_IS(pthread_create(&id, NULL, function, argument), 0);
+  return id;
+}
+
+static inline void* join(pthread_t id) {
+  void* result = NULL;
+  EXPECT_IS(pthread_join(id, &result), 0);
+  return result;
+}
+
+/// What threads of a case did, in the order in which they did it.
+static char noted[256];
+static inline void note(const char* what) { strncat(noted, what, sizeof noted - strlen(noted) - 1); }
+static inline void expect_noted(const char* file, int line, const char* expected) {
+  if (strcmp(noted, expected) == 0) return;
+  fprintf(stderr, "%s:%d: what was done is \"%s\", not \"%s\"\n", file, line, noted, expected);
+  _exit(1);
+}
+#define EXPECT_NOTED(expected) expect_noted(__FILE__, __LINE__, expected)
+
+int main(int argc, char** argv) {
+  const struct conformance_case* each;
+  if (argc == 2 && strcmp(argv[1], "--list") == 0) {
+    for (each = first_case; each != NULL; each = each->next) printf("%d %s\n", each->status, each->name);
+    return 0;
+  }
+  for (each = first_case; argc == 2 && each != NULL; each = each->next) {
+    if (strcmp(argv[1], each->name) != 0) continue;
+    each->body();
+    return 0;
+  }
+  fprintf(stderr, "expected --list or a case\n");
+  return 2;
+}

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What POSIX, C11 and Linux say of the calls that `waitpoint exec` simulates: conformance_test.py BUILD.
+
+Each case of the programs of tests/exec/conformance runs on the threads of the system and, with three seeds, as simulated
+ones; it must end in the same way, and write the same again with the same seed. It speaks as a GoogleTest program does:
+each case counts as one.
+
+  --gtest_filter=PATTERN   some of the cases, as PROGRAM.CASE
+  --gtest_output=xml:FILE  what came of them
+  --without-each           instead: what fails if the library lacks one of its functions, for each of them
+"""
+
+import argparse
+import concurrent.futures
+import fnmatch
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree
+
+SEEDS = (1, 2, 3)
+JOBS = 2
+TIMEOUT_S = 20
+# On a machine with much to do, a thread of the system may sleep longer than the others of a case wait for it.
+NATIVE_ATTEMPTS = 4
+
+# Cases that end otherwise when they are simulated, and why.
+DIFFERENCES = {
+    "attributes.a_thread_can_use_a_stack_larger_than_the_default": "every simulated thread has a stack of 8 MiB",
+    "attributes.a_thread_runs_on_the_stack_that_it_was_given": "every simulated thread has a stack of 8 MiB",
+}
+
+# Functions of the library that no case calls, and why.
+NOT_CALLED = {
+    "__libc_start_main": "called by the start-up code of every program",
+}
+
+
+def run(words):
+    """(exit status, negative for a signal, None past the timeout; output; errors)"""
+    try:
+        done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=TIMEOUT_S)
+        return done.returncode, done.stdout, done.stderr
+    except subprocess.TimeoutExpired:
+        return None, "", f"still ran after {TIMEOUT_S} s\n"
+
+
+class Suite:
+    """The programs and the cases that they hold."""
+
+    def __init__(self, build):
+        self.folder = build / "tests/exec/conformance"
+        self.library = build / "libwaitpoint-exec.so"
+        self.waitpoint = build / "tools/waitpoint"
+        self.programs = sorted(
+            path for path in self.folder.iterdir() if path.is_file() and not path.suffix and os.access(path, os.X_OK)
+        )
+        self.cases = []  # (program, case, expected status)
+        for program in self.programs:
+            _, listed, _ = run([program, "--list"])
+            for line in listed.splitlines():
+                status, case = line.split()
+                self.cases.append((program, case, int(status)))
+
+    def native(self, program, case, expected):
+        """What is wrong, or nothing."""
+        for _ in range(NATIVE_ATTEMPTS):
+            status, _, errors = run([program, case])
+            if status == expected:
+                return ""
+        return f"natively: status {status}, not {expected}\n{errors}"
+
+    def simulated(self, program, case, expected, seed):
+        words = [self.waitpoint, "exec", "--quiet", "--seed", str(seed), "--", program, case]
+        status, output, errors = run(words)
+        if status != expected:
+            return f"seed {seed}: status {status}, not {expected}\n{errors}"
+        if output and run(words)[1] != output:
+            return f"seed {seed}: another output in a second run\n{output}"
+        return ""
+
+    def verdict(self, program, case, expected):
+        wrong = self.native(program, case, expected)
+        if wrong:
+            return wrong
+        name = f"{program.name}.{case}"
+        wrong = "".join(self.simulated(program, case, expected, seed) for seed in SEEDS)
+        if name not in DIFFERENCES:
+            return wrong
+        return "" if wrong else "ends as natively: no difference to be listed\n"
+
+    def functions(self):
+        """What the library takes the place of."""
+        listed = subprocess.run(["nm", "-D", "--defined-only", self.library], capture_output=True, text=True, check=True)
+        return sorted(line.split()[2].split("@")[0] for line in listed.stdout.splitlines())
+
+    def called(self):
+        """By function, the programs that call it: linked with it, or asking for it by its name."""
+        found = {}
+        for program in self.programs:
+            listed = subprocess.run(["nm", "-D", "--undefined-only", program], capture_output=True, text=True, check=True)
+            names = {line.split()[-1].split("@")[0] for line in listed.stdout.splitlines()}
+            names |= {text.decode() for text in re.findall(rb"\0(_?_?[a-z][a-z0-9_]{4,40})(?=\0)", program.read_bytes())}
+            for name in names:
+                found.setdefault(name, []).append(program)
+        return found
+
+    def uncalled(self):
+        called = self.called()
+        missing = [name for name in self.functions() if name not in called and name not in NOT_CALLED]
+        return "".join(f"no case calls {name}\n" for name in missing)
+
+
+class Report:
+    """Lines as GoogleTest prints them, and its file."""
+
+    def __init__(self):
+        self.root = xml.etree.ElementTree.Element("testsuites")
+        self.failed = self.passed = 0
+
+    def add(self, group, case, wrong, skipped=False):
+        node = xml.etree.ElementTree.SubElement(self.root, "testcase", classname=group, name=case)
+        print(f"[ RUN      ] {group}.{case}\n{wrong}", end="")
+        if skipped:
+            node.set("status", "notrun")
+            print(f"[  SKIPPED ] {group}.{case} (0 ms)")
+        elif wrong:
+            self.failed += 1
+            xml.etree.ElementTree.SubElement(node, "failure", message=wrong)
+            print(f"[  FAILED  ] {group}.{case} (0 ms)")
+        else:
+            self.passed += 1
+            print(f"[       OK ] {group}.{case} (0 ms)")
+
+    def end(self, output):
+        print(f"{self.passed} passed, {self.failed} failed")
+        if output:
+            xml.etree.ElementTree.ElementTree(self.root).write(output)
+        return 1 if self.failed else 0
+
+
+def wanted(pattern, name):
+    """GoogleTest's patterns: those before a minus, without those behind it."""
+    ours, _, not_ours = pattern.partition("-")
+    return any(fnmatch.fnmatchcase(name, each) for each in (ours or "*").split(":")) and not any(
+        fnmatch.fnmatchcase(name, each) for each in not_ours.split(":")
+    )
+
+
+def without(library, function, to):
+    """Writes a copy of the library in which a dynamic symbol is not defined: the C library's is found instead."""
+    image = bytearray(library.read_bytes())
+    (sections_at,), (size, count, _) = struct.unpack_from("<Q", image, 0x28), struct.unpack_from("<HHH", image, 0x3A)
+    sections = [struct.unpack_from("<IIQQQQIIQQ", image, sections_at + i * size) for i in range(count)]
+    symbols = next(section for section in sections if section[1] == 11)  # SHT_DYNSYM
+    names_at = sections[symbols[6]][4]
+    for at in range(symbols[4], symbols[4] + symbols[5], 24):
+        name_at = names_at + struct.unpack_from("<I", image, at)[0]
+        if image[name_at : image.index(0, name_at)].decode() == function:
+            struct.pack_into("<HQ", image, at + 6, 0, 0)
+    to.write_bytes(image)
+
+
+def without_each(suite, pattern):
+    """Prints, for each function of the library, a case that fails without it; 1 if there is none."""
+    lacking = 0
+    called = suite.called()
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder)
+        (copy / "tools").mkdir()
+        shutil.copy(suite.waitpoint, copy / "tools/waitpoint")
+        suite.waitpoint = copy / "tools/waitpoint"
+        for function in suite.functions():
+            if not wanted(pattern, function) or function not in called:
+                continue
+            without(suite.library, function, copy / suite.library.name)
+            fails = None
+            for program, case, expected in suite.cases:
+                if fails is None and program in called[function] and suite.simulated(program, case, expected, 1):
+                    fails = f"{program.name}.{case}"
+            print(f"{function:32} {fails or 'nothing fails'}", flush=True)
+            lacking += fails is None
+    return 1 if lacking else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="conformance_test.py")
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--gtest_filter", default="*")
+    parser.add_argument("--gtest_output", default="")
+    parser.add_argument("--without-each", action="store_true")
+    arguments = parser.parse_args()
+    build, output = arguments.build.resolve(), arguments.gtest_output.removeprefix("xml:")
+    report = Report()
+    if not (build / "libwaitpoint-exec.so").exists():
+        report.add("conformance", "all", "the library for programs was not built (option exec)\n", skipped=True)
+        return report.end(output)
+    suite = Suite(build)
+    if arguments.without_each:
+        return without_each(suite, arguments.gtest_filter)
+    begin = time.monotonic()
+    cases = [each for each in suite.cases if wanted(arguments.gtest_filter, f"{each[0].name}.{each[1]}")]
+    with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
+        for (program, case, _), wrong in zip(cases, pool.map(lambda each: suite.verdict(*each), cases)):
+            report.add(program.name, case, wrong)
+    if wanted(arguments.gtest_filter, "conformance.every_function_of_the_library_is_called_by_a_case"):
+        report.add("conformance", "every_function_of_the_library_is_called_by_a_case", suite.uncalled())
+    print(f"{len(cases)} cases natively and with seeds {SEEDS}, {len(DIFFERENCES)} differences: {time.monotonic() - begin:.1f} s")
+    return report.end(output)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
