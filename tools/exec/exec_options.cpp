@@ -17,6 +17,11 @@ ExecArguments::ExecArguments(CLI::App& app)
                    "from which the schedule and random numbers follow (default:\n$WAITPOINT_SEED, or 1)")
       ->type_name("N");
   command_
+      ->add_option("--seeds", seeds_,
+                   "run each seed from A to B, until one ends with another status than 0; what the\n"
+                   "program writes is shown of that one")
+      ->type_name("A..B");
+  command_
       ->add_option("--strategy", strategy_,
                    "random, the default: threads that could go on at one instant do so in an\n"
                    "order of the seed's; fifo: a thread goes on until it waits")
