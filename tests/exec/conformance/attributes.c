@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What can be asked of threads and told to them: names, stacks, priorities, processors.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <limits.h>
 #include <sched.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // <threads.h>.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <stdatomic.h>
 #include <stdint.h>

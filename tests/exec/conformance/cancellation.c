@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cancellation: states and types, points, and what is cleaned up in which order.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <semaphore.h>
 #include <stdatomic.h>

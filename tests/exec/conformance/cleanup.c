@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cleanup handlers, thread-specific data, and the order in which they are let go.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <limits.h>
 #include <stdatomic.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What clocks show.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <stdint.h>
 #include <sys/syscall.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // C++ on these calls: the standard library's threads, and what its run-time library needs of them.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <atomic>
 #include <barrier>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ends of the process.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <signal.h>
 #include <stdatomic.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // futex(2) by syscall(2), as run-time libraries use it.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <linux/futex.h>
 #include <stdatomic.h>
@@ -150,7 +150,7 @@ CASE(cmp_requeue_with_another_value_does_nothing) {
   EXPECT_FAILS(futex(&word, FUTEX_CMP_REQUEUE, 1, number(1), &second, 5), EAGAIN);
 }
 static void* wait_short(void* unused) {
-  const struct timespec deadline = {0, 15000000};
+  const struct timespec deadline = {0, 15000000 * patience()};
   EXPECT_FAILS(futex(&word, FUTEX_WAIT, 0, &deadline, NULL, 0), ETIMEDOUT);
   return unused;
 }

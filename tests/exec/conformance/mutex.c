@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mutexes of the normal, recursive and errorcheck types, and their attributes. Robust ones: robust_mutex.c.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <stdatomic.h>
 #include <stdint.h>

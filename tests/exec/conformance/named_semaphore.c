@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Semaphores with a name.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>
 #include <limits.h>

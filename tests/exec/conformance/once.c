@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Functions that are called once.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <dlfcn.h>
 #include <stdatomic.h>

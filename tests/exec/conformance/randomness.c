@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random numbers of the system. They are written out: the same seed must give the same.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <stdint.h>
 #include <sys/random.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Semaphores without a name.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <limits.h>
 #include <semaphore.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thread-local storage: of the program, and of libraries that are loaded while threads run.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <ctype.h>
 #include <dlfcn.h>

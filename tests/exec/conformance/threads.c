@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A thread's life: made, joined, detached, ended.
-#include "harness.h"
+#include "tests/exec/conformance/harness.h"
 
 #include <stdatomic.h>
 #include <stdint.h>
