@@ -21,7 +21,7 @@ static void* exit_deep(void* argument) {
   volatile char frame[100];
   frame[0] = 1;
   if (argument == NULL) pthread_exit((void*)5);
-  return frame[0] == 1 ? exit_deep((char*)argument - 1) : NULL;
+  return frame[0] == 1 ? exit_deep((void*)((intptr_t)argument - 1)) : NULL;
 }
 CASE(pthread_exit_leaves_nested_calls) { EXPECT_IS((intptr_t)join(start(exit_deep, (void*)20)), 5); }
 
