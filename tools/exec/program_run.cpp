@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/personality.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,6 +39,8 @@ std::filesystem::path find_library() {
     dup2(output, STDOUT_FILENO);
     dup2(output, STDERR_FILENO);
   }
+  // Who is not watched over any more is not to run on.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Equal runs have equal addresses: programs order and hash by them.
   const int persona = personality(0xFFFFFFFF);
   if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
