@@ -7,6 +7,7 @@
 
 #include <cerrno>
 
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -82,19 +83,13 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept {
-  if (!is_clock(clock)) {
-    errno = EINVAL;
-    return -1;
-  }
+  if (!is_clock(clock)) return fail(EINVAL);
   *time = to_timespec(reading_ns(clock, posix::now()));
   return 0;
 }
 
 WAITPOINT_INTERPOSED int clock_getres(clockid_t clock, timespec* resolution) noexcept {
-  if (!is_clock(clock)) {
-    errno = EINVAL;
-    return -1;
-  }
+  if (!is_clock(clock)) return fail(EINVAL);
   if (resolution != nullptr) *resolution = {0, 1};
   return 0;
 }

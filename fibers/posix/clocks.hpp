@@ -14,6 +14,8 @@ inline constexpr std::int64_t first_date_s = 1'704'067'200, first_uptime_s = 360
 
 /// Whether a clock is one that can be waited by.
 bool is_clock(clockid_t clock);
+/// Whether it is one of the two that primitives take deadlines by.
+inline bool is_clock_of_deadlines(clockid_t clock) { return clock == CLOCK_REALTIME || clock == CLOCK_MONOTONIC; }
 /// Virtual time to nanoseconds of a clock.
 std::int64_t reading_ns(clockid_t clock, Time time);
 /// The virtual time at which `clock` shows `reading`; never the past of the run's start, Time::max() beyond what can be

@@ -86,7 +86,7 @@ WAITPOINT_INTERPOSED int pthread_cond_wait(pthread_cond_t* condition, pthread_mu
 
 WAITPOINT_INTERPOSED int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
                                                 const timespec* deadline) {
-  if (!is_valid(*deadline) || (clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC)) return EINVAL;
+  if (!is_valid(*deadline) || !is_clock_of_deadlines(clock)) return EINVAL;
   return wait_before(condition, mutex, when(clock, *deadline));
 }
 

@@ -58,9 +58,7 @@ WAITPOINT_INTERPOSED int close(int descriptor) {
   if (!is_simulated()) return WAITPOINT_NEXT(close)(descriptor);
   forget_timer_descriptor(descriptor);
   const int result = WAITPOINT_NEXT(close)(descriptor);
-  const int error = errno;
   note_inside(descriptor, false);
   look_at_descriptors();
-  errno = error;
   return result;
 }

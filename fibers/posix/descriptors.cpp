@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -32,10 +33,8 @@ int waiting_outside = 0;
 kernel::Object descriptors_object{"descriptor"};
 
 int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
-  const int error = errno;
-  const int ready = WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
-  errno = error;
-  return ready;
+  const ErrorNumberKept kept;
+  return WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
 }
 
 void add(Waiter& waiter) {

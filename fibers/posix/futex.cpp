@@ -14,6 +14,7 @@
 #include <cstdint>
 
 #include "fibers/posix/clocks.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -21,11 +22,6 @@
 
 namespace waitpoint::posix {
 namespace {
-
-long fail(int error) {
-  errno = error;
-  return -1;
-}
 
 long wait(std::uint32_t* address, std::uint32_t expected, Time deadline, std::uint32_t mask) {
   if (mask == 0) return fail(EINVAL);

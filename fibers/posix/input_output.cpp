@@ -12,6 +12,7 @@
 
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -24,9 +25,8 @@ enum class Class { file, pipe, socket, other };
 // Files are always ready, and their use is no event.
 Class class_of(int descriptor) {
   struct stat of {};
-  const int error = errno;
+  const ErrorNumberKept kept;
   const bool known = fstat(descriptor, &of) == 0;
-  errno = error;
   if (!known || S_ISREG(of.st_mode) || S_ISDIR(of.st_mode) || S_ISBLK(of.st_mode)) return Class::file;
   return S_ISFIFO(of.st_mode) ? Class::pipe : S_ISSOCK(of.st_mode) ? Class::socket : Class::other;
 }
@@ -51,9 +51,7 @@ void prepare(int descriptor, kernel::Operation operation, short events, bool may
 template <class Call>
 auto done(Call call) {
   const auto result = call();
-  const int error = errno;
   look_at_descriptors();
-  errno = error;
   return result;
 }
 

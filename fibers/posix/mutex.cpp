@@ -11,8 +11,6 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr int robust_bit = 16;  // of glibc's kind
-
 void hand_on(Mutex& mutex) {
   kernel::disown(mutex.object);
   mutex.depth = 0;
@@ -41,7 +39,6 @@ int lock_again(Mutex& mutex, int type) {
 
 int lock_before(pthread_mutex_t* bytes, Time deadline, bool is_valid_deadline) {
   Mutex& mutex = mutex_of(bytes);
-  mutex.is_robust = (bytes->__data.__kind & robust_bit) != 0;
   pass(kernel::Operation::lock, &mutex.object);
   // What the owner locks again looks at no deadline, unless it is to wait for itself.
   const bool is_known = mutex.object.owner == kernel::running && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP &&
@@ -52,7 +49,6 @@ int lock_before(pthread_mutex_t* bytes, Time deadline, bool is_valid_deadline) {
 
 int try_lock(pthread_mutex_t* bytes) {
   Mutex& mutex = mutex_of(bytes);
-  mutex.is_robust = (bytes->__data.__kind & robust_bit) != 0;
   pass(kernel::Operation::try_lock, &mutex.object);
   if (mutex.is_lost) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP)
@@ -157,7 +153,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_unlock(pthread_mutex_t* mutex) noexcept {
 
 WAITPOINT_INTERPOSED int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid_t clock,
                                                  const timespec* deadline) noexcept {
-  if (clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC) return EINVAL;
+  if (!is_clock_of_deadlines(clock)) return EINVAL;
   if (!is_simulated()) return 0;
   return lock_before(mutex, when(clock, *deadline), is_valid(*deadline));
 }

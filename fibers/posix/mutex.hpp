@@ -12,10 +12,13 @@ namespace waitpoint::posix {
 
 struct Mutex : Waitable {
   static constexpr Kind kind_of_all = Kind::mutex;
-  explicit Mutex(const void* address) : Waitable(kind_of_all, "mutex", address) {}
+  static constexpr int robust_bit = 16;  // of glibc's kind
+  explicit Mutex(const void* address)
+      : Waitable(kind_of_all, "mutex", address),
+        is_robust((static_cast<const pthread_mutex_t*>(address)->__data.__kind & robust_bit) != 0) {}
 
-  std::uint32_t depth = 0;  ///< how often its owner has locked it
-  bool is_robust = false;
+  const bool is_robust;
+  std::uint32_t depth = 0;       ///< how often its owner has locked it
   bool owner_died = false;       ///< its next owner is to be told
   bool is_inconsistent = false;  ///< its owner was told, and has not put it right
   bool is_lost = false;          ///< for good: it was unlocked so

@@ -12,6 +12,7 @@
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -51,10 +52,7 @@ class Sets {
   /// Leaves in the sets what is ready, and returns how many bits that are; -1 where there is no such descriptor.
   int keep_ready() {
     for (nfds_t i = 0; i < size_; ++i)
-      if ((polled_[i].revents & POLLNVAL) != 0) {
-        errno = EBADF;
-        return -1;
-      }
+      if ((polled_[i].revents & POLLNVAL) != 0) return fail(EBADF);
     int bits = 0;
     for (int i = 0; i < 3; ++i) {
       if (sets_[i] == nullptr) continue;
@@ -82,11 +80,6 @@ int select_before(int count, fd_set* readable, fd_set* writable, fd_set* urgent,
   Sets sets(count, readable, writable, urgent);
   wait(sets.polled(), sets.size(), deadline);
   return sets.keep_ready();
-}
-
-int fail(int error) {
-  errno = error;
-  return -1;
 }
 
 }  // namespace

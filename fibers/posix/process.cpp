@@ -13,6 +13,7 @@
 
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -29,7 +30,7 @@ void take_own_record() {
     refuse("there is no memory for a child's simulation");
 }
 
-// A descriptor that is ready when the child has ended, of any child where `pid` is none; -1 where there is no such.
+// A descriptor that is ready when the child has ended; not known where there is no such child.
 class ChildEnds {
  public:
   explicit ChildEnds(pid_t pid) : descriptor_(static_cast<int>(WAITPOINT_NEXT(syscall)(SYS_pidfd_open, pid, 0))) {}
@@ -70,10 +71,9 @@ WAITPOINT_INTERPOSED pid_t wait4(pid_t pid, int* status, int options, rusage* us
   const CancellationPoint point;
   pass(kernel::Operation::join, nullptr);
   if (pid > 0) {
-    const int error = errno;
+    const ErrorNumberKept kept;
     const ChildEnds end(pid);
     if (end.known()) end.wait();
-    errno = error;
     leave_if_cancelled();
   }
   return WAITPOINT_NEXT(wait4)(pid, status, options, usage);

@@ -23,16 +23,10 @@ constexpr char preload_variable[] = "LD_PRELOAD";
 
 constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
 
-struct Body {
-  int (*function)(void*);
-  void* argument;
-};
+int (*program_body)() = nullptr;
 
 // main() returns into exit(), as in the C library; but it may leave by pthread_exit() too.
-void* run_body(void* body) {
-  const Body& of = *static_cast<Body*>(body);
-  std::exit(of.function(of.argument));
-}
+void* run_body(void*) { std::exit(program_body()); }
 
 // Programs that this one starts are not simulated: what was put in front of the libraries they preload is taken away.
 void clear_environment() {
@@ -87,8 +81,9 @@ void refuse(const char* reason) {
   _exit(status_of_own_errors);
 }
 
-void run_program(int (*body)(void*), void* argument, const char* name) {
+void run_program(int (*body)(), const char* name) {
   begin();
+  program_body = body;
   new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   kernel::Scheduler& scheduler = record->scheduler;
   const char* const slash = std::strrchr(name, '/');
@@ -97,10 +92,7 @@ void run_program(int (*body)(void*), void* argument, const char* name) {
   record->running = &kernel::running;
   record->began = true;
   static constinit Thread thread;
-  static constinit Body of;
-  of = {body, argument};
   thread.start.posix = run_body;
-  thread.argument = &of;
   kernel::Task* const task =
       scheduler.spawn(record->robot, {.name = "main", .stack = kernel::StackSize::program}, run_thread, &thread);
   if (task == nullptr) refuse("there is no address space for the stacks of threads");

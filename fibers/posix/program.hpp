@@ -11,7 +11,7 @@ namespace waitpoint::posix {
 extern Record* record;
 
 /// Runs `body` as the first thread of the simulation, and the others with it, until the process exits.
-[[noreturn]] void run_program(int (*body)(void*), void* argument, const char* name);
+[[noreturn]] void run_program(int (*body)(), const char* name);
 
 /// What the kernel calls in a thread with signals to be handled.
 void deliver_signals(kernel::Task& task);

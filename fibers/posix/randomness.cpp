@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/digest.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 
@@ -36,19 +37,13 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED ssize_t getrandom(void* buffer, std::size_t size, unsigned flags) {
   constexpr unsigned of_either = GRND_RANDOM | GRND_INSECURE;
-  if ((flags & ~(GRND_NONBLOCK | of_either)) != 0 || (flags & of_either) == of_either) {
-    errno = EINVAL;
-    return -1;
-  }
+  if ((flags & ~(GRND_NONBLOCK | of_either)) != 0 || (flags & of_either) == of_either) return fail(EINVAL);
   fill(buffer, size);
   return static_cast<ssize_t>(size);
 }
 
 WAITPOINT_INTERPOSED int getentropy(void* buffer, std::size_t size) {
-  if (size > 256) {
-    errno = EIO;
-    return -1;
-  }
+  if (size > 256) return fail(EIO);
   fill(buffer, size);
   return 0;
 }

@@ -148,12 +148,12 @@ WAITPOINT_INTERPOSED int pthread_rwlock_trywrlock(pthread_rwlock_t* lock) noexce
 
 WAITPOINT_INTERPOSED int pthread_rwlock_clockrdlock(pthread_rwlock_t* lock, clockid_t clock,
                                                     const timespec* deadline) noexcept {
-  if (clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC) return EINVAL;
+  if (!is_clock_of_deadlines(clock)) return EINVAL;
   return is_simulated() ? read_before(lock, when(clock, *deadline), is_valid(*deadline)) : 0;
 }
 WAITPOINT_INTERPOSED int pthread_rwlock_clockwrlock(pthread_rwlock_t* lock, clockid_t clock,
                                                     const timespec* deadline) noexcept {
-  if (clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC) return EINVAL;
+  if (!is_clock_of_deadlines(clock)) return EINVAL;
   return is_simulated() ? write_before(lock, when(clock, *deadline), is_valid(*deadline)) : 0;
 }
 WAITPOINT_INTERPOSED int pthread_rwlock_timedrdlock(pthread_rwlock_t* lock, const timespec* deadline) noexcept {

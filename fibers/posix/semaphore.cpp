@@ -12,6 +12,7 @@
 
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/waitable.hpp"
@@ -27,11 +28,6 @@ struct Semaphore : Waitable {
 };
 
 Semaphore& semaphore_of(sem_t* semaphore) { return waitable_at(*reinterpret_cast<Semaphore**>(semaphore), semaphore); }
-
-int fail(int error) {
-  errno = error;
-  return -1;
-}
 
 int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
@@ -140,7 +136,7 @@ WAITPOINT_INTERPOSED int sem_getvalue(sem_t* __restrict semaphore, int* __restri
 WAITPOINT_INTERPOSED int sem_wait(sem_t* semaphore) { return acquire_before(semaphore, Time::max(), true); }
 
 WAITPOINT_INTERPOSED int sem_clockwait(sem_t* semaphore, clockid_t clock, const timespec* deadline) {
-  if (clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC) return fail(EINVAL);
+  if (!is_clock_of_deadlines(clock)) return fail(EINVAL);
   return acquire_before(semaphore, when(clock, *deadline), is_valid(*deadline));
 }
 

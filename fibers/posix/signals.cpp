@@ -11,6 +11,7 @@
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -66,10 +67,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int sigtimedwait(const sigset_t* set, siginfo_t* information, const timespec* timeout) {
   if (!is_simulated()) return WAITPOINT_NEXT(sigtimedwait)(set, information, timeout);
-  if (timeout != nullptr && !is_valid(*timeout)) {
-    errno = EINVAL;
-    return -1;
-  }
+  if (timeout != nullptr && !is_valid(*timeout)) return fail(EINVAL);
   return take(set, information,
               timeout == nullptr ? Time::max() : later(kernel::local_time(*kernel::running), span(*timeout)));
 }

@@ -8,6 +8,7 @@
 
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -41,9 +42,7 @@ WAITPOINT_INTERPOSED int clock_nanosleep(clockid_t clock, int flags, const times
 WAITPOINT_INTERPOSED int nanosleep(const timespec* time, timespec* remaining) {
   if (!is_simulated()) return WAITPOINT_NEXT(nanosleep)(time, remaining);
   const int error = clock_nanosleep(CLOCK_REALTIME, 0, time, remaining);
-  if (error == 0) return 0;
-  errno = error;
-  return -1;
+  return error == 0 ? 0 : fail(error);
 }
 
 WAITPOINT_INTERPOSED unsigned sleep(unsigned seconds) {

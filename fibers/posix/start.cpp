@@ -18,14 +18,14 @@ struct Call {
 };
 Call call;
 
-int call_main(void*) { return call.main(call.argc, call.argv, call.environment); }
+int call_main() { return call.main(call.argc, call.argv, call.environment); }
 
 // The C library calls it in place of main(), with all constructors done.
 int begin_with_main(int argc, char** argv, char** environment) {
   call.argc = argc;
   call.argv = argv;
   call.environment = environment;
-  run_program(call_main, nullptr, argc > 0 ? argv[0] : "program");
+  run_program(call_main, argc > 0 ? argv[0] : "program");
 }
 
 }  // namespace

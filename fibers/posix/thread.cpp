@@ -24,7 +24,6 @@ void __ctype_init();
 void __call_tls_dtors();
 int __sigsetjmp(__jmp_buf_tag* buffer, int save_mask) noexcept;
 void __pthread_register_cancel(__pthread_unwind_buf_t* buffer);
-void __pthread_unregister_cancel(__pthread_unwind_buf_t* buffer);
 }
 
 namespace waitpoint::posix {
@@ -160,7 +159,7 @@ int join(pthread_t id, void** result, Time deadline) {
   if (thread == nullptr) return ESRCH;
   if (thread == &this_thread()) return deadline == Time() ? EBUSY : EDEADLK;
   if (thread->detached || thread->has_joiner) return EINVAL;
-  if (!thread->ended && this_thread().end.first_waiter != nullptr)
+  if (!thread->ended)
     for (const kernel::Task* waiter = this_thread().end.first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
       if (waiter == thread->task) return EDEADLK;
   const CancellationPoint point;
@@ -197,7 +196,7 @@ WAITPOINT_INTERPOSED int pthread_tryjoin_np(pthread_t id, void** result) noexcep
 
 WAITPOINT_INTERPOSED int pthread_clockjoin_np(pthread_t id, void** result, clockid_t clock, const timespec* deadline) {
   if (deadline == nullptr) return join(id, result, Time::max());
-  if (!is_valid(*deadline) || (clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC)) return EINVAL;
+  if (!is_valid(*deadline) || !is_clock_of_deadlines(clock)) return EINVAL;
   const Time time = when(clock, *deadline);
   return join(id, result, time > Time() ? time : Time::from_ns(1));
 }

@@ -66,6 +66,12 @@ inline bool is_simulated() { return kernel::running != nullptr; }
 /// The thread with this id; null if it is none of ours.
 Thread* find(pthread_t id);
 
+/// The same, if it has not ended; else null.
+inline Thread* find_running(pthread_t id) {
+  Thread* const thread = find(id);
+  return thread != nullptr && thread->task != nullptr ? thread : nullptr;
+}
+
 /// The processor time of the thread with this gettid(); none if it has ended.
 Duration spent_by(int id);
 

@@ -11,6 +11,7 @@
 
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -50,9 +51,8 @@ void count(TimerDescriptor& timer, Time now) {
   } else {
     timer.due = Time::max();
   }
-  const int error = errno;
+  const ErrorNumberKept kept;
   [[maybe_unused]] const ssize_t written = WAITPOINT_NEXT(write)(timer.descriptor, &expirations, sizeof expirations);
-  errno = error;
 }
 
 void expire(kernel::EventNode& node) {
@@ -74,11 +74,6 @@ timespec left_of(const TimerDescriptor& timer) {
   if (timer.due == Time::max()) return {};
   const std::int64_t ns = (timer.due - kernel::running->local_time).ns();
   return to_timespec(ns > 0 ? ns : 0);
-}
-
-int fail(int error) {
-  errno = error;
-  return -1;
 }
 
 }  // namespace
@@ -108,7 +103,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int timerfd_create(clockid_t clock, int flags) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timerfd_create)(clock, flags);
-  if (clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC && clock != CLOCK_BOOTTIME) return fail(EINVAL);
+  if (!is_clock_of_deadlines(clock) && clock != CLOCK_BOOTTIME) return fail(EINVAL);
   static_assert(int{TFD_NONBLOCK} == int{EFD_NONBLOCK} && int{TFD_CLOEXEC} == int{EFD_CLOEXEC});
   if ((flags & ~(TFD_NONBLOCK | TFD_CLOEXEC)) != 0) return fail(EINVAL);
   const int descriptor = eventfd(0, flags);
