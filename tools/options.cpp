@@ -270,8 +270,10 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
     argc = 3;  // the rest is not ours
   }
   std::vector<std::string> program;
-  if (argc > 1 && std::string_view(argv[1]) == "exec") {
-    const auto dashes = std::find(words.begin(), words.end(), "--");
+  const auto dashes = std::find(words.begin(), words.end(), "--");
+  const bool is_explored =
+      argc > 1 && std::string_view(argv[1]) == "explore" && std::find(words.begin(), dashes, "--exec") != dashes;
+  if (is_explored || (argc > 1 && std::string_view(argv[1]) == "exec")) {
     if (dashes != words.end()) program.assign(dashes + 1, words.end());
     argc = 2 + static_cast<int>(dashes - words.begin());  // the rest is not ours
   }
@@ -286,7 +288,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   }
   for (const CLI::App* command : app.get_subcommands()) refuse_empty_words(*command);
   if (run->parsed()) return run_options(arguments);
-  if (explore.parsed()) return explore.options();
+  if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
   if (check->parsed()) return CheckOptions{arguments.scenario, arguments.assignments};
   throw BadInput("command line", "expected a command, run, check, explore or exec; waitpoint --help tells more");

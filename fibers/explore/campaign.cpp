@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/environment.hpp"
 #include "fibers/explore/explain.hpp"
 #include "fibers/explore/play.hpp"

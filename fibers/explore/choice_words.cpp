@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/choice_words.hpp"
 
-#include "fibers/explore/timeline.hpp"
+#include "fibers/sync/object_names.hpp"
 
 namespace waitpoint::exploration {
 namespace {
@@ -18,6 +18,17 @@ std::string wakes(const Task& task, std::uint32_t chosen, std::uint32_t count) {
 }
 
 }  // namespace
+
+std::string title_of(const Task& task) {
+  const std::string title = std::string(task.name) + "#" + std::to_string(task.number);
+  return std::string_view(task.robot->name) == "environment" ? title : title + " of " + task.robot->name;
+}
+
+std::string about_to(const Task& task) {
+  std::string text = title_of(task) + ", about to " + name(task.operation);
+  if (task.at != nullptr) text += " " + sync::describe(*task.at);
+  return text;
+}
 
 std::string in_words(Choice choice, const Task& task, std::uint32_t chosen, std::uint32_t count) {
   switch (choice) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands between the kernel and an explorer for one run, and says of one decision in words what was chosen, and what
-// another alternative would have been: who was woken, which wait ended for nothing, how long a computation took.
+// Tasks and what they choose, in words: who was woken, which wait ended for nothing, how long a computation took.
 #pragma once
 
 #include <string>
@@ -9,10 +8,17 @@
 
 namespace waitpoint::exploration {
 
+/// "consumer#2 of r1": tasks of one name are told apart by their numbers. The robot is left out where there are none.
+std::string title_of(const Task& task);
+/// "consumer#2, about to lock mutex #1".
+std::string about_to(const Task& task);
+
 /// What `task` does by an alternative of `count`, other than one between tasks: "wakes thread#3", "goes on for
 /// nothing".
 std::string in_words(Choice choice, const Task& task, std::uint32_t alternative, std::uint32_t count);
 
+/// Stands between the kernel and an explorer for one run, and says of one decision what was chosen, and what another
+/// alternative would have been.
 class ChoiceWords final : public kernel::Decisions {
  public:
   /// Of decision `number`, which is not one between tasks, against its alternative `instead`.

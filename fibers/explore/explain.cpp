@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/choice_words.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/explore/timeline.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
 

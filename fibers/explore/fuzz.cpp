@@ -7,7 +7,6 @@
 #include "fibers/explore/explain.hpp"
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/strategies/bytes.hpp"
-#include "fibers/explore/timeline.hpp"
 
 namespace waitpoint {
 namespace {

@@ -3,10 +3,6 @@
 
 #include <algorithm>
 
-#include "fibers/explore/body.hpp"
-#include "fibers/explore/races/races.hpp"
-#include "fibers/explore/strategies/fifo.hpp"
-
 namespace waitpoint::exploration {
 namespace {
 
@@ -30,6 +26,11 @@ std::vector<std::uint64_t> shared_objects(const Profile& profile) {
 
 }  // namespace
 
+void Profile::finish(std::uint32_t switch_points) {
+  steps = switch_points;
+  shared = shared_objects(*this);
+}
+
 Profiling::Profiling(Profile& profile) : profile_(profile) {
   profile_ = Profile();
   event = &Profiling::count;
@@ -37,35 +38,13 @@ Profiling::Profiling(Profile& profile) : profile_(profile) {
 
 void Profiling::count(kernel::Watch& self, const kernel::EventRecord& record) {
   Profile& profile = static_cast<Profiling&>(self).profile_;
-  const Task& task = *record.task;
+  const kernel::Task& task = *record.task;
   Profile::TaskEvents* known = profile.find(task.id);
   if (known == nullptr) known = &profile.tasks.emplace_back(Profile::TaskEvents{task.id, task.maker, 0, {}});
   ++known->events;
   // That somebody waits for a thread's end does not make its end an object that is worth an order of its own.
   const bool meets = record.object != nullptr && record.operation != kernel::Operation::join;
   known->objects.push_back(meets ? record.object->identity : 0);
-}
-
-void Profiling::finish(std::uint32_t steps) {
-  profile_.steps = steps;
-  profile_.shared = shared_objects(profile_);
-}
-
-Outcome take_profile(Body& body, Profile& profile) {
-  Fifo fifo;
-  if (races::present()) {
-    races::forget_learned();
-    races::learn(true);
-    (void)body.run(fifo);
-    races::learn(false);
-  }
-  Profiling counting(profile);
-  kernel::Scheduler& scheduler = body.simulation().scheduler();
-  scheduler.set_watch(&counting);
-  Outcome outcome = body.run(fifo);
-  scheduler.set_watch(nullptr);
-  counting.finish(body.explorer().steps());
-  return outcome;
 }
 
 }  // namespace waitpoint::exploration

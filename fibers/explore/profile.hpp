@@ -23,6 +23,8 @@ struct Profile {
   std::vector<TaskEvents> tasks;
   std::vector<std::uint64_t> shared;  ///< identities of objects that more than one task used
 
+  /// With the events of all tasks: the run had so many switch points.
+  void finish(std::uint32_t switch_points);
   /// Null for a task that the first schedule did not have.
   const TaskEvents* find(std::uint64_t task) const {
     for (const TaskEvents& known : tasks)
@@ -32,24 +34,15 @@ struct Profile {
   TaskEvents* find(std::uint64_t task) { return const_cast<TaskEvents*>(std::as_const(*this).find(task)); }
 };
 
-/// Counts the events of one run, as its scheduler's watch.
+/// Counts the events of one run, as its scheduler's watch. When it is over the profile is to be finished.
 class Profiling : public kernel::Watch {
  public:
   explicit Profiling(Profile& profile);
-
-  /// The run, of `steps` switch points, is over.
-  void finish(std::uint32_t steps);
 
  private:
   static void count(kernel::Watch& self, const kernel::EventRecord& record);
 
   Profile& profile_;
 };
-
-class Body;
-struct Outcome;
-
-/// Runs `body` in the default order and looks at what it does; what that came to.
-Outcome take_profile(Body& body, Profile& profile);
 
 }  // namespace waitpoint::exploration

@@ -4,13 +4,8 @@
 #include <algorithm>
 #include <ostream>
 
-#include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/sync/object_names.hpp"
-
 namespace waitpoint::exploration {
 namespace {
-
-using kernel::Operation;
 
 std::string quoted(const std::string& text) {
   std::string quoted = "\"";
@@ -22,59 +17,6 @@ std::string quoted(const std::string& text) {
 }
 
 }  // namespace
-
-std::string title_of(const Task& task) {
-  const std::string title = std::string(task.name) + "#" + std::to_string(task.number);
-  return std::string_view(task.robot->name) == "environment" ? title : title + " of " + task.robot->name;
-}
-
-std::string about_to(const Task& task) {
-  std::string text = title_of(task) + ", about to " + name(task.operation);
-  if (task.at != nullptr) text += " " + sync::describe(*task.at);
-  return text;
-}
-
-TimelineRecorder::TimelineRecorder(Timeline& timeline, const Explorer& explorer, Time from)
-    : timeline_(timeline), explorer_(explorer), from_(from) {
-  event = &TimelineRecorder::record;
-}
-
-std::uint32_t TimelineRecorder::number_of(const Task& task) {
-  const auto [known, is_new] = numbers_.emplace(task.id, static_cast<std::uint32_t>(timeline_.tasks.size()));
-  if (is_new) timeline_.tasks.push_back(title_of(task));
-  return known->second;
-}
-
-void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& record) {
-  TimelineRecorder& self = static_cast<TimelineRecorder&>(watch);
-  const std::vector<Decision>& decisions = self.explorer_.schedule().decisions;
-  const bool is_switch =
-      decisions.size() > self.decisions_ && decisions.back().is_switch() && decisions.back().choice == Choice::task;
-  self.decisions_ = decisions.size();
-  if (record.time < self.from_) return;
-  std::vector<TimelineEvent>& events = self.timeline_.events;
-  std::int64_t woken_by = -1;
-  if (record.object != nullptr && record.operation == Operation::resume) {
-    const auto last = self.last_release_.find(record.object->identity);
-    if (last != self.last_release_.end()) woken_by = last->second;
-  } else if (record.object != nullptr && record.operation != Operation::timeout) {
-    self.last_release_[record.object->identity] = static_cast<std::int64_t>(events.size());
-  }
-  const std::uint32_t task = self.number_of(*record.task);
-  events.push_back({record.time, task, record.operation, record.object != nullptr ? sync::describe(*record.object) : "",
-                    woken_by, is_switch});
-}
-
-Timeline take_timeline(Body& body, const Schedule& schedule) {
-  Timeline timeline;
-  TimelineRecorder recording(timeline, body.explorer());
-  kernel::Scheduler& scheduler = body.simulation().scheduler();
-  scheduler.set_watch(&recording);
-  Fifo rest;
-  (void)body.run(rest, {.prefix = schedule.decisions});
-  scheduler.set_watch(nullptr);
-  return timeline;
-}
 
 std::string to_text(const Timeline& timeline, std::size_t events_max) {
   std::size_t width = 0;

@@ -3,19 +3,15 @@
 // with a track for each task in virtual time, and arrows from who woke to who was woken.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "fibers/explore/body.hpp"
+#include "core/time.hpp"
+#include "fibers/kernel/operation.hpp"
 
 namespace waitpoint::exploration {
-
-/// "consumer#2 of r1": tasks of one name are told apart by their numbers. The robot is left out where there are none.
-std::string title_of(const Task& task);
-/// "consumer#2, about to lock mutex #1".
-std::string about_to(const Task& task);
 
 struct TimelineEvent {
   Time time;
@@ -30,26 +26,6 @@ struct Timeline {
   std::vector<std::string> tasks;  ///< their titles, in the order of their first events
   std::vector<TimelineEvent> events;
 };
-
-/// Takes down the events of one run from `from` on, as its scheduler's watch.
-class TimelineRecorder : public kernel::Watch {
- public:
-  TimelineRecorder(Timeline& timeline, const Explorer& explorer, Time from = Time());
-
- private:
-  static void record(kernel::Watch& watch, const kernel::EventRecord& record);
-  std::uint32_t number_of(const Task& task);
-
-  Timeline& timeline_;
-  const Explorer& explorer_;
-  Time from_;
-  std::map<std::uint64_t, std::uint32_t> numbers_;      // of tasks, by id
-  std::map<std::uint64_t, std::int64_t> last_release_;  // the last event at an object that may have woken another
-  std::size_t decisions_ = 0;
-};
-
-/// Runs `body` once more by `schedule`, and looks.
-Timeline take_timeline(Body& body, const Schedule& schedule);
 
 /// The last `events_max` events, one a line: the time, the task in its column, what it does; with an asterisk where it
 /// came in another's place.

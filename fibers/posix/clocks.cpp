@@ -73,7 +73,7 @@ Time when(clockid_t clock, const timespec& reading) {
 timespec to_timespec(std::int64_t ns) { return {ns / second_ns, ns % second_ns}; }
 
 Time read_clock() {
-  spend(cost_of_clock_reading);
+  spend_for_look(cost_of_clock_reading);
   return kernel::local_time(*kernel::running);
 }
 

@@ -23,10 +23,11 @@ namespace {
 
 // What the child does is not what `waitpoint exec` watches: its record becomes a copy, at the same address.
 void take_own_record() {
-  void* copy = mmap(nullptr, sizeof(Record), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* copy = mmap(nullptr, record_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (copy == MAP_FAILED) refuse("there is no memory for a child's simulation");
-  std::memcpy(copy, static_cast<void*>(record), sizeof(Record));
-  if (mremap(copy, sizeof(Record), sizeof(Record), MREMAP_MAYMOVE | MREMAP_FIXED, record) == MAP_FAILED)
+  const auto used = static_cast<const char*>(record->arena.top()) - reinterpret_cast<const char*>(record);
+  std::memcpy(copy, static_cast<void*>(record), static_cast<std::size_t>(used));
+  if (mremap(copy, record_bytes, record_bytes, MREMAP_MAYMOVE | MREMAP_FIXED, record) == MAP_FAILED)
     refuse("there is no memory for a child's simulation");
 }
 

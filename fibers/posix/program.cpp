@@ -11,6 +11,8 @@
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/deadlock.hpp"
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/exploration.hpp"
+#include "fibers/posix/fork_server.hpp"
 #include "fibers/posix/interposed.hpp"
 
 namespace waitpoint::posix {
@@ -39,38 +41,43 @@ void clear_environment() {
     setenv(preload_variable, others + 1, 1);
 }
 
-void map_record() {
-  const char* const text = std::getenv(record_variable);
-  if (text == nullptr) return;
-  const int descriptor = std::atoi(text);
-  void* memory = mmap(nullptr, sizeof(Record), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+// In place of what is mapped there.
+void map_record(int descriptor) {
+  void* const memory = mmap(reinterpret_cast<void*>(record_address), record_bytes, PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_NORESERVE | MAP_FIXED, descriptor, 0);
   close(descriptor);
-  if (memory == MAP_FAILED || static_cast<Record*>(memory)->mark != Record::mark_of_version)
-    refuse("this library and the waitpoint that started it are not of one version");
+  if (memory == MAP_FAILED) refuse("there is no address space for what is known of the run");
   record = static_cast<Record*>(memory);
+  if (record->mark != Record::mark_of_version)
+    refuse("this library and the waitpoint that started it are not of one version");
 }
 
 // While threads wait for what comes from outside, the run comes out at the end of each instant.
-void run_to_end(kernel::Scheduler& scheduler) {
-  Time until = Time::max();
-  for (;;) {
+Ending run_to_end(kernel::Scheduler& scheduler) {
+  const Time end = record->settings.until;
+  for (Time until = end;;) {
     const kernel::RunState state = scheduler.run_before(until);
-    if (state == kernel::RunState::stopped) return;
+    if (state == kernel::RunState::stopped) break;
     if (look_outside(state == kernel::RunState::idle)) {
       until = later(scheduler.global_time(), nanosecond);
     } else if (state == kernel::RunState::idle) {
-      return;
+      break;
+    } else if (scheduler.next_event_time() >= end) {
+      return Ending::cut_off;
     } else {
-      until = anybody_waits_outside() ? later(scheduler.next_event_time(), nanosecond) : Time::max();
+      until = anybody_waits_outside() ? later(scheduler.next_event_time(), nanosecond) : end;
     }
   }
+  if (scheduler.stop_cause() == kernel::StopCause::ended) return Ending::own;
+  return scheduler.stop_cause() == kernel::StopCause::no_progress ? Ending::no_progress : Ending::deadlock;
 }
 
 // The C library calls it before those of libraries that are made with threads: by then they must be simulated.
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
-  map_record();
-  if (record == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
+  const char* const descriptor = std::getenv(record_variable);
+  if (descriptor == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
+  map_record(std::atoi(descriptor));
   clear_environment();
 }
 
@@ -83,12 +90,14 @@ void refuse(const char* reason) {
 
 void run_program(int (*body)(), const char* name) {
   begin();
+  if (const int server = record->settings.server; server >= 0) map_record(serve_runs(server));
   program_body = body;
   new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   kernel::Scheduler& scheduler = record->scheduler;
   const char* const slash = std::strrchr(name, '/');
   scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
   scheduler.set_delivery(deliver_signals);
+  if (record->settings.asked != nullptr) record->explored = new Explored(scheduler, *record->settings.asked);
   record->running = &kernel::running;
   record->began = true;
   static constinit Thread thread;
@@ -97,12 +106,12 @@ void run_program(int (*body)(), const char* name) {
       scheduler.spawn(record->robot, {.name = "main", .stack = kernel::StackSize::program}, run_thread, &thread);
   if (task == nullptr) refuse("there is no address space for the stacks of threads");
   adopt_main_thread(thread, *task);
-  run_to_end(scheduler);
+  record->ending = run_to_end(scheduler);
   // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).
-  if (scheduler.stop_cause() == kernel::StopCause::ended) std::exit(0);
-  report_deadlock(scheduler);
+  if (record->ending == Ending::own) std::exit(0);
+  if (record->ending != Ending::cut_off) report_deadlock(scheduler);
   std::fflush(nullptr);
-  _exit(status_of_deadlock);
+  _exit(record->ending == Ending::cut_off ? 0 : status_of_deadlock);
 }
 
 }  // namespace waitpoint::posix

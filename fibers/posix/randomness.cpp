@@ -56,3 +56,6 @@ WAITPOINT_INTERPOSED std::uint32_t arc4random_uniform(std::uint32_t bound) noexc
 
 // libstdc++'s std::random_device, which asks the processor: unsigned random_device::_M_getval().
 WAITPOINT_INTERPOSED unsigned _ZNSt13random_device9_M_getvalEv(void*) { return static_cast<unsigned>(draw() >> 32); }
+
+// Our own copy of the C++ runtime names it where it makes strings, and would bring its own of the above along.
+extern "C" [[gnu::visibility("hidden")]] void _ZNSt13random_device7_M_initEPKcm(void*, const char*, std::size_t) {}

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `waitpoint exec` and the program that it runs share: a file in memory that both map.
+// What `waitpoint exec` and the program that it runs share: a file in memory that both map, at one address.
 //
-// The digest and the scheduler's counts are kept in it, so that they are known up to the last event however the program
-// ends, killed or not.
+// The digest and the scheduler's counts are kept in it, and where its schedule is explored that too, so that they are
+// known up to the last event however the program ends, killed or not.
 #pragma once
 
 #include <cstdint>
 #include <new>
 
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/posix/arena.hpp"
 
 namespace waitpoint::posix {
 
@@ -18,19 +19,36 @@ inline constexpr char record_variable[] = "WAITPOINT_EXEC";
 /// Exit statuses of a simulated program that are not its own.
 inline constexpr int status_of_deadlock = 124, status_of_own_errors = 125;
 
+/// Where the file is mapped: in no program is anything else there. Its pages are taken as they are used.
+inline constexpr std::uintptr_t record_address = 0x2a00'0000'0000;
+inline constexpr std::size_t record_bytes = std::size_t{1} << 34;
+
+struct Asked;
+struct Explored;
+
 struct Settings {
   kernel::Order order = kernel::Order::seeded;
   std::uint64_t seed = 1;
+  Time until = Time::max();         ///< the run is cut off then
+  const Asked* asked = nullptr;     ///< how the schedule is explored, in Order::explored
+  std::uint32_t looks_at_once = 1;  ///< so many uses of clocks and of giving way are paid for together
+  int server = -1;                  ///< a socket: runs are asked for there, see fork_server.hpp
 };
 
+/// How a run ended that did not end as the program would have.
+enum class Ending : std::uint8_t { own, deadlock, no_progress, cut_off };
+
 struct Record {
-  static constexpr std::uint64_t mark_of_version = 0x7770657865633031;  // "wpexec01"
+  static constexpr std::uint64_t mark_of_version = 0x7770657865633032;  // "wpexec02"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
 
   // Written by the program.
   bool began = false;  ///< the scheduler is there
+  Ending ending = Ending::own;
+  Explored* explored = nullptr;
+  Arena arena;  ///< behind this record
   std::uint32_t threads_made = 0;
   std::uint32_t threads_most = 0;          ///< at once
   kernel::Task* const* running = nullptr;  ///< in the program: where it keeps its running task
@@ -39,7 +57,7 @@ struct Record {
     kernel::Scheduler scheduler;
   };
 
-  Record() {}
+  Record() { arena.start(this + 1, reinterpret_cast<char*>(record_address + record_bytes)); }
   ~Record() {}  // the scheduler is never taken down: the process ends around it
 };
 

@@ -65,7 +65,7 @@ WAITPOINT_INTERPOSED int thrd_sleep(const timespec* time, timespec* remaining) {
 // No cancellation point; but a thread that may be cancelled anywhere is.
 WAITPOINT_INTERPOSED int sched_yield() {
   if (!is_simulated()) return 0;
-  spend(cost_of_giving_way);
+  spend_for_look(cost_of_giving_way);
   kernel::running->scheduler->yield();
   if (this_thread().cancel_at_once) leave_if_cancelled();
   return 0;

@@ -50,8 +50,10 @@ struct Thread {
 
   std::uint64_t signals = 0;  ///< sent by other threads, to be handled: bit n is signal n + 1
 
-  /// Primitives used since virtual time was last moved for that: see waiting.hpp.
+  /// Primitives used, and looks at clocks and turns given away, since virtual time was last moved for that: see
+  /// waiting.hpp.
   std::uint32_t operations = 0;
+  std::uint32_t looks = 0;
   /// Of a wait on a futex: which wake-ups are for it.
   std::uint32_t futex_mask = 0;
 };

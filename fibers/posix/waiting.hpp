@@ -2,10 +2,13 @@
 // Waitpoints of a program's threads.
 //
 // A program declares no computing times, so its threads are at one instant until one sleeps. But loops that poll must
-// end: reading a clock and giving way take a little virtual time, and so do some hundred uses of primitives.
+// end: reading a clock and giving way take a little virtual time, and so do some hundred uses of primitives. Where
+// schedules are explored, some dozen readings pass before any does: threads that read clocks are to stay at one instant
+// with the others.
 #pragma once
 
 #include "fibers/kernel/local_clock.hpp"
+#include "fibers/posix/program.hpp"
 #include "fibers/posix/thread.hpp"
 
 namespace waitpoint::posix {
@@ -21,6 +24,15 @@ inline void spend(Duration cost) {
   thread_of(task).spent += cost;
   spent_by_all += cost;
   kernel::compute(task, cost);
+}
+
+/// The same for what loops do that poll, which is paid for now or after some more of it.
+inline void spend_for_look(Duration cost) {
+  Thread& thread = this_thread();
+  const std::uint32_t looks = record->settings.looks_at_once;
+  if (++thread.looks < looks) return;
+  thread.looks = 0;
+  spend(cost * looks);
 }
 
 /// The running thread's event at its place in the order of all; returns when it is the least.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/minimize.hpp"
 #include "fibers/explore/play.hpp"
 

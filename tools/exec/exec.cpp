@@ -2,36 +2,23 @@
 #include "tools/exec/exec.hpp"
 
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <set>
 
 #include "tools/exec/program_run.hpp"
+#include "tools/shell_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-std::string quoted(const std::string& word) {
-  if (!word.empty() &&
-      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%") ==
-          std::string::npos)
-    return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::string replay_line(const ExecOptions& options, std::uint64_t seed) {
   std::string line = "waitpoint exec --seed " + std::to_string(seed);
   if (options.order == kernel::Order::fifo) line += " --strategy fifo";
-  line += " --";
-  for (const std::string& word : options.words) line += " " + quoted(word);
-  return line;
+  return line + " --" + quoted(options.words);
 }
 
 std::string name_of(const ExecOptions& options) {
@@ -54,13 +41,11 @@ void print_failure(const ExecOptions& options, const ProgramRun& run, std::uint6
   std::fprintf(stderr, "waitpoint: replay: %s\n", replay_line(options, seed).c_str());
 }
 
-/// As a shell sees the program itself.
-[[noreturn]] void end_by(int signal) {
-  const rlimit no_second_core{};
-  setrlimit(RLIMIT_CORE, &no_second_core);
-  std::signal(signal, SIG_DFL);
-  raise(signal);
-  std::exit(128 + signal);
+posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed) {
+  posix::Settings settings;
+  settings.order = options.order;
+  settings.seed = seed;
+  return settings;
 }
 
 // What a program writes, kept until it is known whether it is to be shown.
@@ -95,11 +80,12 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     if (terminal)
       std::fprintf(stderr, "\rseed %llu, %zu schedules ", static_cast<unsigned long long>(seed), digests.size());
     output.forget();
-    const ProgramRun run(options, files, seed, output.descriptor());
+    const RunMemory memory(settings_of(options, seed));
+    const ProgramRun run(files, options.words, memory, output.descriptor());
     // From the terminal, mostly: it is not the program that fails.
     if (run.signal() == SIGINT || run.signal() == SIGTERM) end_by(run.signal());
     ++runs;
-    if (run.began()) digests.insert(run.record().robot.digest.value());
+    if (memory.record().began) digests.insert(memory.record().robot.digest.value());
     if (run.exit_status() != 0) {
       if (terminal) std::fprintf(stderr, "\r%40s\r", "");
       output.show();
@@ -122,10 +108,11 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
 int exec(const ExecOptions& options) {
   const ProgramFiles files(options.words.front());
   if (options.seeds) return run_seeds(options, files);
-  const ProgramRun run(options, files, options.seed);
-  const bool failed = run.signal() != 0 || run.exit_status() == posix::status_of_deadlock;
-  if (run.began()) {
-    if (!options.quiet || failed) print_summary(run.record(), name_of(options));
+  const RunMemory memory(settings_of(options, options.seed));
+  const ProgramRun run(files, options.words, memory);
+  const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
+  if (memory.record().began) {
+    if (!options.quiet || failed) print_summary(memory.record(), name_of(options));
     if (failed) print_failure(options, run, options.seed);
   }
   if (run.signal() != 0) end_by(run.signal());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/exec/watchdog.hpp"
 
+#include <fmt/format.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -44,23 +45,23 @@ std::string running_thread(const posix::Record& record, pid_t process) {
 
 }  // namespace
 
-void Watchdog::look() {
-  if (!record_.began) return;
+std::string Watchdog::look() {
+  if (!record_.began) return "";
   const double now_s = processor_s(program_);
   if (const std::uint64_t events = record_.scheduler.events(); events != events_ || since_s_ == 0) {
     events_ = events;
     since_s_ = now_s;
     told_ = false;
   }
-  if (told_ || now_s - since_s_ < patience_s) return;
+  if (told_ || now_s - since_s_ < patience_s) return "";
   told_ = true;
   const std::string thread = running_thread(record_, program_);
-  std::fprintf(stderr,
-               "waitpoint: %s has computed for %.0f s, at %s s of virtual time, without a call that is simulated: if "
-               "it waits for another\n"
-               "           thread in a loop without calls, it waits for ever\n",
-               thread.empty() ? "a thread" : ("thread '" + thread + "'").c_str(), now_s - since_s_,
-               to_string(record_.scheduler.global_time()).c_str());
+  return fmt::format(
+      "{} has computed for {:.0f} s, at {} s of virtual time, without a call that is simulated: if it waits for "
+      "another\n"
+      "           thread in a loop without calls, it waits for ever",
+      thread.empty() ? "a thread" : "thread '" + thread + "'", now_s - since_s_,
+      to_string(record_.scheduler.global_time()));
 }
 
 }  // namespace waitpoint::tools

@@ -6,6 +6,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <string>
 
 #include "fibers/posix/record.hpp"
 
@@ -15,8 +16,8 @@ class Watchdog {
  public:
   Watchdog(const posix::Record& record, pid_t program) : record_(record), program_(program) {}
 
-  /// To be called now and then; says it on the error stream, once for each such stretch.
-  void look();
+  /// To be called now and then: what is to be said, once for each such stretch; mostly nothing.
+  std::string look();
 
  private:
   const posix::Record& record_;

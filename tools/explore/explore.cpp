@@ -10,7 +10,10 @@
 #include "core/number_text.hpp"
 #include "modules/bridge/scenario_reader.hpp"
 #include "tools/explore/failure_report.hpp"
+#include "tools/explore/program_replay.hpp"
+#include "tools/explore/program_target.hpp"
 #include "tools/explore/replay.hpp"
+#include "tools/explore/scene.hpp"
 #include "tools/interruption.hpp"
 #include "tools/output_file.hpp"
 
@@ -27,11 +30,11 @@ class Files {
 
   bool has_results() const { return results_.has_value(); }
   /// The same head from each shard, so that merged files have it once.
-  void write_results(const Scene& scene, const Search& search) {
+  void write_results(const Target& target, const Search& search) {
     if (!results_) return;
-    const ExploreOptions& options = scene.options();
-    results_->write(fmt::format("# waitpoint results 1: scenario {:016x}, strategy {}, seed {}\n",
-                                scene.scenario().fingerprint, options.strategy, options.seed));
+    const ExploreOptions& options = target.options();
+    results_->write(fmt::format("# waitpoint results 1: scenario {:016x}, strategy {}, seed {}\n", target.fingerprint(),
+                                options.strategy, options.seed));
     for (const auto& [number, line] : search.lines()) results_->write(line);
     results_->commit();
   }
@@ -60,37 +63,47 @@ void tell(const FailureReport& report, Files& files) {
   files.write(report);
 }
 
-std::string sum(const Scene& scene, const Search& search, double seconds) {
-  return fmt::format("{}: {}, {} distinct, {} failed, in {:.1f} s ({:.1f} a second){}\n", scene.scenario().name,
+std::string sum(const Target& target, const Search& search, double seconds) {
+  return fmt::format("{}: {}, {} distinct, {} failed, in {:.1f} s ({:.1f} a second){}\n", target.name(),
                      counted(search.schedules(), "schedule"), search.distinct(), search.failures(), seconds,
                      seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
                      search.interrupted() ? "; stopped by a signal" : "");
 }
 
-}  // namespace
-
-int explore(const ExploreOptions& options, std::span<const genom::ModuleType> types) {
-  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
-  if (!options.replay.empty()) return replay(options, scenario, types);
+int search(Target& target, Files& files) {
   heed_signals();
-  Files files(options);
-  Scene scene(scenario, types, options, replay_command(options));
-  scene.prepare();
+  target.prepare();
   SearchProgress progress(stderr, isatty(STDERR_FILENO) != 0);
-  std::optional<Finding> usual = run_apart(scene, {.drawn = false}, {.profile = true});
+  std::optional<Finding> usual = run_apart(target, {.drawn = false}, {.profile = true});
   if (usual && !usual->passed() && !files.has_results()) {
-    tell(report_default(scene, *usual), files);
+    tell(report_default(target, *usual), files);
     return 1;
   }
-  if (usual) scene.set_profile(std::move(usual->profile));
-  Search search(scene, progress);
+  if (usual) target.set_profile(std::move(usual->profile));
+  Search search(target, progress);
   const double start_s = progress.seconds();
   if (usual) search.run(files.has_results());
   const double seconds = progress.seconds() - start_s;
-  files.write_results(scene, search);
-  put(sum(scene, search, seconds));
-  if (search.first()) tell(report(scene, progress, *search.first()), files);
+  files.write_results(target, search);
+  put(sum(target, search, seconds));
+  if (search.first()) tell(report(target, progress, *search.first()), files);
   return search.interrupted() || !usual ? 130 : search.first() ? 1 : 0;
+}
+
+}  // namespace
+
+int explore(const ExploreOptions& options, std::span<const genom::ModuleType> types) {
+  if (!options.program.empty()) {
+    if (!options.replay.empty()) return replay_program(options);
+    Files files(options);
+    ProgramTarget program(options);
+    return search(program, files);
+  }
+  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  if (!options.replay.empty()) return replay(options, scenario, types);
+  Files files(options);
+  Scene scene(scenario, types, options, replay_command(options));
+  return search(scene, files);
 }
 
 }  // namespace waitpoint::tools

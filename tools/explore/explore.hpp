@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint explore`: a scenario under many schedules, and what is to be told of the first that fails.
+// `waitpoint explore`: a scenario or a program under many schedules, and what is to be told of the first that fails.
 #pragma once
 
 #include <span>

@@ -75,15 +75,21 @@ std::optional<std::filesystem::path> file(const std::string& name) {
 }  // namespace
 
 ExploreArguments::ExploreArguments(CLI::App& app)
-    : command_(app.add_subcommand(
-          "explore", "Runs a scenario under many schedules, durations and noises; tells the first failure.")) {
+    : command_(app.add_subcommand("explore",
+                                  "Runs a scenario, or a program, under many schedules; tells the first failure.")) {
   const auto add = [this](const char* name, std::string& value, const char* type, const std::string& description) {
     command_->add_option(name, value, description)->type_name(type);
   };
   const auto add_all = [this](const char* name, std::vector<std::string>& values, const char* description) {
     command_->add_option(name, values, description)->type_name("KEY=VALUE")->allow_extra_args(false);
   };
-  command_->add_option("SCENARIO", scenario_, "the scenario file")->required()->type_name(" ");
+  command_->add_option("SCENARIO", scenario_, "the scenario file")->type_name(" ");
+  command_
+      ->add_flag("--exec", is_program_,
+                 "instead of a scenario, a program as `waitpoint exec` runs it (docs/exec.md):\n"
+                 "  waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]\n"
+                 "a schedule fails whose exit status is not 0, that a signal ends, or that is stuck")
+      ->disable_flag_override();
   add("--strategy", strategy_, "S",
       "how schedules are drawn (default: $WAITPOINT_STRATEGY, or portfolio):\n" + exploration::strategy_names());
   add("--iterations", iterations_, "N",
@@ -111,8 +117,26 @@ ExploreArguments::ExploreArguments(CLI::App& app)
 
 bool ExploreArguments::parsed() const { return command_->parsed(); }
 
-ExploreOptions ExploreArguments::options() const {
+// A program has no such thing.
+void ExploreArguments::check_program() const {
+  if (!scenario_.empty())
+    throw BadInput("explore",
+                   "expected '--' between --exec and the program, or no --exec with the scenario '" + scenario_ + "'");
+  if (!from_.empty()) throw BadInput("--from", "cannot be used together with --exec");
+  if (!assignments_.empty()) throw BadInput("--set", "cannot be used together with --exec");
+  if (!properties_.empty()) throw BadInput("--property", "cannot be used together with --exec");
+}
+
+ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {
   ExploreOptions options;
+  if (is_program_) {
+    check_program();
+    if (words.empty())
+      throw BadInput("explore", "expected what to run: waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");
+    options.program = words;
+  } else if (scenario_.empty()) {
+    throw BadInput("explore", "expected a scenario's file, or --exec and a program");
+  }
   options.scenario = scenario_;
   options.assignments = assignments_;
   options.properties = properties_;

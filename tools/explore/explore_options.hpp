@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `waitpoint explore SCENARIO ...` is asked for, as values.
+// What `waitpoint explore` is asked for, as values.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,7 @@ struct Shard {
 
 struct ExploreOptions {
   std::filesystem::path scenario;
+  std::vector<std::string> program;      ///< instead of a scenario: its words
   std::vector<std::string> assignments;  ///< of --set, then those of --property: "expect.collisions=0"
   std::vector<std::string> properties;   ///< of --property: "collisions=0"
   std::string strategy = "portfolio";
@@ -49,15 +50,17 @@ class ExploreArguments {
 
   /// Whether the command line has it.
   bool parsed() const;
-  /// What they say; BadInput where they cannot be meant.
-  ExploreOptions options() const;
+  /// What they say, with the words behind `--`; BadInput where they cannot be meant.
+  ExploreOptions options(const std::vector<std::string>& words) const;
 
  private:
+  void check_program() const;
+
   CLI::App* command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, jobs_, until_, from_, shard_;
   std::string results_, trace_, schedule_, replay_;
   std::vector<std::string> assignments_, properties_;
-  bool keep_all_ = false;
+  bool is_program_ = false, keep_all_ = false;
 };
 
 }  // namespace waitpoint::tools

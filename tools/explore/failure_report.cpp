@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <sstream>
 
 #include "core/number_text.hpp"
 #include "fibers/explore/token.hpp"
 #include "tools/explore/fewer_switches.hpp"
 #include "tools/explore/last_choice.hpp"
+#include "tools/shell_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -20,7 +20,6 @@ using exploration::token_digest;
 
 constexpr std::uint64_t runs_to_minimize = 2000, runs_to_explain = 200;
 constexpr double seconds_to_minimize = 90, seconds_to_explain = 60;
-constexpr std::size_t events_shown = 30;
 constexpr Duration traced = std::chrono::seconds(2);
 
 std::string headline(const std::string& which, const Finding& finding) {
@@ -28,69 +27,48 @@ std::string headline(const std::string& which, const Finding& finding) {
 }
 
 /// The failing run once more: switches in words, then what happened last.
-void tell_run(Scene& scene, const Plan& plan, const Finding& least, FailureReport& report) {
-  const auto switches = run_apart(scene, plan, {.words = true, .places = true});
-  if (switches && !switches->told.empty()) report.text += "switches away from the default order:\n" + switches->told;
+void tell_run(Target& target, const Plan& plan, const Finding& least, FailureReport& report) {
   const Time from = Time() + std::max(Duration(), least.end.since_start() - traced);
-  const auto events = find_apart([&] {
-    exploration::Timeline timeline;
-    Finding finding = scene.run(plan, {.timeline = &timeline, .timeline_from = from});
-    finding.told = to_text(timeline, events_shown);
-    if (scene.options().trace) {
-      std::ostringstream trace;
-      write_trace(trace, timeline);
-      finding.trace = trace.str();
-    }
-    return to_bytes(finding);
-  });
-  if (!events || events->told.empty()) return;
-  report.text += "what the tasks did last (*: in place of one that could have gone on):\n" + events->told;
-  report.trace = events->trace;
-}
-
-std::string quoted(const std::string& word) {
-  if (word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%") ==
-          std::string::npos &&
-      !word.empty())
-    return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
+  const auto told = run_apart(target, plan, {.words = true, .places = true, .events = true, .events_from = from});
+  if (!told) return;
+  if (!told->told.empty()) report.text += "switches away from the default order:\n" + told->told;
+  if (!told->last_events.empty())
+    report.text += "what the tasks did last (*: in place of one that could have gone on):\n" + told->last_events;
+  report.trace = told->trace;
 }
 
 }  // namespace
 
-std::string replay_command(const ExploreOptions& options) {
-  std::string line = quoted(program_invocation_name) + " explore " + quoted(options.scenario.string());
+std::string replay_command(const ExploreOptions& options, const std::string& replayed) {
+  std::string line = quoted(program_invocation_name) + " explore ";
+  line += options.program.empty() ? quoted(options.scenario.string()) : "--exec";
   line += " --seed " + std::to_string(options.seed);
   if (options.until) line += " --until " + to_string(Time() + *options.until);
   if (options.from) line += " --from " + to_string(Time() + *options.from);
   const std::size_t sets = options.assignments.size() - options.properties.size();
   for (std::size_t i = 0; i < sets; ++i) line += " --set " + quoted(options.assignments[i]);
   for (const std::string& property : options.properties) line += " --property " + quoted(property);
+  if (!replayed.empty()) line += " --replay " + quoted(replayed);
+  if (!options.program.empty()) line += " --" + quoted(options.program);
   return line;
 }
 
-FailureReport report_default(Scene& scene, const Finding& finding) {
+FailureReport report_default(Target& target, const Finding& finding) {
   FailureReport report;
-  const ExploreOptions& options = scene.options();
-  report.text = headline("the default order, with the scenario's own noise,", finding);
-  report.schedule = {scene.scenario().fingerprint,
-                     "fifo",
-                     options.seed,
-                     0,
-                     Time() + options.from.value_or(Duration()),
-                     finding.digest,
-                     {}};
-  tell_run(scene, {.drawn = false}, finding, report);
+  const ExploreOptions& options = target.options();
+  report.text =
+      headline(target.has_noise() ? "the default order, with the scenario's own noise," : "the default order", finding);
+  report.schedule = {target.fingerprint(), "fifo", options.seed, 0, Time() + options.from.value_or(Duration()),
+                     finding.digest,       {}};
+  tell_run(target, {.drawn = false}, finding, report);
   report.text += "digest: " + digest_text(finding.digest) + "\n";
-  report.text += "replay: " + replay_command(options) + " --replay " +
-                 to_text(Token{0, token_digest(finding.digest), "", 0, 0, {}}) + "\n";
+  const Token token{0, token_digest(finding.digest), "", 0, 0, {}};
+  report.text += "replay: " + replay_command(options, to_text(token)) + "\n";
   return report;
 }
 
-FailureReport report(Scene& scene, SearchProgress& progress, const Search::Failed& failed) {
-  const ExploreOptions& options = scene.options();
+FailureReport report(Target& target, SearchProgress& progress, const Search::Failed& failed) {
+  const ExploreOptions& options = target.options();
   FailureReport report;
   report.text =
       headline(fmt::format("schedule {} of strategy {}, seed {},", failed.number, options.strategy, options.seed),
@@ -101,16 +79,18 @@ FailureReport report(Scene& scene, SearchProgress& progress, const Search::Faile
   Finding least = failed.finding;
   if (options.minimize) {
     Budget budget(runs_to_minimize, seconds_to_minimize);
-    FewerSwitches fewer(scene, progress, budget, failed.number, failed.finding);
+    FewerSwitches fewer(target, progress, budget, failed.number, failed.finding);
     fewer.run();
     if (fewer.is_noise()) {
-      report.text += "it is the noise, not the order: with the noise of this schedule the default order fails too\n";
+      report.text += target.has_noise() ? "it is the noise, not the order: with the noise of this schedule the default "
+                                          "order fails too\n"
+                                        : "now and then the default order fails too\n";
     } else if (fewer.repeats()) {
       const std::size_t count = fewer.least().switches.size();
       report.text += fmt::format("{} {} away from the default order {}, of {} that were found ({})\n", count,
                                  count == 1 ? "switch" : "switches", count == 1 ? "fails" : "fail",
                                  failed.finding.switches.size(), counted(budget.used(), "run"));
-      if (fewer.number() == 0 && failed.number != 0) report.text += "the noise does not matter\n";
+      if (target.has_noise() && fewer.number() == 0 && failed.number != 0) report.text += "the noise does not matter\n";
     }
     if (fewer.is_noise() || fewer.repeats()) {
       least = fewer.least();
@@ -119,22 +99,17 @@ FailureReport report(Scene& scene, SearchProgress& progress, const Search::Faile
       if (fewer.number() == 0 && deviating.size() <= exploration::token_length_max) token = deviating;
     }
     Budget explaining(runs_to_explain, seconds_to_explain);
-    if (const auto choice = last_choice(scene, progress, explaining, plan.number, least))
+    if (const auto choice = last_choice(target, progress, explaining, plan.number, least))
       report.text += "the last choice from which it could still have passed: " + *choice + "\n";
   }
   progress.finish();
-  report.schedule = {scene.scenario().fingerprint,
-                     options.strategy,
-                     options.seed,
-                     plan.number,
-                     Time() + options.from.value_or(Duration()),
-                     least.digest,
-                     least.switches};
-  if (failed.finding.kind != Finding::Kind::killed) tell_run(scene, plan, least, report);
+  report.schedule = {
+      target.fingerprint(), options.strategy, options.seed, plan.number, Time() + options.from.value_or(Duration()),
+      least.digest,         least.switches};
+  if (failed.finding.kind != Finding::Kind::killed) tell_run(target, plan, least, report);
   report.text += "digest: " + digest_text(least.digest) + "\n";
-  report.text += "replay: " + replay_command(options) + " --replay " + token + "\n";
-  if (options.schedule)
-    report.text += "replay: " + replay_command(options) + " --replay " + quoted(options.schedule->string()) + "\n";
+  report.text += "replay: " + replay_command(options, token) + "\n";
+  if (options.schedule) report.text += "replay: " + replay_command(options, options.schedule->string()) + "\n";
   return report;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A failure of a scene for a person: what failed, in as few switches as can be found, the last choice that mattered,
+// A failure of a target for a person: what failed, in as few switches as can be found, the last choice that mattered,
 // what the tasks did last, and the line that repeats it.
 #pragma once
 
@@ -17,11 +17,11 @@ struct FailureReport {
 };
 
 /// Of what the default order comes to.
-FailureReport report_default(Scene& scene, const Finding& finding);
+FailureReport report_default(Target& target, const Finding& finding);
 /// Of what failed in a search. Takes some minutes at most.
-FailureReport report(Scene& scene, SearchProgress& progress, const Search::Failed& failed);
+FailureReport report(Target& target, SearchProgress& progress, const Search::Failed& failed);
 
-/// The command that runs the scenario with these options, up to what is written behind --replay.
-std::string replay_command(const ExploreOptions& options);
+/// The command that runs the target with these options; with `replayed`, a token or a file's name, that schedule of it.
+std::string replay_command(const ExploreOptions& options, const std::string& replayed = "");
 
 }  // namespace waitpoint::tools

@@ -18,15 +18,20 @@ constexpr std::size_t few = 40;
 
 }  // namespace
 
-FewerSwitches::FewerSwitches(Scene& scene, SearchProgress& progress, Budget& budget, std::uint64_t number,
+FewerSwitches::FewerSwitches(Target& target, SearchProgress& progress, Budget& budget, std::uint64_t number,
                              const Finding& found)
-    : scene_(scene), progress_(progress), budget_(budget), number_(number), least_(found), until_(found.end + longer) {}
+    : target_(target),
+      progress_(progress),
+      budget_(budget),
+      number_(target.has_noise() ? number : 0),
+      least_(found),
+      until_(found.end + longer) {}
 
 bool FewerSwitches::fails(std::uint64_t number, const std::vector<Switch>& switches) {
   if (interrupted_ || !budget_.take()) return false;
   progress_.update(fmt::format("minimising: {} switches, run {}", least_.switches.size(), budget_.used()));
   std::optional<Finding> tried =
-      run_apart(scene_, {.number = number, .drawn = false, .switches = switches, .until = until_});
+      run_apart(target_, {.number = number, .drawn = false, .switches = switches, .until = until_});
   interrupted_ = !tried;
   if (!tried || !is_same_failure(least_, *tried)) return false;
   // A switch that was left out may bring others about that were none before.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A failing schedule of a scene with as few switches away from the default order as a budget finds: what is left is
+// A failing schedule of a target with as few switches away from the default order as a budget finds: what is left is
 // what matters. Switches are left out as long as the rest fails in the same way, with the same noise
 // (fibers/explore/leave_out.hpp); and at last the noise too, if it can be.
 #pragma once
@@ -12,7 +12,7 @@ namespace waitpoint::tools {
 class FewerSwitches {
  public:
   /// Of what failed as `found` with the noise of schedule `number`.
-  FewerSwitches(Scene& scene, SearchProgress& progress, Budget& budget, std::uint64_t number, const Finding& found);
+  FewerSwitches(Target& target, SearchProgress& progress, Budget& budget, std::uint64_t number, const Finding& found);
 
   void run();
 
@@ -29,7 +29,7 @@ class FewerSwitches {
   void leave_out();
   bool leave_out_and_move(std::vector<exploration::Switch> others, const exploration::Switch& gone, std::size_t at);
 
-  Scene& scene_;
+  Target& target_;
   SearchProgress& progress_;
   Budget& budget_;
   std::uint64_t number_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <sstream>
 #include <type_traits>
 
 #include "core/error.hpp"
@@ -83,10 +84,13 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.deviations);
   pass(finding.parted);
   pass(finding.told);
+  pass(finding.last_events);
   pass(finding.trace);
   pass(finding.profile.steps);
   pass(finding.profile.shared);
 }
+
+constexpr std::size_t events_shown = 30;
 
 // Numbers out of the way: those in the words differ from schedule to schedule.
 std::string without_digits(std::string text) {
@@ -95,6 +99,14 @@ std::string without_digits(std::string text) {
 }
 
 }  // namespace
+
+void Finding::tell(const exploration::Timeline& timeline, bool trace_too) {
+  last_events = to_text(timeline, events_shown);
+  if (!trace_too) return;
+  std::ostringstream text;
+  write_trace(text, timeline);
+  trace = text.str();
+}
 
 bool is_same_failure(const Finding& a, const Finding& b) {
   if (a.passed() || a.kind != b.kind) return false;

@@ -11,6 +11,7 @@
 #include "core/time.hpp"
 #include "fibers/explore/profile.hpp"
 #include "fibers/explore/schedule.hpp"
+#include "fibers/explore/timeline.hpp"
 
 namespace waitpoint::tools {
 
@@ -26,13 +27,20 @@ struct Finding {
   std::vector<exploration::Switch> switches;       ///< of a failure
   std::vector<exploration::Deviation> deviations;  ///< the same
   bool parted = false;                             ///< what was played did not fit the run
-  std::string told, trace;       ///< where asked for: the switches in words or the last events; the trace
-  exploration::Profile profile;  ///< where asked for
+  std::string told;                                ///< where asked for: the switches in words, or a decision
+  std::string last_events;                         ///< where asked for, in words
+  std::string trace;                               ///< where asked for
+  exploration::Profile profile;                    ///< where asked for
 
   bool passed() const { return kind == Kind::passed; }
+  /// Takes over what the tasks did.
+  void tell(const exploration::Timeline& timeline, bool trace_too);
   /// "2 collisions, expected 0".
   std::string headline() const { return words.substr(0, words.find('\n')); }
 };
+
+/// Of the switches in words.
+inline constexpr std::size_t lines_of_switches_max = 12;
 
 /// Whether both failed in the same way: in the same words, but for numbers, which differ from schedule to schedule.
 bool is_same_failure(const Finding& a, const Finding& b);

@@ -22,7 +22,7 @@ std::vector<Deviation> before(const std::vector<Deviation>& all, std::size_t dec
 
 }  // namespace
 
-std::optional<std::string> last_choice(Scene& scene, SearchProgress& progress, Budget& budget, std::uint64_t number,
+std::optional<std::string> last_choice(Target& target, SearchProgress& progress, Budget& budget, std::uint64_t number,
                                        const Finding& least) {
   if (least.deviations.empty()) return std::nullopt;
   std::size_t passes = least.deviations.back().decision, fails = least.decisions;
@@ -32,19 +32,19 @@ std::optional<std::string> last_choice(Scene& scene, SearchProgress& progress, B
     for (std::uint64_t attempt = 0; attempt < continuations && !passed; ++attempt) {
       if (!budget.take()) return std::nullopt;
       progress.update(fmt::format("explaining: {} choices left, run {}", fails - passes, budget.used()));
-      const std::optional<Finding> tried = run_apart(scene, {.number = number,
-                                                             .drawn = false,
-                                                             .deviations = before(least.deviations, middle),
-                                                             .at_random_from = middle,
-                                                             .attempt = attempt,
-                                                             .until = least.end + longer});
+      const std::optional<Finding> tried = run_apart(target, {.number = number,
+                                                              .drawn = false,
+                                                              .deviations = before(least.deviations, middle),
+                                                              .at_random_from = middle,
+                                                              .attempt = attempt,
+                                                              .until = least.end + longer});
       if (!tried) return std::nullopt;
       passed = tried->passed();
     }
     (passed ? passes : fails) = middle;
   }
   const std::optional<Finding> told =
-      run_apart(scene, {.number = number, .drawn = false, .deviations = least.deviations}, {.decision = passes});
+      run_apart(target, {.number = number, .drawn = false, .deviations = least.deviations}, {.decision = passes});
   if (!told || told->told.empty()) return std::nullopt;
   return fmt::format("number {}, {}", passes, told->told);
 }

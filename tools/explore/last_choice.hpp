@@ -15,7 +15,7 @@ namespace waitpoint::tools {
 
 /// In words: "number 1234, at 12.100000000 s: segloc.slam of rackham computes 33 ms in place of 95 ms". Nothing where
 /// the budget does not reach, or the failure needs no switch. `least` failed with the noise of schedule `number`.
-std::optional<std::string> last_choice(Scene& scene, SearchProgress& progress, Budget& budget, std::uint64_t number,
+std::optional<std::string> last_choice(Target& target, SearchProgress& progress, Budget& budget, std::uint64_t number,
                                        const Finding& least);
 
 }  // namespace waitpoint::tools

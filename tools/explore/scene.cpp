@@ -4,19 +4,20 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "fibers/explore/strategies/continuation.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/explore/strategies/random.hpp"
+#include "fibers/explore/timeline_recorder.hpp"
 #include "modules/bridge/expectation.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 using exploration::Draws;
+using exploration::Narrator;
 
 // Between them expectations are looked at that a run cannot meet any more.
 constexpr Duration window = std::chrono::milliseconds(100);
 constexpr std::uint32_t steps_of_an_instant_max = 100'000;
-constexpr std::size_t lines_of_switches_max = 12;
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
@@ -25,29 +26,6 @@ std::string joined(const std::vector<std::string>& lines) {
 }
 
 bool is_of_goals(const std::string& property) { return property.starts_with("goals_reached="); }
-
-/// The default order up to some decision, then any.
-class RandomContinuation final : public exploration::Strategy {
- public:
-  RandomContinuation(const exploration::Explorer& explorer, std::size_t from) : explorer_(explorer), from_(from) {}
-  void begin(std::uint64_t number, const Draws& draws, const exploration::Profile& profile) override {
-    random_.begin(number, draws, profile);
-  }
-  std::uint32_t next(const exploration::SwitchPoint& at) override {
-    return is_behind() ? random_.next(at) : usual_.next(at);
-  }
-  std::uint32_t among(kernel::Choice choice, const kernel::Task& task, std::uint32_t count) override {
-    return is_behind() ? random_.among(choice, task, count) : usual_.among(choice, task, count);
-  }
-
- private:
-  bool is_behind() const { return explorer_.schedule().decisions.size() >= from_; }
-
-  const exploration::Explorer& explorer_;
-  std::size_t from_;
-  exploration::Random random_;
-  exploration::Fifo usual_;
-};
 
 }  // namespace
 
@@ -98,11 +76,6 @@ void Scene::prepare() {
     throw BadInput("--from", "the run is over at " + to_string(stage_->experiment.simulation().global_time()) + " s");
 }
 
-bool Scene::needs_profile() const {
-  const std::string kind = options_.strategy.substr(0, options_.strategy.find(':'));
-  return kind != "random" && kind != "pos" && kind != "fifo";
-}
-
 Finding Scene::run(const Plan& plan, const Request& request) {
   if (options_.from) {
     WAITPOINT_CHECK(!is_left_, "a run sets out from mid-run twice in one process");
@@ -116,7 +89,7 @@ Finding Scene::run(const Plan& plan, const Request& request) {
   if (plan.drawn)
     strategy = exploration::make_strategy(options_.strategy);
   else if (plan.at_random_from)
-    strategy = std::make_unique<RandomContinuation>(explorer, *plan.at_random_from);
+    strategy = std::make_unique<exploration::Continuation>(explorer, *plan.at_random_from);
   const std::uint64_t draw = plan.at_random_from ? plan.attempt : plan.number;
   strategy->begin(draw, Draws(options_.seed, plan.at_random_from ? "continuation" : options_.strategy, draw), profile_);
   stage_->plan = plan;
@@ -138,19 +111,20 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   std::optional<exploration::Profiling> profiling;
   std::optional<exploration::TimelineRecorder> recorder;
   if (request.profile) scheduler.set_watch(&profiling.emplace(finding.profile));
-  if (request.timeline != nullptr)
-    scheduler.set_watch(&recorder.emplace(*request.timeline, stage_->explorer, request.timeline_from));
+  exploration::Timeline timeline;
+  if (request.events) scheduler.set_watch(&recorder.emplace(timeline, stage_->explorer, request.events_from));
   if (request.words || request.decision) scheduler.set_decisions(narrator);
   if (request.decision) narrator.ask_for(*request.decision);
   simulation.tell(request.places ? sync::Places::told : sync::Places::left_out);
   carry_out(plan.until, finding);
   scheduler.set_watch(nullptr);
   scheduler.set_decisions(stage_->explorer);
-  if (profiling) profiling->finish(stage_->explorer.steps());
+  if (profiling) finding.profile.finish(stage_->explorer.steps());
   if (const auto& answer = narrator.answer(); request.decision && answer)
     finding.told = "at " + to_string(answer->time) + " s: " + answer->words;
   else if (request.words)
     finding.told = to_text(narrator.switches(), lines_of_switches_max);
+  if (request.events) finding.tell(timeline, options_.trace.has_value());
 }
 
 void Scene::carry_out(Time until, Finding& finding) {
@@ -197,7 +171,7 @@ bridge::RunResult Scene::result() const {
   return result;
 }
 
-const std::vector<Told>& Scene::switches() const { return stage_->narrator.switches(); }
+const std::vector<exploration::Told>& Scene::switches() const { return stage_->narrator.switches(); }
 
 const exploration::Schedule& Scene::schedule() const { return stage_->explorer.schedule(); }
 

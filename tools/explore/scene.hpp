@@ -9,56 +9,38 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
 #include "fibers/explore/explorer.hpp"
-#include "fibers/explore/profile.hpp"
-#include "fibers/explore/timeline.hpp"
+#include "fibers/explore/narrator.hpp"
 #include "modules/bridge/experiment.hpp"
-#include "tools/explore/explore_options.hpp"
-#include "tools/explore/finding.hpp"
-#include "tools/explore/narrator.hpp"
-#include "tools/explore/plan.hpp"
+#include "tools/explore/target.hpp"
 
 namespace waitpoint::tools {
 
-class Scene {
+class Scene final : public Target {
  public:
-  /// What is to be seen of a run beside what it comes to.
-  struct Request {
-    bool profile = false;
-    bool words = false;   ///< switches in words
-    bool places = false;  ///< where in the source tasks stand that a report names
-    exploration::Timeline* timeline = nullptr;
-    Time timeline_from = Time();
-    std::optional<std::size_t> decision = {};  ///< what was chosen there
-  };
-
   /// BadInput for a scenario that cannot be run. What is given must outlive the scene.
   Scene(const bridge::Scenario& scenario, std::span<const genom::ModuleType> types, const ExploreOptions& options,
         std::string replay);
-  ~Scene();
+  ~Scene() override;
 
+  std::string name() const override { return scenario_.name; }
+  std::uint64_t fingerprint() const override { return scenario_.fingerprint; }
+  bool has_noise() const override { return true; }
+  const ExploreOptions& options() const override { return options_; }
   /// Goes to the time from which runs part, if there is one.
-  void prepare();
-  /// How the default order goes from here on: for strategies that are to know.
-  void set_profile(exploration::Profile profile) { profile_ = std::move(profile); }
-  /// Whether a drawn schedule depends on that.
-  bool needs_profile() const;
-
-  /// One run in this process, by the plan.
-  Finding run(const Plan& plan, const Request& request);
-  Finding run(const Plan& plan) { return run(plan, Request()); }
+  void prepare() override;
+  void set_profile(exploration::Profile profile) override { profile_ = std::move(profile); }
+  using Target::run;
+  Finding run(const Plan& plan, const Request& request) override;
 
   /// After run().
   bridge::RunResult result() const;
-  const std::vector<Told>& switches() const;
+  const std::vector<exploration::Told>& switches() const;
   const exploration::Schedule& schedule() const;
 
-  const bridge::Scenario& scenario() const { return scenario_; }
-  const ExploreOptions& options() const { return options_; }
   /// The seed of the noise of schedule `number`; that of the first is the scenario's own, as `waitpoint run` has it.
   std::uint64_t noise(std::uint64_t number) const;
 

@@ -21,16 +21,12 @@ Finding outcome_of(const Children::Ended& ended) {
 
 }  // namespace
 
-std::optional<Finding> find_apart(const std::function<std::string()>& work) {
+std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request) {
   Children children;
-  children.start(0, work);
+  children.start(0, [&] { return to_bytes(target.run(plan, request)); });
   while (interruption() == 0)
     if (const auto ended = children.wait(look_around_ms)) return outcome_of(*ended);
   return std::nullopt;
-}
-
-std::optional<Finding> run_apart(Scene& scene, const Plan& plan, const Scene::Request& request) {
-  return find_apart([&] { return to_bytes(scene.run(plan, request)); });
 }
 
 std::string result_line(std::uint64_t number, const Finding& finding) {
@@ -39,7 +35,7 @@ std::string result_line(std::uint64_t number, const Finding& finding) {
 }
 
 bool Search::may_start(bool all) const {
-  const ExploreOptions& options = scene_.options();
+  const ExploreOptions& options = target_.options();
   const std::uint64_t number = options.shard.index - 1 + started_ * options.shard.count;
   return number < options.iterations && (all || !first_) &&
          !(options.time_limit_s > 0 && progress_.seconds() >= options.time_limit_s);
@@ -58,11 +54,11 @@ void Search::take(const Children::Ended& ended, bool all) {
 }
 
 void Search::run(bool all) {
-  const ExploreOptions& options = scene_.options();
+  const ExploreOptions& options = target_.options();
   while (!interrupted_) {
     while (children_.count() < options.jobs && may_start(all)) {
       const std::uint64_t number = options.shard.index - 1 + started_++ * options.shard.count;
-      children_.start(number, [&] { return to_bytes(scene_.run({.number = number})); });
+      children_.start(number, [&] { return to_bytes(target_.run({.number = number})); });
     }
     if (children_.count() == 0) break;
     if (const auto ended = children_.wait(look_around_ms)) take(*ended, all);

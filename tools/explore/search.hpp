@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Schedule after schedule of a scene, several at once, each in a process of its own, until one fails or it is enough.
+// Schedule after schedule of a target, several at once, each in a process of its own, until one fails or it is enough.
 //
 // Numbers are dealt out in their order. When one fails, those below it are waited for and those above are given up: so
 // the failure that is told is the one of the lowest number, however many processes there are.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <unordered_set>
 
 #include "tools/explore/children.hpp"
-#include "tools/explore/scene.hpp"
 #include "tools/explore/search_progress.hpp"
+#include "tools/explore/target.hpp"
 
 namespace waitpoint::tools {
 
-/// One run of the scene in a process of its own; nothing where a signal to this one came between.
-std::optional<Finding> run_apart(Scene& scene, const Plan& plan, const Scene::Request& request = {});
-/// The same for who asks for more than a run; `work` gives back the finding's bytes.
-std::optional<Finding> find_apart(const std::function<std::string()>& work);
+/// One run of the target in a process of its own; nothing where a signal to this one came between.
+std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request = {});
 
 /// "00000000000000000017 wp1:0123456789abcdef failed: 2 collisions, expected 0": as wide as any number, so that text
 /// sorts as numbers do.
@@ -33,9 +30,9 @@ class Search {
     Finding finding;
   };
 
-  Search(Scene& scene, SearchProgress& progress) : scene_(scene), progress_(progress) {}
+  Search(Target& target, SearchProgress& progress) : target_(target), progress_(progress) {}
 
-  /// Tries the schedules that the scene's options ask for. With `all`, failures do not end it.
+  /// Tries the schedules that its options ask for. With `all`, failures do not end it.
   void run(bool all);
 
   std::uint64_t schedules() const { return schedules_; }
@@ -50,7 +47,7 @@ class Search {
   bool may_start(bool all) const;
   void take(const Children::Ended& ended, bool all);
 
-  Scene& scene_;
+  Target& target_;
   SearchProgress& progress_;
   Children children_;
   std::uint64_t started_ = 0;

@@ -3,7 +3,7 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/body.hpp"
-#include "fibers/explore/profile.hpp"
+#include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/strategy.hpp"
 #include "tests/bench/explore/body.hpp"
 

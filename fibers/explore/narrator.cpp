@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/narrator.hpp"
-
-#include <fmt/format.h>
+#include "fibers/explore/narrator.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/number_text.hpp"
 #include "fibers/explore/choice_words.hpp"
-#include "fibers/explore/timeline.hpp"
 #include "fibers/sync/object_names.hpp"
 
-namespace waitpoint::tools {
+namespace waitpoint::exploration {
 namespace {
 
-using exploration::Decision;
-using kernel::Choice;
-using kernel::Task;
-
-std::string about_to(const Task& task) {
-  std::string text = exploration::title_of(task) + " (" + kernel::name(task.operation);
+std::string in_brackets(const Task& task) {
+  std::string text = title_of(task) + " (" + kernel::name(task.operation);
   if (task.at != nullptr) text += " " + sync::describe(*task.at);
   return text + ")";
 }
 
-double milliseconds(Duration duration) { return static_cast<double>(duration.ns()) * 1e-6; }
+std::string milliseconds(Duration duration) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g ms", static_cast<double>(duration.ns()) * 1e-6);
+  return text;
+}
 
 }  // namespace
 
@@ -44,8 +42,8 @@ std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
   const std::uint32_t chosen = explorer_.next(ready, count);
   if (count > 1 && chosen < count)
     tell([&](const Decision& decision) {
-      const std::string one = about_to(*ready[decision.chosen]);
-      if (decision.is_switch()) return one + " goes first, in place of " + about_to(*ready[decision.usual]);
+      const std::string one = in_brackets(*ready[decision.chosen]);
+      if (decision.is_switch()) return one + " goes first, in place of " + in_brackets(*ready[decision.usual]);
       return one + " goes first, as usual, of " + counted(count, "task");
     });
   return chosen;
@@ -54,7 +52,7 @@ std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
 std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t count) {
   const std::uint32_t chosen = explorer_.among(choice, task, count);
   tell([&](const Decision& decision) {
-    return about_to(task) + " " + exploration::in_words(choice, task, decision.chosen, count);
+    return in_brackets(task) + " " + in_words(choice, task, decision.chosen, count);
   });
   return chosen;
 }
@@ -62,19 +60,18 @@ std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t cou
 Duration Narrator::computing(const Task& task, Duration least, Duration greatest) {
   const Duration chosen = explorer_.computing(task, least, greatest);
   tell([&](const Decision& decision) {
-    return fmt::format(
-        "{} computes {:g} ms{}", exploration::title_of(task), milliseconds(chosen),
-        decision.is_switch() ? fmt::format(" in place of {:g} ms", milliseconds(greatest)) : ", as usual");
+    return title_of(task) + " computes " + milliseconds(chosen) +
+           (decision.is_switch() ? " in place of " + milliseconds(greatest) : ", as usual");
   });
   return chosen;
 }
 
 std::string to_text(const std::vector<Told>& switches, std::size_t lines_max) {
   const std::size_t from = switches.size() - std::min(switches.size(), lines_max);
-  std::string text = from > 0 ? fmt::format("  ... {} before\n", from) : "";
+  std::string text = from > 0 ? "  ... " + std::to_string(from) + " before\n" : "";
   for (std::size_t i = from; i < switches.size(); ++i)
     text += "  " + to_string(switches[i].time) + " s  " + switches[i].words + "\n";
   return text;
 }
 
-}  // namespace waitpoint::tools
+}  // namespace waitpoint::exploration

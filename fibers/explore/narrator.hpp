@@ -9,7 +9,7 @@
 
 #include "fibers/explore/explorer.hpp"
 
-namespace waitpoint::tools {
+namespace waitpoint::exploration {
 
 /// A choice in words.
 struct Told {
@@ -20,8 +20,7 @@ struct Told {
 
 class Narrator final : public kernel::Decisions {
  public:
-  Narrator(kernel::Scheduler& scheduler, exploration::Explorer& explorer)
-      : scheduler_(scheduler), explorer_(explorer) {}
+  Narrator(kernel::Scheduler& scheduler, Explorer& explorer) : scheduler_(scheduler), explorer_(explorer) {}
 
   /// Also decision `number`, usual or not.
   void ask_for(std::size_t number) { asked_ = number; }
@@ -38,7 +37,7 @@ class Narrator final : public kernel::Decisions {
   void tell(const Words& words);
 
   kernel::Scheduler& scheduler_;
-  exploration::Explorer& explorer_;
+  Explorer& explorer_;
   std::size_t decisions_ = 0;
   std::optional<std::size_t> asked_;
   std::optional<Told> answer_;
@@ -49,4 +48,4 @@ class Narrator final : public kernel::Decisions {
 /// `lines_max` of them.
 std::string to_text(const std::vector<Told>& switches, std::size_t lines_max);
 
-}  // namespace waitpoint::tools
+}  // namespace waitpoint::exploration

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/body_watch.hpp"
+
+#include "fibers/explore/races/races.hpp"
+#include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/explore/timeline_recorder.hpp"
+
+namespace waitpoint::exploration {
+
+Outcome take_profile(Body& body, Profile& profile) {
+  Fifo fifo;
+  if (races::present()) {
+    races::forget_learned();
+    races::learn(true);
+    (void)body.run(fifo);
+    races::learn(false);
+  }
+  Profiling counting(profile);
+  kernel::Scheduler& scheduler = body.simulation().scheduler();
+  scheduler.set_watch(&counting);
+  Outcome outcome = body.run(fifo);
+  scheduler.set_watch(nullptr);
+  profile.finish(body.explorer().steps());
+  return outcome;
+}
+
+Timeline take_timeline(Body& body, const Schedule& schedule) {
+  Timeline timeline;
+  TimelineRecorder recording(timeline, body.explorer());
+  kernel::Scheduler& scheduler = body.simulation().scheduler();
+  scheduler.set_watch(&recording);
+  Fifo rest;
+  (void)body.run(rest, {.prefix = schedule.decisions});
+  scheduler.set_watch(nullptr);
+  return timeline;
+}
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the runs of a body show beside what they come to.
+#pragma once
+
+#include "fibers/explore/body.hpp"
+#include "fibers/explore/profile.hpp"
+#include "fibers/explore/timeline.hpp"
+
+namespace waitpoint::exploration {
+
+/// Runs `body` in the default order and looks at what it does; what that came to.
+Outcome take_profile(Body& body, Profile& profile);
+
+/// Runs `body` once more by `schedule`, and looks.
+Timeline take_timeline(Body& body, const Schedule& schedule);
+
+}  // namespace waitpoint::exploration

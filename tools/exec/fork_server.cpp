@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/fork_server.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "fibers/posix/fork_server.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr int least_descriptor = 900;  // see run_memory.cpp
+
+[[noreturn]] void fail(const char* what) { throw BadInput("exec", std::string(what) + ": " + std::strerror(errno)); }
+
+// Whether a whole answer came.
+template <class Answer>
+bool receive(int socket, Answer& answer) {
+  ssize_t size = 0;
+  do size = recv(socket, &answer, sizeof answer, 0);
+  while (size < 0 && errno == EINTR);
+  return size == static_cast<ssize_t>(sizeof answer);
+}
+
+void ask(int socket, const int (&descriptors)[posix::run_descriptors]) {
+  char byte = 0;
+  iovec part{&byte, 1};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptors)] = {};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  cmsghdr* const head = CMSG_FIRSTHDR(&message);
+  head->cmsg_level = SOL_SOCKET;
+  head->cmsg_type = SCM_RIGHTS;
+  head->cmsg_len = CMSG_LEN(sizeof descriptors);
+  std::memcpy(CMSG_DATA(head), descriptors, sizeof descriptors);
+  (void)sendmsg(socket, &message, MSG_NOSIGNAL);  // that nobody listens is noticed when no answer comes
+}
+
+}  // namespace
+
+ForkServer::ForkServer(const ProgramFiles& files, const std::vector<std::string>& words, posix::Settings settings) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket can be had");
+  settings.server = fcntl(ends[1], F_DUPFD, least_descriptor);  // it stays open in the program
+  if (settings.server < 0) fail("no descriptor can be had");
+  const RunMemory memory(settings);
+  process_ = start_program(files, words, memory);
+  close(ends[1]);
+  close(settings.server);
+  socket_ = ends[0];
+}
+
+ForkServer::~ForkServer() {
+  close(socket_);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+ServedRun::ServedRun(const ForkServer& server, const RunMemory& memory, int input, int output) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket can be had");
+  answers_ = ends[0];
+  ask(server.socket_, {memory.descriptor(), input, output, ends[1]});
+  close(ends[1]);
+  posix::RunStarted started{};
+  if (!receive(answers_, started)) throw BadInput("exec", "the program ended before it came to its main()");
+  if (started.process < 0) throw BadInput("exec", "no process can be made");
+  process_ = started.process;
+}
+
+ServedRun::~ServedRun() { close(answers_); }
+
+std::optional<int> ServedRun::wait(int timeout_ms) {
+  pollfd one{answers_, POLLIN, 0};
+  if (poll(&one, 1, timeout_ms) <= 0) return std::nullopt;
+  posix::RunEnded ended{SIGKILL};  // with its server
+  (void)receive(answers_, ended);
+  return ended.status;
+}
+
+}  // namespace waitpoint::tools

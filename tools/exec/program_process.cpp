@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/program_process.hpp"
+
+#include <sys/personality.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "tools/data_folder.hpp"
+#include "tools/exec/exec.hpp"
+#include "tools/exec/program_file.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+std::filesystem::path find_library() {
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const char name[] = "libwaitpoint-exec.so";
+  const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
+  for (const std::filesystem::path& place : {folder / ".." / name, installed})
+    if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
+  throw BadInput("exec", "the library for programs is not installed: expected " + installed.string());
+}
+
+[[noreturn]] void become(const ProgramFiles& files, const std::vector<std::string>& arguments, int record, int output) {
+  const std::string preloaded = files.library.string();
+  if (output >= 0) {
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+  }
+  // Who is not watched over any more is not to run on.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Equal runs have equal addresses: programs order and hash by them.
+  const int persona = personality(0xFFFFFFFF);
+  if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
+  const char* const others = std::getenv("LD_PRELOAD");
+  setenv("LD_PRELOAD", (others != nullptr ? preloaded + ":" + others : preloaded).c_str(), 1);
+  setenv(posix::record_variable, std::to_string(record).c_str(), 1);
+  std::vector<char*> words;
+  for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  execv(files.program.c_str(), words.data());
+  std::fprintf(stderr, "waitpoint: exec: %s: %s\n", files.program.c_str(), std::strerror(errno));
+  _exit(exec_failed);
+}
+
+}  // namespace
+
+ProgramFiles::ProgramFiles(const std::string& name) : program(find_program(name)) {
+  if (program.empty()) throw BadInput("exec", "there is no program '" + name + "'");
+  if (const std::string reason = cannot_be_simulated(program); !reason.empty())
+    throw BadInput("exec", program.string() + " " + reason);
+  library = find_library();
+}
+
+pid_t start_program(const ProgramFiles& files, const std::vector<std::string>& words, const RunMemory& memory,
+                    int output) {
+  std::fflush(nullptr);
+  const pid_t process = fork();
+  if (process < 0) throw BadInput("exec", std::string("no process can be made: ") + std::strerror(errno));
+  if (process == 0) become(files, words, memory.descriptor(), output);
+  return process;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A program in a process of its own, into which the library of fibers/posix is preloaded.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/exec/run_memory.hpp"
+
+namespace waitpoint::tools {
+
+/// What can be run, and with what. BadInput where it cannot: there is no such program, it is linked statically, the
+/// library is not installed.
+struct ProgramFiles {
+  explicit ProgramFiles(const std::string& name);
+
+  std::filesystem::path program, library;
+};
+
+/// Starts the program with these words, its name first. It reads and writes where this process does, but for a
+/// descriptor `output`, if it is none of -1, that takes both of its streams. It ends with this process.
+pid_t start_program(const ProgramFiles& files, const std::vector<std::string>& words, const RunMemory& memory,
+                    int output = -1);
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/run_memory.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+// Programs that look at the numbers of their descriptors find the first ones free.
+constexpr int least_descriptor = 900;
+
+[[noreturn]] void no_memory() { throw BadInput("exec", std::string("no memory to share: ") + std::strerror(errno)); }
+
+}  // namespace
+
+RunMemory::RunMemory(const posix::Settings& settings) {
+  const int made = memfd_create("waitpoint-exec", 0);
+  descriptor_ = fcntl(made, F_DUPFD, least_descriptor);
+  if (descriptor_ >= 0)
+    close(made);
+  else
+    descriptor_ = made;
+  if (descriptor_ < 0 || ftruncate(descriptor_, posix::record_bytes) != 0) no_memory();
+  void* const memory = mmap(reinterpret_cast<void*>(posix::record_address), posix::record_bytes, PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_NORESERVE | MAP_FIXED_NOREPLACE, descriptor_, 0);
+  if (memory == MAP_FAILED) no_memory();
+  record_ = new (memory) posix::Record();
+  record_->settings = settings;
+}
+
+RunMemory::~RunMemory() {
+  munmap(record_, posix::record_bytes);
+  close(descriptor_);
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/program_finding.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "fibers/posix/exploration.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using posix::Asked;
+
+// What reads clocks or gives way stays at one instant with the others for so many of these.
+constexpr std::uint32_t looks_at_once = 64;
+
+/// A copy for the program, in the memory that it shares.
+template <class T>
+std::span<const T> copied(posix::Arena& arena, const std::vector<T>& values) {
+  if (values.empty()) return {};
+  T* const copy = static_cast<T*>(arena.take(values.size() * sizeof(T)));
+  if (copy == nullptr) throw BadInput("exec", "what is known of the program is too much to be told");
+  std::uninitialized_copy(values.begin(), values.end(), copy);
+  return {copy, values.size()};
+}
+
+void tell_profile(posix::Arena& arena, const exploration::Profile& profile, Asked& asked) {
+  std::vector<Asked::TaskProfile> tasks;
+  for (const exploration::Profile::TaskEvents& task : profile.tasks)
+    tasks.push_back({task.task, task.parent, task.events, copied(arena, task.objects)});
+  asked.steps = profile.steps;
+  asked.tasks = copied(arena, tasks);
+  asked.shared = copied(arena, profile.shared);
+}
+
+void judge(const RunMemory& memory, int status, Finding& finding) {
+  const posix::Ending ending = memory.record().ending;
+  finding.kind = Finding::Kind::unmet;
+  if (!memory.record().began) {
+    finding.words = "it did not come to its main()";
+  } else if (ending == posix::Ending::deadlock) {
+    finding.kind = Finding::Kind::deadlock;
+    finding.words = "deadlock";
+  } else if (ending == posix::Ending::no_progress) {
+    finding.kind = Finding::Kind::no_progress;
+    finding.words = "no progress: its threads look for something again and again";
+  } else if (WIFSIGNALED(status)) {
+    finding.words = "ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+  } else if (WEXITSTATUS(status) != 0) {
+    finding.words = "exit status " + std::to_string(WEXITSTATUS(status));
+  } else {
+    finding.kind = Finding::Kind::passed;
+  }
+}
+
+}  // namespace
+
+posix::Settings settings_of(const ExploreOptions& options) {
+  posix::Settings settings;
+  settings.order = kernel::Order::explored;
+  settings.seed = options.seed;
+  settings.looks_at_once = looks_at_once;
+  if (options.until) settings.until = Time() + *options.until;
+  return settings;
+}
+
+void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& plan, const Target::Request& request,
+                 const exploration::Profile& profile) {
+  posix::Record& record = memory.record();
+  Asked& asked = *new (record.arena.take(sizeof(Asked))) Asked();
+  const std::string strategy = plan.drawn ? options.strategy : "";
+  WAITPOINT_CHECK(strategy.size() < sizeof asked.strategy, "the name of a strategy is too long");
+  std::memcpy(asked.strategy, strategy.c_str(), strategy.size() + 1);
+  asked.seed = options.seed;
+  asked.number = plan.at_random_from ? plan.attempt : plan.number;
+  asked.switches = copied(record.arena, plan.switches);
+  asked.deviations = copied(record.arena, plan.deviations);
+  asked.at_random_from = plan.at_random_from.value_or(Asked::none);
+  if (plan.drawn) tell_profile(record.arena, profile, asked);
+  asked.profile = request.profile;
+  asked.words = request.words;
+  asked.events = request.events;
+  asked.events_from = request.events_from;
+  asked.decision = request.decision.value_or(Asked::none);
+  record.settings.asked = &asked;
+  record.settings.until = std::min(record.settings.until, plan.until);
+}
+
+Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const Target::Request& request,
+                       bool trace_too) {
+  Finding finding;
+  judge(memory, status, finding);
+  if (!finding.passed() && !output.empty()) finding.words += "\n" + output;
+  const posix::Record& record = memory.record();
+  if (record.explored == nullptr) return finding;
+  const posix::Explored& explored = *record.explored;
+  finding.digest = record.robot.digest.value();
+  finding.end = record.scheduler.global_time();
+  finding.events = record.scheduler.events();
+  finding.decisions = explored.explorer.schedule().decisions.size();
+  finding.parted = explored.explorer.parted();
+  if (!finding.passed()) {
+    finding.switches = explored.explorer.schedule().switches;
+    finding.deviations = explored.explorer.schedule().deviations();
+  }
+  if (request.profile) {
+    finding.profile = explored.profile;
+    finding.profile.finish(explored.explorer.steps());
+  }
+  if (request.decision && explored.narrator.answer())
+    finding.told = "at " + to_string(explored.narrator.answer()->time) + " s: " + explored.narrator.answer()->words;
+  else if (request.words)
+    finding.told = to_text(explored.narrator.switches(), lines_of_switches_max);
+  if (request.events) finding.tell(explored.timeline, trace_too);
+  return finding;
+}
+
+}  // namespace waitpoint::tools

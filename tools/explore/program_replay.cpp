@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/program_replay.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "core/error.hpp"
+#include "fibers/posix/exploration.hpp"
+#include "tools/exec/program_run.hpp"
+#include "tools/explore/program_finding.hpp"
+#include "tools/explore/program_target.hpp"
+#include "tools/explore/replay_record.hpp"
+#include "tools/output_file.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+/// What the default order shows; the program's output is not seen.
+exploration::Profile take_profile(const ProgramFiles& files, const ExploreOptions& options) {
+  const Target::Request request{.profile = true};
+  RunMemory memory(settings_of(options));
+  ask_for_run(memory, options, {.drawn = false}, request, {});
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const ProgramRun run(files, options.program, memory, nowhere);
+  close(nowhere);
+  return finding_of_run(memory, run.status(), "", request, false).profile;
+}
+
+}  // namespace
+
+int replay_program(const ExploreOptions& asked) {
+  ExploreOptions options = asked;
+  const ProgramFiles files(options.program.front());
+  const ReplayRecord record = read_replay_record(options, fingerprint_of(files, options));
+  std::optional<OutputFile> trace;
+  if (options.trace) trace.emplace(*options.trace);
+  exploration::Profile profile;
+  if (record.plan.drawn && needs_profile(options.strategy)) profile = take_profile(files, options);
+  const Target::Request request{.words = !record.plan.switches.empty(), .events = trace.has_value()};
+  RunMemory memory(settings_of(options));
+  ask_for_run(memory, options, record.plan, request, profile);
+  const ProgramRun run(files, options.program, memory);
+  const Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());
+  if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before it came to its main()");
+  const posix::Explored& explored = *memory.record().explored;
+  check_is_run_of(record, {explored.explorer.schedule(), explored.narrator.switches(), finding}, options.replay);
+  if (trace) {
+    trace->write(finding.trace);
+    trace->commit();
+  }
+  std::fprintf(stderr, "waitpoint: %s%s\n", finding.passed() ? "passed" : "failed: ", finding.headline().c_str());
+  if (record.digest_bits > 0) std::fprintf(stderr, "waitpoint: the same run as in the record\n");
+  return finding.passed() ? 0 : 1;
+}
+
+}  // namespace waitpoint::tools

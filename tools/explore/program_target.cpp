@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/program_target.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+
+#include "core/digest.hpp"
+#include "tools/exec/watchdog.hpp"
+#include "tools/explore/program_finding.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr int look_around_ms = 1000;
+constexpr std::size_t output_shown = 2000;
+
+// What the run reads: our own input from its beginning, if that is a file, else nothing.
+int open_input() {
+  struct stat of {};
+  const bool is_file = fstat(STDIN_FILENO, &of) == 0 && S_ISREG(of.st_mode);
+  const int input = open(is_file ? "/proc/self/fd/0" : "/dev/null", O_RDONLY | O_CLOEXEC);
+  return input >= 0 ? input : open("/dev/null", O_RDONLY | O_CLOEXEC);
+}
+
+// The last lines, each indented.
+std::string end_of(int output) {
+  const off_t size = lseek(output, 0, SEEK_END);
+  const off_t from = std::max<off_t>(0, size - static_cast<off_t>(output_shown));
+  std::string text(static_cast<std::size_t>(size - from), '\0');
+  const ssize_t got = pread(output, text.data(), text.size(), from);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  if (from > 0) text.erase(0, text.find('\n') + 1);
+  while (text.ends_with('\n')) text.pop_back();
+  std::string indented;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.size(), text.find('\n', at));
+    indented += (indented.empty() ? "  " : "\n  ") + text.substr(at, end - at);
+    at = end + 1;
+  }
+  return indented;
+}
+
+}  // namespace
+
+std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& options) {
+  Digest digest;
+  std::ifstream file(files.program, std::ios::binary);
+  char bytes[65536];
+  while (file.read(bytes, sizeof bytes) || file.gcount() > 0)
+    digest.add(std::string_view(bytes, static_cast<std::size_t>(file.gcount())));
+  for (const std::string& word : options.program) digest.add(std::string_view(word));
+  digest.add(options.seed);
+  if (options.until) digest.add(static_cast<std::uint64_t>(options.until->ns()));
+  return digest.value();
+}
+
+ProgramTarget::ProgramTarget(const ExploreOptions& options)
+    : options_(options), files_(options.program.front()), fingerprint_(fingerprint_of(files_, options)) {}
+
+void ProgramTarget::prepare() { server_.emplace(files_, options_.program, settings_of(options_)); }
+
+Finding ProgramTarget::run(const Plan& plan, const Request& request) {
+  RunMemory memory(settings_of(options_));
+  ask_for_run(memory, options_, plan, request, profile_);
+  const int input = open_input(), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
+  ServedRun run(*server_, memory, input, output);
+  Watchdog watchdog(memory.record(), run.process());
+  std::string stalled;
+  std::optional<int> status;
+  while (!(status = run.wait(look_around_ms))) {
+    if (std::string words = watchdog.look(); !words.empty()) {
+      stalled = std::move(words);
+      kill(run.process(), SIGKILL);
+    }
+  }
+  Finding finding = finding_of_run(memory, *status, end_of(output), request, options_.trace.has_value());
+  if (!stalled.empty()) {
+    finding.kind = Finding::Kind::no_progress;
+    finding.words = stalled;
+  }
+  close(input);
+  close(output);
+  return finding;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A program whose threads are simulated, as it comes: it fails by its exit status, a signal or a deadlock.
+//
+// Each run is a process that is forked where the program is about to enter its main(). All have the same random numbers
+// and addresses; only their schedules differ.
+#pragma once
+
+#include "tools/exec/fork_server.hpp"
+#include "tools/explore/target.hpp"
+
+namespace waitpoint::tools {
+
+class ProgramTarget final : public Target {
+ public:
+  /// BadInput for a program that cannot be run. The options must outlive it.
+  explicit ProgramTarget(const ExploreOptions& options);
+
+  std::string name() const override { return files_.program.filename(); }
+  std::uint64_t fingerprint() const override { return fingerprint_; }
+  bool has_noise() const override { return false; }
+  const ExploreOptions& options() const override { return options_; }
+  void prepare() override;
+  void set_profile(exploration::Profile profile) override { profile_ = std::move(profile); }
+  using Target::run;
+  Finding run(const Plan& plan, const Request& request) override;
+
+ private:
+  const ExploreOptions& options_;
+  ProgramFiles files_;
+  std::uint64_t fingerprint_;
+  exploration::Profile profile_;
+  std::optional<ForkServer> server_;
+};
+
+/// Of the program's file, its words and what its runs have in common.
+std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& options);
+
+}  // namespace waitpoint::tools
