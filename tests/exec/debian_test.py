@@ -5,19 +5,16 @@ Their output is the native one, a seed is one run, another seed another. With --
 """
 
 import hashlib
-import pathlib
 import random
 import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
-HERE = pathlib.Path(__file__).resolve().parent
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+from exec_case import ExecCase, WAITPOINT
+
 LONG = "--long" in sys.argv and not sys.argv.remove("--long")
-WAITPOINT = BUILD / "tools/waitpoint"
 INPUT_BYTES = 50_000_000 if LONG else 3_000_000
 RUNS_OF_A_SEED = 100 if LONG else 3
 PYTHON = "/usr/bin/python3"
@@ -95,16 +92,12 @@ def native(*command):
     return done.returncode, hashlib.sha256(done.stdout).hexdigest()
 
 
-class Exec(unittest.TestCase):
+class Exec(ExecCase):
     @classmethod
     def setUpClass(cls):
-        if hasattr(Exec, "folder"):
+        super().setUpClass()
+        if hasattr(Exec, "bytes"):
             return
-        if not (BUILD / "libwaitpoint-exec.so").exists():
-            raise unittest.SkipTest("this build has no library for programs")
-        folder = tempfile.TemporaryDirectory()
-        unittest.addModuleCleanup(folder.cleanup)
-        Exec.folder = pathlib.Path(folder.name)
         Exec.bytes = cls.folder / "bytes"
         Exec.lines = cls.folder / "lines"
         draws = random.Random(1)
@@ -115,16 +108,6 @@ class Exec(unittest.TestCase):
         with cls.lines.open("w") as file:
             while file.tell() < INPUT_BYTES:
                 file.write("".join(f"{draws.randrange(10**7)}\n" for _ in range(1000)))
-
-    def compile(self, source, *libraries):
-        program = self.folder / pathlib.Path(source).stem
-        compiler = "gcc" if source.endswith(".c") else "g++"
-        if not program.exists():
-            done = subprocess.run([compiler, "-O1", "-pthread", HERE / source, "-o", program, *libraries],
-                                  capture_output=True, text=True)
-            if done.returncode != 0:
-                self.skipTest(done.stderr.splitlines()[0])
-        return program
 
     def check(self, *command, switches=1000):
         """As native; one seed is one run, another one another; with four threads at once, and many switches."""

@@ -20,12 +20,15 @@ namespace {
 constexpr int look_around_ms = 1000;
 constexpr std::size_t output_shown = 2000;
 
-// What the run reads: our own input from its beginning, if that is a file, else nothing.
+// What runs read, each from its beginning: our own input, if that is a file, else nothing.
 int open_input() {
   struct stat of {};
   const bool is_file = fstat(STDIN_FILENO, &of) == 0 && S_ISREG(of.st_mode);
-  const int input = open(is_file ? "/proc/self/fd/0" : "/dev/null", O_RDONLY | O_CLOEXEC);
-  return input >= 0 ? input : open("/dev/null", O_RDONLY | O_CLOEXEC);
+  return is_file ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3) : open("/dev/null", O_RDONLY | O_CLOEXEC);
+}
+
+int opened_again(int descriptor) {
+  return open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), O_RDONLY | O_CLOEXEC);
 }
 
 // The last lines, each indented.
@@ -61,14 +64,19 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
 }
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
-    : options_(options), files_(options.program.front()), fingerprint_(fingerprint_of(files_, options)) {}
+    : options_(options),
+      files_(options.program.front()),
+      fingerprint_(fingerprint_of(files_, options)),
+      input_(open_input()) {}
+
+ProgramTarget::~ProgramTarget() { close(input_); }
 
 void ProgramTarget::prepare() { server_.emplace(files_, options_.program, settings_of(options_)); }
 
 Finding ProgramTarget::run(const Plan& plan, const Request& request) {
   RunMemory memory(settings_of(options_));
   ask_for_run(memory, options_, plan, request, profile_);
-  const int input = open_input(), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
+  const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
   ServedRun run(*server_, memory, input, output);
   Watchdog watchdog(memory.record(), run.process());
   std::string stalled;

@@ -15,6 +15,8 @@ class ProgramTarget final : public Target {
   /// BadInput for a program that cannot be run. The options must outlive it.
   explicit ProgramTarget(const ExploreOptions& options);
 
+  ~ProgramTarget() override;
+
   std::string name() const override { return files_.program.filename(); }
   std::uint64_t fingerprint() const override { return fingerprint_; }
   bool has_noise() const override { return false; }
@@ -28,6 +30,7 @@ class ProgramTarget final : public Target {
   const ExploreOptions& options_;
   ProgramFiles files_;
   std::uint64_t fingerprint_;
+  int input_;
   exploration::Profile profile_;
   std::optional<ForkServer> server_;
 };

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`waitpoint explore --exec`: programs that know nothing of it, schedule after schedule: exploring_test.py BUILD."""
+
+import json
+import pathlib
+import re
+import subprocess
+import unittest
+
+from exec_case import ExecCase, WAITPOINT
+
+
+def explore(*words, stdin=subprocess.DEVNULL):
+    command = [str(word) for word in (WAITPOINT, "explore", "--exec", *words)]
+    return subprocess.run(command, stdin=stdin, capture_output=True, text=True, timeout=300)
+
+
+def replay_words(text):
+    """Of the last line of a report that repeats a schedule, behind the program's name."""
+    return re.findall(r"^replay: \S+ explore --exec (.*)$", text, re.M)[-1].split()
+
+
+class Exploring(ExecCase):
+    def test_finds_a_lost_update_and_cuts_it_short(self):
+        program = self.compile("lost_update.c")
+        done = explore("--", program)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stdout, r"schedule \d+ of strategy portfolio, seed 1, failed at \S+ s: exit status 1\n"
+                                      r"  an update was lost\n2 switches away from the default order fail")
+        self.assertIn("thread 2#2 of lost_update (start) goes first, in place of", done.stdout)
+        self.assertIn("the last choice from which it could still have passed: number ", done.stdout)
+        self.assertEqual(explore("--", program).stdout.splitlines()[1:], done.stdout.splitlines()[1:])
+
+    def test_replays_it_with_the_output_that_it_had(self):
+        program = self.compile("lost_update.c")
+        words = replay_words(explore("--", program).stdout)
+        done = explore(*words)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "an update was lost\nwaitpoint: failed: exit status 1\n"
+                                      "waitpoint: the same run as in the record\n")
+
+    def test_every_strategy_finds_it_and_its_schedule_is_replayed(self):
+        program = self.compile("lost_update.c")
+        for strategy in ("random", "pct:2", "pos", "urw", "surw", "portfolio"):
+            schedule, trace = self.folder / "schedule", self.folder / "trace.json"
+            done = explore("--strategy", strategy, "--jobs", "2", "--schedule", schedule, "--trace", trace, "--", program)
+            self.assertEqual(done.returncode, 1, strategy)
+            self.assertGreater(len(json.loads(trace.read_text())["traceEvents"]), 10)
+            self.assertEqual(explore("--replay", schedule, "--", program).returncode, 1)
+            raw = explore("--strategy", strategy, "--no-minimize", "--", program)
+            self.assertIn("the same run as in the record", explore(*replay_words(raw.stdout)).stderr, strategy)
+
+    def test_a_correct_program_passes_under_many_schedules(self):
+        done = explore("--iterations", "100", "--", self.compile("lost_update.c"), "locked")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        distinct = int(re.search(r"lost_update: 100 schedules, (\d+) distinct, 0 failed", done.stdout)[1])
+        self.assertGreater(distinct, 50)
+
+    def test_shards_and_processes_change_no_result(self):
+        program, lines = self.compile("lost_update.c"), set()
+        for shard in ("1/2", "2/2"):
+            results = self.folder / "results"
+            explore("--iterations", "40", "--jobs", "2", "--shard", shard, "--results", results, "--", program)
+            lines |= set(results.read_text().splitlines())
+        explore("--iterations", "40", "--results", self.folder / "results", "--", program)
+        self.assertEqual(lines, set((self.folder / "results").read_text().splitlines()))
+
+    def test_tells_how_a_run_ended_and_what_its_threads_did_last(self):
+        program = self.compile("ends.c", "-rdynamic")
+        for way, expected in (("exit", "exit status 3"), ("_exit", "exit status 4"), ("crash", "ended by signal 11"),
+                              ("abort", "ended by signal 6"), ("kill", "ended by signal 9"), ("deadlock", "deadlock")):
+            done = explore("--", program, way)
+            self.assertEqual(done.returncode, 1, way)
+            self.assertRegex(done.stdout, rf"the default order failed at [24]\.000000000 s: {expected}")
+            self.assertIn("thread 1#1 of ends  timeout sleep", done.stdout)
+            self.assertEqual(explore(*replay_words(done.stdout)).returncode, 1, way)
+
+    def test_each_run_reads_a_file_from_its_beginning(self):
+        with (self.folder / "lines").open("w") as file:
+            file.write("one\ntwo\n")
+        with (self.folder / "lines").open() as file:
+            done = explore("--iterations", "20", "--", "python3", "-c", "import sys; sys.exit(len(sys.stdin.readlines()) != 2)",
+                           stdin=file)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+class Refusals(ExecCase):
+    def refused(self, *words):
+        done = explore(*words)
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        return done.stderr
+
+    def test_say_what_is_wrong(self):
+        self.assertIn("expected what to run: waitpoint explore --exec", self.refused())
+        self.assertIn("there is no program 'nosuch'", self.refused("--", "nosuch"))
+        self.assertIn("--from: cannot be used together with --exec", self.refused("--from", "1", "--", "true"))
+        self.assertIn("--set: cannot be used", self.refused("--set", "world.step_ms=5", "--", "true"))
+        self.assertIn("--property: cannot be used", self.refused("--property", "collisions=0", "--", "true"))
+        self.assertIn("no --exec with the scenario 'office.yaml'", self.refused("office.yaml", "--", "true"))
+        self.assertIn("unknown strategy 'best'", self.refused("--strategy", "best", "--", "true"))
+
+    def test_of_records_of_something_else(self):
+        program, schedule = self.compile("lost_update.c"), self.folder / "other"
+        explore("--schedule", schedule, "--", program)
+        self.assertIn("2: expected a schedule of this program", self.refused("--replay", schedule, "--", program, "locked"))
+        self.assertIn("is of a test that explores", self.refused("--replay", "wx1.1.0123abcd.random.1.5", "--", program))
+        self.assertIn("this is not the run of the record",
+                      self.refused("--replay", "wx1.0.0123abcd.=0-1", "--", pathlib.Path("/bin/true")))
+
+
+if __name__ == "__main__":
+    unittest.main()
