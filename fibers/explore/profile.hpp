@@ -22,6 +22,7 @@ struct Profile {
   std::uint32_t steps = 0;  ///< switch points
   std::vector<TaskEvents> tasks;
   std::vector<std::uint64_t> shared;  ///< identities of objects that more than one task used
+  std::vector<std::uint64_t> code;    ///< of another process: addresses where code accesses memory that tasks share
 
   /// With the events of all tasks: the run had so many switch points.
   void finish(std::uint32_t switch_points);

@@ -35,7 +35,9 @@ struct Asked {
   std::uint32_t steps = 0;
   std::span<const TaskProfile> tasks = {};
   std::span<const std::uint64_t> shared = {};
+  std::span<const std::uint64_t> code = {};
 
+  bool learn = false;    ///< code that accesses what threads share
   bool profile = false;  ///< what is to be written down
   bool words = false;
   bool events = false;

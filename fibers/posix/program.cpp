@@ -14,14 +14,13 @@
 #include "fibers/posix/exploration.hpp"
 #include "fibers/posix/fork_server.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/race_log.hpp"
 
 namespace waitpoint::posix {
 
 Record* record = nullptr;
 
 namespace {
-
-constexpr char preload_variable[] = "LD_PRELOAD";
 
 constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
 
@@ -30,15 +29,20 @@ int (*program_body)() = nullptr;
 // main() returns into exit(), as in the C library; but it may leave by pthread_exit() too.
 void* run_body(void*) { std::exit(program_body()); }
 
-// Programs that this one starts are not simulated: what was put in front of the libraries they preload is taken away.
+void take_first_away(const char* variable) {
+  const char* const all = std::getenv(variable);
+  const char* const others = all == nullptr ? nullptr : std::strchr(all, ':');
+  if (others == nullptr)
+    unsetenv(variable);
+  else
+    setenv(variable, others + 1, 1);
+}
+
+// Programs that this one starts are not simulated: what was put in front of the libraries they load is taken away.
 void clear_environment() {
   unsetenv(record_variable);
-  const char* const preloaded = std::getenv(preload_variable);
-  const char* const others = preloaded == nullptr ? nullptr : std::strchr(preloaded, ':');
-  if (others == nullptr)
-    unsetenv(preload_variable);
-  else
-    setenv(preload_variable, others + 1, 1);
+  take_first_away("LD_PRELOAD");
+  if (record->settings.instrumented) take_first_away("LD_LIBRARY_PATH");
 }
 
 // In place of what is mapped there.
@@ -92,12 +96,14 @@ void run_program(int (*body)(), const char* name) {
   begin();
   if (const int server = record->settings.server; server >= 0) map_record(serve_runs(server));
   program_body = body;
+  const Asked* const asked = record->settings.asked;
+  record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
   new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   kernel::Scheduler& scheduler = record->scheduler;
   const char* const slash = std::strrchr(name, '/');
   scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
   scheduler.set_delivery(deliver_signals);
-  if (record->settings.asked != nullptr) record->explored = new Explored(scheduler, *record->settings.asked);
+  if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
   record->running = &kernel::running;
   record->began = true;
   static constinit Thread thread;

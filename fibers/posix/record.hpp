@@ -25,6 +25,7 @@ inline constexpr std::size_t record_bytes = std::size_t{1} << 34;
 
 struct Asked;
 struct Explored;
+struct RaceLog;
 
 struct Settings {
   kernel::Order order = kernel::Order::seeded;
@@ -32,6 +33,7 @@ struct Settings {
   Time until = Time::max();         ///< the run is cut off then
   const Asked* asked = nullptr;     ///< how the schedule is explored, in Order::explored
   std::uint32_t looks_at_once = 1;  ///< so many uses of clocks and of giving way are paid for together
+  bool instrumented = false;        ///< the program is compiled with -fsanitize=thread
   int server = -1;                  ///< a socket: runs are asked for there, see fork_server.hpp
 };
 
@@ -48,7 +50,8 @@ struct Record {
   bool began = false;  ///< the scheduler is there
   Ending ending = Ending::own;
   Explored* explored = nullptr;
-  Arena arena;  ///< behind this record
+  RaceLog* race_log = nullptr;  ///< of an instrumented program
+  Arena arena;                  ///< behind this record
   std::uint32_t threads_made = 0;
   std::uint32_t threads_most = 0;          ///< at once
   kernel::Task* const* running = nullptr;  ///< in the program: where it keeps its running task

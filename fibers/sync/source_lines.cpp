@@ -4,7 +4,6 @@
 #include <cxxabi.h>
 #include <dlfcn.h>
 
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -56,33 +55,22 @@ bool is_entry(const std::string& line) {
          contains(line, "waitpoint::kernel::Scheduler::task_main");
 }
 
-// A call as the module that it is in sees it; without one, where no module has it.
-struct Place {
-  Dl_info info{};
-  std::uintptr_t offset = 0;
-  std::vector<std::string> lines;  // of the inlined functions there, innermost first: "function at file:line"
+// A call, and the inlined functions there, innermost first: "function at file:line".
+struct Place : CodePlace {
+  std::vector<std::string> lines;
 };
 
-Place place_of(void* return_address) {
-  Place place;
-  // The call is before the address it returns to.
-  void* call = static_cast<char*>(return_address) - 1;
-  if (dladdr(call, &place.info) == 0) return Place();
-  place.offset = reinterpret_cast<std::uintptr_t>(call) - reinterpret_cast<std::uintptr_t>(place.info.dli_fbase);
-  return place;
-}
-
 std::string name_from_symbols(const Place& place) {
-  if (place.info.dli_fname == nullptr) return "?";
-  if (place.info.dli_sname != nullptr) {
+  if (place.module.empty()) return "?";
+  if (!place.symbol.empty()) {
     int status = 0;
     const std::unique_ptr<char, void (*)(void*)> demangled(
-        abi::__cxa_demangle(place.info.dli_sname, nullptr, nullptr, &status), std::free);
-    return status == 0 ? demangled.get() : place.info.dli_sname;
+        abi::__cxa_demangle(place.symbol.c_str(), nullptr, nullptr, &status), std::free);
+    return status == 0 ? demangled.get() : place.symbol;
   }
   char text[64];
   std::snprintf(text, sizeof text, "+0x%zx", static_cast<std::size_t>(place.offset));
-  return place.info.dli_fname + std::string(text);
+  return place.module + text;
 }
 
 constexpr int patience_s = 20;  // it reads all of a program's debugging information
@@ -119,7 +107,7 @@ void add_lines(const std::vector<Place*>& asked, const std::string& module) {
 std::vector<std::string> user_lines(std::span<const Place> places, const std::string& own_library, std::size_t most) {
   std::vector<std::string> found;
   for (const Place& place : places) {
-    if (place.info.dli_fname != nullptr && place.info.dli_fname == own_library) continue;
+    if (!place.module.empty() && place.module == own_library) continue;
     const std::vector<std::string> without = {name_from_symbols(place)};
     for (const std::string& line : place.lines.empty() ? without : place.lines) {
       if (is_entry(line)) return found;
@@ -134,16 +122,23 @@ std::vector<std::string> user_lines(std::span<const Place> places, const std::st
 }  // namespace
 
 std::vector<std::vector<std::string>> user_source_lines(std::span<const ReturnAddresses> stacks, std::size_t most) {
+  std::vector<CodePlaces> places(stacks.size());
+  for (std::size_t i = 0; i < stacks.size(); ++i)
+    for (void* address : stacks[i]) places[i].push_back(code_place_of(address));
+  return user_source_lines(places, most);
+}
+
+std::vector<std::vector<std::string>> user_source_lines(std::span<const CodePlaces> stacks, std::size_t most) {
   std::vector<std::vector<Place>> places(stacks.size());
   for (std::size_t i = 0; i < stacks.size(); ++i)
-    for (void* address : stacks[i]) places[i].push_back(place_of(address));
+    for (const CodePlace& place : stacks[i]) places[i].push_back({place, {}});
   std::map<std::string, std::vector<Place*>> modules;
   for (std::vector<Place>& stack : places)
     for (Place& place : stack)
-      if (place.info.dli_fname != nullptr) modules[place.info.dli_fname].push_back(&place);
+      if (!place.module.empty()) modules[place.module].push_back(&place);
   for (const auto& [module, asked] : modules) add_lines(asked, module);
   Dl_info own{};
-  const bool known = dladdr(reinterpret_cast<void*>(&user_source_lines), &own) != 0;
+  const bool known = dladdr(reinterpret_cast<void*>(&is_entry), &own) != 0;
   // In a shared library of its own everything is ours, also where it has no debugging information.
   const std::string own_library = known && contains(own.dli_fname, ".so") ? own.dli_fname : "";
   std::vector<std::vector<std::string>> lines;

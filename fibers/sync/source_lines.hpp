@@ -7,13 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "fibers/sync/code_place.hpp"
+
 namespace waitpoint::sync {
 
 using ReturnAddresses = std::vector<void*>;  ///< of one call stack, innermost first
+using CodePlaces = std::vector<CodePlace>;   ///< the same, maybe of a process that is gone
 
 /// For each call stack "function at file:line" of the innermost frames outside this library and the standard one, at
 /// most `most`. Where there is no debugging information, the function's name or the address within its module stands
 /// alone. Uses the addr2line program where it is installed, for so long as a person likes to wait; for reports only.
 std::vector<std::vector<std::string>> user_source_lines(std::span<const ReturnAddresses> stacks, std::size_t most);
+std::vector<std::vector<std::string>> user_source_lines(std::span<const CodePlaces> stacks, std::size_t most);
 
 }  // namespace waitpoint::sync

@@ -84,6 +84,40 @@ class Exploring(ExecCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
+class Instrumented(ExecCase):
+    """Programs that are compiled with -fsanitize=thread, as they are for the compiler's own runtime."""
+
+    def setUp(self):
+        if not (WAITPOINT.parent.parent / "libwaitpoint-exec-races.so").exists():
+            self.skipTest("this build has no runtime for -fsanitize=thread")
+        self.program = self.compile("racing.cpp", "-g", "-fsanitize=thread")
+
+    def execute(self, *words):
+        return subprocess.run([str(WAITPOINT), "exec", "--", str(self.program), *words], capture_output=True, text=True)
+
+    def test_races_are_told_with_both_accesses_and_their_lines(self):
+        done = self.execute()
+        self.assertEqual((done.returncode, done.stdout), (0, "2 seen\n"), "they did no harm in this schedule")
+        self.assertRegex(done.stderr, r"data race at 0x\w+ .*\n  first: write of 4 bytes by task thread 1#1, after its event \d+\n"
+                                      r"    .* at .*racing\.cpp:20\n(    .*\n)*"
+                                      r"  second: read of 4 bytes by task thread 2#2, after its event \d+\n    .* at .*racing\.cpp:19\n")
+
+    def test_what_locks_and_atomics_order_does_not_race(self):
+        for way in ("locked", "ordered"):
+            self.assertNotIn("data race", self.execute(way).stderr)
+            done = explore("--iterations", "50", "--", self.program, way)
+            self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_a_race_is_a_failure_and_is_replayed(self):
+        for way in ([], ["flag"]):
+            done = explore("--", self.program, *way)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(": a data race\n", done.stdout)
+            again = explore(*replay_words(done.stdout))
+            self.assertIn("the same run as in the record", again.stderr)
+            self.assertIn("racing.cpp:", again.stderr)
+
+
 class Refusals(ExecCase):
     def refused(self, *words):
         done = explore(*words)

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "tools/exec/program_run.hpp"
+#include "tools/exec/race_report.hpp"
 #include "tools/shell_words.hpp"
 
 namespace waitpoint::tools {
@@ -112,6 +113,7 @@ int exec(const ExecOptions& options) {
   const ProgramRun run(files, options.words, memory);
   const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
   if (memory.record().began) {
+    std::fputs(races_of(memory.record()).c_str(), stderr);
     if (!options.quiet || failed) print_summary(memory.record(), name_of(options));
     if (failed) print_failure(options, run, options.seed);
   }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 namespace waitpoint::tools {
 namespace {
@@ -46,6 +47,39 @@ std::string trouble_of_script(std::ifstream& file) {
   return cannot_be_simulated(interpreter);
 }
 
+// The names of the libraries that it loads; none of what is no ELF file.
+std::vector<std::string> libraries_of(std::ifstream& file) {
+  std::vector<Elf64_Phdr> parts;
+  std::vector<Elf64_Dyn> entries;
+  Elf64_Ehdr header{};
+  if (!read(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return {};
+  for (int i = 0; i < header.e_phnum; ++i)
+    if (!read(file, header.e_phoff + static_cast<std::uint64_t>(i) * sizeof(Elf64_Phdr), parts.emplace_back()))
+      return {};
+  std::uint64_t names = 0;
+  for (const Elf64_Phdr& part : parts) {
+    if (part.p_type != PT_DYNAMIC) continue;
+    for (std::uint64_t at = 0; at + sizeof(Elf64_Dyn) <= part.p_filesz; at += sizeof(Elf64_Dyn)) {
+      if (!read(file, part.p_offset + at, entries.emplace_back())) return {};
+      if (entries.back().d_tag == DT_STRTAB) names = entries.back().d_un.d_ptr;
+    }
+  }
+  // Where that address is in the file.
+  for (const Elf64_Phdr& part : parts)
+    if (part.p_type == PT_LOAD && names >= part.p_vaddr && names < part.p_vaddr + part.p_filesz) {
+      names = names - part.p_vaddr + part.p_offset;
+      break;
+    }
+  std::vector<std::string> libraries;
+  for (const Elf64_Dyn& entry : entries) {
+    if (entry.d_tag != DT_NEEDED) continue;
+    file.clear();
+    file.seekg(static_cast<std::streamoff>(names + entry.d_un.d_val));
+    std::getline(file, libraries.emplace_back(), '\0');
+  }
+  return libraries;
+}
+
 }  // namespace
 
 std::filesystem::path find_program(const std::string& name) {
@@ -69,6 +103,13 @@ std::string cannot_be_simulated(const std::filesystem::path& program) {
   if (std::memcmp(magic, ELFMAG, SELFMAG) == 0) return trouble_of_elf(file);
   if (magic[0] == '#' && magic[1] == '!') return trouble_of_script(file);
   return "is neither a program nor a script";
+}
+
+bool is_instrumented(const std::filesystem::path& program) {
+  std::ifstream file(program, std::ios::binary);
+  for (const std::string& library : libraries_of(file))
+    if (library.starts_with("libtsan.so.")) return true;
+  return false;
 }
 
 }  // namespace waitpoint::tools

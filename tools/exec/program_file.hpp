@@ -14,4 +14,7 @@ std::filesystem::path find_program(const std::string& name);
 /// Why a library cannot be preloaded into the program, or into what interprets it if it is a script; empty if it can.
 std::string cannot_be_simulated(const std::filesystem::path& program);
 
+/// Whether a program that can be simulated is compiled with -fsanitize=thread, and loads the runtime behind that.
+bool is_instrumented(const std::filesystem::path& program);
+
 }  // namespace waitpoint::tools

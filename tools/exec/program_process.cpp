@@ -19,17 +19,20 @@
 namespace waitpoint::tools {
 namespace {
 
-std::filesystem::path find_library() {
+std::filesystem::path find_library(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  const char name[] = "libwaitpoint-exec.so";
   const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
   for (const std::filesystem::path& place : {folder / ".." / name, installed})
     if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
   throw BadInput("exec", "the library for programs is not installed: expected " + installed.string());
 }
 
+void put_first(const char* variable, const std::string& path) {
+  const char* const others = std::getenv(variable);
+  setenv(variable, (others != nullptr ? path + ":" + others : path).c_str(), 1);
+}
+
 [[noreturn]] void become(const ProgramFiles& files, const std::vector<std::string>& arguments, int record, int output) {
-  const std::string preloaded = files.library.string();
   if (output >= 0) {
     dup2(output, STDOUT_FILENO);
     dup2(output, STDERR_FILENO);
@@ -39,8 +42,9 @@ std::filesystem::path find_library() {
   // Equal runs have equal addresses: programs order and hash by them.
   const int persona = personality(0xFFFFFFFF);
   if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
-  const char* const others = std::getenv("LD_PRELOAD");
-  setenv("LD_PRELOAD", (others != nullptr ? preloaded + ":" + others : preloaded).c_str(), 1);
+  put_first("LD_PRELOAD", files.library.string());
+  // There an empty library stands in place of the compiler's own runtime.
+  if (files.instrumented) put_first("LD_LIBRARY_PATH", files.library.parent_path().string());
   setenv(posix::record_variable, std::to_string(record).c_str(), 1);
   std::vector<char*> words;
   for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
@@ -56,12 +60,14 @@ ProgramFiles::ProgramFiles(const std::string& name) : program(find_program(name)
   if (program.empty()) throw BadInput("exec", "there is no program '" + name + "'");
   if (const std::string reason = cannot_be_simulated(program); !reason.empty())
     throw BadInput("exec", program.string() + " " + reason);
-  library = find_library();
+  instrumented = is_instrumented(program);
+  library = find_library(instrumented ? "libwaitpoint-exec-races.so" : "libwaitpoint-exec.so");
 }
 
 pid_t start_program(const ProgramFiles& files, const std::vector<std::string>& words, const RunMemory& memory,
                     int output) {
   std::fflush(nullptr);
+  memory.record().settings.instrumented = files.instrumented;
   const pid_t process = fork();
   if (process < 0) throw BadInput("exec", std::string("no process can be made: ") + std::strerror(errno));
   if (process == 0) become(files, words, memory.descriptor(), output);

@@ -18,6 +18,7 @@ struct ProgramFiles {
   explicit ProgramFiles(const std::string& name);
 
   std::filesystem::path program, library;
+  bool instrumented = false;  ///< by -fsanitize=thread; a layer with a runtime for that is the library
 };
 
 /// Starts the program with these words, its name first. It reads and writes where this process does, but for a

@@ -31,6 +31,7 @@ void tell_run(Target& target, const Plan& plan, const Finding& least, FailureRep
   const Time from = Time() + std::max(Duration(), least.end.since_start() - traced);
   const auto told = run_apart(target, plan, {.words = true, .places = true, .events = true, .events_from = from});
   if (!told) return;
+  report.text += told->details;
   if (!told->told.empty()) report.text += "switches away from the default order:\n" + told->told;
   if (!told->last_events.empty())
     report.text += "what the tasks did last (*: in place of one that could have gone on):\n" + told->last_events;

@@ -83,11 +83,13 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.switches);
   pass(finding.deviations);
   pass(finding.parted);
+  pass(finding.details);
   pass(finding.told);
   pass(finding.last_events);
   pass(finding.trace);
   pass(finding.profile.steps);
   pass(finding.profile.shared);
+  pass(finding.profile.code);
 }
 
 constexpr std::size_t events_shown = 30;

@@ -27,6 +27,7 @@ struct Finding {
   std::vector<exploration::Switch> switches;       ///< of a failure
   std::vector<exploration::Deviation> deviations;  ///< the same
   bool parted = false;                             ///< what was played did not fit the run
+  std::string details;                             ///< of a failure, where places are asked for: lines about its kind
   std::string told;                                ///< where asked for: the switches in words, or a decision
   std::string last_events;                         ///< where asked for, in words
   std::string trace;                               ///< where asked for

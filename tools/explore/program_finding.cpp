@@ -8,6 +8,8 @@
 
 #include "core/error.hpp"
 #include "fibers/posix/exploration.hpp"
+#include "fibers/posix/race_log.hpp"
+#include "tools/exec/race_report.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -80,6 +82,8 @@ void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& p
   asked.deviations = copied(record.arena, plan.deviations);
   asked.at_random_from = plan.at_random_from.value_or(Asked::none);
   if (plan.drawn) tell_profile(record.arena, profile, asked);
+  asked.code = copied(record.arena, profile.code);
+  asked.learn = request.learn;
   asked.profile = request.profile;
   asked.words = request.words;
   asked.events = request.events;
@@ -95,6 +99,11 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   judge(memory, status, finding);
   if (!finding.passed() && !output.empty()) finding.words += "\n" + output;
   const posix::Record& record = memory.record();
+  if (finding.passed() && record.race_log != nullptr && !record.race_log->races.empty()) {
+    finding.kind = Finding::Kind::unmet;
+    finding.words = "a data race";
+    if (request.places) finding.details = races_of(record);
+  }
   if (record.explored == nullptr) return finding;
   const posix::Explored& explored = *record.explored;
   finding.digest = record.robot.digest.value();
@@ -110,6 +119,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
     finding.profile = explored.profile;
     finding.profile.finish(explored.explorer.steps());
   }
+  if (request.learn && record.race_log != nullptr) finding.profile.code = record.race_log->code;
   if (request.decision && explored.narrator.answer())
     finding.told = "at " + to_string(explored.narrator.answer()->time) + " s: " + explored.narrator.answer()->words;
   else if (request.words)

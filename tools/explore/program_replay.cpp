@@ -17,15 +17,24 @@
 namespace waitpoint::tools {
 namespace {
 
-/// What the default order shows; the program's output is not seen.
-exploration::Profile take_profile(const ProgramFiles& files, const ExploreOptions& options) {
-  const Target::Request request{.profile = true};
+/// What a run in the default order shows; the program's output is not seen.
+exploration::Profile look(const ProgramFiles& files, const ExploreOptions& options, const Target::Request& request,
+                          const exploration::Profile& known) {
   RunMemory memory(settings_of(options));
-  ask_for_run(memory, options, {.drawn = false}, request, {});
+  ask_for_run(memory, options, {.drawn = false}, request, known);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   const ProgramRun run(files, options.program, memory, nowhere);
   close(nowhere);
   return finding_of_run(memory, run.status(), "", request, false).profile;
+}
+
+/// As much of it as the schedule depends on.
+exploration::Profile take_profile(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan) {
+  exploration::Profile known, profile;
+  if (files.instrumented) known.code = look(files, options, {.learn = true}, {}).code;
+  if (plan.drawn && needs_profile(options.strategy)) profile = look(files, options, {.profile = true}, known);
+  profile.code = known.code;
+  return profile;
 }
 
 }  // namespace
@@ -36,9 +45,8 @@ int replay_program(const ExploreOptions& asked) {
   const ReplayRecord record = read_replay_record(options, fingerprint_of(files, options));
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
-  exploration::Profile profile;
-  if (record.plan.drawn && needs_profile(options.strategy)) profile = take_profile(files, options);
-  const Target::Request request{.words = !record.plan.switches.empty(), .events = trace.has_value()};
+  const exploration::Profile profile = take_profile(files, options, record.plan);
+  const Target::Request request{.words = !record.plan.switches.empty(), .places = true, .events = trace.has_value()};
   RunMemory memory(settings_of(options));
   ask_for_run(memory, options, record.plan, request, profile);
   const ProgramRun run(files, options.program, memory);
@@ -50,7 +58,8 @@ int replay_program(const ExploreOptions& asked) {
     trace->write(finding.trace);
     trace->commit();
   }
-  std::fprintf(stderr, "waitpoint: %s%s\n", finding.passed() ? "passed" : "failed: ", finding.headline().c_str());
+  std::fprintf(stderr, "waitpoint: %s%s\n", finding.passed() ? "passed" : "failed: ", finding.words.c_str());
+  std::fputs(finding.details.c_str(), stderr);
   if (record.digest_bits > 0) std::fprintf(stderr, "waitpoint: the same run as in the record\n");
   return finding.passed() ? 0 : 1;
 }

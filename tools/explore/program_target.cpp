@@ -73,7 +73,16 @@ ProgramTarget::~ProgramTarget() { close(input_); }
 
 void ProgramTarget::prepare() { server_.emplace(files_, options_.program, settings_of(options_)); }
 
+// The default order shows what it shows with the switch points that all runs have.
 Finding ProgramTarget::run(const Plan& plan, const Request& request) {
+  if (!request.profile || !files_.instrumented) return run_once(plan, request);
+  profile_.code = run_once(plan, {.learn = true}).profile.code;
+  Finding finding = run_once(plan, request);
+  finding.profile.code = profile_.code;
+  return finding;
+}
+
+Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
   RunMemory memory(settings_of(options_));
   ask_for_run(memory, options_, plan, request, profile_);
   const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);

@@ -27,6 +27,8 @@ class ProgramTarget final : public Target {
   Finding run(const Plan& plan, const Request& request) override;
 
  private:
+  Finding run_once(const Plan& plan, const Request& request);
+
   const ExploreOptions& options_;
   ProgramFiles files_;
   std::uint64_t fingerprint_;

@@ -147,11 +147,17 @@ inline void Detector::record(std::uint32_t index, std::uint8_t bytes, std::uint8
 
 // All the code that accesses what tasks share, as far as it is remembered.
 void Detector::learn_from(Cell& cell, std::uint64_t place) {
-  learned_[place] = true;
-  learned_[cell.latest.place] = true;
+  learn_place(place);
+  learn_place(cell.latest.place);
   if (cell.more == no_more) return;
   for (const MemoryAccess& access : shadow_.more(cell).access)
-    if (access.bytes != 0) learned_[access.place] = true;
+    if (access.bytes != 0) learn_place(access.place);
+}
+
+void Detector::learn_place(std::uint64_t place) {
+  bool& known = learned_[place];
+  if (!known && listener_ != nullptr) listener_->learned(place);
+  known = true;
 }
 
 void Detector::ignore(bool begin) {
@@ -190,6 +196,7 @@ void Detector::report(const Cell& cell, const MemoryAccess& first, const MemoryA
   for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
     if (address >= task->fiber.stack.low && address < task->fiber.stack.high)
       std::memcpy(race.stack_of, task->name, sizeof race.stack_of);
+  if (listener_ != nullptr) listener_->found(race);
 }
 
 std::size_t Detector::found(const FoundRace*& races) const {

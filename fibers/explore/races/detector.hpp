@@ -89,6 +89,8 @@ class Detector {
   std::size_t found(const FoundRace*& races) const;
   void learn(bool on) { learning_ = on; }
   void forget_learned() { learned_.clear(); }
+  void know(std::uint64_t place) { learned_[place] = true; }
+  void tell(const Listener& listener) { listener_ = &listener; }
 
  private:
   struct TaskRecord {
@@ -113,6 +115,7 @@ class Detector {
   bool is_switch_point(const Cell& cell, std::uint8_t kind, std::uint64_t place);
   void pass_switch_point(kernel::Operation operation, Cell& cell);
   void learn_from(Cell& cell, std::uint64_t place);
+  void learn_place(std::uint64_t place);
   void record(std::uint32_t cell, std::uint8_t bytes, std::uint8_t size, std::uint8_t kind, std::uint64_t place);
   void report(const Cell& cell, const MemoryAccess& first, const MemoryAccess& second);
   void describe(Side& side, const MemoryAccess& access);
@@ -135,6 +138,7 @@ class Detector {
   std::uint32_t weight_ = 0;  // of the accesses since the last switch point
   bool watching_ = false;
   bool learning_ = false;
+  const Listener* listener_ = nullptr;
   std::size_t race_count_ = 0;
   FoundRace races_[races_kept] = {};
 };

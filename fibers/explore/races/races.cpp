@@ -1,40 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/races/races.hpp"
 
-#include <cxxabi.h>
-#include <dlfcn.h>
-#include <link.h>
-
-#include <cstdlib>
-#include <memory>
 #include <ostream>
 
-#include "fibers/explore/races/runtime.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/explore/races/located_race.hpp"
 
 namespace waitpoint::races {
 namespace {
 
 const Runtime* runtime() { return &waitpoint_races_runtime == nullptr ? nullptr : waitpoint_races_runtime(); }
-
-std::string demangled(const char* symbol) {
-  int status = 0;
-  const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(symbol, nullptr, nullptr, &status), std::free);
-  return status == 0 ? name.get() : symbol;
-}
-
-std::string where(const FoundRace& race) {
-  if (race.stack_of[0] != '\0') return std::string("the stack of task ") + race.stack_of;
-  Dl_info info{};
-  const ElfW(Sym)* symbol = nullptr;
-  if (dladdr1(reinterpret_cast<void*>(race.address), &info, const_cast<void**>(reinterpret_cast<const void**>(&symbol)),
-              RTLD_DL_SYMENT) == 0)
-    return "";
-  if (info.dli_sname == nullptr || symbol == nullptr) return std::string("data of ") + info.dli_fname;
-  const std::uint64_t offset = race.address - reinterpret_cast<std::uint64_t>(info.dli_saddr);
-  if (offset >= symbol->st_size) return std::string("data of ") + info.dli_fname;
-  return demangled(info.dli_sname) + (offset == 0 ? "" : " + " + std::to_string(offset));
-}
 
 Access access_of(const Side& side, std::vector<std::string> calls) {
   std::optional<std::uint32_t> number;
@@ -74,17 +48,24 @@ std::vector<Race> found() {
   if (!present()) return {};
   const FoundRace* races = nullptr;
   const std::size_t count = runtime()->found(races);
-  std::vector<sync::ReturnAddresses> stacks;
-  for (std::size_t i = 0; i < count; ++i)
-    for (const Side* side : {&races[i].first, &races[i].second})
-      stacks.emplace_back(side->calls, side->calls + side->call_count);
+  std::vector<LocatedRace> all;
+  for (std::size_t i = 0; i < count; ++i) all.push_back(located(races[i]));
+  return in_words(all);
+}
+
+std::vector<Race> in_words(std::span<const LocatedRace> races) {
+  std::vector<sync::CodePlaces> stacks;
+  for (const LocatedRace& race : races) {
+    stacks.push_back(race.first_calls);
+    stacks.push_back(race.second_calls);
+  }
   std::vector<std::vector<std::string>> calls = sync::user_source_lines(stacks, calls_written);
-  std::vector<Race> found;
-  for (std::size_t i = 0; i < count; ++i)
-    found.push_back({access_of(races[i].first, std::move(calls[2 * i])),
-                     access_of(races[i].second, std::move(calls[2 * i + 1])),
-                     reinterpret_cast<const void*>(races[i].address), where(races[i])});
-  return found;
+  std::vector<Race> told;
+  for (std::size_t i = 0; i < races.size(); ++i)
+    told.push_back({access_of(races[i].found.first, std::move(calls[2 * i])),
+                    access_of(races[i].found.second, std::move(calls[2 * i + 1])),
+                    reinterpret_cast<const void*>(races[i].found.address), races[i].memory});
+  return told;
 }
 
 void learn(bool on) {

@@ -13,10 +13,13 @@
 #include <cstdint>
 #include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace waitpoint::races {
+
+struct LocatedRace;
 
 /// One side of a race.
 struct Access {
@@ -51,6 +54,9 @@ bool any_found();
 /// The races of the run, each pair of places in the code once, at most 64. Looks for names and source lines: for
 /// reports.
 std::vector<Race> found();
+
+/// The same of races in a process that may be gone.
+std::vector<Race> in_words(std::span<const LocatedRace> races);
 
 /// Whether runs from now on learn which code accesses what tasks share; such code is a switch point in later runs also
 /// where its task is the first to touch the memory. A run that is to be repeated elsewhere must have learned the same:

@@ -31,11 +31,19 @@ struct FoundRace {
   char stack_of[kernel::name_size];  ///< the task on whose stack that is; empty: on none
 };
 
+/// Who is told at once, from within a run, as its process may end at any time.
+struct Listener {
+  void (*found)(const FoundRace& race);
+  void (*learned)(std::uint64_t place);  ///< of code that accesses what tasks share
+};
+
 struct Runtime {
   void (*begin_run)();
   std::size_t (*found)(const FoundRace*& races);
   void (*learn)(bool);
   void (*forget_learned)();
+  void (*know)(std::uint64_t place);       ///< as if it had been learned
+  void (*tell)(const Listener& listener);  ///< from now on; it must outlive the runs
 };
 
 }  // namespace waitpoint::races

@@ -18,6 +18,8 @@ const waitpoint::races::Runtime runtime = {
     [](const waitpoint::races::FoundRace*& races) { return Detector::the().found(races); },
     [](bool on) { Detector::the().learn(on); },
     [] { Detector::the().forget_learned(); },
+    [](std::uint64_t place) { Detector::the().know(place); },
+    [](const waitpoint::races::Listener& listener) { Detector::the().tell(listener); },
 };
 
 }  // namespace
