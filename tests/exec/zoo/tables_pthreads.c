@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <stddef.h>
+
+#include "tests/exec/zoo/zoo.h"
+
+const struct specimen* const tables[] = {deadlocks, atomicities, signals, timings, NULL};
