@@ -33,6 +33,7 @@ OWN_CASES = {
     "clang++ -O0 and this build are one run": [str(ROOT / "tools/dev/builds.sh"), "build", "clang++-O0"],
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
+    "exec: planted bugs": [sys.executable, str(ROOT / "tests/exec/zoo_test.py"), BUILD],
     "gdb": [sys.executable, str(ROOT / "tests/programs/gdb_test.py"), BUILD],
     "mistakes": [sys.executable, str(ROOT / "tests/programs/mistakes_test.py"), BUILD],
     "recordings": [sys.executable, str(ROOT / "tests/programs/recordings_test.py"), BUILD],
