@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -35,7 +36,8 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   const CancellationPoint point;
   pass(kernel::Operation::wait, &known.object);
   if (mutex.object.owner != kernel::running && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP) return EPERM;
-  // Unlocked and waiting in one step, without a waitpoint between.
+  // Unlocked and waiting in one step, without a waitpoint between: nothing else tells what happened before it.
+  if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);
   const std::uint32_t depth = release(mutex);
   bool came = true;
   if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
