@@ -26,7 +26,6 @@ SCHEDULES_OF_A_TWIN = 2_000 if LONG else 100
 JOBS = 2
 PROGRAMS = [BUILD / "tests/exec/zoo" / name for name in ("zoo-pthreads", "zoo-threads")]
 INSTRUMENTED = "-instrumented"
-REFUSED = 125  # the exit status of `waitpoint exec` for a program that it cannot run
 
 
 @dataclasses.dataclass(frozen=True)
@@ -112,7 +111,7 @@ class AsTheyAre(Programs, ExecCase):
         self.check_passes([(specimen, mended, 1, 0) for specimen in specimens("") for mended in (False, True)])
 
 
-# In the default order some have a data race, which the accesses show that do no harm in it.
+# Data races are failures here: the default order shows them though they do no harm in it.
 class Instrumented(Programs, ExecCase):
     suffix = INSTRUMENTED
     replayed = {"crossing of 3": "deadlock", "work stealing": "a job is done twice"}
@@ -120,9 +119,8 @@ class Instrumented(Programs, ExecCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        program = specimens(cls.suffix)[0].program
-        if not program.exists() or run(WAITPOINT, "exec", "--quiet", "--", program).returncode == REFUSED:
-            raise unittest.SkipTest("programs whose accesses to memory are seen cannot be run")
+        if not (BUILD / "libwaitpoint-exec-races.so").exists() or not specimens(cls.suffix)[0].program.exists():
+            raise unittest.SkipTest("this build has no programs whose accesses to memory are seen")
 
     def wanted(self):
         return specimens(self.suffix)

@@ -26,7 +26,8 @@ void stale_poster(int) {
   crew.add([&] {
     int from = read();
     const std::lock_guard guard(wheels);
-    if (mended) from = read();
+    const std::lock_guard last_look(poster);
+    if (mended) from = position;
     check(position - from < tolerated, "motion starts from where the robot was long ago");
   });
   crew.add([&] {
