@@ -17,10 +17,13 @@ class CancellationPoint {
  public:
   /// Leaves the thread if it was cancelled before.
   CancellationPoint() {
+    if (!is_simulated()) return;
     leave_if_cancelled();
     this_thread().in_cancellation_point = true;
   }
-  ~CancellationPoint() { this_thread().in_cancellation_point = false; }
+  ~CancellationPoint() {
+    if (is_simulated()) this_thread().in_cancellation_point = false;
+  }
   CancellationPoint(const CancellationPoint&) = delete;
   CancellationPoint& operator=(const CancellationPoint&) = delete;
 

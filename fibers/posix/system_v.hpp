@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What System V's semaphores, shared memory and message queues have in common: keys, identifiers and permissions.
+//
+// The objects are the simulation's own: all programs of one simulation share them, no other process sees them, and they
+// are gone when it ends. They keep to the limits that Linux begins with.
+#pragma once
+
+#include <sys/ipc.h>
+#include <sys/types.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <new>
+
+#include "core/time.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/posix/error_number.hpp"
+
+namespace waitpoint::posix::system_v {
+
+inline constexpr unsigned identifiers_a_slot = 32768;
+
+/// What each of them begins with.
+struct Common {
+  explicit Common(const char* kind) : object(kind) {}
+
+  kernel::Object object;
+  ipc_perm permissions{};
+  int id = -1;
+  unsigned users = 0;    ///< calls that are within it
+  bool removed = false;  ///< by IPC_RMID: it has no identifier any more
+};
+
+/// Who makes an object is its creator and owner, for the first time.
+void set_creator(Common& common, key_t key, int flags);
+/// Whether the process has all the rights of `asked`, as of one class: 4 to read, 2 to write.
+bool is_allowed(const Common& common, int asked);
+/// Whether the process may change or remove it.
+bool is_owner(const Common& common);
+/// Of IPC_SET: the owner and the mode.
+void set_owner(Common& common, const ipc_perm& to);
+/// Seconds of CLOCK_REALTIME, now.
+time_t date();
+
+/// What counts for an event; nothing before main().
+void pass_if_simulated(kernel::Operation operation, kernel::Object* object);
+
+/// All objects of a kind: an identifier is a slot and how often the slot was used before.
+template <class T, int most>
+class Table {
+ public:
+  int end() const { return end_; }  ///< behind the greatest slot that was used
+  T* in_slot(int slot) const { return slot >= 0 && slot < end_ ? slots_[slot] : nullptr; }
+  /// Null if there is none of this identifier.
+  T* find(int id) const {
+    T* const found = id >= 0 ? in_slot(id % static_cast<int>(identifiers_a_slot)) : nullptr;
+    return found != nullptr && found->id == id ? found : nullptr;
+  }
+  int count() const { return count_; }
+
+  /// As semget() and its kin: `check` says what is wrong with an object that exists already, and `make` makes one that
+  /// does not; both give 0 or an error.
+  template <class Check, class Make>
+  int get(key_t key, int flags, Check check, Make make) {
+    if (key != IPC_PRIVATE)
+      for (int slot = 0; slot < end_; ++slot) {
+        T* const found = slots_[slot];
+        if (found == nullptr || found->permissions.__key != key) continue;
+        if ((flags & IPC_CREAT) != 0 && (flags & IPC_EXCL) != 0) return fail(EEXIST);
+        if (const int error = check(*found); error != 0) return fail(error);
+        return is_allowed(*found, (flags >> 6 | flags >> 3 | flags) & 7) ? found->id : fail(EACCES);
+      }
+    if (key != IPC_PRIVATE && (flags & IPC_CREAT) == 0) return fail(ENOENT);
+    int slot = 0;
+    while (slot < end_ && slots_[slot] != nullptr) ++slot;
+    if (slot == most) return fail(ENOSPC);
+    T* made = nullptr;
+    if (const int error = make(made); error != 0) return fail(error);
+    set_creator(*made, key, flags);
+    made->id = static_cast<int>(used_[slot] % identifiers_a_slot * identifiers_a_slot) + slot;
+    made->permissions.__seq = static_cast<unsigned short>(used_[slot]++);
+    slots_[slot] = made;
+    if (slot == end_) ++end_;
+    ++count_;
+    return made->id;
+  }
+
+  /// Takes an object's identifier away; it is freed once no call is within it.
+  void remove(T& object) {
+    slots_[object.id % static_cast<int>(identifiers_a_slot)] = nullptr;
+    object.removed = true;
+    --count_;
+  }
+
+ private:
+  T* slots_[most];
+  unsigned short used_[most];
+  int end_, count_;
+};
+
+/// A call that is within an object, which stays until the call is done.
+template <class T>
+class Use {
+ public:
+  explicit Use(T* object) : object_(object) {
+    if (object_ != nullptr) ++object_->users;
+  }
+  ~Use() {
+    if (object_ == nullptr || --object_->users > 0 || !object_->removed) return;
+    object_->~T();
+    std::free(object_);
+  }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+
+  explicit operator bool() const { return object_ != nullptr; }
+  T& operator*() const { return *object_; }
+  T* operator->() const { return object_; }
+
+ private:
+  T* object_;
+};
+
+/// A new one, of this size at least; null if there is no memory.
+template <class T>
+T* make_object(std::size_t size = sizeof(T)) {
+  void* const memory = std::calloc(1, size);
+  return memory == nullptr ? nullptr : new (memory) T();
+}
+
+}  // namespace waitpoint::posix::system_v

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// System V message queues. A message goes to a call that waits for it at once; calls that wait for room are woken, and
+// look for themselves.
+#include <sys/msg.h>
+#include <unistd.h>
+
+#include <climits>
+#include <cstring>
+
+#include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/system_v.hpp"
+#include "fibers/posix/waiting.hpp"
+
+namespace waitpoint::posix::system_v {
+namespace {
+
+// Linux's, as it is when a machine starts.
+constexpr int queues_max = 32000;
+constexpr std::size_t bytes_a_message_max = 8192, bytes_a_queue_max = 16384;
+
+struct Message {
+  long type;
+  std::size_t size;
+  Message* next;
+  char* bytes() { return reinterpret_cast<char*>(this + 1); }
+};
+
+/// What a receiving call asks for.
+struct Wanted {
+  long type;
+  std::size_t size;
+  int flags;
+};
+
+/// A call that waits to receive: on its thread's stack.
+struct Receiving {
+  kernel::Task* task;
+  Wanted wanted;
+  Message* message;  // given to it
+  int error;         // with which it ends
+  Receiving* next;
+};
+
+struct Queue : Common {
+  Queue() : Common("System V message queue") {}
+  ~Queue() {
+    while (Message* message = first) {
+      first = message->next;
+      std::free(message);
+    }
+  }
+
+  kernel::Object room{"room in a System V message queue"};
+  std::size_t bytes = 0, bytes_max = bytes_a_queue_max;
+  unsigned long count = 0;
+  time_t sent = 0, received = 0, changed = 0;
+  pid_t last_sender = 0, last_receiver = 0;
+  Message* first = nullptr;
+  Receiving* first_receiving = nullptr;
+};
+
+Table<Queue, queues_max> queues;
+
+bool is_wanted(const Wanted& wanted, long type) {
+  if (wanted.type == 0) return true;
+  if (wanted.type < 0) return type <= (wanted.type == LONG_MIN ? LONG_MAX : -wanted.type);
+  return (type == wanted.type) != ((wanted.flags & MSG_EXCEPT) != 0);
+}
+
+// The link to the message that is received next; to null if there is none.
+Message** find_message(Queue& queue, const Wanted& wanted) {
+  if ((wanted.flags & MSG_COPY) != 0) {
+    Message** link = &queue.first;
+    for (long number = wanted.type; *link != nullptr && number > 0; --number) link = &(*link)->next;
+    return link;
+  }
+  Message** found = nullptr;
+  Message** link = &queue.first;
+  for (; *link != nullptr; link = &(*link)->next) {
+    if (!is_wanted(wanted, (*link)->type)) continue;
+    if (wanted.type >= 0) return link;
+    if (found == nullptr || (*link)->type < (*found)->type) found = link;
+  }
+  return found != nullptr ? found : link;
+}
+
+void append(Queue& queue, Message& message) {
+  Message** link = &queue.first;
+  while (*link != nullptr) link = &(*link)->next;
+  *link = &message;
+  message.next = nullptr;
+  queue.bytes += message.size;
+  ++queue.count;
+}
+
+void remove(Queue& queue, Receiving& receiving) {
+  for (Receiving** link = &queue.first_receiving; *link != nullptr; link = &(*link)->next)
+    if (*link == &receiving) {
+      *link = receiving.next;
+      return;
+    }
+}
+
+void end_receiving(Queue& queue, Receiving& receiving, Message* message, int error) {
+  remove(queue, receiving);
+  receiving.message = message;
+  receiving.error = error;
+  receiving.task->scheduler->wake(*receiving.task);
+}
+
+// To one of those that wait for such a message, of the chooser's choice. Whose room is too small ends with an error.
+bool give(Queue& queue, Message& message) {
+  for (;;) {
+    std::uint32_t count = 0;
+    for (const Receiving* each = queue.first_receiving; each != nullptr; each = each->next)
+      if (is_wanted(each->wanted, message.type)) ++count;
+    if (count == 0) return false;
+    std::uint32_t chosen = is_simulated() ? kernel::running->scheduler->chooser().waiter(*kernel::running, count) : 0;
+    Receiving* each = queue.first_receiving;
+    while (!is_wanted(each->wanted, message.type) || chosen-- > 0) each = each->next;
+    if (message.size > each->wanted.size && (each->wanted.flags & MSG_NOERROR) == 0) {
+      end_receiving(queue, *each, nullptr, E2BIG);
+      continue;
+    }
+    queue.last_receiver = getpid();
+    queue.received = date();
+    end_receiving(queue, *each, &message, 0);
+    return true;
+  }
+}
+
+bool has_room(const Queue& queue, std::size_t size) {
+  return queue.bytes + size <= queue.bytes_max && queue.count + 1 <= queue.bytes_max;
+}
+
+void wake_senders(Queue& queue) {
+  if (is_simulated()) kernel::running->scheduler->wake_all(queue.room);
+}
+
+int send_message(Queue& queue, long type, const char* bytes, std::size_t size, int flags) {
+  const CancellationPoint point;
+  pass_if_simulated(kernel::Operation::send, &queue.object);
+  while (!queue.removed && !has_room(queue, size)) {
+    if ((flags & IPC_NOWAIT) != 0) return fail(EAGAIN);
+    if (!is_simulated()) refuse("a thread waits before main() begins");
+    kernel::running->scheduler->enter(queue.room);
+    point.block(queue.room, Time::max());
+    if (point.was_cancelled()) return fail(ECANCELED);
+  }
+  if (queue.removed) return fail(EIDRM);
+  auto* const message = static_cast<Message*>(std::malloc(sizeof(Message) + size));
+  if (message == nullptr) return fail(ENOMEM);
+  message->type = type;
+  message->size = size;
+  std::memcpy(message->bytes(), bytes, size);
+  queue.last_sender = getpid();
+  queue.sent = date();
+  if (!give(queue, *message)) append(queue, *message);
+  return 0;
+}
+
+// Null with errno set; a message that the caller frees, unless it is a copy that stays in the queue.
+Message* take_message(Queue& queue, const Wanted& wanted) {
+  const CancellationPoint point;
+  pass_if_simulated(kernel::Operation::receive, &queue.object);
+  const auto failed = [](int error) {
+    fail(error);
+    return static_cast<Message*>(nullptr);
+  };
+  if (queue.removed) return failed(EIDRM);
+  Message** const link = find_message(queue, wanted);
+  if (Message* const message = *link; message != nullptr) {
+    if (message->size > wanted.size && (wanted.flags & MSG_NOERROR) == 0) return failed(E2BIG);
+    if ((wanted.flags & MSG_COPY) != 0) return message;
+    *link = message->next;
+    queue.bytes -= message->size;
+    --queue.count;
+    queue.last_receiver = getpid();
+    queue.received = date();
+    wake_senders(queue);
+    return message;
+  }
+  if ((wanted.flags & IPC_NOWAIT) != 0) return failed(ENOMSG);
+  if (!is_simulated()) refuse("a thread waits before main() begins");
+  Receiving receiving{kernel::running, wanted, nullptr, -1, nullptr};
+  Receiving** last = &queue.first_receiving;
+  while (*last != nullptr) last = &(*last)->next;
+  *last = &receiving;
+  point.block(queue.object, Time::max());
+  if (receiving.error < 0) {
+    remove(queue, receiving);
+    return failed(ECANCELED);
+  }
+  return receiving.error == 0 ? receiving.message : failed(receiving.error);
+}
+
+int tell_status(const Queue& queue, msqid_ds* to) {
+  *to = {};
+  to->msg_perm = queue.permissions;
+  to->msg_stime = queue.sent;
+  to->msg_rtime = queue.received;
+  to->msg_ctime = queue.changed;
+  to->__msg_cbytes = queue.bytes;
+  to->msg_qnum = queue.count;
+  to->msg_qbytes = queue.bytes_max;
+  to->msg_lspid = queue.last_sender;
+  to->msg_lrpid = queue.last_receiver;
+  return 0;
+}
+
+int tell_limits(void* to, bool used) {
+  msginfo limits{};
+  limits.msgmni = queues_max;
+  limits.msgmax = static_cast<int>(bytes_a_message_max);
+  limits.msgmnb = static_cast<int>(bytes_a_queue_max);
+  limits.msgssz = 16;
+  limits.msgseg = 0xFFFF;
+  limits.msgmap = limits.msgmnb;
+  limits.msgpool = queues_max * limits.msgmnb / 1024;
+  limits.msgtql = limits.msgmnb;
+  if (used) limits.msgpool = limits.msgmap = limits.msgtql = 0;
+  int greatest = 0;
+  for (int slot = 0; slot < queues.end(); ++slot)
+    if (const Queue* queue = queues.in_slot(slot); queue != nullptr) {
+      greatest = slot;
+      if (!used) continue;
+      ++limits.msgpool;
+      limits.msgmap += static_cast<int>(queue->count);
+      limits.msgtql += static_cast<int>(queue->bytes);
+    }
+  std::memcpy(to, &limits, sizeof limits);
+  return greatest;
+}
+
+void end_all(Queue& queue, int error) {
+  while (queue.first_receiving != nullptr) end_receiving(queue, *queue.first_receiving, nullptr, error);
+  wake_senders(queue);
+}
+
+int control(Queue& queue, int command, msqid_ds* status) {
+  switch (command) {
+    case IPC_STAT: return is_allowed(queue, 4) ? tell_status(queue, status) : fail(EACCES);
+    case IPC_SET:
+      if (!is_owner(queue)) return fail(EPERM);
+      if (status->msg_qbytes > bytes_a_queue_max && geteuid() != 0) return fail(EPERM);
+      set_owner(queue, status->msg_perm);
+      queue.bytes_max = status->msg_qbytes;
+      queue.changed = date();
+      wake_senders(queue);
+      return 0;
+    case IPC_RMID:
+      if (!is_owner(queue)) return fail(EPERM);
+      queues.remove(queue);
+      end_all(queue, EIDRM);
+      return 0;
+    default: return fail(EINVAL);
+  }
+}
+
+}  // namespace
+}  // namespace waitpoint::posix::system_v
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+using namespace waitpoint::posix::system_v;
+
+WAITPOINT_INTERPOSED int msgget(key_t key, int flags) noexcept {
+  pass_if_simulated(kernel::Operation::open, nullptr);
+  return queues.get(
+      key, flags, [](const Queue&) { return 0; },
+      [](Queue*& made) {
+        made = make_object<Queue>();
+        if (made == nullptr) return ENOMEM;
+        made->changed = date();
+        return 0;
+      });
+}
+
+WAITPOINT_INTERPOSED int msgsnd(int id, const void* message, std::size_t size, int flags) {
+  long type = 0;
+  std::memcpy(&type, message, sizeof type);
+  if (size > bytes_a_message_max || type < 1) return fail(EINVAL);
+  int result = 0;
+  {
+    const Use<Queue> queue(queues.find(id));
+    if (!queue) return fail(EINVAL);
+    if (!is_allowed(*queue, 2)) return fail(EACCES);
+    result = send_message(*queue, type, static_cast<const char*>(message) + sizeof type, size, flags);
+  }
+  if (is_simulated()) leave_if_cancelled();
+  return result;
+}
+
+WAITPOINT_INTERPOSED ssize_t msgrcv(int id, void* to, std::size_t size, long type, int flags) {
+  if (size > SSIZE_MAX) return fail(EINVAL);
+  const bool is_copy = (flags & MSG_COPY) != 0;
+  if (is_copy && ((flags & MSG_EXCEPT) != 0 || (flags & IPC_NOWAIT) == 0)) return fail(EINVAL);
+  ssize_t result = -1;
+  {
+    const Use<Queue> queue(queues.find(id));
+    if (!queue) return fail(EINVAL);
+    if (!is_allowed(*queue, 4)) return fail(EACCES);
+    if (Message* const message = take_message(*queue, {type, size, flags}); message != nullptr) {
+      const std::size_t taken = message->size < size ? message->size : size;
+      std::memcpy(to, &message->type, sizeof message->type);
+      std::memcpy(static_cast<char*>(to) + sizeof message->type, message->bytes(), taken);
+      result = static_cast<ssize_t>(taken);
+      if (!is_copy) std::free(message);
+    }
+  }
+  if (result < 0 && is_simulated()) leave_if_cancelled();
+  return result;
+}
+
+WAITPOINT_INTERPOSED int msgctl(int id, int command, msqid_ds* status) noexcept {
+  if (id < 0 || command < 0) return fail(EINVAL);
+  if (command == IPC_INFO || command == MSG_INFO) return tell_limits(status, command == MSG_INFO);
+  const bool by_slot = command == MSG_STAT || command == MSG_STAT_ANY;
+  const Use<Queue> queue(by_slot ? queues.in_slot(id) : queues.find(id));
+  if (!queue) return fail(EINVAL);
+  if (by_slot) {
+    if (command == MSG_STAT && !is_allowed(*queue, 4)) return fail(EACCES);
+    tell_status(*queue, status);
+    return queue->id;
+  }
+  pass_if_simulated(kernel::Operation::modify, &queue->object);
+  return queue->removed ? fail(EIDRM) : control(*queue, command, status);
+}

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// System V semaphores: a call's operations on the semaphores of a set are done all at once or not at all. Who changes a
+// set does on the spot what waiting calls can do then.
+#include <sys/sem.h>
+#include <unistd.h>
+
+#include <cstdarg>
+#include <cstring>
+
+#include "fibers/posix/clocks.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/system_v.hpp"
+#include "fibers/posix/undo.hpp"
+#include "fibers/posix/waiting.hpp"
+
+namespace waitpoint::posix::system_v {
+namespace {
+
+// Linux's, as it is when a machine starts.
+constexpr int sets_max = 32000, semaphores_a_set_max = 32000, operations_a_call_max = 500, value_max = 32767;
+
+struct Value {
+  unsigned short value;
+  pid_t last;  // who changed it last
+};
+
+/// A call that waits for its operations to be possible: on its thread's stack.
+struct Waiting {
+  kernel::Task* task;
+  const sembuf* operations;
+  std::size_t count;
+  const sembuf* hindered_by;  // the first that cannot be done
+  int result;                 // an error, or 0
+  bool done;
+  Waiting* next;
+};
+
+/// What a program has done with SEM_UNDO to a set, negated.
+struct Adjustments {
+  const kernel::Robot* program;
+  Adjustments* next;
+  int* by;  // behind it
+};
+
+struct Set : Common {
+  Set() : Common("System V semaphores") {}
+  ~Set() {
+    while (Adjustments* first = adjustments) {
+      adjustments = first->next;
+      std::free(first);
+    }
+  }
+
+  int size = 0;
+  Value* values = nullptr;  // behind it
+  time_t operated = 0, changed = 0;
+  Waiting* first = nullptr;
+  Adjustments* adjustments = nullptr;
+};
+
+Table<Set, sets_max> sets;
+
+// Null without memory.
+Adjustments* adjustments_of(Set& set, const kernel::Robot* program) {
+  for (Adjustments* each = set.adjustments; each != nullptr; each = each->next)
+    if (each->program == program) return each;
+  const std::size_t bytes = sizeof(Adjustments) + static_cast<std::size_t>(set.size) * sizeof(int);
+  auto* const made = static_cast<Adjustments*>(std::calloc(1, bytes));
+  if (made == nullptr) return nullptr;
+  made->program = program;
+  made->by = reinterpret_cast<int*>(made + 1);
+  made->next = set.adjustments;
+  return set.adjustments = made;
+}
+
+const kernel::Robot* program_of(const kernel::Task* task) { return task != nullptr ? task->robot : nullptr; }
+
+// Whether all operations of a call could be done, and were; if not, which one is the first in the way and, if it can
+// never be done, why.
+struct Attempt {
+  const sembuf* hindered_by;
+  int error;
+};
+
+void take_back(Set& set, Adjustments* undo, const sembuf* from, const sembuf* to) {
+  while (to != from) {
+    --to;
+    Value& value = set.values[to->sem_num];
+    value.value = static_cast<unsigned short>(value.value - to->sem_op);
+    if ((to->sem_flg & SEM_UNDO) != 0) undo->by[to->sem_num] += to->sem_op;
+  }
+}
+
+Attempt attempt(Set& set, const kernel::Task* task, const sembuf* operations, std::size_t count) {
+  Adjustments* undo = nullptr;
+  for (const sembuf* at = operations; at != operations + count; ++at) {
+    Value& value = set.values[at->sem_num];
+    const int result = value.value + at->sem_op;
+    int error = 0;
+    const bool hindered = at->sem_op == 0 ? value.value != 0 : result < 0;
+    if (result > value_max) error = ERANGE;
+    if (!hindered && error == 0 && (at->sem_flg & SEM_UNDO) != 0) {
+      if (undo == nullptr) undo = adjustments_of(set, program_of(task));
+      if (undo == nullptr)
+        error = ENOMEM;
+      else if (const int by = undo->by[at->sem_num] - at->sem_op; by < -value_max - 1 || by > value_max)
+        error = ERANGE;
+      else
+        undo->by[at->sem_num] = by;
+    }
+    if (hindered || error != 0) {
+      take_back(set, undo, operations, at);
+      return {at, error};
+    }
+    value.value = static_cast<unsigned short>(result);
+  }
+  for (const sembuf* at = operations; at != operations + count; ++at) set.values[at->sem_num].last = getpid();
+  set.operated = date();
+  return {nullptr, 0};
+}
+
+void end_waiting(Waiting& waiting, int result) {
+  waiting.result = result;
+  waiting.done = true;
+  waiting.task->scheduler->wake(*waiting.task);
+}
+
+void remove(Set& set, Waiting& waiting) {
+  for (Waiting** link = &set.first; *link != nullptr; link = &(*link)->next)
+    if (*link == &waiting) {
+      *link = waiting.next;
+      return;
+    }
+}
+
+// Whether a waiting call could go on if it were its turn. What can never be done ends with its error.
+bool could_go_on(Set& set, Waiting& waiting) {
+  Value* const values = set.values;
+  int left[2];  // mostly one or two operations, on different semaphores
+  if (waiting.count > 2 || (waiting.count == 2 && waiting.operations[0].sem_num == waiting.operations[1].sem_num))
+    return true;
+  for (std::size_t i = 0; i < waiting.count; ++i) {
+    const sembuf& operation = waiting.operations[i];
+    left[i] = values[operation.sem_num].value + operation.sem_op;
+    if (operation.sem_op == 0 ? left[i] != 0 : left[i] < 0) return false;
+  }
+  return true;
+}
+
+// After a change: one after the other, of the chooser's choice, as long as any call can go on.
+void let_go_on(Set& set) {
+  for (;;) {
+    std::uint32_t count = 0;
+    for (Waiting* each = set.first; each != nullptr; each = each->next)
+      if (could_go_on(set, *each)) ++count;
+    if (count == 0) return;
+    bool any = false;
+    // From the chosen one around, until one was done: those of many operations may turn out to be hindered.
+    std::uint32_t chosen = is_simulated() ? kernel::running->scheduler->chooser().waiter(*kernel::running, count) : 0;
+    for (std::uint32_t tried = 0; tried < count && !any; ++tried, chosen = (chosen + 1) % count) {
+      std::uint32_t at = 0;
+      Waiting* each = set.first;
+      while (each != nullptr && (!could_go_on(set, *each) || at++ != chosen)) each = each->next;
+      if (each == nullptr) break;
+      const Attempt made = attempt(set, each->task, each->operations, each->count);
+      each->hindered_by = made.hindered_by;
+      if (made.hindered_by != nullptr && made.error == 0) continue;
+      remove(set, *each);
+      end_waiting(*each, made.error);
+      any = true;
+    }
+    if (!any) return;
+  }
+}
+
+void end_all(Set& set, int error) {
+  while (Waiting* waiting = set.first) {
+    set.first = waiting->next;
+    end_waiting(*waiting, error);
+  }
+}
+
+int operate(int id, const sembuf* operations, std::size_t count, Time deadline) {
+  if (count == 0) return fail(EINVAL);
+  if (count > operations_a_call_max) return fail(E2BIG);
+  const Use<Set> set(sets.find(id));
+  if (!set) return fail(EINVAL);
+  bool alters = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (operations[i].sem_num >= set->size) return fail(EFBIG);
+    alters = alters || operations[i].sem_op != 0;
+  }
+  if (!is_allowed(*set, alters ? 2 : 4)) return fail(EACCES);
+  pass_if_simulated(operations->sem_op > 0 ? kernel::Operation::release : kernel::Operation::acquire, &set->object);
+  if (set->removed) return fail(EIDRM);
+  const Attempt made = attempt(*set, kernel::running, operations, count);
+  if (made.error != 0) return fail(made.error);
+  if (made.hindered_by == nullptr) {
+    if (alters) let_go_on(*set);
+    return 0;
+  }
+  if ((made.hindered_by->sem_flg & IPC_NOWAIT) != 0) return fail(EAGAIN);
+  if (!is_simulated()) refuse("a thread waits before main() begins");
+  if (deadline <= kernel::running->local_time) return fail(EAGAIN);
+  Waiting waiting{kernel::running, operations, count, made.hindered_by, 0, false, nullptr};
+  Waiting** last = &set->first;
+  while (*last != nullptr) last = &(*last)->next;
+  *last = &waiting;
+  block(set->object, deadline);
+  if (!waiting.done) {
+    remove(*set, waiting);
+    return fail(EAGAIN);
+  }
+  return waiting.result == 0 ? 0 : fail(waiting.result);
+}
+
+// Of a semaphore: how many calls wait for it to rise, or to be zero.
+int count_waiting(const Set& set, int number, bool for_zero) {
+  int count = 0;
+  for (const Waiting* each = set.first; each != nullptr; each = each->next)
+    if (each->hindered_by->sem_num == number && (each->hindered_by->sem_op == 0) == for_zero) ++count;
+  return count;
+}
+
+void forget_adjustments(Set& set, int number) {
+  for (Adjustments* each = set.adjustments; each != nullptr; each = each->next) each->by[number] = 0;
+}
+
+int set_value(Set& set, int number, int to) {
+  if (to < 0 || to > value_max) return fail(ERANGE);
+  set.values[number].value = static_cast<unsigned short>(to);
+  set.values[number].last = getpid();
+  forget_adjustments(set, number);
+  set.changed = date();
+  let_go_on(set);
+  return 0;
+}
+
+int set_all(Set& set, const unsigned short* to) {
+  for (int i = 0; i < set.size; ++i)
+    if (to[i] > value_max) return fail(ERANGE);
+  for (int i = 0; i < set.size; ++i) {
+    set.values[i].value = to[i];
+    set.values[i].last = getpid();
+    forget_adjustments(set, i);
+  }
+  set.changed = date();
+  let_go_on(set);
+  return 0;
+}
+
+union Argument {
+  int value;
+  semid_ds* status;
+  unsigned short* array;
+  seminfo* information;
+};
+
+int tell_limits(seminfo* to, bool used) {
+  *to = {};
+  to->semmni = sets_max;
+  to->semmns = sets_max * semaphores_a_set_max;
+  to->semmsl = semaphores_a_set_max;
+  to->semopm = operations_a_call_max;
+  to->semvmx = value_max;
+  to->semaem = value_max;
+  to->semmap = to->semmnu = to->semmns;
+  to->semume = operations_a_call_max;
+  to->semusz = used ? sets.count() : 20;
+  int greatest = 0;
+  for (int slot = 0; slot < sets.end(); ++slot)
+    if (const Set* set = sets.in_slot(slot); set != nullptr) {
+      greatest = slot;
+      if (used) to->semaem += set->size;
+    }
+  if (used) to->semaem -= value_max;
+  return greatest;
+}
+
+int tell_status(const Set& set, semid_ds* to) {
+  *to = {};
+  to->sem_perm = set.permissions;
+  to->sem_otime = set.operated;
+  to->sem_ctime = set.changed;
+  to->sem_nsems = static_cast<unsigned long>(set.size);
+  return 0;
+}
+
+int control_one(Set& set, int number, int command, Argument argument) {
+  if (number < 0 || number >= set.size) return fail(EINVAL);
+  if (!is_allowed(set, command == SETVAL ? 2 : 4)) return fail(EACCES);
+  switch (command) {
+    case GETVAL: return set.values[number].value;
+    case GETPID: return set.values[number].last;
+    case GETNCNT: return count_waiting(set, number, false);
+    case GETZCNT: return count_waiting(set, number, true);
+    default: return set_value(set, number, argument.value);
+  }
+}
+
+int control_all(Set& set, int command, Argument argument) {
+  switch (command) {
+    case GETALL:
+      if (!is_allowed(set, 4)) return fail(EACCES);
+      for (int i = 0; i < set.size; ++i) argument.array[i] = set.values[i].value;
+      return 0;
+    case SETALL: return is_allowed(set, 2) ? set_all(set, argument.array) : fail(EACCES);
+    case IPC_STAT: return is_allowed(set, 4) ? tell_status(set, argument.status) : fail(EACCES);
+    case IPC_SET:
+      if (!is_owner(set)) return fail(EPERM);
+      set_owner(set, argument.status->sem_perm);
+      set.changed = date();
+      return 0;
+    case IPC_RMID:
+      if (!is_owner(set)) return fail(EPERM);
+      sets.remove(set);
+      end_all(set, EIDRM);
+      return 0;
+    default: return fail(EINVAL);
+  }
+}
+
+}  // namespace
+
+void undo_semaphores_of(const kernel::Robot& program) {
+  for (int slot = 0; slot < sets.end(); ++slot) {
+    Set* const set = sets.in_slot(slot);
+    if (set == nullptr) continue;
+    for (Adjustments** link = &set->adjustments; *link != nullptr;) {
+      Adjustments* const each = *link;
+      if (each->program != &program) {
+        link = &each->next;
+        continue;
+      }
+      for (int i = 0; i < set->size; ++i) {
+        const int to = set->values[i].value + each->by[i];
+        if (each->by[i] != 0)
+          set->values[i] = {static_cast<unsigned short>(to < 0 ? 0 : to > value_max ? value_max : to), getpid()};
+      }
+      *link = each->next;
+      std::free(each);
+    }
+    let_go_on(*set);
+  }
+}
+
+}  // namespace waitpoint::posix::system_v
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+using namespace waitpoint::posix::system_v;
+
+WAITPOINT_INTERPOSED int semget(key_t key, int size, int flags) noexcept {
+  if (size < 0 || size > semaphores_a_set_max) return fail(EINVAL);
+  pass_if_simulated(kernel::Operation::open, nullptr);
+  return sets.get(
+      key, flags, [&](const Set& set) { return size > set.size ? EINVAL : 0; },
+      [&](Set*& made) {
+        if (size == 0) return EINVAL;
+        made = make_object<Set>(sizeof(Set) + static_cast<std::size_t>(size) * sizeof(Value));
+        if (made == nullptr) return ENOMEM;
+        made->size = size;
+        made->values = reinterpret_cast<Value*>(made + 1);
+        made->changed = date();
+        return 0;
+      });
+}
+
+WAITPOINT_INTERPOSED int semop(int id, sembuf* operations, std::size_t count) noexcept {
+  return operate(id, operations, count, Time::max());
+}
+
+WAITPOINT_INTERPOSED int semtimedop(int id, sembuf* operations, std::size_t count, const timespec* timeout) noexcept {
+  if (timeout == nullptr || !is_simulated()) return operate(id, operations, count, Time::max());
+  if (!is_valid(*timeout) || timeout->tv_sec < 0) return fail(EINVAL);
+  return operate(id, operations, count, later(kernel::local_time(*kernel::running), span(*timeout)));
+}
+
+WAITPOINT_INTERPOSED int semctl(int id, int number, int command, ...) noexcept {
+  va_list more;
+  va_start(more, command);
+  const Argument argument = va_arg(more, Argument);
+  va_end(more);
+  if (id < 0) return fail(EINVAL);
+  if (command == IPC_INFO || command == SEM_INFO) return tell_limits(argument.information, command == SEM_INFO);
+  const bool by_slot = command == SEM_STAT || command == SEM_STAT_ANY;
+  const Use<Set> set(by_slot ? sets.in_slot(id) : sets.find(id));
+  if (!set) return fail(EINVAL);
+  if (by_slot) {
+    if (command == SEM_STAT && !is_allowed(*set, 4)) return fail(EACCES);
+    tell_status(*set, argument.status);
+    return set->id;
+  }
+  pass_if_simulated(kernel::Operation::modify, &set->object);
+  if (set->removed) return fail(EIDRM);
+  switch (command) {
+    case GETVAL:
+    case GETPID:
+    case GETNCNT:
+    case GETZCNT:
+    case SETVAL: return control_one(*set, number, command, argument);
+    default: return control_all(*set, command, argument);
+  }
+}
