@@ -25,21 +25,24 @@ void Scheduler::unlink(Task& task) {
   --tasks_;
 }
 
+// Of a task that is no service: whether it was the last of all.
+bool Scheduler::count_end(const Task& task) {
+  if (--task.robot->live_tasks == 0) {
+    task.robot->ended = true;
+    task.robot->lane = &unheard_;
+    task.robot->end_time = now_;
+  }
+  return --live_tasks_ == 0;
+}
+
 void Scheduler::end_task(Task& task) {
   if (task.seat != nullptr) vacate(task);
   unlink(task);
   ended_ = &task;
   task.fiber.ended = true;
-  if (!task.service && !unwinding_) {
-    if (--task.robot->live_tasks == 0) {
-      task.robot->ended = true;
-      task.robot->lane = &unheard_;
-      task.robot->end_time = now_;
-    }
-    if (--live_tasks_ == 0) {
-      cause_ = StopCause::ended;
-      leave_to_main(RunState::stopped);
-    }
+  if (!task.service && !unwinding_ && count_end(task)) {
+    cause_ = StopCause::ended;
+    leave_to_main(RunState::stopped);
   }
   if (unwinding_) leave_to_main(RunState::stopped);
   leave_for_next(task);
@@ -64,20 +67,34 @@ void Scheduler::unwind() {
   }
 }
 
+void Scheduler::end_in_place(Task& task) {
+  WAITPOINT_CHECK(&task != running && task.state != TaskState::running, "a task that runs is ended by another");
+  if (paused_ == &task) paused_ = nullptr;
+  if (task.event.place == EventNode::ready)
+    is_explored() ? ready_.remove(task) : present_.remove(task);
+  else if (task.event.in_list())
+    events_.remove(task.event);
+  if (task.state == TaskState::blocked) remove_waiter(task);
+  while (task.held != nullptr) {
+    Object& object = *task.held;
+    task.held = object.next_held;
+    object.owner = nullptr;
+  }
+  if (task.seat != nullptr) vacate(task);
+  unlink(task);
+  if (!task.service) count_end(task);
+}
+
 void Scheduler::keep_running_task_only() {
   ready_.clear();
   present_.clear();
   for (Task *task = first_task_, *next = nullptr; task != nullptr; task = next) {
     next = task->next;
-    if (task == running) continue;
-    if (task->event.in_list()) events_.remove(task->event);
-    if (task->state == TaskState::blocked) remove_waiter(*task);
-    unlink(*task);
-    if (task->service) continue;
-    --live_tasks_;
-    --task->robot->live_tasks;
+    if (task != running) end_in_place(*task);
   }
 }
+
+void Scheduler::end_running_task() { end_task(*running); }
 
 // A task that goes on calling although every call is refused would never end.
 bool Scheduler::refuse() {

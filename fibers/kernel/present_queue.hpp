@@ -38,6 +38,15 @@ class PresentQueue {
     --size_;
     return task;
   }
+  /// Takes out `task`, which must be here.
+  void remove(Task& task) {
+    Task* before = nullptr;
+    for (Task* other = first_; other != &task; other = other->next_waiter) before = other;
+    (before == nullptr ? first_ : before->next_waiter) = task.next_waiter;
+    if (last_ == &task) last_ = before;
+    task.event.place = EventNode::absent;
+    --size_;
+  }
   void clear() {
     while (!empty()) take();
   }

@@ -38,6 +38,12 @@ class ReadySet {
     for (--size_; at < size_; ++at) tasks_[at] = tasks_[at + 1];
     return task;
   }
+  /// Takes out `task`, which must be here.
+  void remove(const Task& task) {
+    std::uint32_t at = 0;
+    while (tasks_[at] != &task) ++at;
+    take(at);
+  }
   void clear() {
     while (size_ > 0) take(size_ - 1);
   }

@@ -113,6 +113,13 @@ class Scheduler {
   /// In a process that was forked from within a task: the others are not there any more, whatever they held or waited
   /// for. Their stacks stay as they are.
   void keep_running_task_only();
+  /// Another task than the running one is not there any more: nothing is unwound, what it owns is nobody's. Its stack
+  /// stays as it is, for free_stack().
+  void end_in_place(Task& task);
+  /// Gives back the stack of a task ended so, and its record with it.
+  void free_stack(const Task& task) { arena_.give_back(Stack(task.fiber.stack)); }
+  /// The running task ends where it is, after the waitpoint of its end: nothing is unwound.
+  [[noreturn]] void end_running_task();
   /// Gives up the running task, which cannot or does not leave its frames while it is unwound: what they own leaks.
   [[noreturn]] void abandon();
   /// The tasks given up so, linked by `next`.
@@ -219,6 +226,8 @@ class Scheduler {
   /// A task of the cycle in a deadlock, whose `search.to` leads around it, or one that spins; null without any.
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch);
+  /// Where the events of the task that ran last are hashed: its robot's digest.
+  const PairDigest* lane_in_use() const { return lane_; }
   /// Null: durations that do not follow from the run count as they are.
   void set_durations(Durations* durations) { durations_ = durations; }
   Watch* watch() const { return watch_; }
@@ -241,6 +250,7 @@ class Scheduler {
  private:
   static void task_main(void* task);
   [[noreturn]] void end_task(Task& task);
+  bool count_end(const Task& task);
   void unlink(Task& task);
   bool refuse();
   void adopt(Object& object);

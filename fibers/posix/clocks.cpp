@@ -32,6 +32,8 @@ std::int64_t begin_ns(clockid_t clock) {
   }
 }
 
+Duration spent_by_program() { return is_simulated() ? this_program().spent : Duration(); }
+
 // Before main(), time stands still at the start of the run.
 Time now() { return is_simulated() ? read_clock() : Time(); }
 
@@ -43,10 +45,10 @@ bool is_clock(clockid_t clock) {
 }
 
 std::int64_t reading_ns(clockid_t clock, Time time) {
-  if (clock == CLOCK_PROCESS_CPUTIME_ID) return spent_by_all.ns();
+  if (clock == CLOCK_PROCESS_CPUTIME_ID) return spent_by_program().ns();
   if (clock == CLOCK_THREAD_CPUTIME_ID) return is_simulated() ? this_thread().spent.ns() : 0;
   // As glibc and the kernel number those of others: the complement of a process, or of a thread, above three bits.
-  if (clock < 0) return (clock & 4) == 0 ? spent_by_all.ns() : spent_by(~(clock >> 3)).ns();
+  if (clock < 0) return (clock & 4) == 0 ? spent_by_program().ns() : spent_by(~(clock >> 3)).ns();
   return begin_ns(clock) + time.ns();
 }
 

@@ -100,6 +100,11 @@ void forget_waiters() {
   waiting_outside = 0;
 }
 
+void forget_waiter(const kernel::Task& task) {
+  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+    if (waiter->task == &task) return remove(*waiter);
+}
+
 int wait_for(pollfd* descriptors, nfds_t count, Time deadline) {
   kernel::Task& task = *kernel::running;
   Waiter waiter{&task, descriptors, count, false, nullptr, nullptr};

@@ -12,6 +12,7 @@
 #include <poll.h>
 
 #include "core/time.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::posix {
 
@@ -25,6 +26,8 @@ bool is_inside(int descriptor);
 void note_fork();
 /// In the child: nobody waits there.
 void forget_waiters();
+/// The task is not there any more.
+void forget_waiter(const kernel::Task& task);
 
 /// The running thread waits until any of the descriptors is ready or `deadline` comes. As poll(): how many are, which
 /// is in their `revents`; 0 at the deadline. Where all are inside it goes on at once if one is ready.

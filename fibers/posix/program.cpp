@@ -38,6 +38,11 @@ void take_first_away(const char* variable) {
     setenv(variable, others + 1, 1);
 }
 
+[[noreturn]] void end_process(int status) {
+  WAITPOINT_NEXT(_exit)(status);
+  __builtin_unreachable();
+}
+
 // Programs that this one starts are not simulated: what was put in front of the libraries they load is taken away.
 void clear_environment() {
   unsetenv(record_variable);
@@ -56,26 +61,6 @@ void map_record(int descriptor) {
     refuse("this library and the waitpoint that started it are not of one version");
 }
 
-// While threads wait for what comes from outside, the run comes out at the end of each instant.
-Ending run_to_end(kernel::Scheduler& scheduler) {
-  const Time end = record->settings.until;
-  for (Time until = end;;) {
-    const kernel::RunState state = scheduler.run_before(until);
-    if (state == kernel::RunState::stopped) break;
-    if (look_outside(state == kernel::RunState::idle)) {
-      until = later(scheduler.global_time(), nanosecond);
-    } else if (state == kernel::RunState::idle) {
-      break;
-    } else if (scheduler.next_event_time() >= end) {
-      return Ending::cut_off;
-    } else {
-      until = anybody_waits_outside() ? later(scheduler.next_event_time(), nanosecond) : end;
-    }
-  }
-  if (scheduler.stop_cause() == kernel::StopCause::ended) return Ending::own;
-  return scheduler.stop_cause() == kernel::StopCause::no_progress ? Ending::no_progress : Ending::deadlock;
-}
-
 // The C library calls it before those of libraries that are made with threads: by then they must be simulated.
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
@@ -89,35 +74,72 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
 
 void refuse(const char* reason) {
   std::fprintf(stderr, "waitpoint: exec: %s\n", reason);
-  _exit(status_of_own_errors);
+  end_process(status_of_own_errors);
 }
 
-void run_program(int (*body)(), const char* name) {
+bool has_members() {
+  begin();
+  return record->program_count > 0;
+}
+
+kernel::Scheduler& begin_run() {
   begin();
   if (const int server = record->settings.server; server >= 0) map_record(serve_runs(server));
-  program_body = body;
   const Asked* const asked = record->settings.asked;
   record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
-  new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
-  kernel::Scheduler& scheduler = record->scheduler;
-  const char* const slash = std::strrchr(name, '/');
-  scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
+  kernel::Scheduler& scheduler =
+      *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   scheduler.set_delivery(deliver_signals);
   if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
   record->running = &kernel::running;
   record->began = true;
+  return scheduler;
+}
+
+// While threads wait for what comes from outside, the run comes out at the end of each instant.
+Ending run_to_end(kernel::Scheduler& scheduler) {
+  const Time end = record->settings.until;
+  for (Time until = end;;) {
+    const kernel::RunState state = scheduler.run_before(until);
+    if (state == kernel::RunState::stopped) break;
+    if (look_outside(state == kernel::RunState::idle)) {
+      until = later(scheduler.global_time(), nanosecond);
+    } else if (state == kernel::RunState::idle) {
+      break;
+    } else if (scheduler.next_event_time() >= end) {
+      return record->ending = Ending::cut_off;
+    } else {
+      until = anybody_waits_outside() ? later(scheduler.next_event_time(), nanosecond) : end;
+    }
+  }
+  if (scheduler.stop_cause() == kernel::StopCause::ended) return record->ending = Ending::own;
+  const bool stuck = scheduler.stop_cause() != kernel::StopCause::no_progress;
+  return record->ending = stuck ? Ending::deadlock : Ending::no_progress;
+}
+
+void end_run(const kernel::Scheduler& scheduler, int status) {
+  const bool failed = record->ending == Ending::deadlock || record->ending == Ending::no_progress;
+  if (failed) report_deadlock(scheduler);
+  std::fflush(nullptr);
+  end_process(failed ? status_of_deadlock : status);
+}
+
+void run_program(int (*body)(), const char* name) {
+  program_body = body;
+  kernel::Scheduler& scheduler = begin_run();
+  const char* const slash = std::strrchr(name, '/');
+  static constinit Program program;
+  program.robot = &record->robot;
+  scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
   static constinit Thread thread;
   thread.start.posix = run_body;
   kernel::Task* const task =
       scheduler.spawn(record->robot, {.name = "main", .stack = kernel::StackSize::program}, run_thread, &thread);
   if (task == nullptr) refuse("there is no address space for the stacks of threads");
-  adopt_main_thread(thread, *task);
-  record->ending = run_to_end(scheduler);
+  adopt_main_thread(thread, program, *task);
   // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).
-  if (record->ending == Ending::own) std::exit(0);
-  if (record->ending != Ending::cut_off) report_deadlock(scheduler);
-  std::fflush(nullptr);
-  _exit(record->ending == Ending::cut_off ? 0 : status_of_deadlock);
+  if (run_to_end(scheduler) == Ending::own) std::exit(0);
+  end_run(scheduler, 0);
 }
 
 }  // namespace waitpoint::posix

@@ -11,16 +11,26 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/thread.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
-std::uint64_t draws = 0;
+std::uint64_t drawn_before_main = 0;
 
+// Each program has a stream of its own.
 std::uint64_t draw() {
   constexpr std::uint64_t of_the_system = 0x67657472616E646F;  // "getrando": no other stream has these numbers
-  const std::uint64_t seed = record != nullptr ? record->settings.seed : 0;
-  return Digest::mix((seed ^ of_the_system) + ++draws * 0x9E3779B97F4A7C15u);
+  std::uint64_t stream = of_the_system;
+  std::uint64_t* drawn = &drawn_before_main;
+  if (is_simulated()) {
+    Program& program = this_program();
+    stream ^= program.robot->id ^ kernel::running->scheduler->chooser().seed();
+    drawn = &program.numbers_drawn;
+  } else if (record != nullptr) {
+    stream ^= record->settings.seed;
+  }
+  return Digest::mix(stream + ++*drawn * 0x9E3779B97F4A7C15u);
 }
 
 void fill(void* buffer, std::size_t size) {

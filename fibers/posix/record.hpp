@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <new>
+#include <span>
 
+#include "core/digest.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/posix/arena.hpp"
 
@@ -40,11 +42,25 @@ struct Settings {
 /// How a run ended that did not end as the program would have.
 enum class Ending : std::uint8_t { own, deadlock, no_progress, cut_off };
 
+/// One of several programs in one process.
+struct ProgramRecord {
+  char name[kernel::name_size] = {};
+  std::uint32_t place = 0;  ///< on the command line, from 0
+  // Written by the program.
+  kernel::Robot robot;
+  std::uint32_t threads_made = 0;
+  bool ended = false;
+  int status = 0;  ///< its exit status, once it has ended
+};
+
 struct Record {
   static constexpr std::uint64_t mark_of_version = 0x7770657865633032;  // "wpexec02"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
+  /// Where the process is several programs, they: in the order of their names. None: it is one program.
+  ProgramRecord* programs = nullptr;
+  std::uint32_t program_count = 0;
 
   // Written by the program.
   bool began = false;  ///< the scheduler is there
@@ -55,10 +71,18 @@ struct Record {
   std::uint32_t threads_made = 0;
   std::uint32_t threads_most = 0;          ///< at once
   kernel::Task* const* running = nullptr;  ///< in the program: where it keeps its running task
-  kernel::Robot robot;                     ///< the program
+  kernel::Robot robot;                     ///< the program, where it is the only one
   union {
     kernel::Scheduler scheduler;
   };
+
+  Digest digest() const {
+    if (program_count == 0) return robot.digest.digest();
+    Digest all;
+    for (const ProgramRecord& program : several()) all.add(program.robot.digest.value());
+    return all;
+  }
+  std::span<ProgramRecord> several() const { return {programs, program_count}; }
 
   Record() { arena.start(this + 1, reinterpret_cast<char*>(record_address + record_bytes)); }
   ~Record() {}  // the scheduler is never taken down: the process ends around it

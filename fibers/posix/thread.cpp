@@ -12,8 +12,10 @@
 
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
+#include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/keys.hpp"
+#include "fibers/posix/members.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
 #include "fibers/posix/thread_area.hpp"
@@ -28,18 +30,20 @@ void __pthread_register_cancel(__pthread_unwind_buf_t* buffer);
 
 namespace waitpoint::posix {
 
-Duration spent_by_all;
-
 namespace {
 
 Thread* main_thread = nullptr;
 // Threads that have ended, whose areas nobody runs on or asks for any more, but the one that ended last.
 Thread* to_free = nullptr;
 
+void free_thread(Thread& thread) {
+  free_thread_area(thread.area);
+  std::free(&thread);
+}
+
 void free_ended() {
   if (to_free == nullptr) return;
-  free_thread_area(to_free->area);
-  std::free(to_free);
+  free_thread(*to_free);
   to_free = nullptr;
 }
 
@@ -61,10 +65,43 @@ bool is_detached(const pthread_attr_t* attributes) {
   return state == PTHREAD_CREATE_DETACHED;
 }
 
-void count_threads() {
+void count_threads(Program& program) {
+  ++program.threads_made;
+  if (record == nullptr) return;
   ++record->threads_made;
   const std::uint32_t now = record->scheduler.tasks();
   if (now > record->threads_most) record->threads_most = now;
+}
+
+// A record and an area for a thread; null without memory.
+Thread* make_thread(Program& program) {
+  auto* const memory = static_cast<Thread*>(std::malloc(sizeof(Thread)));
+  if (memory == nullptr) return nullptr;
+  Thread& thread = *new (memory) Thread();
+  thread.program = &program;
+  thread.id = make_id();
+  thread.area = make_thread_area(thread.id);
+  if (thread.area != nullptr) {
+    thread_of_area(thread.area) = &thread;
+    return &thread;
+  }
+  std::free(memory);
+  return nullptr;
+}
+
+// Its task, which begins now; false where there is none.
+bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
+  Program& program = *thread.program;
+  char whole_name[kernel::name_size];
+  std::snprintf(whole_name, sizeof whole_name, "%s%s", program.label, name);
+  kernel::Task* const task = scheduler.spawn(
+      *program.robot, {.name = whole_name, .stack = kernel::StackSize::program, .service = program.is_service},
+      run_thread, &thread);
+  if (task == nullptr) return false;
+  task->fiber.thread_pointer = thread.area;
+  thread.task = task;
+  count_threads(program);
+  return true;
 }
 
 }  // namespace
@@ -75,54 +112,66 @@ Thread* find(pthread_t id) {
 }
 
 Duration spent_by(int id) {
-  for (const kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
-    if (thread_of(*task).id == id) return thread_of(*task).spent;
+  if (kernel::running == nullptr) return {};
+  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id == id) return thread_of(*task).spent;
   return {};
 }
 
-void adopt_main_thread(Thread& thread, kernel::Task& task) {
+void adopt_main_thread(Thread& thread, Program& program, kernel::Task& task) {
   main_thread = &thread;
+  thread.program = &program;
   thread.task = &task;
   thread.area = own_thread_area();
   thread.id = getpid();
   std::strncpy(thread.name, program_invocation_short_name, sizeof thread.name - 1);
   thread_of_area(thread.area) = &thread;
-  count_threads();
+  count_threads(program);
+}
+
+Thread* make_main_thread(Program& program, kernel::Scheduler& scheduler, void* (*body)(void*), void* argument) {
+  Thread* const thread = make_thread(program);
+  if (thread == nullptr) return nullptr;
+  thread->start.posix = body;
+  thread->argument = argument;
+  std::memcpy(thread->name, program.robot->name, sizeof thread->name - 1);
+  if (begin(*thread, scheduler, "main")) return thread;
+  free_thread(*thread);
+  return nullptr;
+}
+
+void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
+  for (kernel::Task *task = scheduler.first_task(), *next = nullptr; task != nullptr; task = next) {
+    next = task->next;
+    if (task == kernel::running || !is_thread(*task) || thread_of(*task).program != &program) continue;
+    forget_waiter(*task);
+    scheduler.end_in_place(*task);
+    free_thread(thread_of(*task));
+    scheduler.free_stack(*task);
+  }
 }
 
 int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument) {
   if (!is_simulated()) refuse("a thread is made before main() begins");
   pass(kernel::Operation::start, nullptr);
-  auto* const memory = static_cast<Thread*>(std::malloc(sizeof(Thread)));
-  if (memory == nullptr) return EAGAIN;
-  Thread& thread = *new (memory) Thread();
-  thread.id = make_id();
-  thread.area = make_thread_area(thread.id);
-  thread.start = start;
-  thread.is_c11 = is_c11;
-  thread.argument = argument;
-  thread.detached = is_detached(attributes);
-  std::memcpy(thread.name, this_thread().name, sizeof thread.name);
-  char name[kernel::name_size];
-  std::snprintf(name, sizeof name, "thread %u", record->threads_made);
+  Thread* const thread = make_thread(this_program());
+  if (thread == nullptr) return EAGAIN;
+  thread->start = start;
+  thread->is_c11 = is_c11;
+  thread->argument = argument;
+  thread->detached = is_detached(attributes);
+  std::memcpy(thread->name, this_thread().name, sizeof thread->name);
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
-  kernel::Task* const task =
-      thread.area == nullptr
-          ? nullptr
-          : scheduler.spawn(record->robot, {.name = name, .stack = kernel::StackSize::program}, run_thread, &thread);
-  if (task == nullptr) {
-    if (thread.area != nullptr) free_thread_area(thread.area);
-    std::free(memory);
+  char name[kernel::name_size];
+  std::snprintf(name, sizeof name, "thread %u", this_program().threads_made);
+  if (!begin(*thread, scheduler, name)) {
+    free_thread(*thread);
     return EAGAIN;
   }
-  thread_of_area(thread.area) = &thread;
-  task->fiber.thread_pointer = thread.area;
-  thread.task = task;
-  scheduler.enter(thread.end);
-  thread.end.owner = task;
+  scheduler.enter(thread->end);
+  thread->end.owner = thread->task;
   __libc_single_threaded = 0;
-  count_threads();
-  *id = reinterpret_cast<pthread_t>(thread.area);
+  *id = reinterpret_cast<pthread_t>(thread->area);
   return 0;
 }
 
@@ -146,12 +195,22 @@ void end_thread(Thread& thread) {
   __call_tls_dtors();
   destroy_values_of_keys();
   let_robust_mutexes_go();
+  end_member_with_last_thread();
+  end_running_thread();
+}
+
+// From the last waitpoint on nobody else runs before the task has ended: its area can be freed by the next that ends.
+void end_running_thread() {
+  Thread& thread = this_thread();
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
   pass(kernel::Operation::release, &thread.end);
+  scheduler.waitpoint(kernel::Operation::end, nullptr);
   thread.ended = true;
   thread.end.owner = nullptr;
   thread.task = nullptr;
-  kernel::running->scheduler->wake_all(thread.end);
+  scheduler.wake_all(thread.end);
   if (thread.detached) let_go(thread);
+  scheduler.end_running_task();
 }
 
 int join(pthread_t id, void** result, Time deadline) {

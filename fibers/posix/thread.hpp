@@ -6,11 +6,9 @@
 #include <sched.h>
 
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/posix/program_state.hpp"
 
 namespace waitpoint::posix {
-
-/// What the uses of primitives and clocks of all threads have cost: the processor time of the process.
-extern Duration spent_by_all;
 
 /// How the function of a thread is called.
 union StartRoutine {
@@ -20,7 +18,8 @@ union StartRoutine {
 
 struct Thread {
   kernel::Task* task = nullptr;  ///< null once it has ended
-  void* area = nullptr;          ///< the pthread_t
+  Program* program = nullptr;
+  void* area = nullptr;  ///< the pthread_t
   StartRoutine start{};
   bool is_c11 = false;
   bool detached = false;
@@ -58,12 +57,19 @@ struct Thread {
   std::uint32_t futex_mask = 0;
 };
 
+/// What a task of a thread executes: the function, as the C library would call it.
+void run_thread(void* thread);
+
+/// Of a task that is a thread's.
 inline Thread& thread_of(const kernel::Task& task) { return *static_cast<Thread*>(task.argument); }
 /// Of the running task.
 inline Thread& this_thread() { return thread_of(*kernel::running); }
+inline Program& this_program() { return *this_thread().program; }
 
+/// Whether a task is a thread of a program.
+inline bool is_thread(const kernel::Task& task) { return task.entry == run_thread; }
 /// Whether the code is that of a simulated thread: before main() there is none.
-inline bool is_simulated() { return kernel::running != nullptr; }
+inline bool is_simulated() { return kernel::running != nullptr && is_thread(*kernel::running); }
 
 /// The thread with this id; null if it is none of ours.
 Thread* find(pthread_t id);
@@ -81,11 +87,15 @@ Duration spent_by(int id);
 int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument);
 /// As pthread_timedjoin_np, with a deadline of virtual time.
 int join(pthread_t id, void** result, Time deadline);
-/// What is done when a thread's function is done, but for the end of its task.
-void end_thread(Thread& thread);
-/// What a task of a thread executes: the function, as the C library would call it.
-void run_thread(void* thread);
-/// Makes the running task the thread that main() runs in.
-void adopt_main_thread(Thread& thread, kernel::Task& task);
+/// What is done when a thread's function is done.
+[[noreturn]] void end_thread(Thread& thread);
+/// The running thread ends as it is: nothing of its own is called any more.
+[[noreturn]] void end_running_thread();
+/// The thread that main() runs in, where the process is one program: it has the area of the process's own thread.
+void adopt_main_thread(Thread& thread, Program& program, kernel::Task& task);
+/// The first thread of one of several programs; null without memory. It runs `body`.
+Thread* make_main_thread(Program& program, kernel::Scheduler& scheduler, void* (*body)(void*), void* argument);
+/// Ends all threads of `program` but the running one; nothing of theirs is unwound.
+void end_other_threads(const Program& program, kernel::Scheduler& scheduler);
 
 }  // namespace waitpoint::posix

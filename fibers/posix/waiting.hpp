@@ -21,8 +21,9 @@ inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microsecond
 /// The running thread computes for so long.
 inline void spend(Duration cost) {
   kernel::Task& task = *kernel::running;
-  thread_of(task).spent += cost;
-  spent_by_all += cost;
+  Thread& thread = thread_of(task);
+  thread.spent += cost;
+  thread.program->spent += cost;
   kernel::compute(task, cost);
 }
 

@@ -22,23 +22,21 @@ std::string replay_line(const ExecOptions& options, std::uint64_t seed) {
   return line + " --" + quoted(options.words);
 }
 
-std::string name_of(const ExecOptions& options) {
-  return std::filesystem::path(options.words.front()).filename().string();
-}
-
 void print_summary(const posix::Record& record, const std::string& program) {
   const kernel::Scheduler& scheduler = record.scheduler;
   std::fprintf(
       stderr, "waitpoint: %s: %u threads, %u at once, %llu events, %llu switches, %s s of virtual time, digest %s\n",
       program.c_str(), record.threads_made, record.threads_most, static_cast<unsigned long long>(scheduler.events()),
       static_cast<unsigned long long>(scheduler.switches()), to_string(scheduler.global_time()).c_str(),
-      to_string(record.robot.digest.digest()).c_str());
+      to_string(record.digest()).c_str());
 }
 
 // What came of a run, if it failed.
-void print_failure(const ExecOptions& options, const ProgramRun& run, std::uint64_t seed) {
-  if (run.signal() != 0)
-    std::fprintf(stderr, "waitpoint: it was ended by signal %d (%s)\n", run.signal(), strsignal(run.signal()));
+void print_failure(const ExecOptions& options, const posix::Record& record, int signal, std::uint64_t seed) {
+  const std::string name = program_of_last_turn(record);
+  if (signal != 0)
+    std::fprintf(stderr, "waitpoint: it was ended by signal %d (%s)%s\n", signal, strsignal(signal),
+                 name.empty() ? "" : (", in " + name).c_str());
   std::fprintf(stderr, "waitpoint: replay: %s\n", replay_line(options, seed).c_str());
 }
 
@@ -81,25 +79,25 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     if (terminal)
       std::fprintf(stderr, "\rseed %llu, %zu schedules ", static_cast<unsigned long long>(seed), digests.size());
     output.forget();
-    const RunMemory memory(settings_of(options, seed));
-    const ProgramRun run(files, options.words, memory, output.descriptor());
+    const RunMemory memory(settings_of(options, seed), files.programs);
+    const ProgramRun run(files, memory, output.descriptor());
     // From the terminal, mostly: it is not the program that fails.
     if (run.signal() == SIGINT || run.signal() == SIGTERM) end_by(run.signal());
     ++runs;
-    if (memory.record().began) digests.insert(memory.record().robot.digest.value());
+    if (memory.record().began) digests.insert(memory.record().digest().value());
     if (run.exit_status() != 0) {
       if (terminal) std::fprintf(stderr, "\r%40s\r", "");
       output.show();
       std::fprintf(stderr, "waitpoint: seed %llu failed, after %llu that did not: exit status %d\n",
                    static_cast<unsigned long long>(seed), static_cast<unsigned long long>(runs - 1),
                    run.signal() != 0 ? 128 + run.signal() : run.exit_status());
-      print_failure(options, run, seed);
+      print_failure(options, memory.record(), run.signal(), seed);
       return 1;
     }
     if (seed == options.seeds->last) break;
   }
   if (terminal) std::fprintf(stderr, "\r%40s\r", "");
-  std::fprintf(stderr, "waitpoint: %s: %llu seeds, %zu schedules, none failed\n", name_of(options).c_str(),
+  std::fprintf(stderr, "waitpoint: %s: %llu seeds, %zu schedules, none failed\n", files.programs.title().c_str(),
                static_cast<unsigned long long>(runs), digests.size());
   return 0;
 }
@@ -107,15 +105,17 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
 }  // namespace
 
 int exec(const ExecOptions& options) {
-  const ProgramFiles files(options.words.front());
+  const ProgramFiles files(options.words);
   if (options.seeds) return run_seeds(options, files);
-  const RunMemory memory(settings_of(options, options.seed));
-  const ProgramRun run(files, options.words, memory);
+  const RunMemory memory(settings_of(options, options.seed), files.programs);
+  const ProgramRun run(files, memory);
   const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
   if (memory.record().began) {
     std::fputs(races_of(memory.record()).c_str(), stderr);
-    if (!options.quiet || failed) print_summary(memory.record(), name_of(options));
-    if (failed) print_failure(options, run, options.seed);
+    if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());
+    if (failed) print_failure(options, memory.record(), run.signal(), options.seed);
+    if (!files.programs.is_one_program() && (!options.quiet || run.exit_status() != 0))
+      std::fprintf(stderr, "waitpoint: %s\n", ends_of_programs(memory.record()).c_str());
   }
   if (run.signal() != 0) end_by(run.signal());
   return run.exit_status();

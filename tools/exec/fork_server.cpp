@@ -49,13 +49,13 @@ void ask(int socket, const int (&descriptors)[posix::run_descriptors]) {
 
 }  // namespace
 
-ForkServer::ForkServer(const ProgramFiles& files, const std::vector<std::string>& words, posix::Settings settings) {
+ForkServer::ForkServer(const ProgramFiles& files, posix::Settings settings) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket can be had");
   settings.server = fcntl(ends[1], F_DUPFD, least_descriptor);  // it stays open in the program
   if (settings.server < 0) fail("no descriptor can be had");
-  const RunMemory memory(settings);
-  process_ = start_program(files, words, memory);
+  const RunMemory memory(settings, files.programs);
+  process_ = start_program(files, memory);
   close(ends[1]);
   close(settings.server);
   socket_ = ends[0];

@@ -11,7 +11,7 @@ namespace waitpoint::tools {
 class ForkServer {
  public:
   /// Starts the program and lets it stand there; what it writes before goes where this process writes.
-  ForkServer(const ProgramFiles& files, const std::vector<std::string>& words, posix::Settings settings);
+  ForkServer(const ProgramFiles& files, posix::Settings settings);
   /// Runs that are left are ended.
   ~ForkServer();
   ForkServer(const ForkServer&) = delete;

@@ -25,16 +25,24 @@ bool read(std::ifstream& file, std::uint64_t offset, T& value) {
   return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
-// A program with an interpreter is loaded by the dynamic linker, which preloads.
-std::string trouble_of_elf(std::ifstream& file) {
-  Elf64_Ehdr header;
-  if (!read(file, 0, header) || header.e_ident[EI_CLASS] != ELFCLASS64 || header.e_machine != EM_X86_64)
-    return "is not a program for x86-64";
+bool has_part(std::ifstream& file, const Elf64_Ehdr& header, std::uint32_t type) {
   for (int i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr part;
     if (!read(file, header.e_phoff + static_cast<std::uint64_t>(i) * header.e_phentsize, part)) break;
-    if (part.p_type == PT_INTERP) return "";
+    if (part.p_type == type) return true;
   }
+  return false;
+}
+
+bool is_x86_64(const Elf64_Ehdr& header) {
+  return header.e_ident[EI_CLASS] == ELFCLASS64 && header.e_machine == EM_X86_64;
+}
+
+// A program with an interpreter is loaded by the dynamic linker, which preloads.
+std::string trouble_of_elf(std::ifstream& file) {
+  Elf64_Ehdr header;
+  if (!read(file, 0, header) || !is_x86_64(header)) return "is not a program for x86-64";
+  if (has_part(file, header, PT_INTERP)) return "";
   return "is linked statically: nothing can be put in front of its C library";
 }
 
@@ -91,6 +99,15 @@ std::filesystem::path find_program(const std::string& name) {
     if (is_program(file)) return file;
   }
   return "";
+}
+
+// Those of a static program that the system places where it likes are of the same type, but need no other object.
+bool is_shared_object(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  Elf64_Ehdr header;
+  return read(file, 0, header) && std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 && is_x86_64(header) &&
+         header.e_type == ET_DYN && has_part(file, header, PT_DYNAMIC) && !has_part(file, header, PT_INTERP) &&
+         path.string().find('/') != std::string::npos;
 }
 
 std::string cannot_be_simulated(const std::filesystem::path& program) {

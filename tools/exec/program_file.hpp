@@ -11,6 +11,9 @@ namespace waitpoint::tools {
 /// none.
 std::filesystem::path find_program(const std::string& name);
 
+/// Whether it is the path of a shared object that is no program of its own.
+bool is_shared_object(const std::filesystem::path& file);
+
 /// Why a library cannot be preloaded into the program, or into what interprets it if it is a script; empty if it can.
 std::string cannot_be_simulated(const std::filesystem::path& program);
 

@@ -19,12 +19,13 @@
 namespace waitpoint::tools {
 namespace {
 
-std::filesystem::path find_library(const std::string& name) {
+// What is installed with this program, or was built with it.
+std::filesystem::path find_part(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
   for (const std::filesystem::path& place : {folder / ".." / name, installed})
     if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
-  throw BadInput("exec", "the library for programs is not installed: expected " + installed.string());
+  throw BadInput("exec", "what programs are run with is not installed: expected " + installed.string());
 }
 
 void put_first(const char* variable, const std::string& path) {
@@ -32,7 +33,7 @@ void put_first(const char* variable, const std::string& path) {
   setenv(variable, (others != nullptr ? path + ":" + others : path).c_str(), 1);
 }
 
-[[noreturn]] void become(const ProgramFiles& files, const std::vector<std::string>& arguments, int record, int output) {
+[[noreturn]] void become(const ProgramFiles& files, int record, int output) {
   if (output >= 0) {
     dup2(output, STDOUT_FILENO);
     dup2(output, STDERR_FILENO);
@@ -47,7 +48,7 @@ void put_first(const char* variable, const std::string& path) {
   if (files.instrumented) put_first("LD_LIBRARY_PATH", files.library.parent_path().string());
   setenv(posix::record_variable, std::to_string(record).c_str(), 1);
   std::vector<char*> words;
-  for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+  for (const std::string& word : files.programs.words()) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   execv(files.program.c_str(), words.data());
   std::fprintf(stderr, "waitpoint: exec: %s: %s\n", files.program.c_str(), std::strerror(errno));
@@ -56,21 +57,27 @@ void put_first(const char* variable, const std::string& path) {
 
 }  // namespace
 
-ProgramFiles::ProgramFiles(const std::string& name) : program(find_program(name)) {
+ProgramFiles::ProgramFiles(const std::vector<std::string>& words)
+    : programs(words), library(find_part("libwaitpoint-exec.so")) {
+  const std::string& name = programs.words().front();
+  if (!programs.is_one_program()) {
+    program = find_part(name);
+    return;
+  }
+  program = find_program(name);
   if (program.empty()) throw BadInput("exec", "there is no program '" + name + "'");
   if (const std::string reason = cannot_be_simulated(program); !reason.empty())
     throw BadInput("exec", program.string() + " " + reason);
   instrumented = is_instrumented(program);
-  library = find_library(instrumented ? "libwaitpoint-exec-races.so" : "libwaitpoint-exec.so");
+  if (instrumented) library = find_part("libwaitpoint-exec-races.so");
 }
 
-pid_t start_program(const ProgramFiles& files, const std::vector<std::string>& words, const RunMemory& memory,
-                    int output) {
+pid_t start_program(const ProgramFiles& files, const RunMemory& memory, int output) {
   std::fflush(nullptr);
   memory.record().settings.instrumented = files.instrumented;
   const pid_t process = fork();
   if (process < 0) throw BadInput("exec", std::string("no process can be made: ") + std::strerror(errno));
-  if (process == 0) become(files, words, memory.descriptor(), output);
+  if (process == 0) become(files, memory.descriptor(), output);
   return process;
 }
 

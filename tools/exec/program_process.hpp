@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/exec/program_list.hpp"
 #include "tools/exec/run_memory.hpp"
 
 namespace waitpoint::tools {
@@ -15,15 +16,15 @@ namespace waitpoint::tools {
 /// What can be run, and with what. BadInput where it cannot: there is no such program, it is linked statically, the
 /// library is not installed.
 struct ProgramFiles {
-  explicit ProgramFiles(const std::string& name);
+  explicit ProgramFiles(const std::vector<std::string>& words);
 
-  std::filesystem::path program, library;
+  ProgramList programs;
+  std::filesystem::path program, library;  ///< the process's
   bool instrumented = false;  ///< by -fsanitize=thread; a layer with a runtime for that is the library
 };
 
-/// Starts the program with these words, its name first. It reads and writes where this process does, but for a
+/// Starts the process of the programs. It reads and writes where this process does, but for a
 /// descriptor `output`, if it is none of -1, that takes both of its streams. It ends with this process.
-pid_t start_program(const ProgramFiles& files, const std::vector<std::string>& words, const RunMemory& memory,
-                    int output = -1);
+pid_t start_program(const ProgramFiles& files, const RunMemory& memory, int output = -1);
 
 }  // namespace waitpoint::tools

@@ -41,9 +41,8 @@ int wait_for_end(Watchdog watchdog) {
 
 }  // namespace
 
-ProgramRun::ProgramRun(const ProgramFiles& files, const std::vector<std::string>& words, const RunMemory& memory,
-                       int output) {
-  child = start_program(files, words, memory, output);
+ProgramRun::ProgramRun(const ProgramFiles& files, const RunMemory& memory, int output) {
+  child = start_program(files, memory, output);
   status_ = wait_for_end(Watchdog(memory.record(), child));
 }
 

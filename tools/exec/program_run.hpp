@@ -10,8 +10,7 @@ class ProgramRun {
  public:
   /// Runs the program to its end, as `memory` says. What it writes goes where this process writes, or to the descriptor
   /// `output`, if there is one.
-  ProgramRun(const ProgramFiles& files, const std::vector<std::string>& words, const RunMemory& memory,
-             int output = -1);
+  ProgramRun(const ProgramFiles& files, const RunMemory& memory, int output = -1);
 
   /// As waitpid() gives it.
   int status() const { return status_; }

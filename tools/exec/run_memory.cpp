@@ -20,7 +20,7 @@ constexpr int least_descriptor = 900;
 
 }  // namespace
 
-RunMemory::RunMemory(const posix::Settings& settings) {
+RunMemory::RunMemory(const posix::Settings& settings, const ProgramList& programs) {
   const int made = memfd_create("waitpoint-exec", 0);
   descriptor_ = fcntl(made, F_DUPFD, least_descriptor);
   if (descriptor_ >= 0)
@@ -33,6 +33,7 @@ RunMemory::RunMemory(const posix::Settings& settings) {
   if (memory == MAP_FAILED) no_memory();
   record_ = new (memory) posix::Record();
   record_->settings = settings;
+  programs.write(*record_);
 }
 
 RunMemory::~RunMemory() {

@@ -3,13 +3,14 @@
 #pragma once
 
 #include "fibers/posix/record.hpp"
+#include "tools/exec/program_list.hpp"
 
 namespace waitpoint::tools {
 
 /// There is one at a time in a process, at an address that is the same in the program.
 class RunMemory {
  public:
-  explicit RunMemory(const posix::Settings& settings);
+  RunMemory(const posix::Settings& settings, const ProgramList& programs);
   ~RunMemory();
   RunMemory(const RunMemory&) = delete;
   RunMemory& operator=(const RunMemory&) = delete;

@@ -106,7 +106,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   }
   if (record.explored == nullptr) return finding;
   const posix::Explored& explored = *record.explored;
-  finding.digest = record.robot.digest.value();
+  finding.digest = record.digest().value();
   finding.end = record.scheduler.global_time();
   finding.events = record.scheduler.events();
   finding.decisions = explored.explorer.schedule().decisions.size();

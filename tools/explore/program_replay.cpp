@@ -20,10 +20,10 @@ namespace {
 /// What a run in the default order shows; the program's output is not seen.
 exploration::Profile look(const ProgramFiles& files, const ExploreOptions& options, const Target::Request& request,
                           const exploration::Profile& known) {
-  RunMemory memory(settings_of(options));
+  RunMemory memory(settings_of(options), files.programs);
   ask_for_run(memory, options, {.drawn = false}, request, known);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  const ProgramRun run(files, options.program, memory, nowhere);
+  const ProgramRun run(files, memory, nowhere);
   close(nowhere);
   return finding_of_run(memory, run.status(), "", request, false).profile;
 }
@@ -41,15 +41,15 @@ exploration::Profile take_profile(const ProgramFiles& files, const ExploreOption
 
 int replay_program(const ExploreOptions& asked) {
   ExploreOptions options = asked;
-  const ProgramFiles files(options.program.front());
+  const ProgramFiles files(options.program);
   const ReplayRecord record = read_replay_record(options, fingerprint_of(files, options));
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
   const exploration::Profile profile = take_profile(files, options, record.plan);
   const Target::Request request{.words = !record.plan.switches.empty(), .places = true, .events = trace.has_value()};
-  RunMemory memory(settings_of(options));
+  RunMemory memory(settings_of(options), files.programs);
   ask_for_run(memory, options, record.plan, request, profile);
-  const ProgramRun run(files, options.program, memory);
+  const ProgramRun run(files, memory);
   const Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());
   if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before it came to its main()");
   const posix::Explored& explored = *memory.record().explored;

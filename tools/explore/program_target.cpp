@@ -53,10 +53,14 @@ std::string end_of(int output) {
 
 std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& options) {
   Digest digest;
-  std::ifstream file(files.program, std::ios::binary);
-  char bytes[65536];
-  while (file.read(bytes, sizeof bytes) || file.gcount() > 0)
-    digest.add(std::string_view(bytes, static_cast<std::size_t>(file.gcount())));
+  std::vector<std::string> all = files.programs.files();
+  if (all.empty()) all = {files.program.string()};
+  for (const std::string& name : all) {
+    std::ifstream file(name, std::ios::binary);
+    char bytes[65536];
+    while (file.read(bytes, sizeof bytes) || file.gcount() > 0)
+      digest.add(std::string_view(bytes, static_cast<std::size_t>(file.gcount())));
+  }
   for (const std::string& word : options.program) digest.add(std::string_view(word));
   digest.add(options.seed);
   if (options.until) digest.add(static_cast<std::uint64_t>(options.until->ns()));
@@ -65,13 +69,13 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options),
-      files_(options.program.front()),
+      files_(options.program),
       fingerprint_(fingerprint_of(files_, options)),
       input_(open_input()) {}
 
 ProgramTarget::~ProgramTarget() { close(input_); }
 
-void ProgramTarget::prepare() { server_.emplace(files_, options_.program, settings_of(options_)); }
+void ProgramTarget::prepare() { server_.emplace(files_, settings_of(options_)); }
 
 // The default order shows what it shows with the switch points that all runs have.
 Finding ProgramTarget::run(const Plan& plan, const Request& request) {
@@ -83,7 +87,7 @@ Finding ProgramTarget::run(const Plan& plan, const Request& request) {
 }
 
 Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
-  RunMemory memory(settings_of(options_));
+  RunMemory memory(settings_of(options_), files_.programs);
   ask_for_run(memory, options_, plan, request, profile_);
   const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
   ServedRun run(*server_, memory, input, output);

@@ -17,7 +17,7 @@ class ProgramTarget final : public Target {
 
   ~ProgramTarget() override;
 
-  std::string name() const override { return files_.program.filename(); }
+  std::string name() const override { return files_.programs.title(); }
   std::uint64_t fingerprint() const override { return fingerprint_; }
   bool has_noise() const override { return false; }
   const ExploreOptions& options() const override { return options_; }

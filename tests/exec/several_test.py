@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Several programs in one process: several_test.py BUILD [CLASS[.TEST]...].
+
+They are shared objects with a main(), from sources that know nothing of it (several/), under `waitpoint exec`.
+"""
+
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+WAITPOINT = BUILD / "tools/waitpoint"
+PROGRAMS = BUILD / "tests/exec/several"
+INSTANCE = str(PROGRAMS / "instance.so")
+
+
+def several(*programs):
+    """The words of programs, each a list."""
+    words = []
+    for program in programs:
+        words += ([] if not words else ["::"]) + [str(word) for word in program]
+    return words
+
+
+def execute(words, *options):
+    return subprocess.run([WAITPOINT, "exec", *options, "--", *words], capture_output=True, text=True, timeout=120)
+
+
+def digest(run):
+    return re.search(r"digest (wp1:[0-9a-f]{16})", run.stderr).group(1)
+
+
+def instance(number, *way):
+    return [INSTANCE, number, *way]
+
+
+CHAIN = [[PROGRAMS / "writer.so", 1, 10], [PROGRAMS / "filter.so", 1, 2], [PROGRAMS / "reader.so", 2]]
+
+
+class Chain(unittest.TestCase):
+    """A writer, a filter and a reader, over System V shared memory and semaphores."""
+
+    def test_lines_come_through_in_virtual_time(self):
+        run = execute(several(*CHAIN))
+        self.assertEqual(run.stdout, "".join(f"LINE {i} AT {i // 10}.{i % 10} S\n" for i in range(2, 11, 2)) + "5 lines\n")
+        self.assertRegex(run.stderr, r"3 programs: 4 threads, 4 at once, \d+ events, .* 1\.0000\d+ s of virtual time")
+        self.assertTrue(run.stderr.endswith("waitpoint: exit status: filter 0, reader 5, writer 0\n"), run.stderr)
+        self.assertEqual(run.returncode, 5)
+
+    def test_a_seed_is_one_run_and_another_seed_another(self):
+        runs = [execute(several(*CHAIN), "--seed", str(seed)) for seed in (1, 1, 2)]
+        self.assertEqual(digest(runs[0]), digest(runs[1]))
+        self.assertNotEqual(digest(runs[0]), digest(runs[2]))
+        self.assertEqual(runs[0].stdout, runs[2].stdout)
+
+    def test_who_is_missing_is_waited_for_for_ever(self):
+        run = execute(several(CHAIN[0], CHAIN[1]))
+        self.assertEqual(run.returncode, 124)
+        self.assertRegex(run.stderr, r"deadlock at .*\n  filter: main waits for .*\n  writer: main waits for .*\n")
+
+    def test_schedules_are_explored(self):
+        words = several(["a=" + INSTANCE, 1], ["b=" + INSTANCE, 1, "1"])
+        run = subprocess.run([WAITPOINT, "explore", "--iterations", "3", "--exec", "--", *words], capture_output=True,
+                             text=True, timeout=120)
+        self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
+        self.assertIn("exit status 1", run.stdout + run.stderr)
+
+
+class Instances(unittest.TestCase):
+    """One program, again and again."""
+
+    def test_each_of_a_hundred_has_globals_of_its_own(self):
+        run = execute(several(*(instance(i) for i in range(100))))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        lines = run.stdout.splitlines()
+        self.assertEqual(len(lines), 200)
+        for i in range(100):
+            self.assertIn(f"{i}: 3 3 3 3 3, 2", lines)
+            self.assertIn(f"{i}: destroyed at 3", lines)
+        self.assertIn("100 programs: 300 threads", run.stderr)
+        self.assertIn("exit status: 0 of all 100\n", run.stderr)
+
+    def test_the_order_in_which_they_are_named_does_not_matter(self):
+        programs = [instance(i) for i in range(100)]
+        expected = execute(several(*programs))
+        for seed in range(3):
+            random.Random(seed).shuffle(programs)
+            run = execute(several(*programs))
+            self.assertEqual(digest(run), digest(expected))
+            self.assertEqual(run.stdout, expected.stdout)
+
+    def test_fifo_does_not_depend_on_it_either(self):
+        programs = [instance(i) for i in range(5)]
+        runs = [execute(several(*order), "--strategy", "fifo") for order in (programs, programs[::-1])]
+        self.assertEqual(digest(runs[0]), digest(runs[1]))
+
+    def test_names_are_given_or_those_of_the_files(self):
+        run = execute(several([f"front={INSTANCE}", 1, 2], instance(2), instance(3)))
+        self.assertIn("exit status: front 2, instance#1 0, instance#2 0\n", run.stderr)
+        self.assertEqual(run.returncode, 2)
+
+    def test_one_alone(self):
+        run = execute(instance(7))
+        self.assertEqual(run.stdout, "7: 3 3 3 3 3, 2\n7: destroyed at 3\n")
+        self.assertTrue(run.stderr.endswith("waitpoint: exit status: instance 0\n"), run.stderr)
+
+
+class Ends(unittest.TestCase):
+    """One of two ends in its own way; the other goes on."""
+
+    def ends(self, way, status, destroyed, first=""):
+        run = execute(several([f"other={INSTANCE}", "other"], [f"one={INSTANCE}", "one", way]))
+        self.assertEqual(run.returncode, status, run.stderr)
+        self.assertIn("other: 3 3 3 3 3, 2\n", run.stdout)
+        self.assertIn("other: destroyed at 3\n", run.stdout)
+        self.assertEqual("one: destroyed at 3\n" in run.stdout, destroyed, run.stdout)
+        self.assertIn(first, run.stderr)
+        self.assertTrue(run.stderr.endswith(f"waitpoint: exit status: one {status}, other 0\n"), run.stderr)
+        return run
+
+    def test_main_returns(self):
+        self.ends("9", 9, destroyed=True)
+
+    def test_exit_in_a_thread(self):
+        self.ends("exit", 3, destroyed=True)
+
+    def test_underscore_exit_in_a_thread(self):
+        self.ends("_exit", 4, destroyed=False)
+
+    def test_abort(self):
+        self.ends("abort", 134, destroyed=False, first="waitpoint: one is aborted\n")
+
+    def test_an_assertion(self):
+        self.ends("assert", 134, destroyed=False, first="Assertion `times == 0' failed.\n")
+
+    def test_an_exception_that_nobody_catches(self):
+        self.ends("throw", 134, destroyed=False, first="terminate called after throwing an instance of 'int'\n")
+
+    def test_the_last_thread_leaves(self):
+        self.ends("main leaves", 0, destroyed=True)
+
+    def test_a_crash_ends_all_and_is_told_of(self):
+        run = execute(several([f"other={INSTANCE}", "other"], [f"one={INSTANCE}", "one", "crash"]))
+        self.assertEqual(run.returncode, -11)
+        self.assertIn("ended by signal 11 (Segmentation fault), in one\n", run.stderr)
+        self.assertIn("waitpoint: replay: waitpoint exec --seed 1 -- ", run.stderr)
+
+    def test_a_deadlock_ends_all_and_names_the_program(self):
+        run = execute(several([f"other={INSTANCE}", "other"], [f"one={INSTANCE}", "one", "deadlock"]))
+        self.assertEqual(run.returncode, 124)
+        self.assertIn("  one: main waits for mutex", run.stderr)
+
+
+class Executables(unittest.TestCase):
+    def test_one_that_is_independent_of_its_position_may_be_among_them(self):
+        run = execute(several([PROGRAMS / "executable", 1, 2], [PROGRAMS / "executable"]))
+        self.assertEqual(sorted(run.stdout.splitlines()), ["counted 1", "counted 3"])
+        self.assertEqual(run.returncode, 0)
+
+    def test_one_that_is_not_is_refused(self):
+        run = execute(several([PROGRAMS / "fixed"], instance(1)))
+        self.assertEqual(run.returncode, 125)
+        self.assertRegex(run.stderr, r"^waitpoint: exec: \S+/fixed is linked to one address, or statically: build it "
+                                     r"with -shared -fPIC\n$")
+
+
+class BadInput(unittest.TestCase):
+    """One line that says what is wrong; nothing is run."""
+
+    def refused(self, words, line):
+        run = execute(words)
+        self.assertEqual(run.returncode, 125, run.stderr)
+        self.assertRegex(run.stderr, f"^waitpoint: exec: {line}\n$")
+        self.assertEqual(run.stdout, "")
+
+    def test_no_such_file(self):
+        self.refused(several(instance(1), ["./nowhere.so"]), r"there is no program '\./nowhere\.so': No such file or directory")
+
+    def test_nothing_between_the_colons(self):
+        for words in ([INSTANCE, "1", "::"], ["::", INSTANCE, "1"], [INSTANCE, "1", "::", "::", INSTANCE, "2"]):
+            self.refused(words, r"expected a program on both sides of every '::', found none at place \d")
+
+    def test_no_shared_object(self):
+        self.refused(several(instance(1), [__file__]), r"\S+several_test\.py is no shared object for x86-64")
+
+    def test_no_main(self):
+        self.refused(several(instance(1), [PROGRAMS / "without-main.so"]), r"\S+/without-main\.so has no main\(\) that others see")
+
+    def test_a_name_given_twice(self):
+        self.refused(several([f"a={INSTANCE}", 1], [f"a={INSTANCE}", 1]), "two programs are called 'a'")
+
+    def test_a_file_that_is_cut_off(self):
+        with tempfile.TemporaryDirectory() as folder:
+            whole = pathlib.Path(INSTANCE).read_bytes()
+            for size in (10, 64, 1000, len(whole) // 2):
+                cut = pathlib.Path(folder) / "cut.so"
+                cut.write_bytes(whole[:size])
+                run = execute(several(instance(1), [cut]))
+                self.assertEqual(run.returncode, 125, f"{size}: {run.stderr}")
+                self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+
+    def test_a_library_that_is_missing(self):
+        if shutil.which("cc") is None:
+            self.skipTest("no compiler")
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder) / "source.c"
+            source.write_text("int call(void);\nint main(void) { return call(); }\n")
+            program = pathlib.Path(folder) / "program.so"
+            subprocess.run(["cc", "-shared", "-fPIC", "-o", program, source], check=True)
+            self.refused(several(instance(1), [program]), r"\S+/program\.so cannot be loaded: undefined symbol: call")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
