@@ -6,10 +6,17 @@
 #include <cstdio>
 #include <cstring>
 
+#include "fibers/posix/thread.hpp"
 #include "fibers/posix/waitable.hpp"
 
 namespace waitpoint::posix {
 namespace {
+
+// "main", or "reader: main" where there are several programs.
+void print_name(const kernel::Task& task) {
+  if (thread_of(task).program->is_member) std::fprintf(stderr, "%s: ", task.robot->name);
+  std::fprintf(stderr, "%s", task.name);
+}
 
 // "mutex jobs_lock", or with its address where no symbol of the program names it.
 void print_object(const kernel::Object& object) {
@@ -37,13 +44,16 @@ void report_deadlock(const kernel::Scheduler& scheduler) {
   std::fprintf(stderr, "waitpoint: %s at %lld.%09lld s of virtual time\n", stuck ? "deadlock" : "no progress",
                now_ns / second_ns, now_ns % second_ns);
   for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
-    std::fprintf(stderr, "  %s", task->name);
+    std::fprintf(stderr, "  ");
+    print_name(*task);
     if (task->blocked_on != nullptr) {
       std::fprintf(stderr, " waits for ");
       print_object(*task->blocked_on);
-      if (const kernel::Task* owner = task->blocked_on->owner; owner != nullptr)
-        std::fprintf(stderr, ", %s %s", std::strcmp(task->blocked_on->kind, "thread") == 0 ? "that is" : "held by",
-                     owner == task ? "itself" : owner->name);
+      if (const kernel::Task* owner = task->blocked_on->owner; owner != nullptr) {
+        const bool is_end = std::strcmp(task->blocked_on->kind, "thread") == 0;
+        std::fprintf(stderr, ", %s ", is_end ? "that is" : "held by");
+        owner == task ? static_cast<void>(std::fprintf(stderr, "itself")) : print_name(*owner);
+      }
     }
     std::fprintf(stderr, "\n");
   }

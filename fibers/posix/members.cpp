@@ -56,7 +56,6 @@ int count_words(char** words) {
 bool start(Member& member, kernel::Scheduler& scheduler) {
   home = getpid();
   member.is_member = true;
-  member.label = member.task_label;
   return make_main_thread(member, scheduler, run_member, &member) != nullptr;
 }
 
@@ -123,7 +122,6 @@ void run_members(int argc, char** argv) {
     Member& member = members[i];
     member.record = record->programs + i;
     member.robot = &member.record->robot;
-    std::snprintf(member.task_label, sizeof member.task_label, "%s: ", member.record->name);
     scheduler.add(member.record->robot, member.record->name);
     if (!start(member, scheduler)) refuse("there is no address space for the stacks of threads");
   }

@@ -21,7 +21,6 @@ struct ExitHandler {
 };
 
 struct Member : Program {
-  char task_label[kernel::name_size + 2] = {};
   ProgramImage image;
   int argc = 0;
   char** argv = nullptr;

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cassert>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -13,10 +14,10 @@
 #include <string>
 #include <thread>
 
-int counter = 0;              // exported
-inline int one_for_all = 0;   // unique to a process, says the compiler
+int counter = 0;             // exported
+inline int one_for_all = 0;  // unique to a process, says the compiler
 static int* in_order = nullptr;
-const char* error = "mine";   // the C library has a function of this name
+const char* error = "mine";  // the C library has a function of this name
 
 struct Made {
   Made() : at(new int(0)) { in_order = at; }
@@ -73,7 +74,7 @@ int main(int argc, char** argv) {
   if (way == "_exit") std::thread([] { _exit(4); }).join();
   if (way == "abort") std::abort();
   if (way == "assert") assert(times == 0);
-  if (way == "crash") *reinterpret_cast<volatile int*>(8) = 1;
+  if (way == "crash") raise(SIGSEGV);
   if (way == "throw") throw 1;
   if (way == "main leaves") {
     std::thread([] { usleep(5000); }).detach();

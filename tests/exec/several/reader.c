@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// reader KEY: prints the lines that come, to the empty one, and at its exit how many they were. That is its exit status.
+// reader KEY: prints the lines that come, to the empty one, and at its exit how many they were. That is its exit
+// status.
 #include <stdio.h>
 #include <stdlib.h>
 

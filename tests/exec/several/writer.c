@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// writer KEY COUNT: hands on COUNT numbered lines, one every tenth of a second, from a second thread; then an empty one.
+// writer KEY COUNT: hands on COUNT numbered lines, one every tenth of a second, from a second thread; then an empty
+// one.
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
