@@ -85,18 +85,21 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(clock_gettime)(clock, time);
   if (!is_clock(clock)) return fail(EINVAL);
   *time = to_timespec(reading_ns(clock, posix::now()));
   return 0;
 }
 
 WAITPOINT_INTERPOSED int clock_getres(clockid_t clock, timespec* resolution) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(clock_getres)(clock, resolution);
   if (!is_clock(clock)) return fail(EINVAL);
   if (resolution != nullptr) *resolution = {0, 1};
   return 0;
 }
 
 WAITPOINT_INTERPOSED int gettimeofday(timeval* __restrict time, void* __restrict zone) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(gettimeofday)(time, zone);
   const timespec read = to_timespec(reading_ns(CLOCK_REALTIME, posix::now()));
   *time = {read.tv_sec, read.tv_nsec / 1000};
   if (zone != nullptr) *static_cast<struct timezone*>(zone) = {};
@@ -104,20 +107,26 @@ WAITPOINT_INTERPOSED int gettimeofday(timeval* __restrict time, void* __restrict
 }
 
 WAITPOINT_INTERPOSED time_t time(time_t* time) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(time)(time);
   const time_t read = reading_ns(CLOCK_REALTIME, posix::now()) / second_ns;
   if (time != nullptr) *time = read;
   return read;
 }
 
 WAITPOINT_INTERPOSED int timespec_get(timespec* time, int base) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(timespec_get)(time, base);
   if (base != TIME_UTC) return 0;
   *time = to_timespec(reading_ns(CLOCK_REALTIME, posix::now()));
   return base;
 }
 
-WAITPOINT_INTERPOSED clock_t clock() noexcept { return reading_ns(CLOCK_PROCESS_CPUTIME_ID, posix::now()) / 1000; }
+WAITPOINT_INTERPOSED clock_t clock() noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(clock)();
+  return reading_ns(CLOCK_PROCESS_CPUTIME_ID, posix::now()) / 1000;
+}
 
 WAITPOINT_INTERPOSED clock_t times(tms* buffer) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(times)(buffer);
   const std::int64_t tick_ns = second_ns / sysconf(_SC_CLK_TCK);
   const Time read = posix::now();
   if (buffer != nullptr) *buffer = {reading_ns(CLOCK_PROCESS_CPUTIME_ID, read) / tick_ns, 0, 0, 0};

@@ -56,6 +56,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED pid_t fork() noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(fork)();
+  if (has_host) return fail(ENOSYS);  // a copy of the host is no process of a guest
   pass(kernel::Operation::start, nullptr);
   note_fork();
   const pid_t child = WAITPOINT_NEXT(fork)();

@@ -14,11 +14,12 @@
 #include "fibers/posix/exploration.hpp"
 #include "fibers/posix/fork_server.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/preload.hpp"
 #include "fibers/posix/race_log.hpp"
 
 namespace waitpoint::posix {
 
-Record* record = nullptr;
+const bool has_host = false;
 
 namespace {
 
@@ -29,25 +30,9 @@ int (*program_body)() = nullptr;
 // main() returns into exit(), as in the C library; but it may leave by pthread_exit() too.
 void* run_body(void*) { std::exit(program_body()); }
 
-void take_first_away(const char* variable) {
-  const char* const all = std::getenv(variable);
-  const char* const others = all == nullptr ? nullptr : std::strchr(all, ':');
-  if (others == nullptr)
-    unsetenv(variable);
-  else
-    setenv(variable, others + 1, 1);
-}
-
 [[noreturn]] void end_process(int status) {
   WAITPOINT_NEXT(_exit)(status);
   __builtin_unreachable();
-}
-
-// Programs that this one starts are not simulated: what was put in front of the libraries they load is taken away.
-void clear_environment() {
-  unsetenv(record_variable);
-  take_first_away("LD_PRELOAD");
-  if (record->settings.instrumented) take_first_away("LD_LIBRARY_PATH");
 }
 
 // In place of what is mapped there.
@@ -67,7 +52,9 @@ void map_record(int descriptor) {
   const char* const descriptor = std::getenv(record_variable);
   if (descriptor == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
   map_record(std::atoi(descriptor));
-  clear_environment();
+  unsetenv(record_variable);
+  leave_preload();
+  if (record->settings.instrumented) leave_library_path();
 }
 
 }  // namespace

@@ -7,8 +7,12 @@
 
 namespace waitpoint::posix {
 
-/// Null outside `waitpoint exec`.
+/// Null outside `waitpoint exec`; for guests it holds settings alone.
 extern Record* record;
+
+/// Whether programs are guests in a process of somebody else's (guests.hpp), whose own code is not simulated.
+extern const bool has_host;
+inline bool is_host_code() { return has_host && !is_simulated(); }
 
 /// Runs `body` as the first thread of the simulation, and the others with it, until the process exits.
 [[noreturn]] void run_program(int (*body)(), const char* name);

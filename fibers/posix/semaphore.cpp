@@ -14,6 +14,7 @@
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/named_objects.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/waitable.hpp"
 
@@ -90,6 +91,15 @@ Named* make_named(const char* name, unsigned count) {
 }
 
 }  // namespace
+
+void forget_named_semaphores() {
+  while (first_named != nullptr) {
+    first_named->unlinked = true;
+    first_named->opened = 0;
+    let_go(*first_named);
+  }
+}
+
 }  // namespace waitpoint::posix
 
 using namespace waitpoint;

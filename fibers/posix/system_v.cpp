@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "fibers/posix/clocks.hpp"
+#include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix::system_v {
@@ -53,6 +54,11 @@ void set_owner(Common& common, const ipc_perm& to) {
 time_t date() {
   const Time now = is_simulated() ? kernel::local_time(*kernel::running) : Time();
   return to_timespec(reading_ns(CLOCK_REALTIME, now)).tv_sec;
+}
+
+void forget_waiter(const kernel::Task& task) {
+  forget_semaphore_waiter(task);
+  forget_message_waiter(task);
 }
 
 void pass_if_simulated(kernel::Operation operation, kernel::Object* object) {

@@ -85,6 +85,19 @@ class Table {
     return made->id;
   }
 
+  /// None are there any more, and identifiers begin anew.
+  void clear() {
+    for (int slot = 0; slot < end_; ++slot) {
+      if (slots_[slot] != nullptr) {
+        slots_[slot]->~T();
+        std::free(slots_[slot]);
+      }
+      slots_[slot] = nullptr;
+      used_[slot] = 0;
+    }
+    end_ = count_ = 0;
+  }
+
   /// Takes an object's identifier away; it is freed once no call is within it.
   void remove(T& object) {
     slots_[object.id % static_cast<int>(identifiers_a_slot)] = nullptr;

@@ -11,6 +11,7 @@
 
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/system_v.hpp"
+#include "fibers/posix/system_v_ends.hpp"
 
 namespace waitpoint::posix::system_v {
 namespace {
@@ -142,6 +143,12 @@ int control(Segment& segment, int command, shmid_ds* status) {
 }
 
 }  // namespace
+
+void forget_memory() {
+  while (first != nullptr) shmdt(first->address);
+  segments.clear();
+}
+
 }  // namespace waitpoint::posix::system_v
 
 using namespace waitpoint;

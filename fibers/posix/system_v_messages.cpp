@@ -12,6 +12,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/system_v.hpp"
+#include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix::system_v {
@@ -261,6 +262,22 @@ int control(Queue& queue, int command, msqid_ds* status) {
 }
 
 }  // namespace
+
+void forget_message_waiter(const kernel::Task& task) {
+  for (int slot = 0; slot < queues.end(); ++slot) {
+    Queue* const queue = queues.in_slot(slot);
+    for (Receiving** link = queue == nullptr ? nullptr : &queue->first_receiving; link != nullptr && *link != nullptr;
+         link = &(*link)->next)
+      if ((*link)->task == &task) {
+        *link = (*link)->next;
+        --queue->users;
+        return;
+      }
+  }
+}
+
+void forget_messages() { queues.clear(); }
+
 }  // namespace waitpoint::posix::system_v
 
 using namespace waitpoint;

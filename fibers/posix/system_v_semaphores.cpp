@@ -12,7 +12,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/system_v.hpp"
-#include "fibers/posix/undo.hpp"
+#include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix::system_v {
@@ -323,6 +323,21 @@ int control_all(Set& set, int command, Argument argument) {
 }
 
 }  // namespace
+
+void forget_semaphore_waiter(const kernel::Task& task) {
+  for (int slot = 0; slot < sets.end(); ++slot) {
+    Set* const set = sets.in_slot(slot);
+    for (Waiting** link = set == nullptr ? nullptr : &set->first; link != nullptr && *link != nullptr;
+         link = &(*link)->next)
+      if ((*link)->task == &task) {
+        *link = (*link)->next;
+        --set->users;
+        return;
+      }
+  }
+}
+
+void forget_semaphores() { sets.clear(); }
 
 void undo_semaphores_of(const kernel::Robot& program) {
   for (int slot = 0; slot < sets.end(); ++slot) {

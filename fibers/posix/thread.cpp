@@ -18,6 +18,7 @@
 #include "fibers/posix/members.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
+#include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/thread_area.hpp"
 
 extern "C" {
@@ -67,7 +68,7 @@ bool is_detached(const pthread_attr_t* attributes) {
 
 void count_threads(Program& program) {
   ++program.threads_made;
-  if (record == nullptr) return;
+  if (has_host) return;
   ++record->threads_made;
   const std::uint32_t now = record->scheduler.tasks();
   if (now > record->threads_most) record->threads_most = now;
@@ -145,6 +146,7 @@ void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
     next = task->next;
     if (task == kernel::running || !is_thread(*task) || thread_of(*task).program != &program) continue;
     forget_waiter(*task);
+    system_v::forget_waiter(*task);
     scheduler.end_in_place(*task);
     free_thread(thread_of(*task));
     scheduler.free_stack(*task);
@@ -245,6 +247,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int pthread_create(pthread_t* id, const pthread_attr_t* attributes, void* (*start)(void*),
                                         void* argument) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(pthread_create)(id, attributes, start, argument);
   return create(id, attributes, {.posix = start}, false, argument);
 }
 

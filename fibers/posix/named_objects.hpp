@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What programs share by names and keys: named semaphores, and System V's objects.
+#pragma once
+
+namespace waitpoint::posix {
+
+/// All of them, when nobody is left that uses any.
+void forget_named_objects();
+
+void forget_named_semaphores();
+
+}  // namespace waitpoint::posix
