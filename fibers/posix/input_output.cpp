@@ -10,6 +10,7 @@
 
 #include <cerrno>
 
+#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
@@ -47,10 +48,16 @@ void prepare(int descriptor, kernel::Operation operation, short events, bool may
   leave_if_cancelled();
 }
 
+// All that is sent and received, to whoever looks for races: what was sent happens before what follows its reception,
+// and whose it was, the system knows.
+constexpr char descriptors = 0;
+
 // The call, and a look at who may go on by it.
 template <class Call>
 auto done(Call call) {
+  if (kernel::sanitizer::present) kernel::sanitizer::release(&descriptors);
   const auto result = call();
+  if (kernel::sanitizer::present) kernel::sanitizer::acquire(&descriptors);
   look_at_descriptors();
   return result;
 }

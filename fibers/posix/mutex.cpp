@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
@@ -111,6 +112,7 @@ void let_robust_mutexes_go() {
       if (mutex.is_robust) {
         mutex.owner_died = true;
         mutex.is_inconsistent = false;
+        if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);  // without a waitpoint
         hand_on(mutex);
       }
     }

@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <threads.h>
 
+#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/waiting.hpp"
 #include "fibers/posix/word.hpp"
@@ -14,9 +15,13 @@ namespace {
 constexpr int fresh = 0, under_way = 1, done = 2;
 
 void end(int* flag, int state) {
-  *flag = state;
-  if (!is_simulated()) return;
+  if (!is_simulated()) {
+    *flag = state;
+    return;
+  }
   Word& word = word_at(flag);
+  if (kernel::sanitizer::present) kernel::sanitizer::release(&word.object);
+  *flag = state;
   pass(kernel::Operation::release, &word.object);
   kernel::running->scheduler->wake_all(word.object);
 }
@@ -44,6 +49,8 @@ int call(int* flag, void (*function)()) {
     function();
     attempt.completed = true;
   }
+  // Who finds it done has passed no waitpoint: nothing else tells that it was done before.
+  if (kernel::sanitizer::present && is_simulated()) kernel::sanitizer::acquire(&word_at(flag).object);
   return 0;
 }
 
