@@ -10,7 +10,10 @@
 
 #include "core/error.hpp"
 #include "tools/data_folder.hpp"
+#include "tools/exec/exec.hpp"
 #include "tools/exec/program_file.hpp"
+#include "tools/exec/program_process.hpp"
+#include "tools/shell_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -28,21 +31,43 @@ std::filesystem::path commands() {
                  "the commands for gdb are not installed: expected " + (installed / "waitpoint-gdb.py").string());
 }
 
-}  // namespace
-
-void debug(const DebugOptions& options) {
-  if (!options.own && find_program(options.words.front()).empty())
-    throw BadInput("gdb", "there is no program '" + options.words.front() + "'");
+[[noreturn]] void become_gdb(const DebugOptions& options, const std::vector<std::string>& first,
+                             const std::vector<std::string>& program) {
   std::vector<std::string> words = {"gdb", "-q", "-x", commands().string()};
-  words.insert(words.end(), options.gdb_options.begin(), options.gdb_options.end());
+  for (const auto* some : {&first, &options.gdb_options}) words.insert(words.end(), some->begin(), some->end());
   words.push_back("--args");
-  if (options.own) words.push_back(own_program().string());
-  words.insert(words.end(), options.words.begin(), options.words.end());
+  words.insert(words.end(), program.begin(), program.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execvp("gdb", arguments.data());
   throw BadInput("gdb", errno == ENOENT ? "gdb is not installed" : std::string("gdb: ") + std::strerror(errno));
+}
+
+/// gdb starts the program itself, with what `waitpoint exec` would put in front of it.
+[[noreturn]] void debug_program(const DebugOptions& options, const ExecOptions& program) {
+  const ProgramFiles files(program.words);
+  const RunMemory memory(settings_of(program, program.seed), files.programs);
+  std::vector<std::string> words = files.programs.words();
+  words.front() = files.program.string();
+  const std::string wrapper = "set exec-wrapper env" + quoted(environment_of(files, memory));
+  become_gdb(options, {"-iex", "set startup-with-shell on", "-ex", wrapper}, words);
+}
+
+}  // namespace
+
+void debug(const DebugOptions& options) {
+  if (!options.own && find_program(options.words.front()).empty())
+    throw BadInput("gdb", "there is no program '" + options.words.front() + "'");
+  std::vector<std::string> words = options.words;
+  if (options.own) words.insert(words.begin(), own_program().string());
+  if (options.own && words[1] == "exec") {
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    const Options inner = read_options(static_cast<int>(arguments.size()), arguments.data(), "");
+    if (const auto* const program = std::get_if<ExecOptions>(&inner)) debug_program(options, *program);
+  }
+  become_gdb(options, {}, words);
 }
 
 }  // namespace waitpoint::tools

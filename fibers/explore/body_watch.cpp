@@ -26,7 +26,7 @@ Outcome take_profile(Body& body, Profile& profile) {
 
 Timeline take_timeline(Body& body, const Schedule& schedule) {
   Timeline timeline;
-  TimelineRecorder recording(timeline, body.explorer());
+  TimelineRecorder recording(timeline, &body.explorer());
   kernel::Scheduler& scheduler = body.simulation().scheduler();
   scheduler.set_watch(&recording);
   Fifo rest;

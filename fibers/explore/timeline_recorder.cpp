@@ -8,7 +8,7 @@ namespace waitpoint::exploration {
 
 using kernel::Operation;
 
-TimelineRecorder::TimelineRecorder(Timeline& timeline, const Explorer& explorer, Time from)
+TimelineRecorder::TimelineRecorder(Timeline& timeline, const Explorer* explorer, Time from)
     : timeline_(timeline), explorer_(explorer), from_(from) {
   event = &TimelineRecorder::record;
 }
@@ -19,12 +19,17 @@ std::uint32_t TimelineRecorder::number_of(const Task& task) {
   return known->second;
 }
 
+// Whether the event now executing was chosen in place of another: asked once for each.
+bool TimelineRecorder::is_switch(const Explorer& explorer) {
+  const std::vector<Decision>& decisions = explorer.schedule().decisions;
+  const bool is_new = decisions.size() > decisions_;
+  decisions_ = decisions.size();
+  return is_new && decisions.back().is_switch() && decisions.back().choice == Choice::task;
+}
+
 void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& record) {
   TimelineRecorder& self = static_cast<TimelineRecorder&>(watch);
-  const std::vector<Decision>& decisions = self.explorer_.schedule().decisions;
-  const bool is_switch =
-      decisions.size() > self.decisions_ && decisions.back().is_switch() && decisions.back().choice == Choice::task;
-  self.decisions_ = decisions.size();
+  const bool is_switch = self.explorer_ != nullptr && self.is_switch(*self.explorer_);
   if (record.time < self.from_) return;
   std::vector<TimelineEvent>& events = self.timeline_.events;
   std::int64_t woken_by = -1;

@@ -12,14 +12,16 @@ namespace waitpoint::exploration {
 /// The events of one run from `from` on, as its scheduler's watch.
 class TimelineRecorder : public kernel::Watch {
  public:
-  TimelineRecorder(Timeline& timeline, const Explorer& explorer, Time from = Time());
+  /// Without an explorer no event is a switch; it must outlive the recorder.
+  TimelineRecorder(Timeline& timeline, const Explorer* explorer, Time from = Time());
 
  private:
   static void record(kernel::Watch& watch, const kernel::EventRecord& record);
   std::uint32_t number_of(const Task& task);
+  bool is_switch(const Explorer& explorer);
 
   Timeline& timeline_;
-  const Explorer& explorer_;
+  const Explorer* explorer_;
   Time from_;
   std::map<std::uint64_t, std::uint32_t> numbers_;      // of tasks, by id
   std::map<std::uint64_t, std::int64_t> last_release_;  // the last event at an object that may have woken another

@@ -29,6 +29,8 @@ timespec to_timespec(std::int64_t ns);
 
 /// The running thread reads a clock: its local time, and a little of it passes.
 Time read_clock();
+/// As clock_gettime().
+int read_clock(clockid_t clock, timespec& time);
 
 /// Later than any wait.
 Time later(Time from, Duration span);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/deadlock.hpp"
 
-#include <dlfcn.h>
-
 #include <cstdio>
 #include <cstring>
 
+#include "fibers/posix/symbols.hpp"
 #include "fibers/posix/thread.hpp"
 #include "fibers/posix/waitable.hpp"
 
@@ -25,14 +24,11 @@ void print_object(const kernel::Object& object) {
     std::fprintf(stderr, "%s", std::strcmp(object.kind, "thread") == 0 ? "the end of a thread" : object.kind);
     return;
   }
-  Dl_info info{};
   std::fprintf(stderr, "%s ", object.kind);
-  if (dladdr(waitable->address, &info) == 0 || info.dli_sname == nullptr) {
+  if (const char* const name = symbol_at(waitable->address); name != nullptr)
+    std::fprintf(stderr, "%s", name);
+  else
     std::fprintf(stderr, "at %p", waitable->address);
-    return;
-  }
-  const auto offset = static_cast<const char*>(waitable->address) - static_cast<const char*>(info.dli_saddr);
-  std::fprintf(stderr, offset == 0 ? "%s" : "%s+%td", info.dli_sname, offset);
 }
 
 }  // namespace

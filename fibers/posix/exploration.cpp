@@ -52,7 +52,7 @@ void Explored::watch(kernel::Scheduler& scheduler, const Asked& asked) {
   if (asked.profile)
     scheduler.set_watch(&profiling_.emplace(profile));
   else if (asked.events)
-    scheduler.set_watch(&recorder_.emplace(timeline, explorer, asked.events_from));
+    scheduler.set_watch(&recorder_.emplace(timeline, &explorer, asked.events_from));
 }
 
 }  // namespace waitpoint::posix

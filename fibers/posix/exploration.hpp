@@ -45,7 +45,15 @@ struct Asked {
   std::size_t decision = none;
 };
 
-/// Made by the program, before its first thread.
+/// All events of a run, as they come. Made by the program, before its first thread.
+struct Trace {
+  Trace() : recorder(timeline, nullptr) {}
+
+  exploration::Timeline timeline;
+  exploration::TimelineRecorder recorder;
+};
+
+/// The same where its schedule is explored.
 struct Explored {
   /// Decides from now on, as it was asked.
   Explored(kernel::Scheduler& scheduler, const Asked& asked);

@@ -148,7 +148,7 @@ WAITPOINT_INTERPOSED long syscall(long number, ...) noexcept {
     case SYS_clock_getres: return clock_getres(static_cast<clockid_t>(a[0]), reinterpret_cast<timespec*>(a[1]));
     case SYS_gettimeofday: return gettimeofday(reinterpret_cast<timeval*>(a[0]), reinterpret_cast<void*>(a[1]));
     case SYS_time: return time(reinterpret_cast<time_t*>(a[0]));
-    case SYS_clock_gettime: return clock_gettime(static_cast<clockid_t>(a[0]), reinterpret_cast<timespec*>(a[1]));
+    case SYS_clock_gettime: return read_clock(static_cast<clockid_t>(a[0]), *reinterpret_cast<timespec*>(a[1]));
     default: return WAITPOINT_NEXT(syscall)(number, a[0], a[1], a[2], a[3], a[4], a[5]);
   }
 }

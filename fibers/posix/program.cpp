@@ -16,6 +16,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/preload.hpp"
 #include "fibers/posix/race_log.hpp"
+#include "fibers/posix/waitable.hpp"
 
 namespace waitpoint::posix {
 
@@ -57,6 +58,24 @@ void map_record(int descriptor) {
   if (record->settings.instrumented) leave_library_path();
 }
 
+// A debugger runs the program once more on the same record.
+void begin_anew() {
+  const Settings settings = record->settings;
+  const Arena arena = record->arena;
+  ProgramRecord* const programs = record->programs;
+  const std::uint32_t count = record->program_count;
+  new (record) Record();
+  record->settings = settings;
+  record->arena = arena;
+  record->programs = programs;
+  record->program_count = count;
+  for (ProgramRecord& program : record->several()) {
+    program.robot = kernel::Robot();
+    program.threads_made = 0;
+    program.ended = false;
+  }
+}
+
 }  // namespace
 
 void refuse(const char* reason) {
@@ -72,12 +91,19 @@ bool has_members() {
 kernel::Scheduler& begin_run() {
   begin();
   if (const int server = record->settings.server; server >= 0) map_record(serve_runs(server));
+  if (record->began) begin_anew();
   const Asked* const asked = record->settings.asked;
   record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
   kernel::Scheduler& scheduler =
       *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   scheduler.set_delivery(deliver_signals);
   if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
+  names_waitables = record->settings.traced ||
+                    (asked != nullptr && (asked->words || asked->events || asked->decision != Asked::none));
+  if (record->settings.traced) {
+    record->trace = new Trace();
+    scheduler.set_watch(&record->trace->recorder);
+  }
   record->running = &kernel::running;
   record->began = true;
   return scheduler;

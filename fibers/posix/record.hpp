@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/digest.hpp"
+#include "fibers/kernel/clock_options.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/posix/arena.hpp"
 
@@ -28,11 +29,15 @@ inline constexpr std::size_t record_bytes = std::size_t{1} << 34;
 struct Asked;
 struct Explored;
 struct RaceLog;
+struct Trace;
 
 struct Settings {
   kernel::Order order = kernel::Order::seeded;
   std::uint64_t seed = 1;
-  Time until = Time::max();         ///< the run is cut off then
+  Time until = Time::max();  ///< the run is cut off then
+  bool has_clock = false;    ///< threads have a clock; else computing takes no time
+  kernel::ClockOptions clock;
+  bool traced = false;              ///< all events are written down
   const Asked* asked = nullptr;     ///< how the schedule is explored, in Order::explored
   std::uint32_t looks_at_once = 1;  ///< so many uses of clocks and of giving way are paid for together
   bool instrumented = false;        ///< the program is compiled with -fsanitize=thread
@@ -66,6 +71,7 @@ struct Record {
   bool began = false;  ///< the scheduler is there
   Ending ending = Ending::own;
   Explored* explored = nullptr;
+  Trace* trace = nullptr;
   RaceLog* race_log = nullptr;  ///< of an instrumented program
   Arena arena;                  ///< behind this record
   std::uint32_t threads_made = 0;

@@ -38,6 +38,7 @@ Thread* main_thread = nullptr;
 Thread* to_free = nullptr;
 
 void free_thread(Thread& thread) {
+  std::free(thread.clock);
   free_thread_area(thread.area);
   std::free(&thread);
 }
@@ -91,13 +92,23 @@ Thread* make_thread(Program& program) {
 }
 
 // Its task, which begins now; false where there is none.
+bool give_clock(Thread& thread) {
+  void* const memory = std::malloc(sizeof(ProgramClock));
+  if (memory != nullptr) thread.clock = new (memory) ProgramClock(record->settings.clock);
+  return memory != nullptr;
+}
+
 bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
   Program& program = *thread.program;
   char whole_name[kernel::name_size];
   std::snprintf(whole_name, sizeof whole_name, "%s%s", program.label, name);
-  kernel::Task* const task = scheduler.spawn(
-      *program.robot, {.name = whole_name, .stack = kernel::StackSize::program, .service = program.is_service},
-      run_thread, &thread);
+  if (record->settings.has_clock && !give_clock(thread)) return false;
+  kernel::Task* const task = scheduler.spawn(*program.robot,
+                                             {.name = whole_name,
+                                              .stack = kernel::StackSize::program,
+                                              .service = program.is_service,
+                                              .clock = thread.clock != nullptr ? &thread.clock->local() : nullptr},
+                                             run_thread, &thread);
   if (task == nullptr) return false;
   task->fiber.thread_pointer = thread.area;
   thread.task = task;

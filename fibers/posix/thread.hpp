@@ -6,6 +6,7 @@
 #include <sched.h>
 
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/posix/program_clock.hpp"
 #include "fibers/posix/program_state.hpp"
 
 namespace waitpoint::posix {
@@ -39,6 +40,8 @@ struct Thread {
 
   /// What its uses of primitives and clocks have cost: its processor time.
   Duration spent;
+  /// What its own code takes, where it has a clock.
+  ProgramClock* clock = nullptr;
 
   // Cancellation.
   bool cancelled = false;  ///< it is to leave at its next cancellation point

@@ -5,6 +5,7 @@
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "fibers/posix/symbols.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -72,6 +73,12 @@ void unlink(Waitable& waitable) {
 }
 
 }  // namespace
+
+bool names_waitables = false;
+
+void label(Waitable& waitable) {
+  if (const char* const name = symbol_at(waitable.address); name != nullptr) waitable.object.label = name;
+}
 
 Waitable* find_waitable(const void* address, Waitable::Kind kind) {
   if (bucket_count == 0) return nullptr;

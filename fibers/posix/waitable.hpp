@@ -39,6 +39,10 @@ void forget(Waitable& waitable);
 /// Whose object it is, for reports; null if it is of no primitive.
 const Waitable* waitable_of(const kernel::Object& object);
 
+/// Whether a run is told in words, with the names of the program's variables.
+extern bool names_waitables;
+void label(Waitable& waitable);
+
 template <class T>
 T& make_waitable(const void* address) {
   static_assert(sizeof(T) <= waitable_bytes_max);
@@ -46,6 +50,7 @@ T& make_waitable(const void* address) {
   Waitable* const next = static_cast<Waitable*>(cell)->next_of_bucket;
   T* const made = new (cell) T(address);
   made->next_of_bucket = next;
+  if (names_waitables) label(*made);
   return *made;
 }
 

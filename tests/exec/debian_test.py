@@ -5,6 +5,7 @@ Their output is the native one, a seed is one run, another seed another. With --
 """
 
 import hashlib
+import json
 import random
 import re
 import shutil
@@ -185,9 +186,47 @@ class Ends(Exec):
         status, _, text = self.end("deadlock")
         self.assertEqual(status, 124)
         self.assertIn("deadlock at 4.", text)
-        self.assertRegex(text, r"main waits for mutex (right|at 0x\w+), held by thread 1\n")
-        self.assertRegex(text, r"thread 1 waits for mutex (left|at 0x\w+), held by main\n")
+        self.assertIn("main waits for mutex right, held by thread 1\n", text)
+        self.assertIn("thread 1 waits for mutex left, held by main\n", text)
         self.assertIn("replay: waitpoint exec --seed 1 --", text)
+
+
+class Clocks(Exec):
+    """What a program's code costs, if it is to cost anything."""
+
+    def seconds(self, *options):
+        words = [WAITPOINT, "exec", *options, "--", "zstd", "-T4", "-q", "-c", self.folder / "short"]
+        done = subprocess.run([str(word) for word in words], capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return Summary(done.stderr.decode())
+
+    def test_move_virtual_time(self):
+        if not shutil.which("zstd"):
+            self.skipTest("there is no zstd")
+        (self.folder / "short").write_bytes(self.bytes.read_bytes()[:300_000])
+        nothing, fixed = self.seconds(), self.seconds("--clock", "fixed:10")
+        self.assertLess(nothing.seconds, 1e-3)
+        self.assertGreater(fixed.seconds, 20 * 10e-6)
+        drawn = [self.seconds("--clock", "interval:1..100", "--seed", seed) for seed in ("1", "1", "2")]
+        self.assertEqual(drawn[0].digest, drawn[1].digest)
+        self.assertNotEqual(drawn[0].digest, drawn[2].digest)
+        measured = [self.seconds("--clock", clock).seconds for clock in ("cpu", "cpu:x100")]
+        self.assertGreater(measured[0], 1e-4)
+        self.assertGreater(measured[1], 10 * measured[0])
+
+
+class Traces(Exec):
+    def test_hold_what_happened_up_to_a_crash(self):
+        for way, status in (("crash", -11), ("deadlock", 124)):
+            trace = self.folder / "trace.json"
+            done = subprocess.run([str(WAITPOINT), "exec", "--trace", str(trace), "--", str(self.compile("ends.c")), way],
+                                  capture_output=True)
+            self.assertEqual(done.returncode, status)
+            events = json.loads(trace.read_text())["traceEvents"]
+            threads = {event["args"]["name"] for event in events if event["name"] == "thread_name"}
+            self.assertEqual(threads, {"main#0 of ends", "thread 1#1 of ends"})
+            last = max(event["ts"] for event in events if "ts" in event)
+            self.assertGreaterEqual(last, 2e6, "microseconds of virtual time")
 
 
 class Seeds(Exec):
@@ -224,7 +263,11 @@ class Refusals(Exec):
         self.assertIn("expected what to run", self.refused("--"))
         self.assertIn("--seed: expected a whole number from 0 to 2^64 - 1, found 'x'", self.refused("--seed", "x", "--", "true"))
         self.assertIn("--seeds: expected FIRST..LAST, found '5..1'", self.refused("--seeds", "5..1", "--", "true"))
-        self.assertIn("--strategy: expected random or fifo, found 'best'", self.refused("--strategy", "best", "--", "true"))
+        for clock in ("best", "fixed", "fixed:-1", "interval:5", "interval:5..1", "cpu:2", "cpu:x-1"):
+            self.assertIn(f"--clock: expected fixed:US, interval:US..US, cpu[:xFACTOR] or proportional[:xFACTOR], found '{clock}'",
+                          self.refused("--clock", clock, "--", "true"))
+        self.assertIn("--trace: cannot be used together with --seeds", self.refused("--seeds", "1..2", "--trace", "x", "--", "true"))
+        self.assertIn("--strategy: expected random or fifo (waitpoint explore --exec has others), found 'best'", self.refused("--strategy", "best", "--", "true"))
         self.assertIn("unknown option '--sed', did you mean '--seed'?", self.refused("--sed", "1", "--", "true"))
 
     def test_of_programs_that_nothing_can_be_preloaded_into(self):

@@ -8,9 +8,12 @@
 #include <cstdio>
 #include <cstring>
 #include <set>
+#include <sstream>
 
+#include "fibers/posix/exploration.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/exec/race_report.hpp"
+#include "tools/output_file.hpp"
 #include "tools/shell_words.hpp"
 
 namespace waitpoint::tools {
@@ -19,6 +22,7 @@ namespace {
 std::string replay_line(const ExecOptions& options, std::uint64_t seed) {
   std::string line = "waitpoint exec --seed " + std::to_string(seed);
   if (options.order == kernel::Order::fifo) line += " --strategy fifo";
+  if (options.clock) line += " --clock " + options.clock_text;
   return line + " --" + quoted(options.words);
 }
 
@@ -38,13 +42,6 @@ void print_failure(const ExecOptions& options, const posix::Record& record, int 
     std::fprintf(stderr, "waitpoint: it was ended by signal %d (%s)%s\n", signal, strsignal(signal),
                  name.empty() ? "" : (", in " + name).c_str());
   std::fprintf(stderr, "waitpoint: replay: %s\n", replay_line(options, seed).c_str());
-}
-
-posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed) {
-  posix::Settings settings;
-  settings.order = options.order;
-  settings.seed = seed;
-  return settings;
 }
 
 // What a program writes, kept until it is known whether it is to be shown.
@@ -102,14 +99,34 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
   return 0;
 }
 
+void write_trace_of(const posix::Record& record, OutputFile& file) {
+  std::ostringstream text;
+  if (record.trace != nullptr) exploration::write_trace(text, record.trace->timeline);
+  file.write(text.str());
+  file.commit();
+}
+
 }  // namespace
+
+posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed) {
+  posix::Settings settings;
+  settings.order = options.order;
+  settings.seed = seed;
+  settings.has_clock = options.clock.has_value();
+  settings.clock = options.clock.value_or(kernel::ClockOptions());
+  settings.traced = options.trace.has_value();
+  return settings;
+}
 
 int exec(const ExecOptions& options) {
   const ProgramFiles files(options.words);
   if (options.seeds) return run_seeds(options, files);
+  std::optional<OutputFile> trace;
+  if (options.trace) trace.emplace(*options.trace);
   const RunMemory memory(settings_of(options, options.seed), files.programs);
   const ProgramRun run(files, memory);
   const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
+  if (trace) write_trace_of(memory.record(), *trace);
   if (memory.record().began) {
     std::fputs(races_of(memory.record()).c_str(), stderr);
     if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());

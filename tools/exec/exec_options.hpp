@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fibers/kernel/chooser.hpp"
+#include "fibers/kernel/clock_options.hpp"
 #include "tools/option_values.hpp"
 
 namespace CLI {
@@ -19,7 +21,10 @@ namespace waitpoint::tools {
 struct ExecOptions {
   std::uint64_t seed = 1;
   kernel::Order order = kernel::Order::seeded;
-  std::optional<SeedRange> seeds;  ///< instead of `seed`: a run for each, to the first that fails
+  std::optional<SeedRange> seeds;              ///< instead of `seed`: a run for each, to the first that fails
+  std::optional<kernel::ClockOptions> clock;   ///< what computing costs; without one nothing
+  std::string clock_text;                      ///< as it was written
+  std::optional<std::filesystem::path> trace;  ///< to write
   bool quiet = false;
   std::vector<std::string> words;  ///< the program and its arguments: at least one
 };
@@ -37,7 +42,7 @@ class ExecArguments {
 
  private:
   CLI::App* command_;
-  std::string seed_, seeds_, strategy_ = "random";
+  std::string seed_, seeds_, clock_, trace_, strategy_ = "random";
   bool quiet_ = false;
 };
 

@@ -28,12 +28,12 @@ std::filesystem::path find_part(const std::string& name) {
   throw BadInput("exec", "what programs are run with is not installed: expected " + installed.string());
 }
 
-void put_first(const char* variable, const std::string& path) {
-  const char* const others = std::getenv(variable);
-  setenv(variable, (others != nullptr ? path + ":" + others : path).c_str(), 1);
+std::string put_first(const std::string& variable, const std::string& path) {
+  const char* const others = std::getenv(variable.c_str());
+  return variable + "=" + (others != nullptr ? path + ":" + others : path);
 }
 
-[[noreturn]] void become(const ProgramFiles& files, int record, int output) {
+[[noreturn]] void become(const ProgramFiles& files, const RunMemory& memory, int output) {
   if (output >= 0) {
     dup2(output, STDOUT_FILENO);
     dup2(output, STDERR_FILENO);
@@ -43,10 +43,8 @@ void put_first(const char* variable, const std::string& path) {
   // Equal runs have equal addresses: programs order and hash by them.
   const int persona = personality(0xFFFFFFFF);
   if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
-  put_first("LD_PRELOAD", files.library.string());
-  // There an empty library stands in place of the compiler's own runtime.
-  if (files.instrumented) put_first("LD_LIBRARY_PATH", files.library.parent_path().string());
-  setenv(posix::record_variable, std::to_string(record).c_str(), 1);
+  static std::vector<std::string> environment = environment_of(files, memory);
+  for (std::string& variable : environment) putenv(variable.data());
   std::vector<char*> words;
   for (const std::string& word : files.programs.words()) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
@@ -72,12 +70,22 @@ ProgramFiles::ProgramFiles(const std::vector<std::string>& words)
   if (instrumented) library = find_part("libwaitpoint-exec-races.so");
 }
 
+std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemory& memory) {
+  memory.record().settings.instrumented = files.instrumented;
+  std::vector<std::string> environment = {
+      put_first("LD_PRELOAD", files.library.string()),
+      std::string(posix::record_variable) + "=" + std::to_string(memory.descriptor()),
+  };
+  // There an empty library stands in place of the compiler's own runtime.
+  if (files.instrumented) environment.push_back(put_first("LD_LIBRARY_PATH", files.library.parent_path().string()));
+  return environment;
+}
+
 pid_t start_program(const ProgramFiles& files, const RunMemory& memory, int output) {
   std::fflush(nullptr);
-  memory.record().settings.instrumented = files.instrumented;
   const pid_t process = fork();
   if (process < 0) throw BadInput("exec", std::string("no process can be made: ") + std::strerror(errno));
-  if (process == 0) become(files, memory.descriptor(), output);
+  if (process == 0) become(files, memory, output);
   return process;
 }
 

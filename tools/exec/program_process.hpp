@@ -20,8 +20,11 @@ struct ProgramFiles {
 
   ProgramList programs;
   std::filesystem::path program, library;  ///< the process's
-  bool instrumented = false;  ///< by -fsanitize=thread; a layer with a runtime for that is the library
+  bool instrumented = false;               ///< by -fsanitize=thread; a layer with a runtime for that is the library
 };
+
+/// What the environment of the process holds beside what is there: "NAME=VALUE". The record's descriptor is inherited.
+std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemory& memory);
 
 /// Starts the process of the programs. It reads and writes where this process does, but for a
 /// descriptor `output`, if it is none of -1, that takes both of its streams. It ends with this process.

@@ -112,7 +112,7 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   std::optional<exploration::TimelineRecorder> recorder;
   if (request.profile) scheduler.set_watch(&profiling.emplace(finding.profile));
   exploration::Timeline timeline;
-  if (request.events) scheduler.set_watch(&recorder.emplace(timeline, stage_->explorer, request.events_from));
+  if (request.events) scheduler.set_watch(&recorder.emplace(timeline, &stage_->explorer, request.events_from));
   if (request.words || request.decision) scheduler.set_decisions(narrator);
   if (request.decision) narrator.ask_for(*request.decision);
   simulation.tell(request.places ? sync::Places::told : sync::Places::left_out);
