@@ -11,6 +11,7 @@
 #include "tools/explore/explore.hpp"
 #include "tools/options.hpp"
 #include "tools/papers_modules.hpp"
+#include "tools/program_layer.hpp"
 #include "tools/run.hpp"
 #include "tools/version.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 
 int check(const tools::CheckOptions& options, std::span<const genom::ModuleType> types) {
   const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  tools::begin_with_program_layer(scenario);
   const bridge::Experiment experiment(scenario, types, {});
   std::size_t modules = 0;
   for (const bridge::RobotScenario& robot : scenario.robots)

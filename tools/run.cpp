@@ -16,6 +16,7 @@
 #include "tools/journal_file.hpp"
 #include "tools/output_file.hpp"
 #include "tools/picture.hpp"
+#include "tools/program_layer.hpp"
 #include "tools/prompt.hpp"
 #include "tools/recorders.hpp"
 #include "tools/recording/recording.hpp"
@@ -187,6 +188,7 @@ int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::
 
 int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  begin_with_program_layer(scenario);
   heed_signals();
   if (options.check) {
     const auto is_interrupted = [] { return interruption() != 0; };

@@ -52,6 +52,15 @@ std::string battery(const RobotResult& robot) {
                      robot.battery->volts);
 }
 
+std::string programs(const RobotResult& robot) {
+  std::string text;
+  for (const bridge::ProgramResult& program : robot.programs)
+    text += fmt::format("  {}: program {} {}\n", robot.name, program.name,
+                        program.exit_status ? fmt::format("ended with exit status {}", *program.exit_status)
+                                            : "was running to the end");
+  return text;
+}
+
 std::string robot_table(const RunResult& result) {
   std::size_t width = 5;
   for (const RobotResult& robot : result.robots) width = std::max(width, robot.name.size());
@@ -104,6 +113,13 @@ Json json_of(const RobotResult& robot) {
     json["battery_charge"] = robot.battery->charge;
     json["battery_volts"] = robot.battery->volts;
     if (robot.battery->empty_at) json["battery_empty_at_s"] = robot.battery->empty_at->seconds();
+  }
+  if (!robot.programs.empty()) json["programs"] = Json::array();
+  for (const bridge::ProgramResult& program : robot.programs) {
+    Json entry;
+    entry["name"] = program.name;
+    if (program.exit_status) entry["exit_status"] = *program.exit_status;
+    json["programs"].push_back(std::move(entry));
   }
   if (!robot.late_tasks.empty()) json["late_tasks"] = Json::array();
   for (const bridge::LateTask& task : robot.late_tasks) {
@@ -168,9 +184,9 @@ std::string summary_text(const RunResult& result) {
   std::string unreached;
   for (const RobotResult& robot : result.robots) unreached += unreached_goals(robot);
   if (!unreached.empty()) text += "\n" + unreached;
-  std::string batteries;
-  for (const RobotResult& robot : result.robots) batteries += battery(robot);
-  if (!batteries.empty()) text += "\n" + batteries;
+  std::string equipment;
+  for (const RobotResult& robot : result.robots) equipment += battery(robot) + programs(robot);
+  if (!equipment.empty()) text += "\n" + equipment;
   std::string late;
   for (const RobotResult& robot : result.robots) late += late_tasks(robot);
   if (!late.empty()) text += "\n" + late;

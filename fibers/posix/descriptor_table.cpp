@@ -45,6 +45,11 @@ WAITPOINT_INTERPOSED int pipe(int* ends) noexcept { return pipe2(ends, 0); }
 WAITPOINT_INTERPOSED int socketpair(int domain, int type, int protocol, int* ends) noexcept {
   return both(WAITPOINT_NEXT(socketpair)(domain, type, protocol, ends), *reinterpret_cast<int(*)[2]>(ends));
 }
+WAITPOINT_INTERPOSED int socket(int domain, int type, int protocol) noexcept {
+  const int made = WAITPOINT_NEXT(socket)(domain, type, protocol);
+  note_owner(made);
+  return made;
+}
 WAITPOINT_INTERPOSED int eventfd(unsigned count, int flags) noexcept {
   return one(WAITPOINT_NEXT(eventfd)(count, flags));
 }

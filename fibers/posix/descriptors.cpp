@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/descriptors.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -9,6 +11,7 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/timer_descriptors.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
@@ -16,6 +19,7 @@ namespace {
 
 constexpr int known_max = 65536;  // descriptors beyond are taken for outside ones
 std::uint64_t inside[known_max / 64];
+const Program* owners[known_max];  // of those that share a process
 
 /// A thread that waits: on its own stack.
 struct Waiter {
@@ -87,6 +91,22 @@ void note_inside(int descriptor, bool is) {
   const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
   std::uint64_t& word = inside[descriptor / 64];
   word = is ? word | bit : word & ~bit;
+  owners[descriptor] = nullptr;
+  if (is) note_owner(descriptor);
+}
+
+void note_owner(int descriptor) {
+  if (descriptor < 0 || descriptor >= known_max || !is_simulated() || !this_program().is_member) return;
+  owners[descriptor] = &this_program();
+}
+
+void close_descriptors_of(const Program& program) {
+  for (int descriptor = 0; descriptor < known_max; ++descriptor) {
+    if (owners[descriptor] != &program) continue;
+    owners[descriptor] = nullptr;
+    forget_timer_descriptor(descriptor);
+    close(descriptor);
+  }
 }
 
 bool is_inside(int descriptor) {

@@ -16,12 +16,18 @@
 
 namespace waitpoint::posix {
 
+struct Program;
+
 /// Threads that wait now: they are ready when the system says so of any of their descriptors.
 bool anybody_waits_outside();
 
 /// A descriptor was made by this program for itself, or is another name of such a one; it is closed.
 void note_inside(int descriptor, bool inside);
 bool is_inside(int descriptor);
+/// The running program has it from now on.
+void note_owner(int descriptor);
+/// Closes what a program has left open that has ended before its process does: who is at the other end waits no longer.
+void close_descriptors_of(const Program& program);
 /// A child has copies of all of them: nothing is inside any more.
 void note_fork();
 /// In the child: nobody waits there.

@@ -137,6 +137,7 @@ WAITPOINT_INTERPOSED int accept4(int descriptor, sockaddr* __restrict address, s
   const int made =
       receive(descriptor, true, [&] { return WAITPOINT_NEXT(accept4)(descriptor, address, length, flags); });
   if (made >= 0) note_inside(made, is_inside(descriptor));
+  note_owner(made);
   return made;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/system_v_ends.hpp"
@@ -48,6 +49,7 @@ bool start(Member& member, kernel::Scheduler& scheduler) {
 
 void drop(Member& member, kernel::Scheduler& scheduler) {
   end_other_threads(member, scheduler);
+  close_descriptors_of(member);
   while (member.handlers != nullptr) {
     ExitHandler* const handler = member.handlers;
     member.handlers = handler->next;
@@ -73,6 +75,7 @@ void end_member(int status) {
   Member& member = this_member();
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   end_other_threads(member, scheduler);
+  close_descriptors_of(member);
   if (member.record != nullptr) system_v::undo_semaphores_of(*member.robot);
   member.ended = true;
   member.status = status & 0xFF;

@@ -82,7 +82,7 @@ void forget_timer_descriptor(int descriptor) {
   for (TimerDescriptor** link = &first; *link != nullptr; link = &(*link)->next) {
     TimerDescriptor& timer = **link;
     if (timer.descriptor != descriptor) continue;
-    if (timer.event.in_list()) kernel::running->scheduler->cancel(timer.event);
+    if (timer.event.in_list()) timer.object.robot->scheduler->cancel(timer.event);
     *link = timer.next;
     std::free(&timer);
     return;

@@ -80,6 +80,13 @@ Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleTy
       {.name = "world", .stack = kernel::StackSize::large, .phase = kernel::Phase::world, .service = true},
       [this] { run_world(); });
   for (const auto& robot : robots()) spawn(*robot);
+  for (std::size_t i = 0; i < lanes_.size(); ++i)
+    for (const ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
+}
+
+void Experiment::unwind() {
+  programs_.take_away();
+  simulation_.unwind();
 }
 
 // Distances are those of the true positions at the last step of the world.
@@ -176,7 +183,13 @@ RunResult Experiment::result() const {
   result.seed = options_.seed;
   result.digest = simulation_.digest();
   result.environment_digest = simulation_.environment().digest.digest();
-  for (std::size_t i = 0; i < lanes_.size(); ++i) result.robots[i].digest = lanes_[i]->digest.digest();
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    RobotResult& robot = result.robots[i];
+    robot.digest = lanes_[i]->digest.digest();
+    const std::vector<std::optional<int>> statuses = programs_.exit_statuses(*lanes_[i]);
+    for (std::size_t k = 0; k < statuses.size(); ++k)
+      robot.programs.push_back({assembly_->scenario().robots[i].programs[k].name, statuses[k]});
+  }
   result.events = simulation_.scheduler().events();
   result.trouble = simulation_.trouble();
   result.outcome = outcome_of(end_);

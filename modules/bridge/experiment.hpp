@@ -17,6 +17,7 @@
 #include "fibers/sync/simulation.hpp"
 #include "modules/bridge/assembly.hpp"
 #include "modules/bridge/operator.hpp"
+#include "modules/bridge/robot_program.hpp"
 #include "modules/bridge/run_result.hpp"
 
 namespace waitpoint::bridge {
@@ -31,6 +32,9 @@ class Experiment {
  public:
   /// Everything that can be wrong with the input is found here, as BadInput. The scenario must outlive the experiment.
   Experiment(const Scenario& scenario, std::span<const genom::ModuleType> types, const ExperimentOptions& options);
+
+  /// Ends every task that is left, those of programs too. Nothing can be run afterwards.
+  void unwind();
 
   /// Carries out everything before `until`; may be called again with a later time, in windows of any size.
   RunEnd run_before(Time until);
@@ -71,7 +75,8 @@ class Experiment {
   std::vector<kernel::Robot*> lanes_;  // of each robot
   std::optional<Operator> operator_;
   std::function<void(Time now)> observer_;
-  Simulation simulation_;  // after what its tasks use: it goes first
+  Simulation simulation_;                            // after what its tasks use: it goes first
+  RobotPrograms programs_{simulation_.scheduler()};  // after that: what is left of them must not be unwound
   RunEnd end_ = RunEnd::time_reached;
   bool paused_ = false;
 };

@@ -98,6 +98,29 @@ std::vector<std::string> read_processors(const YamlNode& node) {
   return names;
 }
 
+std::vector<ProgramScenario> read_programs(const YamlNode& node) {
+  std::vector<ProgramScenario> programs;
+  for (const YamlNode& item : read_list(node, "programs")) {
+    const YamlMap map(item, "a program", {"name", "file", "arguments", "enabled"});
+    ProgramScenario program;
+    program.written = item.written;
+    program.name = read_name(map.require("name"), "the name of a program");
+    const YamlNode& file = map.require("file");
+    program.file = file.written.resolve(read_text(file, "file"));
+    if (const YamlNode* arguments = map.find("arguments"))
+      for (const YamlNode& argument : read_list(*arguments, "arguments"))
+        program.arguments.push_back(read_text(argument, "an argument"));
+    for (const ProgramScenario& other : programs)
+      if (other.name == program.name)
+        throw item.written.bad("there are two programs called '" + program.name + "', the first at " +
+                               other.written.text());
+    bool enabled = true;
+    map.read("enabled", enabled);
+    if (enabled) programs.push_back(std::move(program));
+  }
+  return programs;
+}
+
 std::vector<Goal> read_goals(const YamlNode& node) {
   std::vector<Goal> goals;
   for (const YamlNode& item : read_list(node, "goals")) {
@@ -125,6 +148,7 @@ RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = null
   robot.warnings = std::move(reading.warnings);
   if (const YamlNode* modules = map.find("modules")) robot.modules = read_modules(*modules);
   if (const YamlNode* bridge = map.find("bridge")) robot.bridge = read_bridge(*bridge);
+  if (const YamlNode* programs = map.find("programs")) robot.programs = read_programs(*programs);
   if (const YamlNode* processors = map.find("processors")) robot.processors = read_processors(*processors);
   if (const YamlNode* executive = map.find("executive")) {
     if (executive->kind != YamlNode::Kind::map) {
@@ -156,7 +180,7 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
                      std::string_view("bridge"),         std::string_view("executive"), std::string_view("processors"),
                      std::string_view("start_height_m"), std::string_view("bumpers"),   std::string_view("infrareds"),
                      std::string_view("urdf"),           std::string_view("imu"),       std::string_view("gps"),
-                     std::string_view("battery")};
+                     std::string_view("battery"),        std::string_view("programs")};
   const YamlMap own(node, title, keys);
   const std::string name = read_name(own.require("name"), "the name of a robot");
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
@@ -179,12 +203,12 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
 RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, const std::string& name,
                                 const BodyReading& given) {
   const std::string title = "robot '" + name + "' of the map";
-  const auto keys = {std::string_view("model"),     std::string_view("type"),      std::string_view("goals"),
-                     std::string_view("shape"),     std::string_view("urdf"),      std::string_view("base"),
-                     std::string_view("lasers"),    std::string_view("sonars"),    std::string_view("bumpers"),
-                     std::string_view("infrareds"), std::string_view("imu"),       std::string_view("gps"),
-                     std::string_view("battery"),   std::string_view("modules"),   std::string_view("bridge"),
-                     std::string_view("executive"), std::string_view("processors")};
+  const auto keys = {std::string_view("model"),     std::string_view("type"),       std::string_view("goals"),
+                     std::string_view("shape"),     std::string_view("urdf"),       std::string_view("base"),
+                     std::string_view("lasers"),    std::string_view("sonars"),     std::string_view("bumpers"),
+                     std::string_view("infrareds"), std::string_view("imu"),        std::string_view("gps"),
+                     std::string_view("battery"),   std::string_view("modules"),    std::string_view("bridge"),
+                     std::string_view("executive"), std::string_view("processors"), std::string_view("programs")};
   const YamlMap own(node, title, keys);
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
   RobotScenario robot = read_equipment(YamlMap(whole, title, keys), &given);
@@ -206,7 +230,7 @@ void check_robot_type(const YamlEntry& type, bool for_map) {
   const BodyReading of_map;
   read_equipment(YamlMap(type.value, "robot type '" + type.key + "'",
                          {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "imu", "gps", "battery",
-                          "modules", "bridge", "executive", "processors"}),
+                          "modules", "bridge", "executive", "processors", "programs"}),
                  for_map ? &of_map : nullptr);
 }
 

@@ -67,6 +67,12 @@ struct BatteryResult {
   std::optional<Time> empty_at = {};  ///< when it went off
 };
 
+/// A program of a robot.
+struct ProgramResult {
+  std::string name;
+  std::optional<int> exit_status;  ///< none while it runs
+};
+
 struct RobotResult {
   std::string name;
   Digest digest;
@@ -82,6 +88,7 @@ struct RobotResult {
   std::vector<DatedPose> true_path, estimated_path, odometry_path;
   std::vector<LateTask> late_tasks;      ///< in the order of the modules
   std::optional<BatteryResult> battery;  ///< of a robot that has one which counts
+  std::vector<ProgramResult> programs;   ///< in the order of the scenario
   std::vector<Line> segments;            ///< that localisation built
 
   std::size_t goals_reached() const {

@@ -59,6 +59,14 @@ struct ModuleScenario {
   Location written;
 };
 
+/// A program whose threads are tasks of the robot, in place of a module made for this frame or beside those.
+struct ProgramScenario {
+  std::string name;
+  std::filesystem::path file;  ///< a shared object with a main(): resolved
+  std::vector<std::string> arguments;
+  Location written;
+};
+
 /// One row of the bridge's table: the poster and the world's value that are one.
 struct BridgeRow {
   std::string poster;  ///< "rflex.command": module.poster
@@ -75,7 +83,8 @@ struct RobotScenario {
   std::vector<Goal> goals;               ///< in the order of the round
   std::vector<ModuleScenario> modules;   ///< in the order in which they start, those switched off included
   std::vector<BridgeRow> bridge;
-  std::vector<std::string> processors;  ///< that its modules' tasks can share
+  std::vector<ProgramScenario> programs;  ///< those switched on
+  std::vector<std::string> processors;    ///< that its modules' tasks can share
   std::vector<Setting> executive;
   Location written, start_written;
 };

@@ -12,7 +12,11 @@ constexpr Duration look_period = std::chrono::milliseconds(100);  // for interru
 
 ThreadedExperiment::ThreadedExperiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
                                        std::uint64_t seed)
-    : assembly_(scenario, types, nullptr, seed), seed_(seed) {}
+    : assembly_(scenario, types, nullptr, seed), seed_(seed) {
+  for (const RobotScenario& robot : scenario.robots)
+    if (!robot.programs.empty())
+      throw robot.programs.front().written.bad("programs of robots run in virtual time alone: by `waitpoint run`");
+}
 
 void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& interrupted) {
   const Time start = threads::now();

@@ -16,6 +16,7 @@ import unittest
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 WAITPOINT = BUILD / "tools/waitpoint"
 PROGRAMS = BUILD / "tests/exec/several"
+SCENARIO = pathlib.Path(__file__).resolve().parents[2] / "scenarios/office.yaml"
 INSTANCE = str(PROGRAMS / "instance.so")
 
 
@@ -69,6 +70,16 @@ class Chain(unittest.TestCase):
                              text=True, timeout=30)
         self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
         self.assertIn("exit status 1", run.stdout + run.stderr)
+
+
+class Sockets(unittest.TestCase):
+    def test_who_listens_is_told_that_the_other_program_has_ended(self):
+        name = f"waitpoint-test-{random.randrange(10**9)}"
+        talker = PROGRAMS / "talker.so"
+        run = execute(several([talker, "call", name], [talker, "serve", name]))
+        self.assertEqual(run.stdout, "heard: it is 4 s\n")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(" 4.0", run.stderr)
 
 
 class Instances(unittest.TestCase):
@@ -154,6 +165,63 @@ class Ends(unittest.TestCase):
         run = execute(several([f"other={INSTANCE}", "other"], [f"one={INSTANCE}", "one", "deadlock"]))
         self.assertEqual(run.returncode, 124)
         self.assertIn("  one: main waits for mutex", run.stderr)
+
+
+PROGRAMS_OF_ROBOT = "[" + ", ".join(
+    f"{{name: {path.stem}, file: {path}, arguments: {arguments}}}" for path, *arguments in CHAIN) + "]"
+
+
+def office(command, *words, programs=PROGRAMS_OF_ROBOT):
+    """The office's robot with programs, for some seconds."""
+    return subprocess.run([WAITPOINT, command, SCENARIO, *words, "--set", f"robots.rackham.programs={programs}",
+                           "--set", "expect={}"], capture_output=True, text=True, timeout=120)
+
+
+def digest_of_summary(run):
+    return re.search(r"digest +(wp1:[0-9a-f]{16})", run.stdout).group(1)
+
+
+class Robot(unittest.TestCase):
+    """The writer, the filter and the reader as parts of the robot in the office."""
+
+    def test_their_threads_are_tasks_of_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            events = pathlib.Path(folder) / "events"
+            run = office("run", "--until", "5", "--events", events)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("LINE 2 AT 0.2 S\n", run.stdout)
+            self.assertIn("5 lines\n", run.stdout)
+            for program, status in ("writer", 0), ("filter", 0), ("reader", 5):
+                self.assertIn(f"  rackham: program {program} ended with exit status {status}\n", run.stdout)
+            tasks = {line.split()[2] for line in events.read_text().splitlines() if "writer:" in line}
+            self.assertTrue(tasks, "no event of a program")
+        alone = office("run", "--until", "5", programs="[]")
+        self.assertNotEqual(digest_of_summary(run), digest_of_summary(alone))
+        self.assertNotIn("program", alone.stdout)
+        self.assertEqual(digest_of_summary(run), digest_of_summary(office("run", "--until", "5")))
+
+    def test_schedules_of_them_are_explored(self):
+        run = office("explore", "--until", "2", "--iterations", "4")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        again = office("explore", "--until", "2", "--iterations", "4")
+        last = [re.sub(r"[0-9.]+ (s|schedules/s|a second)", "", r.stdout.splitlines()[-1]) for r in (run, again)]
+        self.assertEqual(last[0], last[1])
+
+    def test_a_program_that_does_not_end_is_left_where_it_is(self):
+        run = office("run", "--until", "0.5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("  rackham: program writer was running to the end\n", run.stdout)
+
+    def test_what_cannot_be_loaded_is_bad_input(self):
+        for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \
+                          (__file__, r".*several_test.py is no shared object for x86-64"), \
+                          (PROGRAMS / "without-main.so", r".*without-main.so has no main\(\) that others see"):
+            run = office("run", programs=f"[{{name: one, file: {file}}}]")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertRegex(run.stderr, f"^waitpoint: --set .*: {line}\n$")
+        run = office("check", programs="[{name: one}]")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("expected key 'file' in a program", run.stderr)
 
 
 class Executables(unittest.TestCase):

@@ -12,21 +12,12 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "tools/data_folder.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/exec/program_file.hpp"
+#include "tools/installed_part.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-// What is installed with this program, or was built with it.
-std::filesystem::path find_part(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
-  for (const std::filesystem::path& place : {folder / ".." / name, installed})
-    if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
-  throw BadInput("exec", "what programs are run with is not installed: expected " + installed.string());
-}
 
 std::string put_first(const std::string& variable, const std::string& path) {
   const char* const others = std::getenv(variable.c_str());

@@ -16,6 +16,7 @@
 #include "tools/explore/scene.hpp"
 #include "tools/interruption.hpp"
 #include "tools/output_file.hpp"
+#include "tools/program_layer.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -100,6 +101,7 @@ int explore(const ExploreOptions& options, std::span<const genom::ModuleType> ty
     return search(program, files);
   }
   const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  begin_with_program_layer(scenario);
   if (!options.replay.empty()) return replay(options, scenario, types);
   Files files(options);
   Scene scene(scenario, types, options, replay_command(options));

@@ -39,7 +39,7 @@ struct Scene::Stage {
     explorer.begin(*strategy);
   }
   // While who decides is still there.
-  ~Stage() { experiment.simulation().unwind(); }
+  ~Stage() { experiment.unwind(); }
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 

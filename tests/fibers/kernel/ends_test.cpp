@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "fibers/kernel/sanitizer.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
@@ -27,6 +28,52 @@ TEST(Ends, UnwindingFromAGivenTurnRunsNobodyElse) {
   EXPECT_EQ(run.scheduler.stop_cause(), StopCause::requested);
   run.scheduler.unwind();
   EXPECT_EQ(run.trace, "stop@0 unborn@0 first@0 ");
+}
+
+// As the threads of a program that exits: blocked, with a timeout or without, asleep, and about to begin.
+TEST(Ends, TasksEndInPlaceWhereverTheyAre) {
+  for (const Order order : {Order::fifo, Order::seeded}) {
+    TaskRun run(order);
+    Object object("object");
+    std::vector<Task*> others;
+    for (const Time deadline : {Time::max(), Time::from_ns(100)})
+      others.push_back(&run.spawn([&run, &object, deadline] {
+        run.scheduler.enter(object);
+        run.scheduler.block(object, deadline);
+        run.log("went on");
+      }));
+    others.push_back(&run.spawn([&] {
+      run.sleep(50);
+      run.log("woke up");
+    }));
+    run.spawn([&] {
+      run.sleep(10);
+      others.push_back(&run.spawn([&] { run.log("began"); }));
+      for (Task* other : others) {
+        run.scheduler.end_in_place(*other);
+        run.scheduler.free_stack(*other);
+      }
+      EXPECT_EQ(run.scheduler.wake_one(object), nullptr);
+      EXPECT_EQ(run.scheduler.tasks(), 1u);
+      run.sleep(200);
+      run.log("alone");
+    });
+    EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+    EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+    EXPECT_EQ(run.trace, "alone@200 ");
+  }
+}
+
+TEST(Ends, ATaskEndsWhereItIs) {
+  TaskRun run;
+  run.spawn([&] {
+    run.scheduler.waitpoint(Operation::end, nullptr);
+    run.scheduler.end_running_task();
+  });
+  run.spawn([&] { run.log("the other"); });
+  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  EXPECT_EQ(run.trace, "the other@0 ");
 }
 
 TEST(Ends, TheYoungestTaskIsUnwoundFirst) {

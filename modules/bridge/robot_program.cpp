@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/bridge/robot_program.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+
+#include "fibers/sync/signals.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+const posix::Guests* guests() { return static_cast<const posix::Guests*>(dlsym(RTLD_DEFAULT, posix::Guests::symbol)); }
+
+void deliver_signals(kernel::Task& task) {
+  guests()->is_guest(task) ? guests()->deliver_signals(task) : sync::deliver_signals(task);
+}
+
+}  // namespace
+
+bool has_programs(const Scenario& scenario) {
+  return std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                     [](const RobotScenario& robot) { return !robot.programs.empty(); });
+}
+
+bool can_load_programs() { return guests() != nullptr; }
+
+void RobotPrograms::add(const ProgramScenario& program, kernel::Robot& robot) {
+  if (!can_load_programs()) throw program.written.bad("programs can be loaded by the program `waitpoint` alone");
+  std::vector<const char*> words{program.file.c_str()};
+  for (const std::string& argument : program.arguments) words.push_back(argument.c_str());
+  posix::Guests::Error error;
+  posix::Guest* const guest = guests()->load(program.name.c_str(), static_cast<int>(words.size()), words.data(), error);
+  if (guest == nullptr) throw program.written.bad(error);
+  programs_.push_back({guest, &robot});
+  scheduler_.set_delivery(deliver_signals);
+  if (!guests()->start(*guest, scheduler_, robot))
+    throw program.written.bad("there is no memory for the thread of program '" + program.name + "'");
+}
+
+void RobotPrograms::take_away() {
+  if (programs_.empty()) return;
+  for (const Loaded& program : programs_) guests()->take_away(program.guest, scheduler_);
+  programs_.clear();
+  guests()->forget_names();
+}
+
+std::vector<std::optional<int>> RobotPrograms::exit_statuses(const kernel::Robot& robot) const {
+  std::vector<std::optional<int>> statuses;
+  for (const Loaded& program : programs_) {
+    if (program.robot != &robot) continue;
+    int status = 0;
+    statuses.push_back(guests()->has_ended(*program.guest, status) ? std::optional(status) : std::nullopt);
+  }
+  return statuses;
+}
+
+}  // namespace waitpoint::bridge
