@@ -108,6 +108,15 @@ class Instrumented(ExecCase):
             done = explore("--iterations", "50", "--", self.program, way)
             self.assertEqual(done.returncode, 0, done.stdout)
 
+    def test_what_threads_meet_at_orders_what_they_do(self):
+        program = self.compile("meetings.cpp", "-std=c++20", "-fsanitize=thread")
+        meetings = subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines()
+        self.assertGreater(len(meetings), 15)
+        for meeting in meetings:
+            with self.subTest(meeting):
+                done = explore("--iterations", "30", "--", program, meeting)
+                self.assertEqual(done.returncode, 0, done.stdout)
+
     def test_a_race_is_a_failure_and_is_replayed(self):
         for way in ([], ["flag"]):
             done = explore("--", self.program, *way)
