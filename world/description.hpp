@@ -11,6 +11,7 @@
 #include "core/pose.hpp"
 #include "core/time.hpp"
 #include "world/sensor_description.hpp"
+#include "world/triangle_mesh.hpp"
 
 namespace waitpoint::world {
 
@@ -121,7 +122,8 @@ enum class Engine : std::uint8_t { fcl, slice, bullet };
 struct WorldDescription {
   Duration step = std::chrono::milliseconds(10);
   Engine engine = Engine::fcl;
-  std::vector<Obstacle> obstacles;  ///< a map's occupied cells are here too, merged into boxes
+  std::vector<Obstacle> obstacles;   ///< a map's occupied cells are here too, merged into boxes
+  std::vector<MeshObstacle> meshes;  ///< they stand fast, and no hand changes them
   std::vector<BodyDescription> bodies;
 };
 

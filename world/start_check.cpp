@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "world/mesh/surfaces.hpp"
 #include "world/motion/first_contact.hpp"
 #include "world/slice/footprints.hpp"
 
@@ -24,6 +25,7 @@ std::vector<StartOverlap> start_overlaps(const WorldDescription& description) {
     bodies.back().pose = compose(body.start, body.shape.pose);
   }
   const Footprints of_obstacles(obstacles), of_bodies(bodies);
+  const Surfaces of_meshes(description.meshes);
   std::vector<StartOverlap> overlaps;
   std::vector<std::uint32_t> near;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -35,6 +37,12 @@ std::vector<StartOverlap> start_overlaps(const WorldDescription& description) {
       if (meet(shape, outline, obstacles[obstacle], outline_of(obstacles[obstacle])))
         overlaps.push_back({description.bodies[i].name, description.obstacles[obstacle].name, false});
     }
+    of_meshes.near(bounds.grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, near);
+    const auto first_met = std::find_if(near.begin(), near.end(), [&](std::uint32_t number) {
+      return of_meshes.separation(outline, shape.z_low_m, shape.z_high_m, number).distance_m <= contact_gap_m;
+    });
+    if (first_met != near.end())
+      overlaps.push_back({description.bodies[i].name, description.meshes[of_meshes.mesh(*first_met)].name, false});
     of_bodies.near(bounds, 2 * contact_gap_m, shape.z_low_m, shape.z_high_m, near);
     for (const std::uint32_t other : near) {
       const BodyDescription& body = description.bodies[other];

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "world/description.hpp"
-#include "world/formats/space_pose.hpp"
+#include "world/space_pose.hpp"
 
 namespace waitpoint::world {
 

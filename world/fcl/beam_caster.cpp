@@ -25,16 +25,24 @@ std::vector<double> sliced_heights(const WorldDescription& description) {
 
 }  // namespace
 
-BeamCaster::BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& movers)
+BeamCaster::BeamCaster(const WorldDescription& description, const Surfaces& surfaces, const Scene& obstacles,
+                       Scene& movers)
     : obstacles_(obstacles),
+      meshes_(description.meshes),
       movers_(movers),
       slices_beams_(description.engine != Engine::fcl),
       heights_m_(sliced_heights(description)),
-      moving_(std::span<const Shape>()) {}
+      moving_(std::span<const Shape>()) {
+  for (const double height_m : heights_m_) cuts_.push_back(surfaces.cut(height_m));
+}
 
 void BeamCaster::stand(std::span<const Shape> obstacles) {
   slices_.clear();
-  for (const double height_m : heights_m_) slices_.emplace_back(obstacles, height_m);
+  for (std::size_t i = 0; i < heights_m_.size(); ++i) {
+    std::vector<std::uint32_t> numbers = cuts_[i].meshes;
+    for (std::uint32_t& number : numbers) number += static_cast<std::uint32_t>(obstacles.size());
+    slices_.emplace_back(obstacles, heights_m_[i], cuts_[i].segments, numbers);
+  }
 }
 
 void BeamCaster::move(std::span<const Shape> movers) {
@@ -68,6 +76,7 @@ void BeamCaster::cast(const Fan& fan, double height_m, std::uint32_t own, double
     directions_.push_back({fan.axis.x * d.x - fan.axis.y * d.y, fan.axis.y * d.x + fan.axis.x * d.y});
   std::fill(ranges_m.begin(), ranges_m.end(), range_max_m);
   obstacles_.cast(fan.origin, directions_, height_m, Scene::none, ranges_m);
+  meshes_.cast(fan.origin, directions_, height_m, ranges_m);
   movers_.cast(fan.origin, directions_, height_m, own, ranges_m);
 }
 

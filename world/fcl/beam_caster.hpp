@@ -8,15 +8,18 @@
 #include <vector>
 
 #include "world/description.hpp"
+#include "world/fcl/mesh_tree.hpp"
 #include "world/fcl/scene.hpp"
+#include "world/mesh/surfaces.hpp"
 #include "world/slice/depth_buffer.hpp"
 
 namespace waitpoint::world {
 
 class BeamCaster {
  public:
-  /// The scenes must outlive it; solids are numbered as there. What they were made of, stand() and move() tell.
-  BeamCaster(const WorldDescription& description, const Scene& obstacles, Scene& movers);
+  /// The scenes must outlive it; solids are numbered as there. What they were made of, stand() and move() tell. The
+  /// surfaces are those of the description's meshes.
+  BeamCaster(const WorldDescription& description, const Surfaces& surfaces, const Scene& obstacles, Scene& movers);
 
   /// Tells it what the scene of obstacles was made of (anew).
   void stand(std::span<const Shape> obstacles);
@@ -35,9 +38,11 @@ class BeamCaster {
   const Slice* slice_at(double height_m) const;
 
   const Scene& obstacles_;
+  MeshTree meshes_;
   Scene& movers_;
   bool slices_beams_;
-  std::vector<double> heights_m_;  // at which there are slices: all different
+  std::vector<double> heights_m_;    // at which there are slices: all different
+  std::vector<Surfaces::Cut> cuts_;  // of the meshes, at each
   std::vector<Slice> slices_;
   MovingSolids moving_;  // none without slices
 

@@ -15,6 +15,8 @@ Footprints footprints_of(const WorldDescription& description) {
   return Footprints(description.engine == Engine::slice ? shapes_of(description.obstacles) : std::vector<Shape>{});
 }
 
+bool climbs(const Vehicle& vehicle) { return vehicle.description().base.kind == BaseDescription::Kind::aerial; }
+
 class FclWorld final : public VehicleWorld, private MeetingPlace {
  public:
   FclWorld(const WorldDescription& description, std::uint64_t seed);
@@ -38,8 +40,9 @@ class FclWorld final : public VehicleWorld, private MeetingPlace {
 
   const Outline& outline(std::uint32_t body) const override { return vehicles_[body].outline(); }
   Mover mover(std::uint32_t body) const override;
-  void near(const Bounds& bounds, std::vector<std::uint32_t>& found) const override;
+  void near(std::uint32_t body, const Bounds& bounds, std::vector<std::uint32_t>& found) const override;
   Mover obstacle(std::uint32_t obstacle) const override;
+  double gap_m(std::uint32_t body, std::uint32_t obstacle) const override;
 
   void change_obstacles(std::vector<Obstacle> obstacles);
 
@@ -48,6 +51,8 @@ class FclWorld final : public VehicleWorld, private MeetingPlace {
 
   std::vector<double> reaches_m_;  // of the bodies
   Meetings meetings_;
+
+  mutable std::vector<std::uint32_t> near_;  // of one call
 
   // Of one step.
   std::vector<Arc> arcs_;
@@ -104,17 +109,37 @@ Mover FclWorld::mover(std::uint32_t body) const {
   return {vehicle.description().shape, vehicle.outline(), arcs_[body], vehicle.state().height_m};
 }
 
+// Behind the obstacles come the triangles of meshes.
 Mover FclWorld::obstacle(std::uint32_t obstacle) const {
+  const std::uint32_t solids = senses_.standing().size();
+  if (obstacle >= solids)
+    return {senses_.surfaces().triangle(obstacle - solids), senses_.surfaces().outline(obstacle - solids)};
   const Shape& shape = description_.obstacles[obstacle].shape;
   return Mover(senses_.standing().outline(obstacle), {shape.z_low_m, shape.z_high_m});
 }
 
-void FclWorld::near(const Bounds& bounds, std::vector<std::uint32_t>& found) const {
+double FclWorld::gap_m(std::uint32_t body, std::uint32_t obstacle) const {
+  const Vehicle& vehicle = vehicles_[body];
+  const std::uint32_t solids = senses_.standing().size();
+  if (obstacle < solids) return separation(vehicle.outline(), senses_.standing().outline(obstacle)).distance_m;
+  const Surfaces& surfaces = senses_.surfaces();
+  if (climbs(vehicle)) return separation(vehicle.outline(), surfaces.outline(obstacle - solids)).distance_m;
+  const Shape& shape = vehicle.description().shape;
+  return surfaces.separation(vehicle.outline(), shape.z_low_m, shape.z_high_m, obstacle - solids).distance_m;
+}
+
+void FclWorld::near(std::uint32_t body, const Bounds& bounds, std::vector<std::uint32_t>& found) const {
   const Heights any;
   if (description_.engine == Engine::slice)
     footprints_.near(bounds, Scene::padding_m, any.low_m, any.high_m, found);
   else
     senses_.standing().near(bounds, any.low_m, any.high_m, found);
+  if (senses_.surfaces().size() == 0) return;
+  const Vehicle& vehicle = vehicles_[body];
+  const Shape& shape = vehicle.description().shape;
+  const Heights own = climbs(vehicle) ? any : Heights{shape.z_low_m, shape.z_high_m};
+  senses_.surfaces().near(bounds, own.low_m, own.high_m, near_);
+  for (const std::uint32_t number : near_) found.push_back(senses_.standing().size() + number);
 }
 
 void FclWorld::publish() {
@@ -134,6 +159,11 @@ std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
   for (const std::uint32_t obstacle : obstacles) {
     if (separation(outline, senses_.standing().outline(obstacle)).distance_m <= contact_gap_m)
       return description_.obstacles[obstacle].name;
+  }
+  senses_.surfaces().near(bounds_of(outline).grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, obstacles);
+  for (const std::uint32_t number : obstacles) {
+    if (senses_.surfaces().separation(outline, shape.z_low_m, shape.z_high_m, number).distance_m <= contact_gap_m)
+      return description_.meshes[senses_.surfaces().mesh(number)].name;
   }
   if (auto other = body_met(shape, outline, own)) return other;
   vehicle.put(pose);

@@ -2,8 +2,6 @@
 #include "world/fcl/scene.hpp"
 
 #include <fcl/broadphase/detail/hierarchy_tree.h>
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/cylinder.h>
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
@@ -12,6 +10,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "world/fcl/geometry.hpp"
+#include "world/fcl/wedge.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -23,28 +23,11 @@ using Node = fcl::detail::NodeBase<fcl::AABBd>;
 
 constexpr double padding_m = Scene::padding_m;
 
-// Neighbouring rays meet much the same boxes: this many walk the tree together.
-constexpr std::size_t rays_together = 16;
-
 // As FCL's own manager keeps its tree: a little better after each update, built anew where it is so much higher than it
 // need be. (That manager itself measures the height at each update, which among thousands takes a thousand times
 // longer than the update.)
 constexpr int better_by = 10;
 constexpr std::size_t higher_max = 10;
-
-std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Shape& shape) {
-  const double height = shape.z_high_m - shape.z_low_m;
-  if (shape.kind == Shape::Kind::cylinder) return std::make_shared<fcl::Cylinderd>(shape.radius_m, height);
-  return std::make_shared<fcl::Boxd>(shape.length_m, shape.width_m, height);
-}
-
-fcl::Transform3d transform_of(const Outline& outline, double z_low_m, double z_high_m) {
-  fcl::Transform3d transform = fcl::Transform3d::Identity();
-  const double c = outline.axis_cos, s = outline.axis_sin;
-  transform.linear() << c, -s, 0, s, c, 0, 0, 0, 1;
-  transform.translation() << outline.centre.x, outline.centre.y, 0.5 * (z_low_m + z_high_m);
-  return transform;
-}
 
 class Solid : public fcl::CollisionObjectd {
  public:
@@ -94,22 +77,6 @@ class Stack {
  private:
   std::array<Item, 256> items_;
   std::size_t size_ = 0;
-};
-
-// A few neighbouring rays of a fan, from one origin, at most a right angle wide.
-struct Wedge {
-  Point origin, first, last;
-
-  // A lower bound of the squared distance at which one of the rays could meet the box; `no_hit` if they all pass it.
-  double entry(const fcl::AABBd& box) const {
-    const Point half = {0.5 * (box.max_[0] - box.min_[0]), 0.5 * (box.max_[1] - box.min_[1])};
-    const Point centre = {0.5 * (box.max_[0] + box.min_[0]) - origin.x, 0.5 * (box.max_[1] + box.min_[1]) - origin.y};
-    const double leftmost = cross(first, centre) + (std::fabs(first.x) * half.y + std::fabs(first.y) * half.x);
-    const double rightmost = cross(last, centre) - (std::fabs(last.x) * half.y + std::fabs(last.y) * half.x);
-    if (leftmost < 0 || rightmost > 0) return no_hit;
-    const double x = std::max(std::fabs(centre.x) - half.x, 0.0), y = std::max(std::fabs(centre.y) - half.y, 0.0);
-    return x * x + y * y;
-  }
 };
 
 struct Pending {
@@ -168,12 +135,12 @@ struct Scene::Trees {
   void cast(Point origin, std::span<const Point> directions, double height_m, std::uint32_t except,
             std::span<double> ranges_m) const {
     const Wedge wedge = {origin, directions.front(), directions.back()};
-    double farthest_m2 = farthest(ranges_m);
+    double limit_m2 = farthest_m2(ranges_m);
     Stack<Pending> pending;
     pending.push({root(), 0});
     while (!pending.empty()) {
       auto [node, entry_m2] = pending.pop();
-      if (entry_m2 > farthest_m2) continue;
+      if (entry_m2 > limit_m2) continue;
       while (node != nullptr && !node->isLeaf()) {
         const Node *near = node->children[0], *far = node->children[1];
         double near_m2 = wedge.entry(near->bv), far_m2 = wedge.entry(far->bv);
@@ -181,8 +148,8 @@ struct Scene::Trees {
           std::swap(near, far);
           std::swap(near_m2, far_m2);
         }
-        if (far_m2 <= farthest_m2) pending.push({far, far_m2});
-        node = near_m2 <= farthest_m2 ? near : nullptr;
+        if (far_m2 <= limit_m2) pending.push({far, far_m2});
+        node = near_m2 <= limit_m2 ? near : nullptr;
       }
       if (node == nullptr) continue;
       const Solid& solid = solid_in(node);
@@ -190,13 +157,8 @@ struct Scene::Trees {
       for (std::size_t i = 0; i < directions.size(); ++i) {
         ranges_m[i] = std::min(ranges_m[i], hit_distance(solid.outline, {origin, directions[i]}));
       }
-      farthest_m2 = farthest(ranges_m);
+      limit_m2 = farthest_m2(ranges_m);
     }
-  }
-
-  static double farthest(std::span<const double> ranges_m) {
-    const double range = *std::max_element(ranges_m.begin(), ranges_m.end());
-    return range * range;
   }
 };
 
@@ -253,15 +215,9 @@ void Scene::cast(Point origin, std::span<const Point> directions, double height_
   WAITPOINT_CHECK(directions.size() == ranges_m.size(), "as many directions as ranges");
   if (trees_->solids.empty()) return;
   trees_->settle();
-  for (std::size_t first = 0; first < directions.size();) {
-    std::size_t count = 1;
-    while (count < rays_together && first + count < directions.size() &&
-           dot(directions[first], directions[first + count]) > 0) {
-      ++count;
-    }
+  for_each_wedge(directions, [&](std::size_t first, std::size_t count) {
     trees_->cast(origin, directions.subspan(first, count), height_m, except, ranges_m.subspan(first, count));
-    first += count;
-  }
+  });
 }
 
 bool Scene::collides(const Shape& shape) const {

@@ -67,10 +67,11 @@ Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64
 
 Senses::Senses(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers)
     : description_(description),
+      surfaces_(description.meshes),
       standing_(std::span<const Shape>()),
       movers_(std::span<const Shape>()),
-      caster_(description, standing_, movers_),
-      sonar_echoes_(standing_, movers_, caster_) {
+      caster_(description, surfaces_, standing_, movers_),
+      sonar_echoes_(standing_, surfaces_, movers_, caster_) {
   stand(standing);
   move(movers);
 }
@@ -174,6 +175,10 @@ std::uint32_t Senses::bumpers(const Vehicle& vehicle, std::uint32_t own) const {
   };
   touch(standing_);
   touch(movers_);
+  surfaces_.near(reach, shape.z_low_m, shape.z_high_m, near_);
+  for (const std::uint32_t number : near_)
+    pressed |= pressed_panel(bumper, vehicle.state().pose.heading,
+                             surfaces_.separation(vehicle.outline(), shape.z_low_m, shape.z_high_m, number));
   return pressed;
 }
 

@@ -29,8 +29,8 @@ std::vector<Shape> shapes_of(std::span<const BodyDescription> bodies);
 
 class Senses {
  public:
-  /// Of the description it takes the bodies, with their devices, and the engine: its obstacles stand only if they are
-  /// `standing`. The description must outlive it.
+  /// Of the description it takes the bodies, with their devices, the meshes and the engine: its obstacles stand only if
+  /// they are `standing`. The description must outlive it.
   Senses(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers);
   Senses(const Senses&) = delete;
   Senses& operator=(const Senses&) = delete;
@@ -41,6 +41,7 @@ class Senses {
   // What stands and what moves.
 
   const Scene& standing() const { return standing_; }
+  const Surfaces& surfaces() const { return surfaces_; }
   const Scene& movers() const { return movers_; }
   /// Other things stand there now.
   void stand(std::span<const Shape> standing);
@@ -84,6 +85,7 @@ class Senses {
 
   const WorldDescription& description_;
   std::vector<Devices> devices_;
+  Surfaces surfaces_;
   Scene standing_, movers_;
   BeamCaster caster_;
   SonarEchoes sonar_echoes_;

@@ -15,8 +15,9 @@ constexpr double rounding_m = 1e-9;
 
 }  // namespace
 
-SonarEchoes::SonarEchoes(const Scene& obstacles, const Scene& bodies, const BeamCaster& caster)
-    : obstacles_(obstacles), bodies_(bodies), caster_(caster) {}
+SonarEchoes::SonarEchoes(const Scene& obstacles, const Surfaces& surfaces, const Scene& bodies,
+                         const BeamCaster& caster)
+    : obstacles_(obstacles), surfaces_(surfaces), bodies_(bodies), caster_(caster) {}
 
 void SonarEchoes::stand(std::span<const Shape> obstacles) {
   corners_.clear();
@@ -40,6 +41,10 @@ void SonarEchoes::stand(std::span<const Shape> obstacles) {
 void SonarEchoes::collect_surroundings(Point at, double height_m, std::uint32_t own,
                                        const SonarRingDescription& ring) const {
   const Bounds reach = Bounds{at, at}.grown(ring.range_max_m + ring.ring_radius_m);
+  near_segments_.clear();
+  surfaces_.near(reach, height_m, height_m, near_);
+  for (const std::uint32_t number : near_)
+    if (const auto segment = cut(surfaces_.triangle(number), height_m)) near_segments_.push_back(*segment);
   obstacles_.near(reach, height_m, height_m, near_);
   bodies_.near(reach, height_m, height_m, near_bodies_);
   std::erase(near_bodies_, own);
@@ -79,6 +84,7 @@ double SonarEchoes::nearest_echo(const SonarCone& cone, double height_m, std::ui
       if (obstacles_.reaches(other, height_m)) cone.add(corner, echoes_);
     }
   }
+  for (const Outline& segment : near_segments_) cone.add_surface(segment, echoes_);
   for (const std::uint32_t other : near_bodies_) cone.add(bodies_.outline(other), echoes_);
   std::sort(echoes_.begin(), echoes_.end(), [](const Echo& a, const Echo& b) {
     return std::tie(a.distance_m, a.direction.x, a.direction.y) < std::tie(b.distance_m, b.direction.x, b.direction.y);
@@ -100,6 +106,7 @@ double SonarEchoes::nearest_cross_echo(const SonarCone& listener, const SonarCon
       if (obstacles_.reaches(other, height_m)) add_cross_echoes(emitter, listener, corner, cross_echoes_);
     }
   }
+  for (const Outline& segment : near_segments_) add_cross_echoes(emitter, listener, segment, cross_echoes_);
   for (const std::uint32_t other : near_bodies_)
     add_cross_echoes(emitter, listener, bodies_.outline(other), cross_echoes_);
   for (const CrossEcho& echo : cross_echoes_) {

@@ -8,6 +8,7 @@
 
 #include "world/fcl/beam_caster.hpp"
 #include "world/fcl/scene.hpp"
+#include "world/mesh/surfaces.hpp"
 #include "world/sensors/sonar_crosstalk.hpp"
 #include "world/vehicles/vehicle.hpp"
 
@@ -15,8 +16,9 @@ namespace waitpoint::world {
 
 class SonarEchoes {
  public:
-  /// The scenes and the caster must outlive it, and be told of changes before it is.
-  SonarEchoes(const Scene& obstacles, const Scene& bodies, const BeamCaster& caster);
+  /// The scenes, the surfaces and the caster must outlive it, and be told of changes before it is. Of surfaces walls
+  /// answer, corners and edges do not.
+  SonarEchoes(const Scene& obstacles, const Surfaces& surfaces, const Scene& bodies, const BeamCaster& caster);
 
   /// Finds the corners of the obstacles, which are those of the scene. Without it there are none.
   void stand(std::span<const Shape> obstacles);
@@ -40,12 +42,14 @@ class SonarEchoes {
   bool clear(Point from, Point to, double height_m, std::uint32_t own) const;
 
   const Scene& obstacles_;
+  const Surfaces& surfaces_;
   const Scene& bodies_;
   const BeamCaster& caster_;
   std::vector<std::vector<Corner>> corners_;  // of each obstacle with later ones
 
   // Of one call, kept so that firing allocates nothing.
   mutable std::vector<std::uint32_t> near_, near_bodies_;
+  mutable std::vector<Outline> near_segments_;
   mutable std::vector<Echo> echoes_;
   mutable std::vector<CrossEcho> cross_echoes_;
   mutable std::vector<SonarCone> emitters_;

@@ -17,7 +17,7 @@
 
 #include "world/description.hpp"
 #include "world/formats/left_out.hpp"
-#include "world/formats/space_pose.hpp"
+#include "world/space_pose.hpp"
 
 namespace waitpoint::world {
 

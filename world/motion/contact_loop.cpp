@@ -17,9 +17,9 @@ void ContactLoop::clear() {
 
 void ContactLoop::add_body(const Mover& body) { bodies_.push_back({body, std::nullopt, std::nullopt}); }
 
-void ContactLoop::add_obstacle(std::uint32_t body, const Outline& obstacle, const Heights& heights) {
+void ContactLoop::add_obstacle(std::uint32_t body, const Mover& obstacle) {
   Body& b = bodies_[body];
-  const std::optional<Contact> contact = first_contact(b.mover, Mover(obstacle, heights), 0);
+  const std::optional<Contact> contact = first_contact(b.mover, obstacle, 0);
   if (!contact || (b.obstacle && contact->fraction >= *b.obstacle)) return;
   b.obstacle = contact->fraction;
   wait_for({contact->fraction, body, none});

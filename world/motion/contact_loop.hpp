@@ -24,7 +24,10 @@ class ContactLoop {
   /// Adds a body; bodies are numbered from 0 in the order they are added.
   void add_body(const Mover& body);
   /// Something that stands in the body's reach in this step.
-  void add_obstacle(std::uint32_t body, const Outline& obstacle, const Heights& heights = {});
+  void add_obstacle(std::uint32_t body, const Mover& obstacle);
+  void add_obstacle(std::uint32_t body, const Outline& obstacle, const Heights& heights = {}) {
+    add_obstacle(body, Mover(obstacle, heights));
+  }
   /// Two different bodies that may meet in this step, each pair once.
   void add_pair(std::uint32_t body, std::uint32_t other);
   void run();

@@ -89,6 +89,23 @@ struct Closing {
   }
 };
 
+// Between the fractions `from` and `to`.
+std::optional<Contact> first_contact_with_surface(const Mover& body, const Triangle& surface, double from, double to) {
+  const double climb_m = body.climb_m(), up_m = std::max(from * climb_m, to * climb_m),
+               down_m = std::min(from * climb_m, to * climb_m);
+  std::vector<Outline> pieces;
+  cover(surface, body.heights().low_m + down_m, body.heights().high_m + up_m, pieces);
+  std::optional<Contact> first;
+  for (const Outline& piece : pieces) {
+    const std::optional<Contact> contact = first_contact(body, Mover(piece), from);
+    if (contact && contact->fraction < to && (!first || contact->fraction < first->fraction)) first = contact;
+  }
+  if (!first || up_m - down_m <= least_gap_m) return first;
+  const double middle = 0.5 * (from + to);
+  if (const auto contact = first_contact_with_surface(body, surface, from, middle)) return contact;
+  return first_contact_with_surface(body, surface, middle, to);
+}
+
 }  // namespace
 
 // A disc turns within itself: of it only the centre counts.
@@ -116,6 +133,7 @@ PointVelocities Mover::velocities_at(double fraction) const {
 }
 
 std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from) {
+  if (b.surface() != nullptr) return first_contact_with_surface(a, *b.surface(), from, 1);
   const VerticalGap vertical(a.heights(), a.climb_m(), b.heights(), b.climb_m());
   const double path_m = a.path_m() + b.path_m(), bend_m = a.bend_m() + b.bend_m();
   if (!vertical.changes() && (path_m == 0 || vertical.at(from) >= 0)) return std::nullopt;

@@ -16,12 +16,17 @@
 // contact is where both are down to 1 um, and neither can go on without closing. So a body may slide along a wall while
 // it climbs, and along a table while it stands on it.
 //
+// Of a mesh's triangle, what is met is the part within the body's heights. Who climbs has others at every moment: what
+// is within those of a stretch of the step holds a contact, or none; a stretch with one is halved until the heights of
+// its ends are less than half the gap apart.
+//
 // Times are fractions of the step. Touching is told by the gap, so that a stopped body is never found inside another.
 #pragma once
 
 #include <optional>
 
 #include "world/arc.hpp"
+#include "world/mesh/section.hpp"
 #include "world/motion/vertical_gap.hpp"
 #include "world/planar/separation.hpp"
 
@@ -54,6 +59,9 @@ class Mover {
  public:
   /// Something that stands still during the step.
   explicit Mover(const Outline& still, const Heights& heights = {}) : start_(still), heights_(heights) {}
+  /// A triangle of a mesh, which must outlive it; `outline` is that of all of it.
+  Mover(const Triangle& surface, const Outline& outline)
+      : surface_(&surface), start_(outline), heights_{surface.low_m(), surface.high_m()} {}
   /// A body's shape (given in the body's frame) on the body's arc; `start` is its outline at the arc's start, where the
   /// body is `height_m` above the floor.
   Mover(const Shape& shape, const Outline& start, const Arc& arc, double height_m = 0);
@@ -66,6 +74,8 @@ class Mover {
     return Mover(at(fraction), {heights_.low_m + climb, heights_.high_m + climb});
   }
   bool moves() const { return arc_.moves(); }
+  /// Null for what is upright.
+  const Triangle* surface() const { return surface_; }
   /// At the start.
   const Heights& heights() const { return heights_; }
   double climb_m() const { return arc_.climb_m; }
@@ -78,6 +88,7 @@ class Mover {
 
  private:
   const Shape* shape_ = nullptr;
+  const Triangle* surface_ = nullptr;
   Outline start_;
   Heights heights_;
   Arc arc_;
@@ -90,7 +101,8 @@ struct Contact {
 };
 
 /// The first contact at or after the fraction `from`; none if there is none before the end of the step.
-/// For the same bits whatever the bodies are called, ask for (a, b) in an order that does not depend on names.
+/// For the same bits whatever the bodies are called, ask for (a, b) in an order that does not depend on names. Only `b`
+/// may be a surface.
 std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from);
 
 }  // namespace waitpoint::world

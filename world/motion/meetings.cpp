@@ -56,7 +56,7 @@ void Meetings::list(double path_max_m) {
     const Bounds bounds = bounds_of(place_.outline(i)).grown(sure_gap_m);
     Body& body = bodies_[i];
     body = {0, unknown, static_cast<std::uint32_t>(obstacles_.size()), 0};
-    place_.near(bounds.grown(0.5 * skin_m_), near_);
+    place_.near(i, bounds.grown(0.5 * skin_m_), near_);
     for (const std::uint32_t obstacle : near_) obstacles_.push_back({obstacle, unknown});
     body.last_obstacle = static_cast<std::uint32_t>(obstacles_.size());
     if (bodies_.size() == 1) break;
@@ -82,10 +82,8 @@ void Meetings::meet_obstacles(std::uint32_t number, const Motion& motion) {
   for (std::uint32_t at = body.first_obstacle; at < body.last_obstacle; ++at) {
     Obstacle& obstacle = obstacles_[at];
     if (body.way_m > obstacle.reserve_m) {
-      const Mover there = place_.obstacle(obstacle.number);
-      const double gap_m = separation(place_.outline(number), there.start()).distance_m;
-      obstacle.reserve_m = body.way_m - motion.path_m + gap_m - sure_gap_m;
-      if (body.way_m > obstacle.reserve_m) contacts_.add_obstacle(in_loop(number), there.start(), there.heights());
+      obstacle.reserve_m = body.way_m - motion.path_m + place_.gap_m(number, obstacle.number) - sure_gap_m;
+      if (body.way_m > obstacle.reserve_m) contacts_.add_obstacle(in_loop(number), place_.obstacle(obstacle.number));
     }
     body.reserve_m = std::min(body.reserve_m, obstacle.reserve_m);
   }

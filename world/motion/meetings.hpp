@@ -29,9 +29,12 @@ class MeetingPlace {
   virtual const Outline& outline(std::uint32_t body) const = 0;
   /// The body on its arc of this step.
   virtual Mover mover(std::uint32_t body) const = 0;
-  /// The obstacles whose bounds overlap these, whatever their heights; `found` is overwritten.
-  virtual void near(const Bounds& bounds, std::vector<std::uint32_t>& found) const = 0;
+  /// The obstacles that the body could meet, and whose bounds overlap these; `found` is overwritten.
+  virtual void near(std::uint32_t body, const Bounds& bounds, std::vector<std::uint32_t>& found) const = 0;
   virtual Mover obstacle(std::uint32_t obstacle) const = 0;
+  /// How far the body is from an obstacle as seen from above: from what of it the body could meet without moving in the
+  /// plane, or less.
+  virtual double gap_m(std::uint32_t body, std::uint32_t obstacle) const = 0;
 };
 
 class Meetings {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/planar/outline.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace waitpoint::world {
 namespace {
@@ -30,7 +33,45 @@ Outline outline_of(const Shape& shape, const Pose& body) {
   return outline_at(shape, transform(body, shape.pose.position()), body.heading + shape.pose.heading);
 }
 
+Outline segment_outline(Point a, Point b) {
+  const Point along = b - a;
+  const double length_m = length(along);
+  Outline outline;
+  outline.centre = a + 0.5 * along;
+  if (length_m > 0) {
+    outline.axis_cos = along.x / length_m;
+    outline.axis_sin = along.y / length_m;
+  }
+  outline.half_length_m = 0.5 * length_m;
+  outline.is_box = true;
+  return outline;
+}
+
+Outline triangle_outline(Point a, Point b, Point c) {
+  const std::array<Point, 3> p = {a, b, c};
+  std::size_t from = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (length(p[(i + 1) % 3] - p[i]) > length(p[(from + 1) % 3] - p[from])) from = i;
+  Point start = p[from], end = p[(from + 1) % 3];
+  const Point apex = p[(from + 2) % 3];
+  if (cross(end - start, apex - start) < 0) std::swap(start, end);
+  Outline outline = segment_outline(start, end);
+  const Point top = outline.local(apex);
+  if (!(top.y > 0)) return outline;
+  outline.is_box = false;
+  outline.is_triangle = true;
+  outline.apex_m = top.x;
+  outline.half_width_m = 0.5 * top.y;
+  outline.centre = outline.centre + outline.outward({0, outline.half_width_m});
+  return outline;
+}
+
 CorePoints core_points(const Outline& outline) {
+  if (outline.is_triangle) {
+    const double l = outline.half_length_m, w = outline.half_width_m;
+    const auto at = [&](Point p) { return outline.centre + outline.outward(p); };
+    return {{at({outline.apex_m, w}), at({-l, -w}), at({l, -w})}, 3};
+  }
   if (!outline.is_box) return {{outline.centre}, 1};
   const Point along = outline.outward({outline.half_length_m, 0}), across = outline.outward({0, outline.half_width_m});
   const Point front = outline.centre + along, back = outline.centre - along;
@@ -38,6 +79,12 @@ CorePoints core_points(const Outline& outline) {
 }
 
 Bounds bounds_of(const Outline& outline) {
+  if (outline.is_triangle) {
+    const CorePoints corners = core_points(outline);
+    const Point a = corners.points[0], b = corners.points[1], c = corners.points[2];
+    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
+            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}};
+  }
   const double c = std::fabs(outline.axis_cos), s = std::fabs(outline.axis_sin);
   const Point half = {c * outline.half_length_m + s * outline.half_width_m + outline.radius_m,
                       s * outline.half_length_m + c * outline.half_width_m + outline.radius_m};

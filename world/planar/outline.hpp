@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The horizontal section of an upright shape: an oriented box or a disc, ready for geometry.
+// The horizontal section of an upright shape: an oriented box or a disc, ready for geometry. And what a mesh comes to
+// in the plane: triangles, and segments, which are boxes without width.
 //
-// Both are one thing, a core with a radius around it: a box's core is the box itself with radius 0, a disc's core is
-// its centre. So distances are distances of cores less the radii, and a motion is followed by the core's points.
+// All are one thing, a core with a radius around it: a box's and a triangle's core is itself with radius 0, a disc's
+// core is its centre. So distances are distances of cores less the radii, and a motion is followed by the core's
+// points.
+//
+//        apex            a triangle in its own frame: it fills the frame's box from side to side, its longest side
+//       .  |  .          below, its apex above at apex_m
+//     .    |     .
+//   ---------------
 #pragma once
 
 #include <array>
@@ -19,6 +26,8 @@ struct Outline {
   double half_length_m = 0, half_width_m = 0;  ///< of the core; both 0 for a disc
   double radius_m = 0;                         ///< around the core; 0 for a box
   bool is_box = false;
+  bool is_triangle = false;
+  double apex_m = 0;  ///< of a triangle: where, along, the corner across from its longest side is
 
   /// The point `p` of the plane in the outline's own frame.
   Point local(Point p) const {
@@ -34,7 +43,12 @@ Outline outline_of(const Shape& shape);
 /// The section of a shape that is fixed to a body, with the body at `body`.
 Outline outline_of(const Shape& shape, const Pose& body);
 
-/// The points whose convex hull is the core: four corners counter-clockwise, or the centre.
+/// The segment between two points.
+Outline segment_outline(Point a, Point b);
+/// The triangle of three points, which may lie on a line.
+Outline triangle_outline(Point a, Point b, Point c);
+
+/// The points whose convex hull is the core: three or four corners counter-clockwise, or the centre.
 struct CorePoints {
   std::array<Point, 4> points;
   std::size_t count = 0;

@@ -60,7 +60,70 @@ Separation point_to_point(Point a, Point b) {
   return {distance, {d.x / distance, d.y / distance}};
 }
 
+Separation of_segment_to_point(Point start, Point end, Point p) {
+  const Point along = end - start;
+  const double square = dot(along, along);
+  const double part = square > 0 ? std::fmin(std::fmax(dot(p - start, along) / square, 0), 1) : 0;
+  return point_to_point(start + part * along, p);
+}
+
+// From the core to the point; the normal points from it to the point. One point's core is never inside of another's.
+Separation core_to_point(const CorePoints& core, Point p) {
+  if (core.count == 1) return point_to_point(core.points[0], p);
+  Separation nearest = {HUGE_VAL, {}}, deepest = {-HUGE_VAL, {}};
+  for (std::size_t i = 0; i < core.count; ++i) {
+    const Point start = core.points[i], end = core.points[(i + 1) % core.count], along = end - start;
+    const double length_m = length(along);
+    if (length_m == 0) continue;
+    const Point outward = {along.y / length_m, -along.x / length_m};
+    const double beyond = dot(p - start, outward);
+    if (beyond > deepest.distance_m) deepest = {beyond, outward};
+    const Separation s = of_segment_to_point(start, end, p);
+    if (s.distance_m < nearest.distance_m) nearest = s;
+  }
+  return deepest.distance_m <= 0 ? deepest : nearest;
+}
+
+// The greatest separation of `b` from a side of `a`, along that side's outward normal.
+Separation side_separation(const CorePoints& a, const CorePoints& b) {
+  Separation widest = {-HUGE_VAL, {}};
+  for (std::size_t i = 0; i < a.count && a.count > 1; ++i) {
+    const Point start = a.points[i], along = a.points[(i + 1) % a.count] - start;
+    const double length_m = length(along);
+    if (length_m == 0) continue;
+    const Point outward = {along.y / length_m, -along.x / length_m};
+    double least = HUGE_VAL;
+    for (const Point& p : b) least = std::fmin(least, dot(p - start, outward));
+    if (least > widest.distance_m) widest = {least, outward};
+  }
+  return widest;
+}
+
+// Of convex cores, of which one at least has an area.
+Separation of_core_points(const CorePoints& a, const CorePoints& b) {
+  if (b.count == 1) return core_to_point(a, b.points[0]);
+  if (a.count == 1) {
+    const Separation s = core_to_point(b, a.points[0]);
+    return {s.distance_m, reversed(s.normal)};
+  }
+  const Separation by_a = side_separation(a, b), by_b = side_separation(b, a);
+  const Separation widest =
+      by_a.distance_m >= by_b.distance_m ? by_a : Separation{by_b.distance_m, reversed(by_b.normal)};
+  if (widest.distance_m <= 0) return widest;
+  Separation nearest = {HUGE_VAL, {}};
+  for (const Point& corner : b) {
+    const Separation s = core_to_point(a, corner);
+    if (s.distance_m < nearest.distance_m) nearest = s;
+  }
+  for (const Point& corner : a) {
+    const Separation s = core_to_point(b, corner);
+    if (s.distance_m < nearest.distance_m) nearest = {s.distance_m, reversed(s.normal)};
+  }
+  return nearest;
+}
+
 Separation of_cores(const Outline& a, const Outline& b) {
+  if (a.is_triangle || b.is_triangle) return of_core_points(core_points(a), core_points(b));
   if (a.is_box) return b.is_box ? box_to_box(a, b) : box_to_point(a, b.centre);
   if (!b.is_box) return point_to_point(a.centre, b.centre);
   const Separation s = box_to_point(b, a.centre);

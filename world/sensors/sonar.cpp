@@ -47,14 +47,23 @@ void SonarCone::add_point(Point p, double cosine_min, double range_max_m, std::v
   echoes.push_back({distance, {d.x / distance, d.y / distance}});
 }
 
+void SonarCone::add_wall(const BoxFace& wall, std::vector<Echo>& echoes) const {
+  const double height = dot(origin_ - wall.start, wall.normal);
+  if (height <= 0 || height > range_max_m_ || -dot(wall.normal, axis_) < cosine_whole_) return;
+  const Point edge = wall.end - wall.start;
+  const double along = dot(origin_ - wall.start, edge);
+  if (along >= 0 && along <= dot(edge, edge)) echoes.push_back({height, {-wall.normal.x, -wall.normal.y}});
+}
+
+void SonarCone::add_surface(const Outline& segment, std::vector<Echo>& echoes) const {
+  const std::array<BoxFace, 4> faces = faces_of(segment);
+  add_wall(faces[0], echoes);
+  add_wall(faces[2], echoes);
+}
+
 void SonarCone::add_box(const Outline& box, std::vector<Echo>& echoes) const {
   for (const BoxFace& face : faces_of(box)) {
-    const double height = dot(origin_ - face.start, face.normal);
-    if (height > 0 && height <= range_max_m_ && -dot(face.normal, axis_) >= cosine_whole_) {
-      const Point edge = face.end - face.start;
-      const double along = dot(origin_ - face.start, edge);
-      if (along >= 0 && along <= dot(edge, edge)) echoes.push_back({height, {-face.normal.x, -face.normal.y}});
-    }
+    add_wall(face, echoes);
     add_point(face.start, cosine_half_, 0.5 * range_max_m_, echoes);
   }
 }

@@ -34,6 +34,12 @@ struct ConcaveCorner {
   Point at, normal_1, normal_2;
 };
 
+/// A side of a box, its normal out of it.
+struct BoxFace {
+  Point start, end, normal;
+};
+std::array<BoxFace, 4> faces_of(const Outline& box);
+
 /// One transducer's field: what of the things it is shown answers.
 class SonarCone {
  public:
@@ -42,6 +48,8 @@ class SonarCone {
   /// Shows an outline; appends its possible echoes.
   void add(const Outline& outline, std::vector<Echo>& echoes) const;
   void add(const ConcaveCorner& corner, std::vector<Echo>& echoes) const;
+  /// Shows a segment of a surface that may go on at its ends, where it has no edges therefore.
+  void add_surface(const Outline& segment, std::vector<Echo>& echoes) const;
 
   Point origin() const { return origin_; }
   Point axis() const { return axis_; }
@@ -52,18 +60,13 @@ class SonarCone {
 
  private:
   void add_box(const Outline& box, std::vector<Echo>& echoes) const;
+  void add_wall(const BoxFace& wall, std::vector<Echo>& echoes) const;
   void add_point(Point p, double cosine_min, double range_max_m, std::vector<Echo>& echoes) const;
 
   Point origin_, axis_;
   double cosine_whole_, cosine_half_;  // of the cone's half angle, and of half of that
   double half_cone_rad_, range_max_m_;
 };
-
-/// A side of a box, its normal out of it.
-struct BoxFace {
-  Point start, end, normal;
-};
-std::array<BoxFace, 4> faces_of(const Outline& box);
 
 /// The concave corners between two boxes that touch or overlap; appends to `corners`.
 void find_concave_corners(const Outline& a, const Outline& b, std::vector<ConcaveCorner>& corners);

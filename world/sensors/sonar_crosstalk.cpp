@@ -38,6 +38,7 @@ void add_cross_echoes(const SonarCone& emitter, const SonarCone& listener, const
     const Point at = foot_a + (height_a / (height_a + height_b)) * (foot_b - foot_a);
     const Point edge = face.end - face.start;
     const double along = dot(at - face.start, edge);
+    if (edge == Point{}) continue;  // of a segment
     if (along >= 0 && along <= dot(edge, edge)) add_by_way_of(at, emitter, listener, echoes);
   }
 }

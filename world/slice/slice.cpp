@@ -26,10 +26,13 @@ std::vector<Bounds> bounds_of_all(std::span<const Outline> outlines) {
 
 }  // namespace
 
-Slice::Slice(std::span<const Shape> shapes, double height_m)
-    : height_m_(height_m),
-      outlines_(outlines_of(shapes, reaching(shapes, height_m))),
-      solids_(reaching(shapes, height_m)),
-      tree_(bounds_of_all(outlines_)) {}
+Slice::Slice(std::span<const Shape> shapes, double height_m, std::span<const Outline> others,
+             std::span<const std::uint32_t> solids_of_others)
+    : height_m_(height_m), solids_(reaching(shapes, height_m)), tree_(std::span<const Bounds>()) {
+  outlines_ = outlines_of(shapes, solids_);
+  outlines_.insert(outlines_.end(), others.begin(), others.end());
+  solids_.insert(solids_.end(), solids_of_others.begin(), solids_of_others.end());
+  tree_ = Tree(bounds_of_all(outlines_));
+}
 
 }  // namespace waitpoint::world

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standing solids, cut at one height: the outlines of those that reach it, and a tree over them.
+// Standing solids, cut at one height: the outlines of those that reach it, and a tree over them. What meshes come to at
+// that height is given, as segments.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,10 @@ inline bool reaches(const Shape& shape, double height_m) {
 class Slice {
  public:
   /// Of shapes that are numbered from 0; those that do not reach the height have no part in it.
-  Slice(std::span<const Shape> shapes, double height_m);
+  Slice(std::span<const Shape> shapes, double height_m) : Slice(shapes, height_m, {}, {}) {}
+  /// And of outlines besides, each a solid of that number.
+  Slice(std::span<const Shape> shapes, double height_m, std::span<const Outline> others,
+        std::span<const std::uint32_t> solids_of_others);
 
   double height_m() const { return height_m_; }
   const Tree& tree() const { return tree_; }

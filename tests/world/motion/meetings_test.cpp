@@ -53,13 +53,16 @@ class Yard final : public MeetingPlace {
   Mover mover(std::uint32_t body) const override {
     return Mover(shapes[body], outlines[body], arcs[body], heights_m[body]);
   }
-  void near(const Bounds& bounds, std::vector<std::uint32_t>& found) const override {
+  void near(std::uint32_t, const Bounds& bounds, std::vector<std::uint32_t>& found) const override {
     ++asked;
     found.clear();
     for (std::uint32_t i = 0; i < standing.size(); ++i)
       if (bounds_of(standing[i].start()).overlaps(bounds)) found.push_back(i);
   }
   Mover obstacle(std::uint32_t obstacle) const override { return standing[obstacle]; }
+  double gap_m(std::uint32_t body, std::uint32_t obstacle) const override {
+    return separation(outline(body), standing[obstacle].start()).distance_m;
+  }
 
   std::vector<Shape> shapes;
   std::vector<Pose> poses;

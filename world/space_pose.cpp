@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/formats/space_pose.hpp"
+#include "world/space_pose.hpp"
 
 #include "core/exact_math.hpp"
 
