@@ -50,7 +50,7 @@ build_one() {
   local compiler=${words%-O?} level=${words##*-O}
   if [[ $compiler == *-libc++ ]]; then
     compiler="${compiler%-libc++} -stdlib=libc++"
-    options+=(-Dforce_fallback_for=fcl,fmt,tinyxml2,yaml-cpp,cli11,nlohmann_json -Dbullet=disabled)
+    options+=(-Dforce_fallback_for=fcl,fmt,tinyxml2,yaml-cpp,cli11,nlohmann_json -Dbullet=disabled -Dassimp=disabled)
   fi
   # Warnings differ with the level and are the business of the one build that everyone uses.
   if ! {

@@ -17,7 +17,7 @@ python3 "$root/tools/dev/wraps.py" "$root/build-wraps"
 (
   build=$root/build-wraps/build
   root=$root/build-wraps/tree
-  configure -Dwrap_mode=forcefallback -Dtests=enabled -Dbenchmarks=disabled -Dbullet=disabled -Drosbag=disabled -Dwerror=false
+  configure -Dwrap_mode=forcefallback -Dtests=enabled -Dbenchmarks=disabled -Dbullet=disabled -Dassimp=disabled -Drosbag=disabled -Dwerror=false
   compile tools/waitpoint tests/test-core tests/test-fibers
 )
 mapfile -t from_system < <(meson introspect --dependencies "$root/build-wraps/build" | python3 -c '

@@ -13,4 +13,8 @@ namespace waitpoint::world {
 /// a cell's edge does not take the next cell too). Shapes outside the grid are left out.
 void draw(std::span<const Shape> shapes, OccupancyGrid& grid);
 
+/// Marks as occupied every cell that the mesh has a point in, or on the edge of, between these heights: a surface has
+/// no inside, and one that runs between two rows of cells is in both.
+void draw(const TriangleMesh& mesh, double z_low_m, double z_high_m, OccupancyGrid& grid);
+
 }  // namespace waitpoint::world

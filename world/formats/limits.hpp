@@ -18,6 +18,15 @@ inline constexpr std::size_t text_bytes_max = std::size_t{1} << 26;
 inline constexpr std::size_t tree_bytes_max = std::size_t{1} << 24;
 inline constexpr std::size_t stage_bytes_max = std::size_t{1} << 22;
 inline constexpr std::size_t yaml_bytes_max = std::size_t{1} << 20;
+/// Triangles of a mesh's file, its coordinates before they are scaled, its bytes.
+inline constexpr std::size_t triangle_count_max = std::size_t{1} << 20;
+inline constexpr double mesh_coordinate_max = 1e9;
+/// Meshes that one file names; all together they have at most triangle_count_max triangles.
+inline constexpr std::size_t mesh_count_max = 10'000;
+inline constexpr std::size_t mesh_bytes_max = std::size_t{1} << 28;
+/// Occupied cells of an octree, before merging, and its bytes.
+inline constexpr std::size_t octree_cell_count_max = std::size_t{1} << 22;
+inline constexpr std::size_t octree_bytes_max = std::size_t{1} << 26;
 /// Bytes of an image.
 inline constexpr std::size_t image_bytes_max = std::size_t{1} << 30;
 

@@ -3,6 +3,7 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "world/formats/file_contents.hpp"
 #include "world/formats/included_files.hpp"
 #include "world/formats/limits.hpp"
+#include "world/formats/mesh_file.hpp"
 #include "world/formats/upright.hpp"
 #include "world/formats/xml_reader.hpp"
 
@@ -20,6 +22,8 @@ namespace waitpoint::world {
 namespace {
 
 using Element = XmlReader::Element;
+
+constexpr std::string_view model_scheme = "model://";
 
 class SdfReader {
  public:
@@ -41,7 +45,7 @@ class SdfReader {
     xml_ = above;
   }
 
-  std::vector<Obstacle> obstacles() { return std::move(obstacles_); }
+  SdfWorld world() { return std::move(world_); }
 
  private:
   void leave_out(const Element& element) {
@@ -133,6 +137,8 @@ class SdfReader {
       add(shape, upright_cylinder(pose, radius, xml_->positive(xml_->required(shape, "length"))));
     } else if (kind == "sphere") {
       add(shape, upright_sphere(pose, xml_->positive(xml_->required(shape, "radius"))));
+    } else if (kind == "mesh") {
+      read_mesh(shape, pose);
     } else if (kind == "plane") {
       read_plane(shape, pose);
     } else {
@@ -152,6 +158,50 @@ class SdfReader {
          level ? "is left out: robots drive on the floor, at height 0" : "is left out");
   }
 
+  void read_mesh(const Element& mesh, const SpacePose& pose) {
+    MeshPlacement placement = {{1, 1, 1}, pose};
+    for (const Element* child = mesh.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+      const std::string_view kind = child->Name();
+      if (kind == "scale") {
+        const std::array<double, 3> scale = xml_->numbers<3>(*child);
+        placement.scale = {scale[0], scale[1], scale[2]};
+        if (scale[0] * scale[1] * scale[2] == 0) xml_->fail(*child, "expected <scale> not to be zero");
+      } else if (kind == "submesh") {
+        return tell(mesh, "a <mesh> with a <submesh>", "is left out");
+      } else if (kind != "uri") {
+        leave_out(*child);
+      }
+    }
+    const std::string uri = xml_->text(xml_->required(mesh, "uri")), file = found_file(uri);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) {
+      return tell(mesh, "the <mesh> '" + uri + "'", "is left out: there is no such file");
+    }
+    if (!reads_meshes_like(file)) {
+      return tell(mesh, "the <mesh> '" + uri + "'", "is left out: this program does not read its kind");
+    }
+    add(mesh, read_mesh_file(file, placement, left_out_));
+  }
+
+  void add(const Element& element, TriangleMesh mesh) {
+    const auto is_above = [](const SpaceVector& corner) { return corner.z > 0; };
+    if (std::none_of(mesh.corners.begin(), mesh.corners.end(), is_above)) {
+      return tell(element, "what ends below the floor", "is left out");
+    }
+    triangle_count_ += mesh.triangles.size();
+    if (triangle_count_ > triangle_count_max || world_.meshes.size() == mesh_count_max) {
+      xml_->fail(element, "expected at most " + std::to_string(mesh_count_max) + " meshes, of " +
+                              std::to_string(triangle_count_max) + " triangles in all");
+    }
+    world_.meshes.push_back({next_name(), std::make_shared<const TriangleMesh>(std::move(mesh)), true});
+  }
+
+  // The model's, with a number from its second part on.
+  std::string next_name() {
+    const std::size_t number = count_++;
+    return number == 0 ? model_ : model_ + " " + std::to_string(number);
+  }
+
   void add(const Element& element, const UprightSolid& solid) {
     if (solid.shape.z_high_m <= 0) {
       tell(element, "what ends below the floor", "is left out");
@@ -163,11 +213,10 @@ class SdfReader {
     } else if (!solid.exact) {
       tell(element, "a tilted <" + std::string(kind) + ">", "is taken as the upright box about it");
     }
-    if (obstacles_.size() == obstacle_count_max) {
+    if (world_.obstacles.size() == obstacle_count_max) {
       xml_->fail(element, "expected at most " + std::to_string(obstacle_count_max) + " obstacles");
     }
-    obstacles_.push_back({count_ == 0 ? model_ : model_ + " " + std::to_string(count_), solid.shape, true});
-    ++count_;
+    world_.obstacles.push_back({next_name(), solid.shape, true});
   }
 
   void read_include(const Element& include, const SpacePose& outer) {
@@ -192,12 +241,11 @@ class SdfReader {
     included_.leave();
   }
 
-  // The file that a <uri> names; empty for what may be missing.
-  std::string included_file(const Element& element) {
+  // The file that a URI names, or of a folder the model in it; empty for a model:// that is nowhere.
+  std::string found_file(const std::string& uri) const {
     namespace fs = std::filesystem;
     std::error_code error;
-    const std::string uri = xml_->text(element);
-    constexpr std::string_view file_scheme = "file://", model_scheme = "model://";
+    constexpr std::string_view file_scheme = "file://";
     if (!uri.starts_with(model_scheme)) {
       const std::string path = uri.starts_with(file_scheme) ? uri.substr(file_scheme.size()) : uri;
       const std::string file = beside(xml_->file(), path);
@@ -209,6 +257,14 @@ class SdfReader {
       if (fs::is_regular_file(path, error)) return path.string();
       if (fs::is_regular_file(path / "model.sdf", error)) return (path / "model.sdf").string();
     }
+    return "";
+  }
+
+  // The file that an <include>'s <uri> names; empty for what may be missing.
+  std::string included_file(const Element& element) {
+    const std::string uri = xml_->text(element);
+    if (std::string file = found_file(uri); !file.empty()) return file;
+    const std::string model = uri.substr(model_scheme.size());
     if (model != "sun" && model != "ground_plane") {
       xml_->fail(element, "there is no '" + uri + "': expected it beside the file, in 'models' or in '../models'");
     }
@@ -248,16 +304,17 @@ class SdfReader {
   const XmlReader* xml_ = nullptr;  // of the file that is being read
   std::string model_;               // whose solids are being added,
   std::size_t count_ = 0;           // and so many of them are there
-  std::vector<Obstacle> obstacles_;
+  std::size_t triangle_count_ = 0;  // of all meshes
+  SdfWorld world_;
 };
 
 }  // namespace
 
-std::vector<Obstacle> parse_sdf(const std::string& contents, const std::string& file, LeftOut& left_out) {
+SdfWorld parse_sdf(const std::string& contents, const std::string& file, LeftOut& left_out) {
   IncludedFiles included(file, contents, tree_bytes_max);
   SdfReader reader(included, left_out);
   reader.read(contents, file, {}, "");
-  return reader.obstacles();
+  return reader.world();
 }
 
 }  // namespace waitpoint::world

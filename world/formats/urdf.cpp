@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <string_view>
 #include <utility>
 
 #include "core/exact_math.hpp"
+#include "world/formats/file_contents.hpp"
 #include "world/formats/limits.hpp"
+#include "world/formats/mesh_file.hpp"
 #include "world/formats/upright.hpp"
 #include "world/formats/xml_reader.hpp"
 #include "world/planar/outline.hpp"
@@ -22,6 +25,8 @@ namespace {
 using Element = XmlReader::Element;
 
 constexpr std::size_t link_count_max = 10'000;
+constexpr double thin_m = 1e-4;
+constexpr int folders_up_max = 32;
 
 struct Link {
   const Element* element;
@@ -152,10 +157,59 @@ class UrdfReader {
       solid = upright_cylinder(pose, radius, xml_.positive(shape, "length"));
     } else if (kind == "sphere") {
       solid = upright_sphere(pose, xml_.positive(shape, "radius"));
+    } else if (kind == "mesh") {
+      return read_mesh(shape, pose);
     } else {
       return leave_out(shape);
     }
     solids_.push_back(solid.shape);
+  }
+
+  void read_mesh(const Element& mesh, const SpacePose& pose) {
+    const std::string uri = xml_.text(mesh, "filename"), file = found_file(uri);
+    std::error_code error;
+    if (file.empty() || !std::filesystem::is_regular_file(file, error)) {
+      return tell(mesh, "the <mesh> '" + uri + "'", "is left out: there is no such file");
+    }
+    if (!reads_meshes_like(file)) {
+      return tell(mesh, "the <mesh> '" + uri + "'", "is left out: this program does not read its kind");
+    }
+    MeshPlacement placement;
+    if (mesh.Attribute("scale") != nullptr) {
+      const std::array<double, 3> scale = xml_.numbers<3>(mesh, "scale");
+      placement.scale = {scale[0], scale[1], scale[2]};
+    }
+    if (++mesh_count_ > mesh_count_max)
+      xml_.fail(mesh, "expected at most " + std::to_string(mesh_count_max) + " meshes");
+    const std::vector<SpaceVector> corners = read_mesh_file(file, placement, left_out_).corners;
+    SpaceVector low = corners[0], high = corners[0];
+    for (const SpaceVector& c : corners) {
+      low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
+      high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+    }
+    SpacePose middle = pose;
+    middle.position = pose.position + pose.turned(0.5 * (low + high));
+    const SpaceVector size = high + -1 * low;
+    tell(mesh, "a <mesh>", "is taken as the box about it");
+    // A box has an extent along each of its axes, if only a hair's.
+    solids_.push_back(
+        upright_box(middle, {std::max(size.x, thin_m), std::max(size.y, thin_m), std::max(size.z, thin_m)}).shape);
+  }
+
+  // Empty for a package that is nowhere.
+  std::string found_file(const std::string& uri) const {
+    namespace fs = std::filesystem;
+    constexpr std::string_view file_scheme = "file://", package_scheme = "package://";
+    if (uri.starts_with(file_scheme)) return beside(xml_.file(), uri.substr(file_scheme.size()));
+    if (!uri.starts_with(package_scheme)) return beside(xml_.file(), uri);
+    const fs::path wanted = uri.substr(package_scheme.size());
+    std::error_code error;
+    fs::path folder = fs::absolute(xml_.file(), error).parent_path();
+    for (int up = 0; up < folders_up_max && !folder.empty(); ++up, folder = folder.parent_path()) {
+      if (fs::is_regular_file(folder / wanted, error)) return (folder / wanted).string();
+      if (folder == folder.root_path()) break;
+    }
+    return "";
   }
 
   // The <origin> of a joint or a collision, in the outer frame.
@@ -215,6 +269,7 @@ class UrdfReader {
   std::vector<Link> links_;
   std::map<std::string, std::size_t> numbers_;  // of the links, by name
   std::vector<Shape> solids_;
+  std::size_t mesh_count_ = 0;
 };
 
 }  // namespace

@@ -3,13 +3,16 @@
 //
 //   <robot>      <link>, <joint>
 //   <link>       name, <collision>
-//   <collision>  <origin xyz rpy>, <geometry>: <box size>, <cylinder radius length>, <sphere radius>
+//   <collision>  <origin xyz rpy>, <geometry>: <box size>, <cylinder radius length>, <sphere radius>,
+//                <mesh filename scale>
 //   <joint>      name, type, <parent link>, <child link>, <origin xyz rpy>
 //
 // Links hang together by joints as a tree; joints that move stand at 0. A body of this world is one upright solid on
 // the floor: where the file has one such, that; else the smaller of the upright box about all, and of the cylinder
-// about all whose middle is the root link's. Everything else (<visual>, <inertial>, <mesh>, <transmission>, <gazebo>,
-// ...) is left out and told.
+// about all whose middle is the root link's. A mesh is taken as the box about it, and told. Its file is a path relative
+// to the URDF, also behind "file://", or "package://NAME/PATH": PATH in a folder NAME that the URDF is in, or that lies
+// in one of those. Everything else (<visual>, <inertial>, <transmission>, <gazebo>, ...) is left out and told, so is a
+// mesh whose file is missing or of a kind that this program does not read.
 #pragma once
 
 #include <string>

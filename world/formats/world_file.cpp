@@ -66,10 +66,13 @@ WorldFile read_world_file(const std::string& file, double height_m) {
       world.grid = parse_map_server_map(contents, file);
       world.obstacles = obstacles_of(*world.grid, "map", 0, height_m, file);
       break;
-    case WorldFormat::sdf:
-      world.obstacles = parse_sdf(contents, file, left_out);
+    case WorldFormat::sdf: {
+      SdfWorld sdf = parse_sdf(contents, file, left_out);
+      world.obstacles = std::move(sdf.obstacles);
+      world.meshes = std::move(sdf.meshes);
       world.has_heights = true;
       break;
+    }
     case WorldFormat::stage: {
       StageWorld stage = parse_stage(contents, file, left_out);
       world.obstacles = std::move(stage.obstacles);

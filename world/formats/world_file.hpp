@@ -22,7 +22,8 @@ enum class WorldFormat { sdf, segments, map_server, stage };
 
 /// What one file, with those that it names, says of a world.
 struct WorldFile {
-  std::vector<Obstacle> obstacles;      ///< those of a map's cells included
+  std::vector<Obstacle> obstacles;  ///< those of a map's cells included
+  std::vector<MeshObstacle> meshes;
   std::vector<BodyDescription> bodies;  ///< robots, in the order of the file
   std::vector<RobotOrigin> origins;     ///< of each of them
   std::optional<OccupancyGrid> grid;    ///< the cells, where the file is a map of cells

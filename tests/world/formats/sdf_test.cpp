@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "tests/project.hpp"
 #include "tests/world/formats/files.hpp"
@@ -22,7 +23,7 @@ struct Read {
 Read parsed(const std::string& text, const std::string& file = "a.world") {
   LeftOut left_out;
   Read read;
-  read.obstacles = parse_sdf(text, file, left_out);
+  read.obstacles = parse_sdf(text, file, left_out).obstacles;
   read.warnings = left_out.warnings();
   return read;
 }
@@ -155,12 +156,13 @@ TEST(Sdf, WhatIsLeftOutIsToldOnceForEachKind) {
             "<model name='p'><pose relative_to='ground'>1 0 0 0 0 0</pose></model>\n"));
   EXPECT_EQ(read.obstacles.size(), 1u);
   EXPECT_EQ(read.warnings,
-            (std::vector<std::string>{
-                "a.world:2: <light> is left out", "a.world:3: <visual> is left out (2 times)",
-                "a.world:3: a level <plane> is left out: robots drive on the floor, at height 0",
-                "a.world:4: <surface> is left out", "a.world:4: a model that is not <static> stands still here",
-                "a.world:5: <mesh> is left out", "a.world:6: what ends below the floor is left out",
-                "a.world:7: what has a <pose> in a named frame is left out"}));
+            (std::vector<std::string>{"a.world:2: <light> is left out", "a.world:3: <visual> is left out (2 times)",
+                                      "a.world:3: a level <plane> is left out: robots drive on the floor, at height 0",
+                                      "a.world:4: <surface> is left out",
+                                      "a.world:4: a model that is not <static> stands still here",
+                                      "a.world:5: the <mesh> 'model://chair.dae' is left out: there is no such file",
+                                      "a.world:6: what ends below the floor is left out",
+                                      "a.world:7: what has a <pose> in a named frame is left out"}));
 }
 
 TEST(Sdf, ModelsAreIncluded) {
@@ -250,6 +252,53 @@ TEST(Sdf, WorldsOfTheBarnBenchmarkAreRead) {
     ++files;
   }
   EXPECT_EQ(files, 12);
+}
+
+// Of 2 m by 1 m, upright, along x.
+const std::string upright_stl = "solid s\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 0 1\nendloop\nendsolid\n";
+
+TEST(Sdf, MeshesStandWhereTheirPosesPutThem) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path("models/chair/meshes"));
+  folder.write("models/chair/meshes/seat.stl", upright_stl);
+  folder.write("models/chair/model.sdf",
+               "<sdf version='1.6'>" +
+                   model("<mesh><uri>model://chair/meshes/seat.stl</uri><scale>2 1 1</scale></mesh>", "1 0 0 0 0 0") +
+                   "</sdf>");
+  folder.write("bare.STL", upright_stl);
+  const std::string file = folder.path("a.world");
+  LeftOut left_out;
+  const SdfWorld read = parse_sdf(world(model("<mesh><uri>bare.STL</uri></mesh>", "0 0 0.5 0 0 0", "wall") +
+                                        "<include><uri>model://chair</uri><name>left chair</name><pose>10 0 0 0 0 "
+                                        "1.5707963267948966</pose></include>" +
+                                        model("<mesh><uri>bare.STL</uri></mesh>", "0 0 -2 0 0 0") +
+                                        model("<mesh><uri>bare.STL</uri><submesh><name>a</name></submesh></mesh>")),
+                                  file, left_out);
+  EXPECT_TRUE(read.obstacles.empty());
+  ASSERT_EQ(read.meshes.size(), 2u);
+  EXPECT_EQ(read.meshes[0].name, "wall");
+  EXPECT_EQ(read.meshes[0].mesh->corners[1].x, 2);
+  EXPECT_EQ(read.meshes[0].mesh->corners[2].z, 1.5);
+  EXPECT_EQ(read.meshes[1].name, "left chair");
+  EXPECT_NEAR(read.meshes[1].mesh->corners[1].x, 10, 1e-12);
+  EXPECT_NEAR(read.meshes[1].mesh->corners[1].y, 5, 1e-12);
+  const std::vector<std::string> warnings = left_out.warnings();
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("what ends below the floor is left out"), std::string::npos);
+  EXPECT_NE(warnings[1].find("a <mesh> with a <submesh> is left out"), std::string::npos);
+}
+
+TEST(Sdf, AMeshThatIsBadIsAnErrorOfItsOwnFile) {
+  const Folder folder;
+  const std::string stl = folder.write("bad.stl", "solid s\nvertex\n");
+  const std::string file = folder.path("a.world");
+  const auto read = [&](const std::string& inside) {
+    LeftOut left_out;
+    parse_sdf(world(model("<mesh>" + inside + "</mesh>")), file, left_out);
+  };
+  EXPECT_TRUE(complains([&] { read("<uri>bad.stl</uri>"); }, stl + ":2: ", "expected STL"));
+  EXPECT_TRUE(complains([&] { read("<uri>bad.stl</uri><scale>1 0 1</scale>"); }, file + ":2: ", "not to be zero"));
+  EXPECT_TRUE(complains([&] { read("<scale>1 1 1</scale>"); }, file + ":2: ", "expected <uri> in <mesh>"));
 }
 
 }  // namespace

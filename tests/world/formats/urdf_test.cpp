@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "tests/world/formats/files.hpp"
 
@@ -94,7 +95,7 @@ TEST(Urdf, WhatItDoesNotKnowIsTold) {
   ASSERT_EQ(read.warnings.size(), 4u);
   EXPECT_EQ(read.warnings[0], "r.urdf:2: <material> is left out");
   EXPECT_EQ(read.warnings[1], "r.urdf:3: <visual> is left out");
-  EXPECT_EQ(read.warnings[3], "r.urdf:5: <mesh> is left out");
+  EXPECT_EQ(read.warnings[3], "r.urdf:5: the <mesh> 'arm.stl' is left out: there is no such file");
 }
 
 TEST(Urdf, BadInputIsOneLineAtItsPlace) {
@@ -118,6 +119,32 @@ TEST(Urdf, BadInputIsOneLineAtItsPlace) {
         parse_urdf("<sdf/>", "r.urdf", left_out);
       },
       "r.urdf:1", "expected the outermost element to be <robot>"));
+}
+
+TEST(Urdf, AMeshIsTakenAsTheBoxAboutIt) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path("rover/meshes"));
+  std::filesystem::create_directories(folder.path("rover/urdf"));
+  folder.write("rover/meshes/hull.obj", "v -100 0 0\nv 300 0 0\nv 0 200 0\nv 0 0 50\nf 1 2 3\nf 1 2 4\n");
+  const std::string file = folder.path("rover/urdf/r.urdf");
+  for (const char* uri : {"package://rover/meshes/hull.obj", "../meshes/hull.obj"}) {
+    LeftOut left_out;
+    const UrdfRobot robot =
+        parse_urdf("<robot name='r'>" +
+                       link("base", collision("<mesh scale='0.001 0.001 0.001' filename='" + std::string(uri) + "'/>",
+                                              "<origin xyz='0 0 0.1'/>")) +
+                       "</robot>",
+                   file, left_out);
+    EXPECT_EQ(robot.shape.kind, Shape::Kind::box);
+    EXPECT_NEAR(robot.shape.pose.x, 0.1, 1e-12);
+    EXPECT_NEAR(robot.shape.pose.y, 0.1, 1e-12);
+    EXPECT_NEAR(robot.shape.length_m, 0.4, 1e-12);
+    EXPECT_NEAR(robot.shape.width_m, 0.2, 1e-12);
+    EXPECT_NEAR(robot.shape.z_low_m, 0.1, 1e-12);
+    EXPECT_NEAR(robot.shape.z_high_m, 0.15, 1e-12);
+    ASSERT_EQ(left_out.warnings().size(), 1u);
+    EXPECT_NE(left_out.warnings()[0].find("a <mesh> is taken as the box about it"), std::string::npos);
+  }
 }
 
 }  // namespace
