@@ -7,6 +7,7 @@
 
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/waitable.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -18,6 +19,7 @@ struct Barrier : Waitable {
   explicit Barrier(const void* address) : Waitable(kind_of_all, "barrier", address) {}
 
   unsigned count = 0, arrived = 0;
+  std::uint64_t opened = 0;  ///< how often all had arrived
 };
 
 Barrier*& known_of(pthread_barrier_t* barrier) { return *reinterpret_cast<Barrier**>(barrier); }
@@ -48,10 +50,15 @@ WAITPOINT_INTERPOSED int pthread_barrier_wait(pthread_barrier_t* barrier) noexce
   Barrier& known = *known_of(barrier);
   pass(kernel::Operation::arrive, &known.object);
   if (++known.arrived < known.count) {
-    block(known.object, Time::max());
+    const std::uint64_t opened = known.opened;
+    while (wait_on(known.object, Time::max()) == Wait::interrupted) {
+      handle_signals();
+      if (known.opened != opened) break;
+    }
     return 0;
   }
   known.arrived = 0;
+  ++known.opened;
   kernel::running->scheduler->wake_all(known.object);
   return PTHREAD_BARRIER_SERIAL_THREAD;
 }

@@ -4,6 +4,7 @@
 #include <cerrno>
 
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/signals.hpp"
 
 namespace waitpoint::posix {
 
@@ -21,12 +22,18 @@ void leave_if_cancelled() {
   pthread_exit(PTHREAD_CANCELED);
 }
 
-void CancellationPoint::wait_until(Time time) const {
+bool CancellationPoint::wait_until(Time time) const {
   kernel::Task& task = *kernel::running;
   task.scheduler->enter(sleepers);
   pass(kernel::Operation::sleep, &sleepers);
-  if (time > kernel::local_time(task)) block(sleepers, time);
+  bool goes_on = true;
+  while (goes_on && time > kernel::local_time(task)) {
+    const Wait ended = block(sleepers, time);
+    leave_if_cancelled();
+    goes_on = ended != Wait::interrupted || !is_interrupted(Restart::never);
+  }
   leave_if_cancelled();
+  return goes_on;
 }
 
 }  // namespace waitpoint::posix

@@ -30,10 +30,12 @@ class CancellationPoint {
   /// Whether the wait that has just ended was ended by a cancellation: what the call has to put right comes first, then
   /// leave_if_cancelled().
   bool was_cancelled() const { return is_to_leave(this_thread()); }
-  /// As posix::block(), but does not begin to wait if the thread was cancelled at its waitpoint.
-  bool block(kernel::Object& object, Time deadline) const { return !was_cancelled() && posix::block(object, deadline); }
-  /// Sleeps; leaves the thread if it is cancelled meanwhile.
-  void wait_until(Time time) const;
+  /// As wait_on(), but does not begin to wait if the thread was cancelled at its waitpoint.
+  Wait block(kernel::Object& object, Time deadline) const {
+    return was_cancelled() ? Wait::interrupted : wait_on(object, deadline);
+  }
+  /// Sleeps, and leaves the thread if it is cancelled meanwhile; false if a signal's handler ended it.
+  bool wait_until(Time time) const;
 };
 
 }  // namespace waitpoint::posix

@@ -12,6 +12,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/mutex.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -39,14 +40,16 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   // Unlocked and waiting in one step, without a waitpoint between: nothing else tells what happened before it.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);
   const std::uint32_t depth = release(mutex);
-  bool came = true;
+  // A handler is no reason to wait on: who signals meanwhile does not find it waiting. It comes back as if signalled.
+  Wait ended = Wait::came;
   if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
-    came = deadline > kernel::running->local_time && point.block(known.object, deadline);
+    ended = deadline > kernel::running->local_time ? point.block(known.object, deadline) : Wait::timed_out;
+  if (ended == Wait::interrupted && !point.was_cancelled()) handle_signals();
   pass(kernel::Operation::lock, &mutex.object);
   const int error = lock(mutex, type_of(*bytes), Time::max());
   mutex.depth = depth;
   if (point.was_cancelled()) leave_if_cancelled();
-  return error != 0 ? error : came ? 0 : ETIMEDOUT;
+  return error != 0 ? error : ended == Wait::timed_out ? ETIMEDOUT : 0;
 }
 
 int notify(pthread_cond_t* condition, bool all) {

@@ -12,6 +12,7 @@
 
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/signal_descriptors.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -62,6 +63,7 @@ WAITPOINT_INTERPOSED int dup3(int from, int to, int flags) noexcept {
 WAITPOINT_INTERPOSED int close(int descriptor) {
   if (!is_simulated()) return WAITPOINT_NEXT(close)(descriptor);
   forget_timer_descriptor(descriptor);
+  forget_signal_descriptor(descriptor);
   const int result = WAITPOINT_NEXT(close)(descriptor);
   note_inside(descriptor, false);
   look_at_descriptors();

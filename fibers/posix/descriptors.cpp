@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 
@@ -11,6 +12,7 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/real_waits.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -67,6 +69,17 @@ bool wake_ready(bool outside_too) {
   return any;
 }
 
+// As poll(), for as long as it takes; also until a signal comes, which is kept from coming before the wait begins.
+void poll_until_a_signal(pollfd* descriptors, nfds_t count) {
+  const ErrorNumberKept kept;
+  const RealWait real;
+  sigset_t all, before;
+  sigfillset(&all);
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &all, &before);
+  if (!has_come_from_outside()) WAITPOINT_NEXT(ppoll)(descriptors, count, nullptr, &before);
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &before, nullptr);
+}
+
 // Waits in real time for any of all descriptors that threads wait for.
 void wait_really() {
   nfds_t count = 0;
@@ -78,7 +91,7 @@ void wait_really() {
     std::memcpy(all + at, waiter->descriptors, waiter->count * sizeof(pollfd));
     at += waiter->count;
   }
-  poll_now(all, count, -1);  // a signal's handler may have made one ready: the caller looks
+  poll_until_a_signal(all, count);
   std::free(all);
 }
 
@@ -125,28 +138,40 @@ void forget_waiter(const kernel::Task& task) {
     if (waiter->task == &task) return remove(*waiter);
 }
 
-int wait_for(pollfd* descriptors, nfds_t count, Time deadline) {
+int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) {
   kernel::Task& task = *kernel::running;
-  Waiter waiter{&task, descriptors, count, false, nullptr, nullptr};
+  bool outside = false;
   // A host does not look outside at the end of its instants: guests find what is there when one of them does something.
   for (nfds_t i = 0; i < count && !has_host; ++i)
-    if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) waiter.outside = true;
-  if (!waiter.outside)
+    if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) outside = true;
+  if (!outside)
     if (const int ready = poll_now(descriptors, count); ready != 0) return ready;
-  if (deadline <= task.local_time) return poll_now(descriptors, count);
-  task.scheduler->enter(descriptors_object);
-  add(waiter);
-  // The run comes out at the end of each instant while somebody waits outside.
-  if (waiter.outside) task.scheduler->pause();
-  block(descriptors_object, deadline);
-  remove(waiter);
-  return poll_now(descriptors, count);
+  for (;;) {
+    if (deadline <= task.local_time) return poll_now(descriptors, count);
+    task.scheduler->enter(descriptors_object);
+    Waiter waiter{&task, descriptors, count, outside, nullptr, nullptr};
+    add(waiter);
+    // The run comes out at the end of each instant while somebody waits outside.
+    if (outside) task.scheduler->pause();
+    const Wait ended = wait_on(descriptors_object, deadline);
+    remove(waiter);
+    // What was ready for several may have been taken by another.
+    if (const int ready = poll_now(descriptors, count); ready != 0) return ready;
+    if (thread_of(task).in_cancellation_point && is_to_leave(thread_of(task))) return 0;
+    if (ended == Wait::interrupted && is_interrupted(restart)) return fail(EINTR);
+  }
 }
 
-bool wait_for(int descriptor, short events, Time deadline) {
+int wait_for(int descriptor, short events, Time deadline, Restart restart) {
   pollfd one{descriptor, events, 0};
-  return wait_for(&one, 1, deadline) != 0;
+  return wait_for(&one, 1, deadline, restart);
 }
+
+WaitsOutside::WaitsOutside() {
+  ++waiting_outside;
+  kernel::running->scheduler->pause();
+}
+WaitsOutside::~WaitsOutside() { --waiting_outside; }
 
 bool wait_for_reader(int descriptor, int patience_ms) {
   pollfd one{descriptor, POLLOUT, 0};
@@ -158,9 +183,11 @@ void look_at_descriptors() {
 }
 
 bool look_outside(bool may_wait) {
-  if (wake_ready(true)) return true;
+  const bool came = take_in_signals_from_outside();
+  if (wake_ready(true) || came) return true;
   if (!may_wait || waiting_outside == 0) return false;
   wait_really();
+  take_in_signals_from_outside();
   wake_ready(true);
   return true;
 }

@@ -13,6 +13,7 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/posix/signals.hpp"
 
 namespace waitpoint::posix {
 
@@ -36,10 +37,20 @@ void forget_waiters();
 void forget_waiter(const kernel::Task& task);
 
 /// The running thread waits until any of the descriptors is ready or `deadline` comes. As poll(): how many are, which
-/// is in their `revents`; 0 at the deadline. Where all are inside it goes on at once if one is ready.
-int wait_for(pollfd* descriptors, nfds_t count, Time deadline);
-/// For one descriptor; whether it is ready.
-bool wait_for(int descriptor, short events, Time deadline = Time::max());
+/// is in their `revents`; 0 at the deadline, or if the thread was cancelled; -1 with EINTR if a signal ended the wait.
+/// Where all are inside it goes on at once if one is ready.
+int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart);
+/// For one descriptor.
+int wait_for(int descriptor, short events, Time deadline, Restart restart);
+
+/// While it lives, the running thread waits for something outside that is no descriptor: a signal.
+class WaitsOutside {
+ public:
+  WaitsOutside();
+  ~WaitsOutside();
+  WaitsOutside(const WaitsOutside&) = delete;
+  WaitsOutside& operator=(const WaitsOutside&) = delete;
+};
 
 /// Waits in real time until `descriptor` can be written, and lets no other thread go on meanwhile; false if it cannot
 /// after so long.

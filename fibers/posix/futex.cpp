@@ -4,6 +4,7 @@
 // libraries stand; a few other calls have simulated answers; the rest go to the kernel.
 #include <linux/futex.h>
 #include <sched.h>
+#include <signal.h>
 #include <sys/random.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
@@ -17,6 +18,7 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/waiting.hpp"
 #include "fibers/posix/word.hpp"
 
@@ -28,10 +30,14 @@ long wait(std::uint32_t* address, std::uint32_t expected, Time deadline, std::ui
   if (!is_simulated()) refuse("a thread waits before main() begins");
   Word& word = word_at(address);
   pass(kernel::Operation::wait, &word.object);
-  if (__atomic_load_n(address, __ATOMIC_RELAXED) != expected) return fail(EAGAIN);
-  if (deadline <= kernel::running->local_time) return fail(ETIMEDOUT);
-  this_thread().futex_mask = mask;
-  return block(word.object, deadline) ? 0 : fail(ETIMEDOUT);
+  for (;;) {
+    if (__atomic_load_n(address, __ATOMIC_RELAXED) != expected) return fail(EAGAIN);
+    if (deadline <= kernel::running->local_time) return fail(ETIMEDOUT);
+    this_thread().futex_mask = mask;
+    const Wait ended = wait_on(word.object, deadline);
+    if (ended != Wait::interrupted) return ended == Wait::came ? 0 : fail(ETIMEDOUT);
+    if (is_interrupted(deadline == Time::max() ? Restart::if_asked : Restart::never)) return fail(EINTR);
+  }
 }
 
 long wake(std::uint32_t* address, std::uint32_t most, std::uint32_t mask) {
@@ -135,6 +141,9 @@ WAITPOINT_INTERPOSED long syscall(long number, ...) noexcept {
                    reinterpret_cast<const timespec*>(a[3]), reinterpret_cast<std::uint32_t*>(a[4]),
                    static_cast<std::uint32_t>(a[5]));
     case SYS_gettid: return gettid();
+    case SYS_kill: return kill(static_cast<pid_t>(a[0]), static_cast<int>(a[1]));
+    case SYS_tgkill: return tgkill(static_cast<pid_t>(a[0]), static_cast<pid_t>(a[1]), static_cast<int>(a[2]));
+    case SYS_tkill: return tgkill(getpid(), static_cast<pid_t>(a[0]), static_cast<int>(a[1]));
     case SYS_sched_yield: return sched_yield();
     case SYS_getrandom:
       return static_cast<long>(

@@ -12,9 +12,11 @@
 
 #include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/signal_descriptors.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -38,14 +40,40 @@ bool blocks(int descriptor) { return (fcntl(descriptor, F_GETFL) & O_NONBLOCK) =
 // another thread of this program.
 constexpr int patience_with_readers_ms = 1000;
 
-// Before a call that may block on `descriptor`: its event, and the wait.
-void prepare(int descriptor, kernel::Operation operation, short events, bool may_block) {
+// Until when a socket is waited for: it may have been given a time for that. A signal's handler ends such a wait in any
+// case.
+struct Patience {
+  Time deadline = Time::max();
+  Restart restart = Restart::if_asked;
+};
+Patience patience_of(int descriptor, Class of, short events) {
+  timeval span_of_time{};
+  socklen_t size = sizeof span_of_time;
+  const ErrorNumberKept kept;
+  const int option = events == POLLIN ? SO_RCVTIMEO : SO_SNDTIMEO;
+  if (of != Class::socket || getsockopt(descriptor, SOL_SOCKET, option, &span_of_time, &size) != 0 ||
+      (span_of_time.tv_sec == 0 && span_of_time.tv_usec == 0))
+    return {};
+  const Duration patience = span({span_of_time.tv_sec, span_of_time.tv_usec * 1000});
+  return {later(kernel::local_time(*kernel::running), patience), Restart::never};
+}
+
+// Before a call that may block on `descriptor`: its event, and the wait. False, with errno set, if the call has failed.
+bool prepare(int descriptor, Class of, kernel::Operation operation, short events, bool may_block) {
   const CancellationPoint point;
   pass(operation, nullptr);
   if (may_block && events == POLLOUT && !is_inside(descriptor) && wait_for_reader(descriptor, patience_with_readers_ms))
-    return;
-  if (may_block && blocks(descriptor)) wait_for(descriptor, events);
+    return true;
+  bool is_ready = true;
+  if (may_block && blocks(descriptor)) {
+    const Patience patience = patience_of(descriptor, of, events);
+    const int ready = wait_for(descriptor, events, patience.deadline, patience.restart);
+    leave_if_cancelled();
+    if (ready == 0) errno = EAGAIN;
+    is_ready = ready > 0;
+  }
   leave_if_cancelled();
+  return is_ready;
 }
 
 // All that is sent and received, to whoever looks for races: what was sent happens before what follows its reception,
@@ -64,15 +92,17 @@ auto done(Call call) {
 
 template <class Call>
 auto receive(int descriptor, bool may_block, Call call) {
-  if (!is_simulated() || class_of(descriptor) == Class::file) return call();
-  prepare(descriptor, kernel::Operation::receive, POLLIN, may_block);
+  const Class of = is_simulated() ? class_of(descriptor) : Class::file;
+  if (of == Class::file) return call();
+  if (!prepare(descriptor, of, kernel::Operation::receive, POLLIN, may_block)) return static_cast<decltype(call())>(-1);
   return done(call);
 }
 
 template <class Call>
 auto send_all_at_once(int descriptor, bool may_block, Call call) {
-  if (!is_simulated() || class_of(descriptor) == Class::file) return call();
-  prepare(descriptor, kernel::Operation::send, POLLOUT, may_block);
+  const Class of = is_simulated() ? class_of(descriptor) : Class::file;
+  if (of == Class::file) return call();
+  if (!prepare(descriptor, of, kernel::Operation::send, POLLOUT, may_block)) return static_cast<decltype(call())>(-1);
   return done(call);
 }
 
@@ -80,7 +110,8 @@ auto send_all_at_once(int descriptor, bool may_block, Call call) {
 ssize_t write_all(int descriptor, Class of, const char* bytes, std::size_t size) {
   std::size_t written = 0;
   do {
-    prepare(descriptor, kernel::Operation::send, POLLOUT, true);
+    if (!prepare(descriptor, of, kernel::Operation::send, POLLOUT, true))
+      return written > 0 ? static_cast<ssize_t>(written) : -1;
     const std::size_t left = size - written;
     const ssize_t count = done([&] {
       if (of == Class::socket) return WAITPOINT_NEXT(send)(descriptor, bytes + written, left, MSG_DONTWAIT);
@@ -109,6 +140,8 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size) {
   if (is_simulated()) bring_up_to_date(descriptor);
+  if (is_simulated() && is_signal_descriptor(descriptor))
+    return receive(descriptor, true, [&] { return read_signals(descriptor, bytes, size); });
   return receive(descriptor, true, [&] { return WAITPOINT_NEXT(read)(descriptor, bytes, size); });
 }
 

@@ -8,6 +8,7 @@
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
+#include "fibers/posix/signals.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -88,9 +89,13 @@ int lock(Mutex& mutex, int type, Time deadline) {
   if (mutex.is_lost) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running)
     if (const int result = lock_again(mutex, type); result >= 0) return result;
-  if (mutex.object.owner != nullptr) {
-    if (deadline <= kernel::running->local_time || !block(mutex.object, deadline)) return ETIMEDOUT;
-    return mutex.is_lost ? ENOTRECOVERABLE : enter(mutex);
+  while (mutex.object.owner != nullptr) {
+    if (deadline <= kernel::running->local_time) return ETIMEDOUT;
+    const Wait ended = wait_on(mutex.object, deadline);
+    if (ended == Wait::timed_out) return ETIMEDOUT;
+    if (ended == Wait::interrupted) handle_signals();
+    if (mutex.is_lost) return ENOTRECOVERABLE;
+    if (ended == Wait::came) return enter(mutex);
   }
   kernel::own(mutex.object, *kernel::running);
   mutex.depth = 1;

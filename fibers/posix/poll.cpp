@@ -14,6 +14,7 @@
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/temporary_mask.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
@@ -27,7 +28,7 @@ Time deadline_in_ms(int timeout_ms) {
 int wait(pollfd* descriptors, nfds_t count, Time deadline) {
   const CancellationPoint point;
   pass(kernel::Operation::poll, nullptr);
-  const int ready = wait_for(descriptors, count, deadline);
+  const int ready = wait_for(descriptors, count, deadline, Restart::never);
   // A loop that asks without waiting is to end.
   if (ready == 0) read_clock();
   leave_if_cancelled();
@@ -78,7 +79,7 @@ class Sets {
 
 int select_before(int count, fd_set* readable, fd_set* writable, fd_set* urgent, Time deadline) {
   Sets sets(count, readable, writable, urgent);
-  wait(sets.polled(), sets.size(), deadline);
+  if (wait(sets.polled(), sets.size(), deadline) < 0) return -1;
   return sets.keep_ready();
 }
 
@@ -96,6 +97,7 @@ WAITPOINT_INTERPOSED int poll(pollfd* descriptors, nfds_t count, int timeout_ms)
 WAITPOINT_INTERPOSED int ppoll(pollfd* descriptors, nfds_t count, const timespec* timeout, const sigset_t* mask) {
   if (!is_simulated()) return WAITPOINT_NEXT(ppoll)(descriptors, count, timeout, mask);
   if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
+  const TemporaryMask blocked(mask);
   return posix::wait(descriptors, count, timeout == nullptr ? Time::max() : deadline_in(span(*timeout)));
 }
 
@@ -118,6 +120,7 @@ WAITPOINT_INTERPOSED int pselect(int count, fd_set* __restrict readable, fd_set*
                                  const sigset_t* __restrict mask) {
   if (!is_simulated()) return WAITPOINT_NEXT(pselect)(count, readable, writable, urgent, timeout, mask);
   if (count < 0 || (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0))) return fail(EINVAL);
+  const TemporaryMask blocked(mask);
   return select_before(count, readable, writable, urgent,
                        timeout == nullptr ? Time::max() : deadline_in(span(*timeout)));
 }
@@ -126,9 +129,16 @@ WAITPOINT_INTERPOSED int pselect(int count, fd_set* __restrict readable, fd_set*
 WAITPOINT_INTERPOSED int epoll_pwait(int descriptor, epoll_event* events, int most, int timeout_ms,
                                      const sigset_t* mask) {
   if (!is_simulated()) return WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, timeout_ms, mask);
+  if (most <= 0) return fail(EINVAL);
   pollfd one{descriptor, POLLIN, 0};
-  posix::wait(&one, 1, deadline_in_ms(timeout_ms));
-  return WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, 0, mask);
+  const TemporaryMask blocked(mask);
+  const Time deadline = deadline_in_ms(timeout_ms);
+  for (;;) {
+    if (posix::wait(&one, 1, deadline) < 0) return -1;
+    // What was ready may have been taken by another thread.
+    const int ready = WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, 0, nullptr);
+    if (ready != 0 || deadline <= kernel::running->local_time) return ready;
+  }
 }
 
 WAITPOINT_INTERPOSED int epoll_wait(int descriptor, epoll_event* events, int most, int timeout_ms) {

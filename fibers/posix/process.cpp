@@ -15,7 +15,9 @@
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/interval_timers.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
@@ -42,7 +44,8 @@ class ChildEnds {
   ChildEnds& operator=(const ChildEnds&) = delete;
 
   bool known() const { return descriptor_ >= 0; }
-  void wait() const { wait_for(descriptor_, POLLIN); }
+  /// False with EINTR if a signal ended the wait.
+  bool wait() const { return wait_for(descriptor_, POLLIN, Time::max(), Restart::if_asked) >= 0; }
 
  private:
   int descriptor_;
@@ -64,6 +67,9 @@ WAITPOINT_INTERPOSED pid_t fork() noexcept {
   take_own_record();
   forget_waiters();
   kernel::running->scheduler->keep_running_task_only();
+  forget_interval_timers();
+  forget_timers();
+  forget_pending_signals();
   return 0;
 }
 
@@ -73,10 +79,10 @@ WAITPOINT_INTERPOSED pid_t wait4(pid_t pid, int* status, int options, rusage* us
   const CancellationPoint point;
   pass(kernel::Operation::join, nullptr);
   if (pid > 0) {
-    const ErrorNumberKept kept;
     const ChildEnds end(pid);
-    if (end.known()) end.wait();
+    const bool is_over = !end.known() || end.wait();
     leave_if_cancelled();
+    if (!is_over) return -1;
   }
   return WAITPOINT_NEXT(wait4)(pid, status, options, usage);
 }

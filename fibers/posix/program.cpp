@@ -16,6 +16,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/preload.hpp"
 #include "fibers/posix/race_log.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/waitable.hpp"
 
 namespace waitpoint::posix {
@@ -56,6 +57,7 @@ void map_record(int descriptor) {
   unsetenv(record_variable);
   leave_preload();
   if (record->settings.instrumented) leave_library_path();
+  inherit_signals();
 }
 
 // A debugger runs the program once more on the same record.

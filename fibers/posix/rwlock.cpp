@@ -8,6 +8,7 @@
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/waitable.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -44,17 +45,20 @@ int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::lock_shared, &lock.object);
   if (lock.object.owner == kernel::running) return EDEADLK;
-  if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) {
-    if (lock.readers == UINT32_MAX) return EAGAIN;
-    ++lock.readers;
-    return 0;
+  for (;;) {
+    if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) {
+      if (lock.readers == UINT32_MAX) return EAGAIN;
+      ++lock.readers;
+      return 0;
+    }
+    if (!valid) return EINVAL;
+    if (deadline <= kernel::running->local_time) return ETIMEDOUT;
+    kernel::running->shared_wait = true;
+    const Wait ended = wait_on(lock.object, deadline);
+    kernel::running->shared_wait = false;
+    if (ended != Wait::interrupted) return ended == Wait::came ? 0 : ETIMEDOUT;
+    handle_signals();
   }
-  if (!valid) return EINVAL;
-  if (deadline <= kernel::running->local_time) return ETIMEDOUT;
-  kernel::running->shared_wait = true;
-  const bool came = block(lock.object, deadline);
-  kernel::running->shared_wait = false;
-  return came ? 0 : ETIMEDOUT;
 }
 
 // All that wait to read hold it together.
@@ -71,16 +75,20 @@ int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::lock, &lock.object);
   if (lock.object.owner == kernel::running) return EDEADLK;
-  if (lock.free()) {
-    kernel::own(lock.object, *kernel::running);
-    return 0;
+  for (;;) {
+    if (lock.free()) {
+      kernel::own(lock.object, *kernel::running);
+      return 0;
+    }
+    if (!valid) return EINVAL;
+    if (deadline <= kernel::running->local_time) return ETIMEDOUT;
+    const Wait ended = wait_on(lock.object, deadline);
+    if (ended == Wait::came) return 0;
+    // Readers may have waited for this thread alone.
+    if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) admit_readers(lock);
+    if (ended == Wait::timed_out) return ETIMEDOUT;
+    handle_signals();
   }
-  if (!valid) return EINVAL;
-  if (deadline <= kernel::running->local_time) return ETIMEDOUT;
-  if (block(lock.object, deadline)) return 0;
-  // Readers may have waited for this thread alone.
-  if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) admit_readers(lock);
-  return ETIMEDOUT;
 }
 
 // Who was chosen gets the free lock, and if that is a reader, all readers with it.

@@ -16,6 +16,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/named_objects.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/waitable.hpp"
 
 namespace waitpoint::posix {
@@ -35,14 +36,19 @@ int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
   Semaphore& known = semaphore_of(semaphore);
   const CancellationPoint point;
   pass(kernel::Operation::acquire, &known.object);
-  if (known.count > 0) {
-    --known.count;
-    return 0;
+  for (;;) {
+    if (known.count > 0) {
+      --known.count;
+      return 0;
+    }
+    if (!is_valid_deadline) return fail(EINVAL);
+    if (deadline <= kernel::running->local_time) return fail(ETIMEDOUT);
+    const Wait ended = point.block(known.object, deadline);
+    if (point.was_cancelled()) leave_if_cancelled();
+    if (ended == Wait::came) return 0;
+    if (ended == Wait::timed_out) return fail(ETIMEDOUT);
+    if (is_interrupted(Restart::if_asked)) return fail(EINTR);
   }
-  if (!is_valid_deadline) return fail(EINVAL);
-  const bool came = deadline > kernel::running->local_time && point.block(known.object, deadline);
-  if (point.was_cancelled()) leave_if_cancelled();
-  return came ? 0 : fail(ETIMEDOUT);
 }
 
 struct Named {

@@ -15,12 +15,20 @@
 namespace waitpoint::posix {
 namespace {
 
-void sleep_until(Time time) {
+bool sleep_until(Time time) {
   const CancellationPoint point;
-  point.wait_until(time);
+  return point.wait_until(time);
 }
 
-void sleep_for(Duration span) { sleep_until(later(kernel::local_time(*kernel::running), span)); }
+// What is left when a signal's handler ends it; else nothing.
+timespec sleep_for(Duration span) {
+  const Time end = later(kernel::local_time(*kernel::running), span);
+  if (sleep_until(end)) return {};
+  const std::int64_t left_ns = (end - kernel::local_time(*kernel::running)).ns();
+  return to_timespec(left_ns > 0 ? left_ns : 1);
+}
+
+bool is_nothing(const timespec& time) { return time.tv_sec == 0 && time.tv_nsec == 0; }
 
 }  // namespace
 }  // namespace waitpoint::posix
@@ -32,11 +40,11 @@ WAITPOINT_INTERPOSED int clock_nanosleep(clockid_t clock, int flags, const times
   if (!is_simulated()) return WAITPOINT_NEXT(clock_nanosleep)(clock, flags, time, remaining);
   if (clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME_COARSE || clock == CLOCK_MONOTONIC_COARSE) return ENOTSUP;
   if (!is_clock(clock) || clock == CLOCK_THREAD_CPUTIME_ID || !is_valid(*time) || time->tv_sec < 0) return EINVAL;
-  if ((flags & TIMER_ABSTIME) != 0)
-    sleep_until(when(clock, *time));
-  else
-    posix::sleep_for(span(*time));
-  return 0;
+  if ((flags & TIMER_ABSTIME) != 0) return sleep_until(when(clock, *time)) ? 0 : EINTR;
+  const timespec left = posix::sleep_for(span(*time));
+  if (is_nothing(left)) return 0;
+  if (remaining != nullptr) *remaining = left;
+  return EINTR;
 }
 
 WAITPOINT_INTERPOSED int nanosleep(const timespec* time, timespec* remaining) {
@@ -47,14 +55,12 @@ WAITPOINT_INTERPOSED int nanosleep(const timespec* time, timespec* remaining) {
 
 WAITPOINT_INTERPOSED unsigned sleep(unsigned seconds) {
   if (!is_simulated()) return WAITPOINT_NEXT(sleep)(seconds);
-  posix::sleep_for(std::chrono::seconds(seconds));
-  return 0;
+  return static_cast<unsigned>(posix::sleep_for(std::chrono::seconds(seconds)).tv_sec);
 }
 
 WAITPOINT_INTERPOSED int usleep(useconds_t microseconds) {
   if (!is_simulated()) return WAITPOINT_NEXT(usleep)(microseconds);
-  posix::sleep_for(std::chrono::microseconds(microseconds));
-  return 0;
+  return is_nothing(posix::sleep_for(std::chrono::microseconds(microseconds))) ? 0 : fail(EINTR);
 }
 
 WAITPOINT_INTERPOSED int thrd_sleep(const timespec* time, timespec* remaining) {

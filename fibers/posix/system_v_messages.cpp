@@ -11,6 +11,7 @@
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/system_v.hpp"
 #include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -97,6 +98,13 @@ void append(Queue& queue, Message& message) {
   ++queue.count;
 }
 
+void append(Queue& queue, Receiving& receiving) {
+  Receiving** last = &queue.first_receiving;
+  while (*last != nullptr) last = &(*last)->next;
+  *last = &receiving;
+  receiving.next = nullptr;
+}
+
 void remove(Queue& queue, Receiving& receiving) {
   for (Receiving** link = &queue.first_receiving; *link != nullptr; link = &(*link)->next)
     if (*link == &receiving) {
@@ -148,8 +156,9 @@ int send_message(Queue& queue, long type, const char* bytes, std::size_t size, i
     if ((flags & IPC_NOWAIT) != 0) return fail(EAGAIN);
     if (!is_simulated()) refuse("a thread waits before main() begins");
     kernel::running->scheduler->enter(queue.room);
-    point.block(queue.room, Time::max());
+    const Wait ended = point.block(queue.room, Time::max());
     if (point.was_cancelled()) return fail(ECANCELED);
+    if (ended == Wait::interrupted && is_interrupted(Restart::never)) return fail(EINTR);
   }
   if (queue.removed) return fail(EIDRM);
   auto* const message = static_cast<Message*>(std::malloc(sizeof(Message) + size));
@@ -187,13 +196,14 @@ Message* take_message(Queue& queue, const Wanted& wanted) {
   if ((wanted.flags & IPC_NOWAIT) != 0) return failed(ENOMSG);
   if (!is_simulated()) refuse("a thread waits before main() begins");
   Receiving receiving{kernel::running, wanted, nullptr, -1, nullptr};
-  Receiving** last = &queue.first_receiving;
-  while (*last != nullptr) last = &(*last)->next;
-  *last = &receiving;
-  point.block(queue.object, Time::max());
-  if (receiving.error < 0) {
+  while (receiving.error < 0) {
+    append(queue, receiving);
+    const Wait ended = point.block(queue.object, Time::max());
+    if (receiving.error >= 0) break;
     remove(queue, receiving);
-    return failed(ECANCELED);
+    if (point.was_cancelled()) return failed(ECANCELED);
+    if (ended == Wait::interrupted && is_interrupted(Restart::never)) return failed(EINTR);
+    if (queue.removed) return failed(EIDRM);
   }
   return receiving.error == 0 ? receiving.message : failed(receiving.error);
 }

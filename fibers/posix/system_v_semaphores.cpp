@@ -11,6 +11,7 @@
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/system_v.hpp"
 #include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -127,6 +128,13 @@ void end_waiting(Waiting& waiting, int result) {
   waiting.task->scheduler->wake(*waiting.task);
 }
 
+void append(Set& set, Waiting& waiting) {
+  Waiting** last = &set.first;
+  while (*last != nullptr) last = &(*last)->next;
+  *last = &waiting;
+  waiting.next = nullptr;
+}
+
 void remove(Set& set, Waiting& waiting) {
   for (Waiting** link = &set.first; *link != nullptr; link = &(*link)->next)
     if (*link == &waiting) {
@@ -205,15 +213,16 @@ int operate(int id, const sembuf* operations, std::size_t count, Time deadline) 
   if (!is_simulated()) refuse("a thread waits before main() begins");
   if (deadline <= kernel::running->local_time) return fail(EAGAIN);
   Waiting waiting{kernel::running, operations, count, made.hindered_by, 0, false, nullptr};
-  Waiting** last = &set->first;
-  while (*last != nullptr) last = &(*last)->next;
-  *last = &waiting;
-  block(set->object, deadline);
-  if (!waiting.done) {
+  for (;;) {
+    append(*set, waiting);
+    const Wait ended = wait_on(set->object, deadline);
+    if (waiting.done) return waiting.result == 0 ? 0 : fail(waiting.result);
     remove(*set, waiting);
-    return fail(EAGAIN);
+    if (ended != Wait::interrupted) return fail(EAGAIN);
+    if (is_interrupted(Restart::never)) return fail(EINTR);
+    if (set->removed) return fail(EIDRM);
+    // No handler has run: nothing has changed.
   }
-  return waiting.result == 0 ? 0 : fail(waiting.result);
 }
 
 // Of a semaphore: how many calls wait for it to rise, or to be zero.

@@ -18,6 +18,7 @@
 #include "fibers/posix/members.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/thread_area.hpp"
 
@@ -136,6 +137,7 @@ void adopt_main_thread(Thread& thread, Program& program, kernel::Task& task) {
   thread.task = &task;
   thread.area = own_thread_area();
   thread.id = getpid();
+  thread.blocked = signals_of_program.blocked_before_main;
   std::strncpy(thread.name, program_invocation_short_name, sizeof thread.name - 1);
   thread_of_area(thread.area) = &thread;
   count_threads(program);
@@ -172,6 +174,7 @@ int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, 
   thread->start = start;
   thread->is_c11 = is_c11;
   thread->argument = argument;
+  thread->blocked = this_thread().blocked;
   thread->detached = is_detached(attributes);
   std::memcpy(thread->name, this_thread().name, sizeof thread->name);
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
@@ -219,6 +222,7 @@ void end_running_thread() {
   pass(kernel::Operation::release, &thread.end);
   scheduler.waitpoint(kernel::Operation::end, nullptr);
   thread.ended = true;
+  drop_signals(thread);
   thread.end.owner = nullptr;
   thread.task = nullptr;
   scheduler.wake_all(thread.end);
@@ -239,11 +243,14 @@ int join(pthread_t id, void** result, Time deadline) {
   if (!thread->ended) {
     if (deadline <= kernel::running->local_time) return deadline == Time() ? EBUSY : ETIMEDOUT;
     thread->has_joiner = true;
-    const bool came = point.block(thread->end, deadline);
+    Wait ended = Wait::came;
+    while (!thread->ended && (ended = point.block(thread->end, deadline)) == Wait::interrupted &&
+           !point.was_cancelled())
+      handle_signals();
     thread->has_joiner = false;
     if (!thread->ended) {
       if (point.was_cancelled()) leave_if_cancelled();
-      if (!came) return ETIMEDOUT;
+      if (ended == Wait::timed_out) return ETIMEDOUT;
     }
   }
   if (result != nullptr) *result = thread->result;

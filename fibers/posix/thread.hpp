@@ -6,6 +6,7 @@
 #include <sched.h>
 
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/posix/pending_signals.hpp"
 #include "fibers/posix/program_clock.hpp"
 #include "fibers/posix/program_state.hpp"
 
@@ -50,12 +51,22 @@ struct Thread {
   bool in_cancellation_point = false;
   bool exiting = false;
 
-  std::uint64_t signals = 0;  ///< sent by other threads, to be handled: bit n is signal n + 1
+  // Signals: see signals.hpp.
+  SignalSet blocked = 0;        ///< its mask
+  SignalSet blocked_after = 0;  ///< with a temporary mask: the one that comes after a handler
+  SignalSet awaited = 0;        ///< what it waits for by sigwait() and its kin
+  PendingSignals pending;
+  stack_t alternate{nullptr, SS_DISABLE, 0};
+  bool has_temporary_mask = false;
+  bool in_wait = false;  ///< that a signal ends
+  bool woken_by_signal = false;
+  bool delivery_due = false;  ///< told of a signal when its wait had ended otherwise
 
   /// Primitives used, and looks at clocks and turns given away, since virtual time was last moved for that: see
   /// waiting.hpp.
   std::uint32_t operations = 0;
   std::uint32_t looks = 0;
+  std::uint32_t clock_readings = 0;  ///< the same of clocks, since others had their turn
   /// Of a wait on a futex: which wake-ups are for it.
   std::uint32_t futex_mask = 0;
 };

@@ -8,12 +8,15 @@
 #pragma once
 
 #include "fibers/kernel/local_clock.hpp"
+#include "fibers/posix/processor_timers.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/thread.hpp"
 
 namespace waitpoint::posix {
 
 inline constexpr std::uint32_t operations_at_one_instant = 512;
+/// After so many, others whose time has come have their turn.
+inline constexpr std::uint32_t clock_readings_at_most = 100;
 inline constexpr Duration cost_of_operations = Duration(std::chrono::microseconds(1));
 inline constexpr Duration cost_of_clock_reading = Duration(std::chrono::nanoseconds(50));
 inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microseconds(1));
@@ -25,6 +28,7 @@ inline void spend(Duration cost) {
   thread.spent += cost;
   thread.program->spent += cost;
   kernel::compute(task, cost);
+  if (__builtin_expect(first_processor_timer != nullptr, 0)) look_at_processor_timers();
 }
 
 /// The same for what loops do that poll, which is paid for now or after some more of it.
@@ -47,10 +51,16 @@ inline void pass(kernel::Operation operation, kernel::Object* object) {
   task.scheduler->waitpoint(operation, object);
 }
 
-/// Blocks the running thread on `object`; false if the deadline came first.
+/// Blocks the running thread on `object`; false if the deadline came first. Signals wait until it goes on.
 inline bool block(kernel::Object& object, Time deadline) {
   return kernel::running->scheduler->block(object, deadline) == kernel::Wake::woken;
 }
+
+/// How a wait ended.
+enum class Wait : std::uint8_t { came, timed_out, interrupted };
+
+/// The same, but a signal that the thread does not block ends the wait: see signals.hpp.
+Wait wait_on(kernel::Object& object, Time deadline);
 
 /// Wakes one of those that wait, of the chooser's choice; null if there is none.
 inline kernel::Task* wake_one(kernel::Object& object) { return kernel::running->scheduler->wake_one(object); }

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Signals that the program sends. Those to itself never leave it; those to others are the system's.
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+
+#include "fibers/posix/error_number.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
+#include "fibers/posix/waiting.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+// What was sent to this thread is handled before the call returns.
+void handle_own() {
+  kernel::Task& task = *kernel::running;
+  if ((task.attention & kernel::attention::signal) == 0) return;
+  task.scheduler->attend(task, kernel::attention::signal, false);
+  handle_signals();
+}
+
+int send_here(const siginfo_t& information, Thread* to) {
+  if (contains(only(SIGKILL) | only(SIGSTOP), information.si_signo)) {
+    do_default(information.si_signo);
+    return 0;
+  }
+  if (!send(information, to)) return EAGAIN;
+  handle_own();
+  return 0;
+}
+
+bool is_number(int signal) { return signal == 0 || is_signal(signal); }
+
+// To a thread, with what is told of it: an error number.
+int send_to_thread(Thread* thread, siginfo_t information) {
+  if (thread == nullptr) return ESRCH;
+  if (!is_number(information.si_signo)) return EINVAL;
+  if (thread->ended) return 0;
+  if (information.si_signo == 0) return 0;
+  pass(kernel::Operation::signal, &thread->end);
+  return thread->ended ? 0 : send_here(information, thread);
+}
+
+Thread* thread_with_id(int id) {
+  for (kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
+    if (thread_of(*task).id == id) return &thread_of(*task);
+  return nullptr;
+}
+
+siginfo_t with_value(int signal, sigval value) {
+  siginfo_t information = from_here(signal, SI_QUEUE);
+  information.si_value = value;
+  return information;
+}
+
+// Linux keeps no more for a user than that.
+bool is_queue_full() {
+  rlimit limit{};
+  getrlimit(RLIMIT_SIGPENDING, &limit);
+  return limit.rlim_cur == 0;
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int kill(pid_t process, int signal) noexcept {
+  if (!is_simulated() || process != getpid() || !is_signal(signal)) return WAITPOINT_NEXT(kill)(process, signal);
+  pass(kernel::Operation::signal, nullptr);
+  const int error = send_here(from_here(signal, SI_USER), nullptr);
+  return error == 0 ? 0 : fail(error);
+}
+
+WAITPOINT_INTERPOSED int raise(int signal) noexcept {
+  if (!is_simulated() || !is_signal(signal)) return WAITPOINT_NEXT(raise)(signal);
+  const int error = send_to_thread(&this_thread(), from_here(signal, SI_TKILL));
+  return error == 0 ? 0 : fail(error);
+}
+WAITPOINT_INTERPOSED int gsignal(int signal) noexcept { return raise(signal); }
+
+WAITPOINT_INTERPOSED int tgkill(pid_t process, pid_t thread, int signal) noexcept {
+  if (!is_simulated() || process != getpid()) return WAITPOINT_NEXT(tgkill)(process, thread, signal);
+  if (thread <= 0) return fail(EINVAL);
+  const int error = send_to_thread(thread_with_id(thread), from_here(signal, SI_TKILL));
+  return error == 0 ? 0 : fail(error);
+}
+
+WAITPOINT_INTERPOSED int sigqueue(pid_t process, int signal, sigval value) noexcept {
+  if (!is_simulated() || process != getpid() || !is_signal(signal))
+    return WAITPOINT_NEXT(sigqueue)(process, signal, value);
+  if (is_queue_full()) return fail(EAGAIN);
+  pass(kernel::Operation::signal, nullptr);
+  const int error = send_here(with_value(signal, value), nullptr);
+  return error == 0 ? 0 : fail(error);
+}
+
+WAITPOINT_INTERPOSED int pthread_kill(pthread_t id, int signal) noexcept {
+  return send_to_thread(find(id), from_here(signal, SI_TKILL));
+}
+
+WAITPOINT_INTERPOSED int pthread_sigqueue(pthread_t id, int signal, sigval value) noexcept {
+  return send_to_thread(find(id), with_value(signal, value));
+}
+
+// It cannot be blocked or ignored, and there is no coming back but by a jump.
+WAITPOINT_INTERPOSED void abort() noexcept {
+  if (is_simulated()) {
+    this_thread().blocked &= ~only(SIGABRT);
+    const struct sigaction& action = signals_of_program.actions[SIGABRT];
+    if (action.sa_handler != SIG_IGN || (action.sa_flags & SA_SIGINFO) != 0) raise(SIGABRT);
+    do_default(SIGABRT);
+  }
+  WAITPOINT_NEXT(abort)();
+  __builtin_unreachable();
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sets of signals, as words: bit n is signal n + 1.
+#pragma once
+
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+
+namespace waitpoint::posix {
+
+using SignalSet = std::uint64_t;
+
+inline constexpr int signals_end = 65;  ///< behind the greatest
+
+constexpr SignalSet only(int signal) { return SignalSet{1} << (signal - 1); }
+constexpr bool contains(SignalSet set, int signal) { return (set & only(signal)) != 0; }
+constexpr bool is_signal(int number) { return number > 0 && number < signals_end; }
+
+/// What cannot be blocked or handled; 32 and 33 are the C library's own.
+inline constexpr SignalSet unblockable = only(SIGKILL) | only(SIGSTOP) | only(32) | only(33);
+/// What the processor raises.
+inline constexpr SignalSet faults =
+    only(SIGSEGV) | only(SIGBUS) | only(SIGFPE) | only(SIGILL) | only(SIGTRAP) | only(SIGSYS);
+/// What does nothing where nobody asked for it, and what stops the process.
+inline constexpr SignalSet ignored_by_default = only(SIGCHLD) | only(SIGURG) | only(SIGWINCH) | only(SIGCONT);
+inline constexpr SignalSet stopping = only(SIGSTOP) | only(SIGTSTP) | only(SIGTTIN) | only(SIGTTOU);
+
+inline SignalSet to_set(const sigset_t& from) {
+  SignalSet set = 0;
+  std::memcpy(&set, &from, sizeof set);
+  return set;
+}
+inline sigset_t to_sigset(SignalSet set) {
+  sigset_t to{};
+  std::memcpy(&to, &set, sizeof set);
+  return to;
+}
+
+}  // namespace waitpoint::posix
