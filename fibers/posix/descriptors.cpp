@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/descriptors.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,6 +10,7 @@
 #include <cstring>
 
 #include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
@@ -29,14 +31,18 @@ struct Waiter {
   pollfd* descriptors;
   nfds_t count;
   bool outside;
-  Waiter* next;
-  Waiter* previous;
+  bool (*is_ready)(const void*) = nullptr;  // null: one of the descriptors
+  const void* what = nullptr;
+  Waiter* next = nullptr;
+  Waiter* previous = nullptr;
 };
 Waiter* first = nullptr;
 Waiter* last = nullptr;
 int waiting_outside = 0;
+int waiting_for_no_descriptor = 0;  // of which nothing tells but asking
 
 kernel::Object descriptors_object{"descriptor"};
+kernel::Object outside_object{"something outside"};
 
 int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
   const ErrorNumberKept kept;
@@ -62,7 +68,9 @@ bool wake_ready(bool outside_too) {
   bool any = false;
   for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
     if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too)) continue;
-    if (poll_now(waiter->descriptors, waiter->count) == 0) continue;
+    const bool is_ready = waiter->is_ready != nullptr ? waiter->is_ready(waiter->what)
+                                                      : poll_now(waiter->descriptors, waiter->count) != 0;
+    if (!is_ready) continue;
     waiter->task->scheduler->wake(*waiter->task);
     any = true;
   }
@@ -70,28 +78,32 @@ bool wake_ready(bool outside_too) {
 }
 
 // As poll(), for as long as it takes; also until a signal comes, which is kept from coming before the wait begins.
-void poll_until_a_signal(pollfd* descriptors, nfds_t count) {
+void poll_until_a_signal(pollfd* descriptors, nfds_t count, const timespec* longest) {
   const ErrorNumberKept kept;
   const RealWait real;
   sigset_t all, before;
   sigfillset(&all);
   WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &all, &before);
-  if (!has_come_from_outside()) WAITPOINT_NEXT(ppoll)(descriptors, count, nullptr, &before);
+  if (!has_come_from_outside()) WAITPOINT_NEXT(ppoll)(descriptors, count, longest, &before);
   WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &before, nullptr);
 }
 
 // Waits in real time for any of all descriptors that threads wait for.
-void wait_really() {
+void wait_really(Duration longest) {
   nfds_t count = 0;
   for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) count += waiter->count;
   auto* const all = static_cast<pollfd*>(std::malloc((count + 1) * sizeof(pollfd)));
   if (all == nullptr) refuse("there is no memory to wait for descriptors");
   nfds_t at = 0;
   for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+    if (waiter->count == 0) continue;
     std::memcpy(all + at, waiter->descriptors, waiter->count * sizeof(pollfd));
     at += waiter->count;
   }
-  poll_until_a_signal(all, count);
+  constexpr Duration asking = Duration(std::chrono::milliseconds(20));
+  if (waiting_for_no_descriptor > 0 && asking < longest) longest = asking;
+  const timespec timeout = to_timespec(longest.ns());
+  poll_until_a_signal(all, count, longest == Duration::max() ? nullptr : &timeout);
   std::free(all);
 }
 
@@ -126,11 +138,20 @@ bool is_inside(int descriptor) {
   return descriptor >= 0 && descriptor < known_max && (inside[descriptor / 64] >> (descriptor % 64) & 1) != 0;
 }
 
+void note_start() {
+  const ErrorNumberKept kept;
+  for (int word = 0; word < known_max / 64; ++word)
+    for (std::uint64_t left = inside[word]; left != 0; left &= left - 1) {
+      const int descriptor = word * 64 + __builtin_ctzll(left);
+      if ((fcntl(descriptor, F_GETFD) & FD_CLOEXEC) == 0) note_inside(descriptor, false);
+    }
+}
+
 void note_fork() { std::memset(inside, 0, sizeof inside); }
 
 void forget_waiters() {
   first = last = nullptr;
-  waiting_outside = 0;
+  waiting_outside = waiting_for_no_descriptor = 0;
 }
 
 void forget_waiter(const kernel::Task& task) {
@@ -149,7 +170,7 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) 
   for (;;) {
     if (deadline <= task.local_time) return poll_now(descriptors, count);
     task.scheduler->enter(descriptors_object);
-    Waiter waiter{&task, descriptors, count, outside, nullptr, nullptr};
+    Waiter waiter{&task, descriptors, count, outside};
     add(waiter);
     // The run comes out at the end of each instant while somebody waits outside.
     if (outside) task.scheduler->pause();
@@ -173,6 +194,23 @@ WaitsOutside::WaitsOutside() {
 }
 WaitsOutside::~WaitsOutside() { --waiting_outside; }
 
+int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart) {
+  kernel::Task& task = *kernel::running;
+  while (!is_ready(what)) {
+    task.scheduler->enter(outside_object);
+    Waiter waiter{&task, nullptr, 0, true, is_ready, what};
+    add(waiter);
+    ++waiting_for_no_descriptor;
+    task.scheduler->pause();
+    const Wait ended = wait_on(outside_object, Time::max());
+    --waiting_for_no_descriptor;
+    remove(waiter);
+    if (thread_of(task).in_cancellation_point && is_to_leave(thread_of(task))) return 0;
+    if (ended == Wait::interrupted && !is_ready(what) && is_interrupted(restart)) return fail(EINTR);
+  }
+  return 1;
+}
+
 bool wait_for_reader(int descriptor, int patience_ms) {
   pollfd one{descriptor, POLLOUT, 0};
   return poll_now(&one, 1, patience_ms) > 0;
@@ -182,11 +220,16 @@ void look_at_descriptors() {
   if (first != nullptr) wake_ready(false);
 }
 
+bool wait_outside_for(Duration longest) {
+  wait_really(longest);
+  return has_come_from_outside() || waiting_outside > 0;
+}
+
 bool look_outside(bool may_wait) {
   const bool came = take_in_signals_from_outside();
   if (wake_ready(true) || came) return true;
   if (!may_wait || waiting_outside == 0) return false;
-  wait_really();
+  wait_really(Duration::max());
   take_in_signals_from_outside();
   wake_ready(true);
   return true;

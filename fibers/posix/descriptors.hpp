@@ -31,6 +31,8 @@ void note_owner(int descriptor);
 void close_descriptors_of(const Program& program);
 /// A child has copies of all of them: nothing is inside any more.
 void note_fork();
+/// The same of a program that is started: it has no copies of those that are closed then.
+void note_start();
 /// In the child: nobody waits there.
 void forget_waiters();
 /// The task is not there any more.
@@ -59,8 +61,14 @@ bool wait_for_reader(int descriptor, int patience_ms);
 /// Something was done with a descriptor that others may wait for.
 void look_at_descriptors();
 
+/// The running thread waits for something outside that is no descriptor, until `is_ready` says so: 1; 0 if the thread
+/// was cancelled; -1 with EINTR if a signal ended the wait.
+int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart);
+
 /// From outside all threads, at the end of an instant: looks at what threads wait for, and waits in real time if
 /// `may_wait`. Whether one of them goes on.
 bool look_outside(bool may_wait);
+/// Waits in real time for anything that threads wait for, but no longer than so; whether something may have come.
+bool wait_outside_for(Duration longest);
 
 }  // namespace waitpoint::posix

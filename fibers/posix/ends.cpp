@@ -11,6 +11,8 @@
 
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/members.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/signals.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -46,13 +48,28 @@ WAITPOINT_INTERPOSED void _exit(int status) {
 }
 WAITPOINT_INTERPOSED void _Exit(int status) noexcept { _exit(status); }
 
+// It cannot be blocked or ignored, and there is no coming back but by a jump.
 WAITPOINT_INTERPOSED void abort() noexcept {
-  if (!runs_in_member()) WAITPOINT_NEXT(abort)();
-  struct sigaction action {};
-  // A handler may leave by a jump.
-  if (sigaction(SIGABRT, nullptr, &action) == 0 && action.sa_handler != SIG_DFL) raise(SIGABRT);
-  std::fprintf(stderr, "waitpoint: %s is aborted\n", kernel::running->robot->name);
-  end_member(status_of_abort);
+  if (is_simulated()) {
+    this_thread().blocked &= ~only(SIGABRT);
+    const struct sigaction& action = signals_of_program.actions[SIGABRT];
+    if ((action.sa_flags & SA_SIGINFO) != 0 || (action.sa_handler != SIG_IGN && action.sa_handler != SIG_DFL))
+      raise(SIGABRT);
+    if (runs_in_member()) {
+      std::fprintf(stderr, "waitpoint: %s is aborted\n", kernel::running->robot->name);
+      end_member(status_of_abort);
+    }
+    do_default(SIGABRT);
+  }
+  WAITPOINT_NEXT(abort)();
+  __builtin_unreachable();
+}
+
+// For bugs of ours: the linker sends the calls of this library here. No handler of the program's is called.
+extern "C" [[noreturn, gnu::visibility("hidden")]] void __wrap_abort() noexcept {
+  do_default(SIGABRT);
+  WAITPOINT_NEXT(_exit)(status_of_own_errors);
+  __builtin_unreachable();
 }
 
 WAITPOINT_INTERPOSED void __assert_fail(const char* condition, const char* file, unsigned line,

@@ -27,7 +27,9 @@ Time deadline_in_ms(int timeout_ms) {
 
 int wait(pollfd* descriptors, nfds_t count, Time deadline) {
   const CancellationPoint point;
+  const bool has_temporary_mask = this_thread().has_temporary_mask;
   pass(kernel::Operation::poll, nullptr);
+  if (has_temporary_mask && !this_thread().has_temporary_mask) return fail(EINTR);
   const int ready = wait_for(descriptors, count, deadline, Restart::never);
   // A loop that asks without waiting is to end.
   if (ready == 0) read_clock();

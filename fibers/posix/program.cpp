@@ -8,12 +8,14 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "fibers/posix/children.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/deadlock.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/exploration.hpp"
 #include "fibers/posix/fork_server.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/pace.hpp"
 #include "fibers/posix/preload.hpp"
 #include "fibers/posix/race_log.hpp"
 #include "fibers/posix/signals.hpp"
@@ -48,6 +50,18 @@ void map_record(int descriptor) {
     refuse("this library and the waitpoint that started it are not of one version");
 }
 
+// At the end of an instant: until when the run goes on, with what has come meanwhile.
+Time keep_pace(kernel::Scheduler& scheduler) {
+  const Time next = scheduler.next_event_time();
+  const Duration left = next == Time::max() ? Duration::max() : left_until(next);
+  if (left == Duration()) {
+    look_outside(false);
+    return later(scheduler.next_event_time(), nanosecond);
+  }
+  wait_outside_for(left);
+  return later(look_at_pace(scheduler, next), nanosecond);
+}
+
 // The C library calls it before those of libraries that are made with threads: by then they must be simulated.
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
@@ -58,6 +72,7 @@ void map_record(int descriptor) {
   leave_preload();
   if (record->settings.instrumented) leave_library_path();
   inherit_signals();
+  register_fork();
 }
 
 // A debugger runs the program once more on the same record.
@@ -117,9 +132,12 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
   for (Time until = end;;) {
     const kernel::RunState state = scheduler.run_before(until);
     if (state == kernel::RunState::stopped) break;
-    if (look_outside(state == kernel::RunState::idle)) {
+    const bool is_idle = state == kernel::RunState::idle;
+    if (is_paced() && (!is_idle || anybody_waits_outside())) {
+      until = keep_pace(scheduler);
+    } else if (look_outside(is_idle)) {
       until = later(scheduler.global_time(), nanosecond);
-    } else if (state == kernel::RunState::idle) {
+    } else if (is_idle) {
       break;
     } else if (scheduler.next_event_time() >= end) {
       return record->ending = Ending::cut_off;

@@ -109,15 +109,3 @@ WAITPOINT_INTERPOSED int pthread_kill(pthread_t id, int signal) noexcept {
 WAITPOINT_INTERPOSED int pthread_sigqueue(pthread_t id, int signal, sigval value) noexcept {
   return send_to_thread(find(id), with_value(signal, value));
 }
-
-// It cannot be blocked or ignored, and there is no coming back but by a jump.
-WAITPOINT_INTERPOSED void abort() noexcept {
-  if (is_simulated()) {
-    this_thread().blocked &= ~only(SIGABRT);
-    const struct sigaction& action = signals_of_program.actions[SIGABRT];
-    if (action.sa_handler != SIG_IGN || (action.sa_flags & SA_SIGINFO) != 0) raise(SIGABRT);
-    do_default(SIGABRT);
-  }
-  WAITPOINT_NEXT(abort)();
-  __builtin_unreachable();
-}

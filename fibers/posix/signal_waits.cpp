@@ -52,20 +52,17 @@ int take(SignalSet set, siginfo_t* information, Time deadline) {
   }
 }
 
-// Until a handler has run.
-int suspend() {
+// Until a handler has run, at the call's own waitpoint too.
+int suspend_with(SignalSet blocked) {
+  const TemporaryMask mask(blocked);
   const CancellationPoint point;
   pass(kernel::Operation::wait, nullptr);
   for (;;) {
+    if (mask.was_left()) return fail(EINTR);
     wait_for_signal(point, Time::max());
     leave_if_cancelled();
     if (is_interrupted(Restart::never)) return fail(EINTR);
   }
-}
-
-int suspend_with(SignalSet blocked) {
-  const TemporaryMask mask(blocked);
-  return suspend();
 }
 
 }  // namespace
@@ -100,7 +97,9 @@ WAITPOINT_INTERPOSED int sigsuspend(const sigset_t* set) {
   return is_simulated() ? suspend_with(to_set(*set)) : WAITPOINT_NEXT(sigsuspend)(set);
 }
 
-WAITPOINT_INTERPOSED int pause() { return is_simulated() ? suspend() : WAITPOINT_NEXT(pause)(); }
+WAITPOINT_INTERPOSED int pause() {
+  return is_simulated() ? suspend_with(this_thread().blocked) : WAITPOINT_NEXT(pause)();
+}
 
 // X/Open's: without this signal; BSD's, by a macro: a mask.
 WAITPOINT_INTERPOSED int __xpg_sigpause(int signal) {

@@ -23,6 +23,8 @@ class TemporaryMask {
     thread.has_temporary_mask = false;
     set_blocked(thread.blocked_after);
   }
+  /// Whether a handler has run since.
+  bool was_left() const { return !this_thread().has_temporary_mask; }
   TemporaryMask(const TemporaryMask&) = delete;
   TemporaryMask& operator=(const TemporaryMask&) = delete;
 };

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/children.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -57,9 +58,11 @@ void let_go(Thread& thread) {
   to_free = &thread;
 }
 
+int last_id = 0;
+
 int make_id() {
-  static int last = getpid();
-  return ++last;
+  if (last_id == 0) last_id = getpid();
+  return ++last_id;
 }
 
 bool is_detached(const pthread_attr_t* attributes) {
@@ -129,6 +132,12 @@ Duration spent_by(int id) {
   for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
     if (is_thread(*task) && thread_of(*task).id == id) return thread_of(*task).spent;
   return {};
+}
+
+void begin_again_as_first(Thread& thread) {
+  main_thread = &thread;
+  thread.id = getpid();
+  last_id = 0;
 }
 
 void adopt_main_thread(Thread& thread, Program& program, kernel::Task& task) {
