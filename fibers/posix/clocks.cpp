@@ -17,12 +17,15 @@ namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
+// How much later, or earlier, the program has set the date.
+std::int64_t set_by_ns = 0;
+
 std::int64_t begin_ns(clockid_t clock) {
   switch (clock) {
     case CLOCK_REALTIME:
     case CLOCK_REALTIME_COARSE:
     case CLOCK_REALTIME_ALARM:
-    case CLOCK_TAI: return first_date_s * second_ns;
+    case CLOCK_TAI: return first_date_s * second_ns + set_by_ns;
     case CLOCK_MONOTONIC:
     case CLOCK_MONOTONIC_RAW:
     case CLOCK_MONOTONIC_COARSE:
@@ -103,6 +106,22 @@ extern "C" [[gnu::visibility("hidden")]] int __wrap_clock_gettime(clockid_t cloc
 WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept {
   if (is_host_code()) return WAITPOINT_NEXT(clock_gettime)(clock, time);
   return posix::read_clock(clock, *time);
+}
+
+// The simulation's own date, not the machine's.
+WAITPOINT_INTERPOSED int clock_settime(clockid_t clock, const timespec* time) noexcept {
+  if (clock != CLOCK_REALTIME) return fail(EINVAL);
+  if (!is_valid(*time) || time->tv_sec < 0) return fail(EINVAL);
+  if (geteuid() != 0) return fail(EPERM);
+  set_by_ns += time->tv_sec * second_ns + time->tv_nsec - reading_ns(CLOCK_REALTIME, posix::now());
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int settimeofday(const timeval* time, const struct timezone* zone) noexcept {
+  if (time == nullptr) return zone == nullptr ? 0 : fail(EPERM);
+  if (time->tv_usec < 0 || time->tv_usec >= 1'000'000) return fail(EINVAL);
+  const timespec to{time->tv_sec, time->tv_usec * 1000};
+  return clock_settime(CLOCK_REALTIME, &to);
 }
 
 WAITPOINT_INTERPOSED int clock_getres(clockid_t clock, timespec* resolution) noexcept {

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <cstdarg>
 
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/signal_descriptors.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
@@ -37,6 +39,34 @@ int copy(int from, int made) {
   return made;
 }
 
+// What was there is closed.
+int replaced(int from, int to, int made) {
+  if (made < 0 || from == to || !is_simulated()) return copy(from, made);
+  forget_timer_descriptor(to);
+  forget_signal_descriptor(to);
+  copy(from, made);
+  look_at_descriptors();
+  return made;
+}
+
+int control(int descriptor, int command, void* argument) {
+  const int result = WAITPOINT_NEXT(fcntl)(descriptor, command, argument);
+  return command == F_DUPFD || command == F_DUPFD_CLOEXEC ? copy(descriptor, result) : result;
+}
+
+/// A lock on a file, which another thread may have by another opening of it.
+struct Locking {
+  int descriptor, operation;
+  int result, error;
+};
+bool try_lock(const void* what) {
+  auto& locking = *static_cast<Locking*>(const_cast<void*>(what));
+  const ErrorNumberKept kept;
+  locking.result = WAITPOINT_NEXT(flock)(locking.descriptor, locking.operation);
+  locking.error = errno;
+  return locking.result == 0 || locking.error != EWOULDBLOCK;
+}
+
 }  // namespace
 
 WAITPOINT_INTERPOSED int pipe2(int* ends, int flags) noexcept {
@@ -54,10 +84,49 @@ WAITPOINT_INTERPOSED int socket(int domain, int type, int protocol) noexcept {
 WAITPOINT_INTERPOSED int eventfd(unsigned count, int flags) noexcept {
   return one(WAITPOINT_NEXT(eventfd)(count, flags));
 }
+// What it watches decides: an outside one makes it one.
+WAITPOINT_INTERPOSED int epoll_create1(int flags) noexcept { return one(WAITPOINT_NEXT(epoll_create1)(flags)); }
+WAITPOINT_INTERPOSED int epoll_create(int size) noexcept { return one(WAITPOINT_NEXT(epoll_create)(size)); }
+WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, epoll_event* event) noexcept {
+  const int result = WAITPOINT_NEXT(epoll_ctl)(descriptor, operation, watched, event);
+  if (result != 0 || !is_simulated()) return result;
+  if (operation != EPOLL_CTL_DEL && !is_inside(watched)) note_inside(descriptor, false);
+  look_at_descriptors();
+  return result;
+}
+
 WAITPOINT_INTERPOSED int dup(int descriptor) noexcept { return copy(descriptor, WAITPOINT_NEXT(dup)(descriptor)); }
-WAITPOINT_INTERPOSED int dup2(int from, int to) noexcept { return copy(from, WAITPOINT_NEXT(dup2)(from, to)); }
+WAITPOINT_INTERPOSED int dup2(int from, int to) noexcept { return replaced(from, to, WAITPOINT_NEXT(dup2)(from, to)); }
 WAITPOINT_INTERPOSED int dup3(int from, int to, int flags) noexcept {
-  return copy(from, WAITPOINT_NEXT(dup3)(from, to, flags));
+  return replaced(from, to, WAITPOINT_NEXT(dup3)(from, to, flags));
+}
+
+extern "C" {
+[[gnu::visibility("default")]] int waitpoint_fcntl(int descriptor, int command, ...) __asm__("fcntl");
+[[gnu::visibility("default")]] int waitpoint_fcntl64(int descriptor, int command, ...) __asm__("fcntl64");
+}
+int waitpoint_fcntl(int descriptor, int command, ...) {
+  va_list more;
+  va_start(more, command);
+  void* const argument = va_arg(more, void*);
+  va_end(more);
+  return control(descriptor, command, argument);
+}
+int waitpoint_fcntl64(int descriptor, int command, ...) {
+  va_list more;
+  va_start(more, command);
+  void* const argument = va_arg(more, void*);
+  va_end(more);
+  return control(descriptor, command, argument);
+}
+
+WAITPOINT_INTERPOSED int flock(int descriptor, int operation) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(flock)(descriptor, operation);
+  pass((operation & LOCK_UN) != 0 ? kernel::Operation::unlock : kernel::Operation::lock, nullptr);
+  if ((operation & (LOCK_NB | LOCK_UN)) != 0) return WAITPOINT_NEXT(flock)(descriptor, operation);
+  Locking locking{descriptor, operation | LOCK_NB, 0, 0};
+  if (wait_outside(try_lock, &locking, Restart::if_asked) <= 0) return -1;
+  return locking.result == 0 ? 0 : fail(locking.error);
 }
 
 WAITPOINT_INTERPOSED int close(int descriptor) {

@@ -143,7 +143,7 @@ void note_start() {
   for (int word = 0; word < known_max / 64; ++word)
     for (std::uint64_t left = inside[word]; left != 0; left &= left - 1) {
       const int descriptor = word * 64 + __builtin_ctzll(left);
-      if ((fcntl(descriptor, F_GETFD) & FD_CLOEXEC) == 0) note_inside(descriptor, false);
+      if ((WAITPOINT_NEXT(fcntl)(descriptor, F_GETFD) & FD_CLOEXEC) == 0) note_inside(descriptor, false);
     }
 }
 

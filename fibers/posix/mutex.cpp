@@ -169,6 +169,19 @@ WAITPOINT_INTERPOSED int pthread_mutex_timedlock(pthread_mutex_t* mutex, const t
   return pthread_mutex_clocklock(mutex, CLOCK_REALTIME, deadline);
 }
 
+// The ceiling is kept where glibc keeps it, which its pthread_mutex_getprioceiling() reads; it changes nothing.
+WAITPOINT_INTERPOSED int pthread_mutex_setprioceiling(pthread_mutex_t* mutex, int ceiling, int* old) noexcept {
+  int before = 0;
+  if (const int error = pthread_mutex_getprioceiling(mutex, &before); error != 0) return error;
+  if (ceiling < sched_get_priority_min(SCHED_FIFO) || ceiling > sched_get_priority_max(SCHED_FIFO)) return EINVAL;
+  if (const int error = pthread_mutex_lock(mutex); error != 0) return error;
+  constexpr int shift_of_ceiling = 19;
+  mutex->__data.__lock = ceiling << shift_of_ceiling;
+  pthread_mutex_unlock(mutex);
+  *old = before;
+  return 0;
+}
+
 WAITPOINT_INTERPOSED int pthread_mutex_consistent(pthread_mutex_t* mutex) noexcept {
   Mutex& known = mutex_of(mutex);
   if (!known.is_robust || !known.is_inconsistent || known.object.owner != kernel::running) return EINVAL;

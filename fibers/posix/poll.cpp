@@ -85,6 +85,20 @@ int select_before(int count, fd_set* readable, fd_set* writable, fd_set* urgent,
   return sets.keep_ready();
 }
 
+// An epoll descriptor is itself ready when one of those it watches is.
+int epoll_before(int descriptor, epoll_event* events, int most, Time deadline, const sigset_t* mask) {
+  if (most <= 0) return fail(EINVAL);
+  pollfd one{descriptor, POLLIN, 0};
+  const TemporaryMask blocked(mask);
+  for (bool is_first = true;; is_first = false) {
+    if (!is_first && wait(&one, 1, deadline) < 0) return -1;
+    if (is_first) pass(kernel::Operation::poll, nullptr);
+    // What was ready may have been taken by another thread; what is no epoll descriptor is told at once.
+    const int ready = WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, 0, nullptr);
+    if (ready != 0 || (!is_first && deadline <= kernel::running->local_time)) return ready;
+  }
+}
+
 }  // namespace
 }  // namespace waitpoint::posix
 
@@ -127,20 +141,17 @@ WAITPOINT_INTERPOSED int pselect(int count, fd_set* __restrict readable, fd_set*
                        timeout == nullptr ? Time::max() : deadline_in(span(*timeout)));
 }
 
-// An epoll descriptor is itself ready when one of those it watches is.
 WAITPOINT_INTERPOSED int epoll_pwait(int descriptor, epoll_event* events, int most, int timeout_ms,
                                      const sigset_t* mask) {
   if (!is_simulated()) return WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, timeout_ms, mask);
-  if (most <= 0) return fail(EINVAL);
-  pollfd one{descriptor, POLLIN, 0};
-  const TemporaryMask blocked(mask);
-  const Time deadline = deadline_in_ms(timeout_ms);
-  for (;;) {
-    if (posix::wait(&one, 1, deadline) < 0) return -1;
-    // What was ready may have been taken by another thread.
-    const int ready = WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, 0, nullptr);
-    if (ready != 0 || deadline <= kernel::running->local_time) return ready;
-  }
+  return epoll_before(descriptor, events, most, deadline_in_ms(timeout_ms), mask);
+}
+
+WAITPOINT_INTERPOSED int epoll_pwait2(int descriptor, epoll_event* events, int most, const timespec* timeout,
+                                      const sigset_t* mask) {
+  if (!is_simulated()) return WAITPOINT_NEXT(epoll_pwait2)(descriptor, events, most, timeout, mask);
+  if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
+  return epoll_before(descriptor, events, most, timeout == nullptr ? Time::max() : deadline_in(span(*timeout)), mask);
 }
 
 WAITPOINT_INTERPOSED int epoll_wait(int descriptor, epoll_event* events, int most, int timeout_ms) {

@@ -17,8 +17,11 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/pace.hpp"
 #include "fibers/posix/preload.hpp"
+#include "fibers/posix/processor_counter.hpp"
 #include "fibers/posix/race_log.hpp"
+#include "fibers/posix/randomness.hpp"
 #include "fibers/posix/signals.hpp"
+#include "fibers/posix/thread_area.hpp"
 #include "fibers/posix/waitable.hpp"
 
 namespace waitpoint::posix {
@@ -73,6 +76,8 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   if (record->settings.instrumented) leave_library_path();
   inherit_signals();
   register_fork();
+  draw_random_bytes_of_the_process();
+  if (record->settings.trap_rdtsc) trap_processor_counter();
 }
 
 // A debugger runs the program once more on the same record.
@@ -170,6 +175,8 @@ void run_program(int (*body)(), const char* name) {
       scheduler.spawn(record->robot, {.name = "main", .stack = kernel::StackSize::program}, run_thread, &thread);
   if (task == nullptr) refuse("there is no address space for the stacks of threads");
   adopt_main_thread(thread, program, *task);
+  // No frame that is on this stack now is ever left by its return.
+  draw_stack_guard(thread.area);
   // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).
   if (run_to_end(scheduler) == Ending::own) std::exit(0);
   end_run(scheduler, 0);

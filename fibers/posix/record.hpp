@@ -37,6 +37,8 @@ struct Settings {
   Time until = Time::max();  ///< the run is cut off then
   bool has_clock = false;    ///< threads have a clock; else computing takes no time
   kernel::ClockOptions clock;
+  bool isolate = false;             ///< what leaves the machine is forbidden
+  bool trap_rdtsc = false;          ///< reading the processor's counter shows virtual time
   bool traced = false;              ///< all events are written down
   const Asked* asked = nullptr;     ///< how the schedule is explored, in Order::explored
   std::uint32_t looks_at_once = 1;  ///< so many uses of clocks and of giving way are paid for together

@@ -9,6 +9,7 @@
 
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/processor_counter.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/real_waits.hpp"
 #include "fibers/posix/signals.hpp"
@@ -90,6 +91,7 @@ bool may_handle_here(const ucontext_t& context) {
 
 // The processor raised it in the running thread: now or never.
 void handle_fault(int signal, siginfo_t* information, void* context) {
+  if (signal == SIGSEGV && emulate_processor_counter(context)) return;
   struct sigaction& known = signals_of_program.actions[signal];
   const SignalSet blocked = is_simulated() ? this_thread().blocked : signals_of_program.blocked_before_main;
   if (!is_handled(signal) || contains(blocked, signal)) return do_default(signal);
@@ -110,7 +112,9 @@ void handle_fault(int signal, siginfo_t* information, void* context) {
 
 void catch_signal(int signal, siginfo_t* information, void* context) {
   const int error = errno;
-  const bool from_itself = information->si_code == SI_TKILL && information->si_pid == getpid();
+  // So does the system when this thread writes what nobody can read.
+  const bool from_itself =
+      (information->si_code == SI_TKILL || signal == SIGPIPE || signal == SIGXFSZ) && information->si_pid == getpid();
   if (contains(faults, signal) && information->si_code > 0) {
     handle_fault(signal, information, context);
   } else if (is_simulated() && from_itself && !waits_really.load()) {
@@ -169,8 +173,9 @@ void install(int signal) {
   real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
   real.sa_sigaction = catch_signal;
   const bool is_default = !is_handled(signal);
-  const bool is_looked_for = contains(signals_of_program.ever_blocked & ~faults, signal);
-  if (is_default && action.sa_handler == SIG_IGN) {
+  const bool is_looked_for_always = signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc;
+  const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
+  if (is_default && action.sa_handler == SIG_IGN && !is_looked_for_always) {
     real.sa_flags &= ~SA_SIGINFO;
     real.sa_handler = SIG_IGN;
   } else if (is_default && !is_looked_for) {

@@ -110,7 +110,7 @@ WAITPOINT_INTERPOSED int signalfd(int descriptor, const sigset_t* set, int flags
   if ((flags & ~(SFD_NONBLOCK | SFD_CLOEXEC)) != 0) return fail(EINVAL);
   const SignalSet signals = to_set(*set) & ~unblockable;
   SignalDescriptor* known = find_descriptor(descriptor);
-  if (descriptor >= 0 && known == nullptr) return fail(fcntl(descriptor, F_GETFD) < 0 ? EBADF : EINVAL);
+  if (descriptor >= 0 && known == nullptr) return fail(WAITPOINT_NEXT(fcntl)(descriptor, F_GETFD) < 0 ? EBADF : EINVAL);
   if (known == nullptr) {
     known = static_cast<SignalDescriptor*>(std::calloc(1, sizeof(SignalDescriptor)));
     if (known == nullptr) return fail(ENOMEM);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "fibers/kernel/thread_pointer.hpp"
+#include "fibers/posix/randomness.hpp"
 
 // Of the dynamic linker and the C library, for the thread libraries that they are made with.
 extern "C" {
@@ -71,6 +72,11 @@ void free_thread_area(void* area) {
   link.previous->next = link.next;
   link.next->previous = link.previous;
   _dl_deallocate_tls(area, true);
+}
+
+void draw_stack_guard(void* area) {
+  // The byte of least weight is zero, as the C library has it: so no string goes over it.
+  head_of(area).stack_guard = draw_random() & ~std::uintptr_t{0xFF};
 }
 
 Thread*& thread_of_area(void* area) { return head_of(area).thread; }

@@ -21,4 +21,7 @@ Thread*& thread_of_area(void* area);
 /// The area that the calling code runs on.
 void* own_thread_area();
 
+/// The word that functions keep on the stack, to see whether it was written over: of the seed.
+void draw_stack_guard(void* area);
+
 }  // namespace waitpoint::posix

@@ -120,7 +120,9 @@ WAITPOINT_INTERPOSED int timerfd_create(clockid_t clock, int flags) noexcept {
 WAITPOINT_INTERPOSED int timerfd_settime(int descriptor, int flags, const itimerspec* to, itimerspec* old) noexcept {
   TimerDescriptor* const timer = timer_of(descriptor);
   if (timer == nullptr) return WAITPOINT_NEXT(timerfd_settime)(descriptor, flags, to, old);
-  if (!is_valid(to->it_value) || !is_valid(to->it_interval)) return fail(EINVAL);
+  if ((flags & ~(TFD_TIMER_ABSTIME | TFD_TIMER_CANCEL_ON_SET)) != 0) return fail(EINVAL);
+  if (!is_valid(to->it_value) || !is_valid(to->it_interval) || to->it_value.tv_sec < 0 || to->it_interval.tv_sec < 0)
+    return fail(EINVAL);
   pass(kernel::Operation::timer_start, nullptr);
   if (old != nullptr) *old = {to_timespec(timer->interval.ns()), left_of(*timer)};
   // What had expired before and was not read is forgotten.

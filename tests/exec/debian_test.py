@@ -6,11 +6,13 @@ Their output is the native one, a seed is one run, another seed another. With --
 
 import hashlib
 import json
+import os
 import random
 import re
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 
 from exec_case import ExecCase, WAITPOINT
@@ -227,6 +229,38 @@ class Traces(Exec):
             self.assertEqual(threads, {"main#0 of ends", "thread 1#1 of ends"})
             last = max(event["ts"] for event in events if "ts" in event)
             self.assertGreaterEqual(last, 2e6, "microseconds of virtual time")
+
+class Options(Exec):
+    """What a run does not share with the machine."""
+
+    def output(self, what, *options, seed=1):
+        words = [WAITPOINT, "exec", "--quiet", "--seed", seed, *options, "--", self.compile("options.c"), what]
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.split(), done.stderr
+
+    def test_the_trapped_counter_of_the_processor_shows_virtual_time(self):
+        (between, slept, processor), _ = self.output("counter", "--trap-rdtsc")
+        self.assertLess(int(between), 1000)
+        self.assertTrue(1_000_000 <= int(slept) < 1_010_000, slept)
+        self.assertEqual(processor, "0")
+        self.assertEqual(self.output("counter", "--trap-rdtsc")[0], [between, slept, processor])
+
+    def test_an_isolated_program_reaches_nothing_outside(self):
+        found, told = self.output("connect", "--isolate")
+        self.assertEqual(found, ["0", "1"])
+        self.assertEqual(told, "waitpoint: exec: what leaves this machine is forbidden by --isolate\n")
+        self.assertEqual(self.output("connect")[0][0], "0")
+
+    def test_the_random_bytes_of_a_process_are_of_the_seed(self):
+        self.assertEqual(self.output("random"), self.output("random"))
+        for one, other in zip(self.output("random")[0], self.output("random", seed=2)[0]):
+            self.assertNotEqual(one, other)
+
+    def test_a_date_that_is_set_is_the_simulations_own(self):
+        if os.geteuid() == 0:
+            self.assertEqual(self.output("date")[0], ["1000000000"])
+        self.assertLess(abs(time.time() - os.stat("/proc/self").st_ctime), 100)
 
 
 class Seeds(Exec):

@@ -88,6 +88,12 @@ ExecArguments::ExecArguments(CLI::App& app)
                    "write what each thread did, up to the end or the crash, for the viewers of\n"
                    "Chrome and Perfetto")
       ->type_name("FILE.json");
+  command_->add_flag("--isolate", isolate_, "what would leave this machine fails (EACCES)")->disable_flag_override();
+  command_
+      ->add_flag("--trap-rdtsc", trap_rdtsc_,
+                 "the processor's counter shows virtual time, a nanosecond a tick, where the\n"
+                 "program reads it by an instruction (some microseconds each)")
+      ->disable_flag_override();
   command_->add_flag("--quiet", quiet_, "no line about the run at its end, unless it failed")->disable_flag_override();
   command_->footer(
       "The exit status is the program's own; 124 if its threads wait for each other for ever, 125 if it\n"
@@ -101,6 +107,8 @@ ExecOptions ExecArguments::options(const std::vector<std::string>& words) const 
   ExecOptions options;
   options.words = words;
   options.quiet = quiet_;
+  options.isolate = isolate_;
+  options.trap_rdtsc = trap_rdtsc_;
   std::string where = "--seed", seed = seed_;
   if (const char* const given = std::getenv("WAITPOINT_SEED"); seed.empty() && given != nullptr) {
     where = "WAITPOINT_SEED";

@@ -26,6 +26,8 @@ struct ExecOptions {
   std::string clock_text;                      ///< as it was written
   std::optional<std::filesystem::path> trace;  ///< to write
   bool quiet = false;
+  bool isolate = false;
+  bool trap_rdtsc = false;
   std::vector<std::string> words;  ///< the program and its arguments: at least one
 };
 
@@ -43,7 +45,7 @@ class ExecArguments {
  private:
   CLI::App* command_;
   std::string seed_, seeds_, clock_, trace_, strategy_ = "random";
-  bool quiet_ = false;
+  bool quiet_ = false, isolate_ = false, trap_rdtsc_ = false;
 };
 
 }  // namespace waitpoint::tools

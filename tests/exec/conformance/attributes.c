@@ -2,6 +2,8 @@
 // What can be asked of threads and told to them: names, stacks, priorities, processors.
 #include "tests/exec/conformance/harness.h"
 
+#include <sys/resource.h>
+
 #include <limits.h>
 #include <sched.h>
 #include <stdint.h>
@@ -215,4 +217,57 @@ CASE(the_level_of_concurrency_is_read_as_it_was_written) {
   EXPECT_IS(pthread_setconcurrency(7), 0);
   EXPECT_IS(pthread_getconcurrency(), 7);
   EXPECT_IS(pthread_setconcurrency(-1), EINVAL);
+}
+
+// By the numbers of threads.
+
+CASE(scheduling_can_be_asked_for_by_number) {
+  struct sched_param parameters = {7};
+  EXPECT_IS(sched_getscheduler(0), SCHED_OTHER);
+  EXPECT_IS(sched_getparam(0, &parameters), 0);
+  EXPECT_IS(parameters.sched_priority, 0);
+  EXPECT_IS(sched_setparam(0, &parameters), 0);
+  EXPECT_IS(sched_setscheduler(0, SCHED_OTHER, &parameters), 0);
+  EXPECT_IS(sched_setscheduler(gettid(), SCHED_BATCH, &parameters), 0);
+  EXPECT_IS(sched_getscheduler(gettid()), SCHED_BATCH);
+  parameters.sched_priority = 5;
+  EXPECT_FAILS(sched_setscheduler(0, SCHED_OTHER, &parameters), EINVAL);
+  EXPECT_FAILS(sched_setparam(0, &parameters), EINVAL);
+  EXPECT_FAILS(sched_setscheduler(0, 77, &parameters), EINVAL);
+  EXPECT_FAILS(sched_getscheduler(0x3FFFFFF0), ESRCH);
+  EXPECT_FAILS(sched_getparam(0x3FFFFFF0, &parameters), ESRCH);
+}
+CASE(affinity_can_be_asked_for_by_number) {
+  cpu_set_t set, one;
+  EXPECT(sched_getaffinity(0, sizeof set, &set) >= 0);
+  const int first = sched_getcpu();
+  EXPECT(first >= 0);
+  CPU_ZERO(&one);
+  for (int i = 0; CPU_COUNT(&one) == 0; ++i)
+    if (CPU_ISSET(i, &set)) CPU_SET(i, &one);
+  EXPECT_IS(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT(sched_getaffinity(gettid(), sizeof set, &set) >= 0);
+  EXPECT(CPU_EQUAL(&set, &one));
+  CPU_ZERO(&one);
+  EXPECT_FAILS(sched_setaffinity(0, sizeof one, &one), EINVAL);
+  EXPECT_FAILS(sched_getaffinity(0x3FFFFFF0, sizeof set, &set), ESRCH);
+}
+static void* set_batch(void* unused) {
+  const struct sched_param parameters = {0};
+  EXPECT_IS(sched_setscheduler(0, SCHED_BATCH, &parameters), 0);
+  return unused;
+}
+CASE(each_thread_has_its_own_policy) {
+  join(start(set_batch, NULL));
+  EXPECT_IS(sched_getscheduler(0), SCHED_OTHER);
+}
+CASE(what_was_used_is_told) {
+  struct rusage usage;
+  memset(&usage, 0x55, sizeof usage);
+  EXPECT_IS(getrusage(RUSAGE_SELF, &usage), 0);
+  EXPECT(usage.ru_maxrss > 0 && usage.ru_utime.tv_sec < 1000);
+  EXPECT_IS(getrusage(RUSAGE_THREAD, &usage), 0);
+  EXPECT_IS(getrusage(RUSAGE_CHILDREN, &usage), 0);
+  EXPECT_IS(usage.ru_utime.tv_sec, 0);
+  EXPECT_FAILS(getrusage((__rusage_who_t)77, &usage), EINVAL);
 }

@@ -197,3 +197,13 @@ void* read_monotonic(void* to) {
   *(long long*)to = now_ns(CLOCK_MONOTONIC);
   return NULL;
 }
+
+CASE(what_is_no_date_cannot_be_set) {
+  struct timespec time = {0, 1000000000};
+  const struct timeval invalid = {0, 1000000};
+  EXPECT_FAILS(clock_settime(CLOCK_REALTIME, &time), EINVAL);
+  time.tv_nsec = 0;
+  EXPECT_FAILS(clock_settime(CLOCK_MONOTONIC, &time), EINVAL);
+  EXPECT_FAILS(clock_settime(77, &time), EINVAL);
+  EXPECT_FAILS(settimeofday(&invalid, NULL), EINVAL);
+}

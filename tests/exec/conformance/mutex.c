@@ -313,3 +313,36 @@ CASE(a_mutex_with_priority_inheritance_works) {
   EXPECT_IS(pthread_mutex_unlock(&mutex), 0);
   EXPECT_IS(tried_by_another(), 0);
 }
+
+CASE(a_ceiling_is_kept) {
+  pthread_mutexattr_t attributes;
+  pthread_mutex_t protecting;
+  int ceiling = 0;
+  EXPECT_IS(pthread_mutexattr_init(&attributes), 0);
+  EXPECT_IS(pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_PROTECT), 0);
+  EXPECT_IS(pthread_mutexattr_setprioceiling(&attributes, 30), 0);
+  EXPECT_IS(pthread_mutex_init(&protecting, &attributes), 0);
+  EXPECT_IS(pthread_mutex_getprioceiling(&protecting, &ceiling), 0);
+  EXPECT_IS(ceiling, 30);
+  EXPECT_IS(pthread_mutex_setprioceiling(&protecting, 200, &ceiling), EINVAL);
+  if (geteuid() == 0) {
+    EXPECT_IS(pthread_mutex_setprioceiling(&protecting, 40, &ceiling), 0);
+    EXPECT_IS(ceiling, 30);
+    EXPECT_IS(pthread_mutex_getprioceiling(&protecting, &ceiling), 0);
+    EXPECT_IS(ceiling, 40);
+  }
+  pthread_mutex_t plain = PTHREAD_MUTEX_INITIALIZER;
+  EXPECT_IS(pthread_mutex_setprioceiling(&plain, 40, &ceiling), EINVAL);
+}
+CASE(an_inheriting_mutex_is_a_mutex) {
+  pthread_mutexattr_t attributes;
+  pthread_mutex_t inheriting;
+  EXPECT_IS(pthread_mutexattr_init(&attributes), 0);
+  EXPECT_IS(pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT), 0);
+  EXPECT_IS(pthread_mutexattr_settype(&attributes, PTHREAD_MUTEX_ERRORCHECK), 0);
+  EXPECT_IS(pthread_mutex_init(&inheriting, &attributes), 0);
+  EXPECT_IS(pthread_mutex_lock(&inheriting), 0);
+  EXPECT_IS(pthread_mutex_lock(&inheriting), EDEADLK);
+  EXPECT_IS(pthread_mutex_unlock(&inheriting), 0);
+  EXPECT_IS(pthread_mutex_unlock(&inheriting), EPERM);
+}

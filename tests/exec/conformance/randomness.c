@@ -2,6 +2,7 @@
 // Random numbers of the system. They are written out: the same seed must give the same.
 #include "tests/exec/conformance/harness.h"
 
+#include <fcntl.h>
 #include <stdint.h>
 #include <sys/random.h>
 #include <sys/syscall.h>
@@ -100,4 +101,17 @@ CASE(the_order_of_threads_repeats_with_the_seed) {
 CASE(addresses_repeat_with_the_seed) {
   int local;
   printf("%p %p %p %p\n", (void*)&local, malloc(10), (void*)main, (void*)&printf);
+}
+
+CASE(random_files_give_bytes) {
+  static const char* const paths[] = {"/dev/urandom", "/dev/random"};
+  for (int i = 0; i < 2; ++i) {
+    unsigned char bytes[64] = {0}, others[64] = {0};
+    const int descriptor = open(paths[i], O_RDONLY);
+    EXPECT_IS(read(descriptor, bytes, sizeof bytes), 64);
+    EXPECT_IS(read(descriptor, others, sizeof others), 64);
+    EXPECT(memcmp(bytes, others, sizeof bytes) != 0);
+    for (int k = 0; k < 64; ++k) printf("%02x", bytes[k]);
+    close(descriptor);
+  }
 }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The calls of Linux on the scheduling of a thread by its number: what was set is told again, and changes nothing.
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "fibers/posix/clocks.hpp"
+#include "fibers/posix/error_number.hpp"
+#include "fibers/posix/interposed.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/thread.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+// Null if it is none of ours, which the system is asked about.
+Thread* thread_with(pid_t id) {
+  if (!is_simulated()) return nullptr;
+  if (id == 0) return &this_thread();
+  for (kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
+    if (thread_of(*task).id == id) return &thread_of(*task);
+  return nullptr;
+}
+
+bool is_priority_of(int policy, int priority) {
+  const int least = sched_get_priority_min(policy);
+  return least >= 0 && priority >= least && priority <= sched_get_priority_max(policy);
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int sched_setscheduler(pid_t id, int policy, const sched_param* parameters) noexcept {
+  Thread* const thread = thread_with(id);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setscheduler)(id, policy, parameters);
+  const int plain = policy & ~SCHED_RESET_ON_FORK;
+  if (parameters == nullptr || !is_priority_of(plain, parameters->sched_priority)) return fail(EINVAL);
+  if (geteuid() != 0 && parameters->sched_priority > 0) return fail(EPERM);
+  thread->policy = plain;
+  thread->priority = parameters->sched_priority;
+  return 0;
+}
+WAITPOINT_INTERPOSED int sched_getscheduler(pid_t id) noexcept {
+  const Thread* const thread = thread_with(id);
+  return thread == nullptr ? WAITPOINT_NEXT(sched_getscheduler)(id) : thread->policy;
+}
+WAITPOINT_INTERPOSED int sched_setparam(pid_t id, const sched_param* parameters) noexcept {
+  const Thread* const thread = thread_with(id);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setparam)(id, parameters);
+  return sched_setscheduler(id, thread->policy, parameters);
+}
+WAITPOINT_INTERPOSED int sched_getparam(pid_t id, sched_param* parameters) noexcept {
+  const Thread* const thread = thread_with(id);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_getparam)(id, parameters);
+  if (parameters == nullptr) return fail(EINVAL);
+  *parameters = {thread->priority};
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int sched_setaffinity(pid_t id, std::size_t size, const cpu_set_t* set) noexcept {
+  Thread* const thread = thread_with(id);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setaffinity)(id, size, set);
+  const int error = pthread_setaffinity_np(reinterpret_cast<pthread_t>(thread->area), size, set);
+  return error == 0 ? 0 : fail(error);
+}
+WAITPOINT_INTERPOSED int sched_getaffinity(pid_t id, std::size_t size, cpu_set_t* set) noexcept {
+  const Thread* const thread = thread_with(id);
+  if (thread == nullptr || !thread->has_processors)
+    return WAITPOINT_NEXT(sched_getaffinity)(thread == nullptr ? id : 0, size, set);
+  const int error = pthread_getaffinity_np(reinterpret_cast<pthread_t>(thread->area), size, set);
+  return error == 0 ? 0 : fail(error);
+}
+
+// Always the same one: which it is for real is not of the seed.
+WAITPOINT_INTERPOSED int sched_getcpu() noexcept { return is_simulated() ? 0 : WAITPOINT_NEXT(sched_getcpu)(); }
+
+// Processor time is virtual; what the system counts beside it is not of the seed, but for memory.
+WAITPOINT_INTERPOSED int getrusage(__rusage_who_t who, rusage* usage) noexcept {
+  if (!is_simulated() || static_cast<int>(who) == RUSAGE_CHILDREN) return WAITPOINT_NEXT(getrusage)(who, usage);
+  rusage real{};
+  if (WAITPOINT_NEXT(getrusage)(who, &real) != 0) return -1;
+  const clockid_t clock = static_cast<int>(who) == RUSAGE_SELF ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID;
+  const timespec spent = to_timespec(reading_ns(clock, read_clock()));
+  *usage = {};
+  usage->ru_utime = {spent.tv_sec, spent.tv_nsec / 1000};
+  usage->ru_maxrss = real.ru_maxrss;
+  return 0;
+}
