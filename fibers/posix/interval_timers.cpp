@@ -51,7 +51,7 @@ void start(int which, Duration first, Duration interval) {
   else if (which == ITIMER_REAL)
     timer.start(later(kernel::local_time(*kernel::running), first), interval);
   else
-    timer.start(spent_by_all, spent_by_all + first, interval);
+    timer.start(this_program().spent, this_program().spent + first, interval);
 }
 
 }  // namespace

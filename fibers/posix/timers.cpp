@@ -202,7 +202,7 @@ WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t*
   if (memory == nullptr) return fail(EAGAIN);
   auto* const timer = new (memory) Timer();
   timer->clock = clock;
-  if (clock == CLOCK_PROCESS_CPUTIME_ID) timer->spent = &spent_by_all;
+  if (clock == CLOCK_PROCESS_CPUTIME_ID) timer->spent = &this_program().spent;
   if (clock == CLOCK_THREAD_CPUTIME_ID) timer->spent = &this_thread().spent;
   if (const int error = prepare(*timer, event); error != 0) {
     timer->~Timer();
