@@ -39,6 +39,7 @@ WAITPOINT_INTERPOSED int pthread_getattr_np(pthread_t id, pthread_attr_t* attrib
   pthread_attr_init(attributes);
   pthread_attr_setdetachstate(attributes, thread->detached ? PTHREAD_CREATE_DETACHED : PTHREAD_CREATE_JOINABLE);
   pthread_attr_setguardsize(attributes, 4096);
+  if (thread->stack != nullptr) return pthread_attr_setstack(attributes, thread->stack, thread->stack_size);
   return pthread_attr_setstack(attributes, stack.low, static_cast<std::size_t>(stack.high - stack.low));
 }
 

@@ -84,7 +84,6 @@ WAITPOINT_INTERPOSED int raise(int signal) noexcept {
   const int error = send_to_thread(&this_thread(), from_here(signal, SI_TKILL));
   return error == 0 ? 0 : fail(error);
 }
-WAITPOINT_INTERPOSED int gsignal(int signal) noexcept { return raise(signal); }
 
 WAITPOINT_INTERPOSED int tgkill(pid_t process, pid_t thread, int signal) noexcept {
   if (!is_simulated() || process != getpid()) return WAITPOINT_NEXT(tgkill)(process, thread, signal);

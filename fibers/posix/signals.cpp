@@ -10,6 +10,7 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/signal_descriptors.hpp"
+#include "fibers/posix/stack_switch.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
@@ -90,25 +91,11 @@ bool is_on(const stack_t& stack, const void* address) {
   return address >= low && address < low + stack.ss_size;
 }
 
-void call_on(const stack_t& stack, void (*function)(void*), void* argument) {
-  char* top = static_cast<char*>(stack.ss_sp) + stack.ss_size;
-  top -= reinterpret_cast<std::uintptr_t>(top) % 16;
-  asm volatile(
-      "movq %%rsp, %%rbx\n\t"
-      "movq %[top], %%rsp\n\t"
-      "callq *%[function]\n\t"
-      "movq %%rbx, %%rsp"
-      : "+D"(argument)
-      : [top] "r"(top), [function] "r"(function)
-      : "rax", "rbx", "rcx", "rdx", "rsi", "r8", "r9", "r10", "r11", "memory", "cc", "xmm0", "xmm1", "xmm2", "xmm3",
-        "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15");
-}
-
 void run_handler(Thread& thread, const struct sigaction& action, siginfo_t& information, ucontext_t& context) {
   Call call{&action, &information, &context};
   if ((action.sa_flags & SA_ONSTACK) != 0 && (thread.alternate.ss_flags & SS_DISABLE) == 0 &&
       !is_on(thread.alternate, &call))
-    call_on(thread.alternate, call_handler, &call);
+    call_on(thread.alternate.ss_sp, thread.alternate.ss_size, call_handler, &call);
   else
     call_handler(&call);
 }

@@ -3,6 +3,7 @@
 
 #include <limits.h>
 #include <setjmp.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -20,6 +21,7 @@
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
 #include "fibers/posix/signals.hpp"
+#include "fibers/posix/stack_switch.hpp"
 #include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/thread_area.hpp"
 
@@ -40,6 +42,7 @@ Thread* main_thread = nullptr;
 Thread* to_free = nullptr;
 
 void free_thread(Thread& thread) {
+  if (thread.owns_stack) munmap(thread.stack, thread.stack_size);
   std::free(thread.clock);
   free_thread_area(thread.area);
   std::free(&thread);
@@ -69,6 +72,26 @@ bool is_detached(const pthread_attr_t* attributes) {
   int state = PTHREAD_CREATE_JOINABLE;
   if (attributes != nullptr) pthread_attr_getdetachstate(attributes, &state);
   return state == PTHREAD_CREATE_DETACHED;
+}
+
+// The stack that the attributes give, or one of their size where that of a task is too small; false without memory.
+bool take_stack(Thread& thread, const pthread_attr_t* attributes) {
+  if (attributes == nullptr) return true;
+  void* low = nullptr;
+  std::size_t size = 0;
+  // glibc keeps the high end: null unless a stack was given.
+  if (pthread_attr_getstack(attributes, &low, &size) == 0 && reinterpret_cast<std::uintptr_t>(low) + size != 0) {
+    thread.stack = static_cast<char*>(low);
+    thread.stack_size = size;
+    return true;
+  }
+  if (size <= kernel::bytes(kernel::StackSize::program)) return true;
+  low = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+  if (low == MAP_FAILED) return false;
+  thread.stack = static_cast<char*>(low);
+  thread.stack_size = size;
+  thread.owns_stack = true;
+  return true;
 }
 
 void count_threads(Program& program) {
@@ -189,7 +212,7 @@ int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, 
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   char name[kernel::name_size];
   std::snprintf(name, sizeof name, "thread %u", this_program().threads_made);
-  if (!begin(*thread, scheduler, name)) {
+  if (!take_stack(*thread, attributes) || !begin(*thread, scheduler, name)) {
     free_thread(*thread);
     return EAGAIN;
   }
@@ -200,8 +223,10 @@ int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, 
   return 0;
 }
 
+namespace {
+
 // On the thread's own stack and area. pthread_exit() and cancellation unwind to the buffer.
-void run_thread(void* argument) {
+void call_start_routine(void* argument) {
   Thread& thread = *static_cast<Thread*>(argument);
   __ctype_init();
   __pthread_unwind_buf_t buffer;
@@ -212,6 +237,16 @@ void run_thread(void* argument) {
     else
       thread.result = thread.start.posix(thread.argument);
   }
+}
+
+}  // namespace
+
+void run_thread(void* argument) {
+  Thread& thread = *static_cast<Thread*>(argument);
+  if (thread.stack != nullptr)
+    call_on(thread.stack, thread.stack_size, call_start_routine, &thread);
+  else
+    call_start_routine(&thread);
   end_thread(thread);
 }
 

@@ -29,7 +29,11 @@ struct Thread {
   bool ended = false;
   void* argument = nullptr;
   void* result = nullptr;
-  int id = 0;  ///< what gettid() says
+  /// A stack that was asked for; null: that of its task will do.
+  char* stack = nullptr;
+  std::size_t stack_size = 0;
+  bool owns_stack = false;  ///< the program gave only its size
+  int id = 0;               ///< what gettid() says
   kernel::Object end{"thread"};
 
   // What programs may write and read again; it changes nothing.

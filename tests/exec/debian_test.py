@@ -263,6 +263,22 @@ class Options(Exec):
         self.assertLess(abs(time.time() - os.stat("/proc/self").st_ctime), 100)
 
 
+class Deadlocks(Exec):
+    """Waiting for a descriptor whose ends only the program has, and whom nobody else can do anything to."""
+
+    def test_are_told_whatever_made_the_descriptor(self):
+        program = self.compile("stuck.c")
+        for way in "pipe", "pipe2", "socketpair", "eventfd", "dup", "dup2", "dup3", "fcntl", "epoll_create", "epoll_create1":
+            status, _, text = execute(1, program, way)
+            self.assertEqual(status, 124, f"{way}: {text}")
+            self.assertIn("main waits for descriptor", text)
+
+    def test_are_none_where_something_may_come_from_outside(self):
+        done = subprocess.run([str(WAITPOINT), "exec", "--", str(self.compile("stuck.c")), "epoll of outside"],
+                              input=b"x", capture_output=True, timeout=60)
+        self.assertEqual(done.returncode, 1, done.stderr)
+
+
 class Seeds(Exec):
     """A campaign ends at the first seed that fails, and says how to see it again."""
 

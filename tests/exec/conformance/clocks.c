@@ -198,6 +198,27 @@ void* read_monotonic(void* to) {
   return NULL;
 }
 
+static void* sleep_a_little(void* unused) {
+  sleep_ms(20);
+  return unused;
+}
+static void* end_at_once(void* unused) { return unused; }
+CASE(a_thread_that_has_ended_has_no_clock) {
+  const pthread_t id = start(end_at_once, NULL);
+  sleep_ms(20);
+  clockid_t clock;
+  EXPECT_IS(pthread_getcpuclockid(id, &clock), ESRCH);
+  join(id);
+}
+CASE(the_clock_of_a_thread_has_a_resolution) {
+  const pthread_t id = start(sleep_a_little, NULL);
+  clockid_t clock;
+  struct timespec resolution = {7, 7};
+  EXPECT_IS(pthread_getcpuclockid(id, &clock), 0);
+  EXPECT_IS(clock_getres(clock, &resolution), 0);
+  EXPECT(resolution.tv_sec == 0 && resolution.tv_nsec > 0);
+  join(id);
+}
 CASE(what_is_no_date_cannot_be_set) {
   struct timespec time = {0, 1000000000};
   const struct timeval invalid = {0, 1000000};

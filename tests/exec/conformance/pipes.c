@@ -171,6 +171,23 @@ CASE(a_waiting_writer_learns_that_nobody_reads) {
   EXPECT(written > 0 ? written < (ssize_t)sizeof big : errno == EPIPE);
   join(id);
 }
+static long long ended_ns;
+static void* read_to_the_end(void* unused) {
+  char byte;
+  EXPECT_IS(read(ends[0], &byte, 1), 0);
+  ended_ns = now_ns(CLOCK_MONOTONIC);
+  return unused;
+}
+CASE(a_reader_learns_at_once_that_nobody_writes) {
+  make_pipe();
+  const pthread_t id = start(read_to_the_end, NULL);
+  let_others_wait();
+  const long long begin = now_ns(CLOCK_MONOTONIC);
+  EXPECT_IS(close(ends[1]), 0);
+  sleep_ms(1500);
+  join(id);
+  EXPECT(ended_ns - begin < 1000000000);
+}
 CASE(what_is_not_open_is_refused) {
   char byte;
   struct iovec piece = {&byte, 1};
@@ -244,6 +261,10 @@ CASE(a_copy_wakes_who_reads) {
 
 // Named pipes.
 
+// Headers give these names to others.
+extern int plain_open(const char* path, int flags, ...) __asm__("open");
+extern int plain_openat(int folder, const char* path, int flags, ...) __asm__("openat");
+
 static char path[64];
 static void make_fifo(void) {
   snprintf(path, sizeof path, "/tmp/conformance-fifo-%d", (int)getpid());
@@ -262,7 +283,7 @@ static void* open_to_write(void* unused) {
 CASE(opening_to_read_waits_for_a_writer) {
   make_fifo();
   const pthread_t id = start(open_to_write, NULL);
-  const int descriptor = open(path, O_RDONLY);
+  const int descriptor = plain_open(path, O_RDONLY);
   EXPECT(descriptor >= 0);
   EXPECT_IS(done, 1);
   EXPECT_IS(fcntl(descriptor, F_GETFL) & O_NONBLOCK, 0);
@@ -285,10 +306,20 @@ static void* open_to_read(void* unused) {
 CASE(opening_to_write_waits_for_a_reader) {
   make_fifo();
   const pthread_t id = start(open_to_read, NULL);
-  const int descriptor = openat(AT_FDCWD, path, O_WRONLY);
+  const int descriptor = plain_openat(AT_FDCWD, path, O_WRONLY);
   EXPECT(descriptor >= 0);
   EXPECT_IS(done, 1);
   EXPECT_IS(write(descriptor, "x", 1), 1);
+  join(id);
+  unlink(path);
+}
+CASE(openat64_waits_for_a_writer) {
+  make_fifo();
+  const pthread_t id = start(open_to_write, NULL);
+  const int descriptor = openat64(AT_FDCWD, path, O_RDONLY);
+  EXPECT(descriptor >= 0);
+  char text[8] = "";
+  EXPECT_IS(read(descriptor, text, 7), 5);
   join(id);
   unlink(path);
 }
@@ -304,8 +335,6 @@ CASE(without_blocking_opening_does_not_wait) {
   EXPECT_FAILS(read(reader, &byte, 1), EAGAIN);
   unlink(path);
 }
-// Headers give this name to another.
-extern int plain_open(const char* path, int flags, ...) __asm__("open");
 CASE(other_names_open_too) {
   int (*const opens[])(const char*, int, ...) = {plain_open, open64};
   for (int i = 0; i < 2; ++i) {

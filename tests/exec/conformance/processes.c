@@ -388,6 +388,30 @@ CASE(a_program_inherits_what_is_blocked_and_ignored) {
     execl("/bin/grep", "grep", "-c", "-E", "SigBlk:.*200$|SigIgn:.*8..$", "/proc/self/status", (char*)NULL);
   EXPECT_EXIT(child, 0);
 }
+static void become(int way) {
+  static char* const words[] = {"grep", "-q", "SigBlk:.*200$", "/proc/self/status", NULL};
+  switch (way) {
+    case 0: execv("/bin/grep", words); break;
+    case 1: execve("/bin/grep", words, environment); break;
+    case 2: execvp("grep", words); break;
+    case 3: execvpe("grep", words, environment); break;
+    case 4: fexecve(open("/bin/grep", O_RDONLY), words, environment); break;
+    case 5: execl("/bin/grep", words[0], words[1], words[2], words[3], (char*)NULL); break;
+    case 6: execlp("grep", words[0], words[1], words[2], words[3], (char*)NULL); break;
+    default: execle("/bin/grep", words[0], words[1], words[2], words[3], (char*)NULL, environment); break;
+  }
+}
+CASE(whatever_becomes_a_program_hands_on_what_is_blocked) {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGUSR1);
+  sigprocmask(SIG_BLOCK, &set, NULL);
+  for (int way = 0; way < 8; ++way) {
+    const pid_t child = begin_child();
+    if (child == 0) become(way);
+    EXPECT_EXIT(child, 0);
+  }
+}
 CASE_ENDING_WITH(14, a_process_of_threads_becomes_one_without) {
   start(run_on, NULL);
   sleep_ms(2);
@@ -494,7 +518,7 @@ CASE(_Fork_calls_no_handlers) {
   extern void note_prepare(void);
   EXPECT_IS(pthread_atfork(note_prepare, NULL, NULL), 0);
   const pid_t child = _Fork();
-  if (child == 0) _exit(3);
+  if (child == 0) _exit(gettid() == getpid() ? 3 : 4);
   EXPECT_EXIT(child, 3);
   EXPECT_NOTED("");
 }

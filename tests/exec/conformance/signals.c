@@ -93,7 +93,7 @@ CASE(raise_is_handled_before_it_returns) {
   EXPECT_IS(last, SIGUSR1);
   EXPECT(pthread_equal(handled_by, pthread_self()));
 }
-CASE(gsignal_raises) {
+CASE(gsignal_raises_within_the_c_library) {
   act(SIGUSR1, handle, 0);
   EXPECT_IS(gsignal(SIGUSR1), 0);
   EXPECT_IS(handled, 1);
@@ -706,6 +706,12 @@ CASE(a_jump_may_leave_a_wait) {
   EXPECT_IS(write(ends[1], "x", 1), 1);
   EXPECT_IS(read(ends[0], &byte, 1), 1);
 }
+CASE(longjmp_brings_back_a_mask_that_was_kept) {
+  act(SIGUSR1, jump_plainly, 0);
+  if (sigsetjmp(back, 1) == 0) raise(SIGUSR1);
+  EXPECT_IS(handled, 1);
+  EXPECT_IS(is_blocked(SIGUSR1), 0);
+}
 static char alternate[65536];
 static void look_at_stack(int signal) {
   char here;
@@ -799,6 +805,15 @@ CASE_ENDING_WITH(3, abort_may_be_left_by_a_jump) {
   act(SIGABRT, jump_back, 0);
   if (sigsetjmp(back, 1) == 0) abort();
   _exit(3);
+}
+static void leave_with_3(int signal) {
+  (void)signal;
+  _exit(3);
+}
+CASE_ENDING_WITH(3, abort_unblocks_its_signal) {
+  block(SIGABRT, 0);
+  act(SIGABRT, leave_with_3, 0);
+  abort();
 }
 CASE_ENDING_WITH(-6, abort_cannot_be_blocked_or_ignored) {
   block(SIGABRT, 0);

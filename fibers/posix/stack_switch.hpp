@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Calling a function on another stack: one that the program gave to a thread, or to handlers of signals.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace waitpoint::posix {
+
+/// Calls `function(argument)` with its frames at the high end of those bytes, and comes back to this stack.
+inline void call_on(void* low, std::size_t size, void (*function)(void*), void* argument) {
+  char* top = static_cast<char*>(low) + size;
+  top -= reinterpret_cast<std::uintptr_t>(top) % 16;
+  asm volatile(
+      "movq %%rsp, %%rbx\n\t"
+      "movq %[top], %%rsp\n\t"
+      "callq *%[function]\n\t"
+      "movq %%rbx, %%rsp"
+      : "+D"(argument)
+      : [top] "r"(top), [function] "r"(function)
+      : "rax", "rbx", "rcx", "rdx", "rsi", "r8", "r9", "r10", "r11", "memory", "cc", "xmm0", "xmm1", "xmm2", "xmm3",
+        "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15");
+}
+
+}  // namespace waitpoint::posix
