@@ -222,10 +222,12 @@ void forget_pending_signals() {
 // In a thread with attention::signal set, at its waitpoint; in one that waits, its call lets handlers run.
 void deliver_signals(kernel::Task& task) {
   Thread& thread = thread_of(task);
-  if (thread.in_wait)
+  if (thread.in_wait) {
     thread.delivery_due = true;
-  else
-    handle_signals();
+    return;
+  }
+  const OutOfKernel outside;
+  handle_signals();
 }
 
 Wait wait_on(kernel::Object& object, Time deadline) {

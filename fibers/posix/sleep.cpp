@@ -72,7 +72,10 @@ WAITPOINT_INTERPOSED int thrd_sleep(const timespec* time, timespec* remaining) {
 WAITPOINT_INTERPOSED int sched_yield() {
   if (!is_simulated()) return 0;
   spend_for_look(cost_of_giving_way);
-  kernel::running->scheduler->yield();
+  {
+    const InKernel within;
+    kernel::running->scheduler->yield();
+  }
   if (this_thread().cancel_at_once) leave_if_cancelled();
   return 0;
 }

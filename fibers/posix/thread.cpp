@@ -228,6 +228,7 @@ namespace {
 // On the thread's own stack and area. pthread_exit() and cancellation unwind to the buffer.
 void call_start_routine(void* argument) {
   Thread& thread = *static_cast<Thread*>(argument);
+  thread.in_kernel = false;
   __ctype_init();
   __pthread_unwind_buf_t buffer;
   if (__sigsetjmp(reinterpret_cast<__jmp_buf_tag*>(buffer.__cancel_jmp_buf), 0) == 0) {
@@ -264,7 +265,10 @@ void end_running_thread() {
   Thread& thread = this_thread();
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   pass(kernel::Operation::release, &thread.end);
-  scheduler.waitpoint(kernel::Operation::end, nullptr);
+  {
+    const InKernel within;
+    scheduler.waitpoint(kernel::Operation::end, nullptr);
+  }
   thread.ended = true;
   drop_signals(thread);
   thread.end.owner = nullptr;

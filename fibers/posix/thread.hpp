@@ -55,6 +55,10 @@ struct Thread {
   bool in_cancellation_point = false;
   bool exiting = false;
 
+  /// It has not begun, or is within a call of the kernel's, which may show an event to whoever watches: what that calls
+  /// is not simulated.
+  bool in_kernel = true;
+
   // Signals: see signals.hpp.
   SignalSet blocked = 0;        ///< its mask
   SignalSet blocked_after = 0;  ///< with a temporary mask: the one that comes after a handler
@@ -87,7 +91,32 @@ inline Program& this_program() { return *this_thread().program; }
 /// Whether a task is a thread of a program.
 inline bool is_thread(const kernel::Task& task) { return task.entry == run_thread; }
 /// Whether the code is that of a simulated thread: before main() there is none.
-inline bool is_simulated() { return kernel::running != nullptr && is_thread(*kernel::running); }
+inline bool is_simulated() {
+  return kernel::running != nullptr && is_thread(*kernel::running) && !this_thread().in_kernel;
+}
+
+/// While it lives, the running thread is within the kernel.
+class InKernel {
+ public:
+  InKernel() : thread_(this_thread()) { thread_.in_kernel = true; }
+  ~InKernel() { thread_.in_kernel = false; }
+  InKernel(const InKernel&) = delete;
+  InKernel& operator=(const InKernel&) = delete;
+
+ private:
+  Thread& thread_;
+};
+/// The other way round: the kernel calls what is the program's.
+class OutOfKernel {
+ public:
+  OutOfKernel() : thread_(this_thread()) { thread_.in_kernel = false; }
+  ~OutOfKernel() { thread_.in_kernel = true; }
+  OutOfKernel(const OutOfKernel&) = delete;
+  OutOfKernel& operator=(const OutOfKernel&) = delete;
+
+ private:
+  Thread& thread_;
+};
 
 /// The thread with this id; null if it is none of ours.
 Thread* find(pthread_t id);

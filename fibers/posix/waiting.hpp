@@ -48,11 +48,13 @@ inline void pass(kernel::Operation operation, kernel::Object* object) {
     thread.operations = 0;
     spend(cost_of_operations);
   }
+  const InKernel within;
   task.scheduler->waitpoint(operation, object);
 }
 
 /// Blocks the running thread on `object`; false if the deadline came first. Signals wait until it goes on.
 inline bool block(kernel::Object& object, Time deadline) {
+  const InKernel within;
   return kernel::running->scheduler->block(object, deadline) == kernel::Wake::woken;
 }
 

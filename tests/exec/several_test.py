@@ -207,6 +207,16 @@ class Robot(unittest.TestCase):
         last = [re.sub(r"[0-9.]+ (s|schedules/s|a second)", "", r.stdout.splitlines()[-1]) for r in (run, again)]
         self.assertEqual(last[0], last[1])
 
+    def test_a_run_with_them_checks_itself(self):
+        run = office("run", "--until", "1", "--check")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("the same run, twice in this process and once in a perturbed one", run.stdout)
+
+    def test_events_are_written_into_a_pipe(self):
+        run = office("run", "--until", "1.5", "--events", "/dev/stdout")
+        self.assertRegex(run.stdout, r"rackham +writer: main")
+        self.assertEqual(digest_of_summary(run), digest_of_summary(office("run", "--until", "1.5")))
+
     def test_a_program_that_does_not_end_is_left_where_it_is(self):
         run = office("run", "--until", "0.5")
         self.assertEqual(run.returncode, 0, run.stderr)

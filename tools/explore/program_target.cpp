@@ -68,10 +68,7 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
 }
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
-    : options_(options),
-      files_(options.program),
-      fingerprint_(fingerprint_of(files_, options)),
-      input_(open_input()) {}
+    : options_(options), files_(options.program), fingerprint_(fingerprint_of(files_, options)), input_(open_input()) {}
 
 ProgramTarget::~ProgramTarget() { close(input_); }
 

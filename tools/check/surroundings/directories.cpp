@@ -34,7 +34,7 @@ struct Listing {
 constexpr std::size_t first_room = 128;
 constexpr std::size_t listings_max = 64;  // what is open beyond keeps the system's order
 constinit Listing listings[listings_max];
-constinit pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+constinit std::atomic_flag taken;
 
 Listing* find(DIR* directory) {
   for (Listing& listing : listings)
@@ -64,7 +64,7 @@ void take_in(Listing& listing, DIR* directory) {
 }
 
 dirent* read(DIR* directory) {
-  const Holding lock(mutex);
+  const Holding lock(taken);
   Listing* listing = find(directory);
   if (listing == nullptr) {
     listing = find(nullptr);
@@ -75,7 +75,7 @@ dirent* read(DIR* directory) {
 }
 
 void forget(DIR* directory) {
-  const Holding lock(mutex);
+  const Holding lock(taken);
   Listing* const listing = find(directory);
   if (listing == nullptr) return;
   if (listing->room != 0) munmap(listing->entries, listing->room * sizeof(dirent));

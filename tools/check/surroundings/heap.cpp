@@ -32,7 +32,7 @@ struct Pool {
 
 constinit Pool pools[shuffled_max / granule + 1];
 constinit std::uint64_t draws = 0x5EED;
-constinit pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+constinit std::atomic_flag taken;
 // Looking up the next function may ask for memory itself.
 constinit thread_local bool within = false;
 
@@ -46,7 +46,7 @@ std::size_t drawn() {
 
 void* shuffled(std::size_t size) {
   const std::size_t granules = (size + granule - 1) / granule;
-  const Holding lock(mutex);
+  const Holding lock(taken);
   Pool& pool = pools[granules];
   if (!pool.full) {
     for (void*& block : pool.blocks) block = next_malloc(granules * granule);

@@ -11,8 +11,6 @@
 #pragma once
 
 #include <dlfcn.h>
-#include <pthread.h>
-
 #include <atomic>
 
 namespace waitpoint::surroundings {
@@ -42,16 +40,20 @@ class Next {
   std::atomic<Function*> function_{nullptr};
 };
 
-/// Holds a lock as long as it lives.
+/// Holds a lock, for some instructions, as long as it lives. It is no mutex of the C library's: a program whose threads
+/// are simulated would see that one as its own.
 class Holding {
  public:
-  explicit Holding(pthread_mutex_t& mutex) : mutex_(mutex) { pthread_mutex_lock(&mutex_); }
-  ~Holding() { pthread_mutex_unlock(&mutex_); }
+  explicit Holding(std::atomic_flag& lock) : lock_(lock) {
+    while (lock_.test_and_set(std::memory_order_acquire)) {
+    }
+  }
+  ~Holding() { lock_.clear(std::memory_order_release); }
   Holding(const Holding&) = delete;
   Holding& operator=(const Holding&) = delete;
 
  private:
-  pthread_mutex_t& mutex_;
+  std::atomic_flag& lock_;
 };
 
 }  // namespace waitpoint::surroundings
