@@ -2,9 +2,11 @@
 // Ends of the process.
 #include "tests/exec/conformance/harness.h"
 
+#include <assert.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
+#include <sys/socket.h>
 
 static void* sleep_long(void* unused) {
   (void)unused;
@@ -148,4 +150,29 @@ CASE_ENDING_WITH(0, a_thread_that_holds_a_mutex_at_exit_keeps_nobody) {
   pthread_mutex_lock(&mutex);
   start(sleep_long, NULL);
   exit(0);
+}
+
+CASE_ENDING_WITH(5, _Exit_calls_no_function_of_atexit) {
+  atexit(check_at_exit);
+  _Exit(5);
+}
+
+static void exit_6(int signal) {
+  (void)signal;
+  _exit(6);
+}
+CASE_ENDING_WITH(6, an_assertion_that_fails_aborts) {
+  signal(SIGABRT, exit_6);
+  assert(noted[0] != 0);
+}
+
+static void* open_socket(void* descriptor) {
+  *(int*)descriptor = socket(AF_UNIX, SOCK_STREAM, 0);
+  return NULL;
+}
+CASE(what_a_thread_has_opened_stays_open_after_its_end) {
+  int descriptor = -1;
+  pthread_t thread = start(open_socket, &descriptor);
+  pthread_join(thread, NULL);
+  EXPECT_IS(close(descriptor), 0);
 }
