@@ -111,7 +111,7 @@ void BulletWorld::change_obstacles(std::vector<Obstacle> obstacles, const std::v
 
 // All anew, in the order of the description: a person's hand is slow.
 void BulletWorld::make_dynamics(const std::vector<MaybeMoving>& moving) {
-  dynamics_.emplace(standing_shapes(description_.obstacles));
+  dynamics_.emplace(standing_shapes(description_.obstacles), description_.meshes);
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
     const BodyDescription& body = description_.bodies[i];
     dynamics_->add_hull(body.shape, body.base.mass_kg, body.base.kind == BaseDescription::Kind::aerial);
@@ -228,6 +228,7 @@ std::optional<std::string> BulletWorld::move_body(BodyId id, const Pose& pose) {
         separation(outline, outline_of(obstacle.shape)).distance_m <= contact_gap_m)
       return obstacle.name;
   }
+  if (auto mesh = mesh_met(shape, outline)) return mesh;
   if (auto other = body_met(shape, outline, number(id))) return other;
   vehicle.put(pose);
   senses_.put(number(id), pose);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 
 #include "core/exact_math.hpp"
 #include "world/bullet/bullet_shapes.hpp"
@@ -14,6 +15,8 @@ namespace {
 // Slower than this for two seconds (of Bullet's own), something is at rest.
 constexpr double rest_m_s = 1e-3, rest_rad_s = 1e-3;
 constexpr int iterations = 50;
+// What of a mesh is no higher is floor, on which wheels roll whatever it is like.
+constexpr double floor_m = 1e-3;
 
 enum Group : int { of_floor = 1, of_standing = 2, of_rolling = 4, of_flying = 8, of_loose = 16 };
 
@@ -35,6 +38,23 @@ struct Standing {
     object.setWorldTransform(at);
     object.setFriction(1);
   }
+};
+
+struct StandingMesh {
+  btTriangleMesh triangles;
+  std::optional<Standing> standing;  // none if all of it is floor
+
+  explicit StandingMesh(const TriangleMesh& mesh) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const Triangle triangle = mesh.triangle(i);
+      if (triangle.high_m() <= floor_m) continue;
+      triangles.addTriangle(vector(triangle.corners[0]), vector(triangle.corners[1]), vector(triangle.corners[2]));
+    }
+    if (triangles.getNumTriangles() > 0)
+      standing.emplace(std::make_unique<btBvhTriangleMeshShape>(&triangles, true), btTransform::getIdentity());
+  }
+  StandingMesh(const StandingMesh&) = delete;
+  StandingMesh& operator=(const StandingMesh&) = delete;
 };
 
 struct Loose {
@@ -95,11 +115,12 @@ struct Dynamics::Bodies {
   btStaticPlaneShape plane{{0, 0, 1}, 0};
   btCollisionObject floor;
   std::deque<Standing> standing;
+  std::deque<StandingMesh> meshes;
   std::deque<Hull> hulls;  // Bullet keeps their addresses
   std::deque<Loose> loose;
   BulletSteps steps{&dispatcher, &broad_phase, &solver, &configuration};
 
-  explicit Bodies(std::span<const Shape> shapes) {
+  Bodies(std::span<const Shape> shapes, std::span<const MeshObstacle> of_meshes) {
     // Contacts within 2 cm, whatever the size of a body: what comes nearer in a step is met before it is inside.
     dispatcher.setDispatcherFlags(dispatcher.getDispatcherFlags() &
                                   ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
@@ -124,6 +145,11 @@ struct Dynamics::Bodies {
                             btTransform(upright(shape.pose.heading), centre));
       steps.addCollisionObject(&standing.back().object, of_standing, of_rolling | of_flying | of_loose);
     }
+    for (const MeshObstacle& mesh : of_meshes) {
+      meshes.emplace_back(*mesh.mesh);
+      if (meshes.back().standing)
+        steps.addCollisionObject(&meshes.back().standing->object, of_standing, of_rolling | of_flying | of_loose);
+    }
   }
   ~Bodies() {
     for (Hull& hull : hulls) steps.removeConstraint(&hull.drive());
@@ -147,7 +173,8 @@ struct Dynamics::Bodies {
   }
 };
 
-Dynamics::Dynamics(std::span<const Shape> standing) : bodies_(std::make_unique<Bodies>(standing)) {}
+Dynamics::Dynamics(std::span<const Shape> standing, std::span<const MeshObstacle> meshes)
+    : bodies_(std::make_unique<Bodies>(standing, meshes)) {}
 Dynamics::~Dynamics() = default;
 
 void Dynamics::add_hull(const Shape& shape, double mass_kg, bool flies) {

@@ -2,9 +2,9 @@
 // Rigid bodies under forces, by Bullet.
 //
 //   floor      a plane at height 0, which only loose solids and what flies meet
-//   standing   upright solids that nothing moves
-//   hull       a robot: always upright, driven by motors; borne by its wheels whatever stands on it, or by its thrust
-//   loose      a box or cylinder with a mass, free in space: it slides, turns, falls, tips over
+//   standing   upright solids and meshes that nothing moves; of meshes what is above the floor by more than a
+//   millimetre hull       a robot: always upright, driven by motors; borne by its wheels whatever stands on it, or by
+//   its thrust loose      a box or cylinder with a mass, free in space: it slides, turns, falls, tips over
 //
 // The friction of two is the product of their coefficients; nothing bounces. One thread, steps of the caller's length,
 // a fixed number of iterations, everything in the order in which it was added: the same calls give the same bits from
@@ -16,6 +16,7 @@
 #include <span>
 
 #include "world/bullet/loose_solid.hpp"
+#include "world/triangle_mesh.hpp"
 #include "world/vehicles/vehicle.hpp"
 
 namespace waitpoint::world {
@@ -31,7 +32,7 @@ struct DriveAim {
 
 class Dynamics {
  public:
-  explicit Dynamics(std::span<const Shape> standing);
+  explicit Dynamics(std::span<const Shape> standing, std::span<const MeshObstacle> meshes = {});
   ~Dynamics();
 
   /// Hulls and loose solids are numbered from 0, each in the order they are added. A hull's shape is given in the

@@ -160,11 +160,7 @@ std::optional<std::string> FclWorld::move_body(BodyId id, const Pose& pose) {
     if (separation(outline, senses_.standing().outline(obstacle)).distance_m <= contact_gap_m)
       return description_.obstacles[obstacle].name;
   }
-  senses_.surfaces().near(bounds_of(outline).grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, obstacles);
-  for (const std::uint32_t number : obstacles) {
-    if (senses_.surfaces().separation(outline, shape.z_low_m, shape.z_high_m, number).distance_m <= contact_gap_m)
-      return description_.meshes[senses_.surfaces().mesh(number)].name;
-  }
+  if (auto mesh = mesh_met(shape, outline)) return mesh;
   if (auto other = body_met(shape, outline, own)) return other;
   vehicle.put(pose);
   meetings_.forget();

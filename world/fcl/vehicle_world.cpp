@@ -34,4 +34,15 @@ std::optional<std::string> VehicleWorld::body_met(const Shape& shape, const Outl
   return std::nullopt;
 }
 
+std::optional<std::string> VehicleWorld::mesh_met(const Shape& shape, const Outline& outline) const {
+  const Surfaces& surfaces = senses_.surfaces();
+  std::vector<std::uint32_t> near;
+  surfaces.near(bounds_of(outline).grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, near);
+  for (const std::uint32_t number : near) {
+    if (surfaces.separation(outline, shape.z_low_m, shape.z_high_m, number).distance_m <= contact_gap_m)
+      return description_.meshes[surfaces.mesh(number)].name;
+  }
+  return std::nullopt;
+}
+
 }  // namespace waitpoint::world

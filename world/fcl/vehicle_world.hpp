@@ -46,6 +46,8 @@ class VehicleWorld : public World {
   std::size_t find_obstacle(const std::string& name) const;
   /// The name of a body that something of that shape would touch there, leaving out number `except`.
   std::optional<std::string> body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const;
+  /// The name of a mesh that it would touch there.
+  std::optional<std::string> mesh_met(const Shape& shape, const Outline& outline) const;
 
   WorldDescription description_;
   const double step_s_;

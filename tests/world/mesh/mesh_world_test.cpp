@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/world/meshes.hpp"
+#include "world/bullet/bullet_world.hpp"
 #include "world/mesh/surfaces.hpp"
 #include "world/start_check.hpp"
 
@@ -150,6 +151,21 @@ TEST(MeshWorld, SensorsSeeIt) {
     EXPECT_NEAR(ranges[0], 1.75, 1e-9);
     EXPECT_EQ(ranges[6], body.sonars[0].range_max_m);
   }
+}
+
+TEST(MeshWorld, HoldsADrivenBodyInAWorldOfForces) {
+  BodyDescription body = disc({});
+  body.base = {};
+  // A hall with its floor, so that wheels roll on a mesh.
+  const WorldDescription description = world_of(box_mesh({-3, -3, 0}, {3, 3, 2}), body);
+  const auto world = make_bullet_world(description, 1);
+  if (world == nullptr) GTEST_SKIP() << "without Bullet";
+  world->command(only, {0.9, 0});
+  for (int step = 0; step < 600; ++step) world->step();
+  EXPECT_NEAR(world->body(only).pose.x, 2.75, 0.02);
+  EXPECT_NEAR(world->body(only).pose.y, 0, 0.02);
+  EXPECT_TRUE(world->body(only).stalled);
+  EXPECT_EQ(world->move_body(only, {2.9, 0, 0}), "mesh");
 }
 
 }  // namespace
