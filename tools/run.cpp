@@ -10,6 +10,7 @@
 #include "modules/bridge/expectation.hpp"
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/journal.hpp"
+#include "modules/bridge/plan.hpp"
 #include "modules/bridge/scenario_reader.hpp"
 #include "tools/duration_files.hpp"
 #include "tools/interruption.hpp"
@@ -58,7 +59,10 @@ class Outputs {
       summary_->commit();
     }
     if (picture_) {
-      picture_->write(picture_svg(experiment.world().description().obstacles, result));
+      const world::WorldDescription& world = experiment.world().description();
+      std::vector<world::Obstacle> shown = world.obstacles, meshes = bridge::meshes_on_plan(world);
+      shown.insert(shown.end(), meshes.begin(), meshes.end());
+      picture_->write(picture_svg(shown, result));
       picture_->commit();
     }
     if (trajectory_) trajectory_->write(result);

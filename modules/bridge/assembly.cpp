@@ -52,6 +52,7 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
   if (scenario.map) {
     file = load(*scenario.map);
     description.obstacles.insert(description.obstacles.end(), file->obstacles.begin(), file->obstacles.end());
+    description.meshes.insert(description.meshes.end(), file->meshes.begin(), file->meshes.end());
   }
   KnownMaps maps(scenario, file.get());
   check_goals(scenario, [&](const RobotScenario& robot, Point goal) { return place_on(maps.of(robot)->map(), goal); });

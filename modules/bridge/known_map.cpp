@@ -30,10 +30,17 @@ class Extent {
   bool empty_ = true;
 };
 
+void hold(Extent& extent, const std::vector<world::MeshObstacle>& meshes) {
+  for (const world::MeshObstacle& obstacle : meshes)
+    for (const world::SpaceVector& corner : obstacle.mesh->corners) extent.hold({corner.x, corner.y}, 0);
+}
+
 OccupancyGrid grid_around(const Scenario& scenario, const world::WorldFile* map) {
   Extent extent;
   for (const world::Obstacle& obstacle : scenario.shapes) extent.hold(bounds_of(outline_of(obstacle.shape)));
+  hold(extent, scenario.meshes);
   if (map != nullptr) {
+    hold(extent, map->meshes);
     for (const world::Obstacle& obstacle : map->obstacles) extent.hold(bounds_of(outline_of(obstacle.shape)));
     for (const RobotScenario& robot : scenario.robots) {
       extent.hold(robot.body.start.position(), drawn_margin_m);
@@ -66,6 +73,12 @@ OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map, c
   add(scenario.shapes);
   if (map != nullptr && !has_cells) add(map->obstacles);
   world::draw(known, grid);
+  const auto draw = [&](const std::vector<world::MeshObstacle>& meshes) {
+    for (const world::MeshObstacle& obstacle : meshes)
+      if (obstacle.known) world::draw(*obstacle.mesh, body.z_low_m, body.z_high_m, grid);
+  };
+  draw(scenario.meshes);
+  if (map != nullptr) draw(map->meshes);
   return grid;
 }
 

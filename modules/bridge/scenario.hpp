@@ -98,11 +98,13 @@ struct Scenario {
   world::Engine engine = world::Engine::fcl;
   Location engine_written;  ///< where it is not left out
   std::optional<MapFile> map;
-  std::optional<io::Medium> medium;      ///< between robots; none: they cannot send to each other
-  std::vector<world::Obstacle> shapes;   ///< without the map's
-  std::vector<Location> shapes_written;  ///< of each shape
-  std::vector<RobotScenario> robots;     ///< in the order of the file, those of the map last; their names differ
-  std::vector<std::string> warnings;     ///< of the map's robots
+  std::optional<io::Medium> medium;         ///< between robots; none: they cannot send to each other
+  std::vector<world::Obstacle> shapes;      ///< without the map's
+  std::vector<Location> shapes_written;     ///< of each shape
+  std::vector<world::MeshObstacle> meshes;  ///< of the shapes that are meshes
+  std::vector<Location> meshes_written;
+  std::vector<RobotScenario> robots;  ///< in the order of the file, those of the map last; their names differ
+  std::vector<std::string> warnings;  ///< of the map's robots, and of the shapes' files
 
   /// The world without the map's obstacles; bodies in the order of the robots.
   world::WorldDescription world_without_map() const;

@@ -9,6 +9,9 @@ std::string place_of_obstacle(const Scenario& scenario, const std::string& name)
   for (std::size_t i = 0; i < scenario.shapes.size(); ++i) {
     if (scenario.shapes[i].name == name) return " (" + scenario.shapes_written[i].text() + ")";
   }
+  for (std::size_t i = 0; i < scenario.meshes.size(); ++i) {
+    if (scenario.meshes[i].name == name) return " (" + scenario.meshes_written[i].text() + ")";
+  }
   return scenario.map ? " (" + scenario.map->file.string() + ")" : "";
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 
 #include "modules/bridge/expectation.hpp"
 #include "modules/bridge/map_robots.hpp"
@@ -10,6 +11,7 @@
 #include "modules/bridge/robot_reader.hpp"
 #include "modules/bridge/scenario_document.hpp"
 #include "modules/bridge/shape_reader.hpp"
+#include "modules/bridge/surface_reader.hpp"
 #include "modules/bridge/yaml_reader.hpp"
 
 namespace waitpoint::bridge {
@@ -50,16 +52,25 @@ MapFile read_map(const YamlNode& node) {
 }
 
 void read_shapes(const YamlNode& list, double height_m, Scenario& scenario) {
+  std::map<std::string, Location> names;
+  world::LeftOut left_out;
+  std::size_t number = 0;
   for (const YamlNode& item : read_list(list, "shapes")) {
-    world::Obstacle obstacle = read_obstacle(item, height_m, scenario.shapes.size() + 1);
-    for (std::size_t i = 0; i < scenario.shapes.size(); ++i) {
-      if (scenario.shapes[i].name != obstacle.name) continue;
-      throw item.written.bad("there are two shapes called '" + obstacle.name + "', the first at " +
-                             scenario.shapes_written[i].text());
+    const std::string name = shape_name(item, ++number);
+    if (item.find("mesh") != nullptr) {
+      scenario.meshes.push_back(read_mesh(item, name, left_out));
+      scenario.meshes_written.push_back(item.written);
+    } else if (item.find("octomap") != nullptr) {
+      for (world::Obstacle& box : read_octomap(item, name, left_out)) scenario.shapes.push_back(std::move(box));
+    } else {
+      scenario.shapes.push_back(read_obstacle(item, height_m, number));
     }
-    scenario.shapes.push_back(std::move(obstacle));
-    scenario.shapes_written.push_back(item.written);
+    scenario.shapes_written.resize(scenario.shapes.size(), item.written);
+    const auto [first, is_new] = names.emplace(name, item.written);
+    if (!is_new)
+      throw item.written.bad("there are two shapes called '" + name + "', the first at " + first->second.text());
   }
+  for (std::string& warning : left_out.warnings()) scenario.warnings.push_back(std::move(warning));
 }
 
 void read_world(const YamlNode& node, Scenario& scenario) {
@@ -103,6 +114,7 @@ world::WorldDescription Scenario::world_without_map() const {
   world.step = step;
   world.engine = engine;
   world.obstacles = shapes;
+  world.meshes = meshes;
   for (const RobotScenario& robot : robots) world.bodies.push_back(robot.body);
   return world;
 }

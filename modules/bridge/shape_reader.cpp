@@ -75,9 +75,13 @@ Shape read_body_shape(const YamlNode& node) {
   return read_shape(map, false, std::nullopt);
 }
 
+std::string shape_name(const YamlNode& node, std::size_t number) {
+  const std::string_view given = name_of(node);
+  return given.empty() ? "shape " + std::to_string(number) : std::string(given);
+}
+
 world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number) {
-  const std::string given(name_of(node));
-  const std::string name = given.empty() ? "shape " + std::to_string(number) : given;
+  const std::string name = shape_name(node, number);
   const YamlMap map(node, "'" + name + "'",
                     {"name", "corners_m", "centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m", "known",
                      "mass_kg", "friction"});

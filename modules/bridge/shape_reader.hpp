@@ -6,6 +6,7 @@
 //   {centre_m: [x, y], radius_m: 0.3}
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "modules/bridge/yaml_reader.hpp"
@@ -18,8 +19,10 @@ inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 t
 /// A robot's body, about its own origin: `centre_m` may be left out, `height_m` may not.
 world::Shape read_body_shape(const YamlNode& node);
 
+/// What a shape is called: as it says, or "shape N", N its place in the list, from 1: `number`.
+std::string shape_name(const YamlNode& node, std::size_t number);
+
 /// A shape of the world; a cylinder or turned box needs its centre. `height_m` is what it has if it does not say.
-/// A shape without a name is called "shape N", N its place in the list, from 1: `number`.
 world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number);
 
 /// `[x, y]` or `{x_m: x, y_m: y}`.

@@ -87,6 +87,43 @@ TEST_F(WorldFiles, ARobotFindsItsWayThroughAWorldOfStages) {
             std::vector<std::string>{map + ": 1 robot of the file left out: the robots are the scenario's"});
 }
 
+// The same room as a mesh in millimetres, with its floor and a ceiling.
+TEST_F(WorldFiles, ARobotFindsItsWayInAMeshTheSameWithBothEngines) {
+  std::string text;
+  int corners = 0;
+  const auto quad = [&](const std::string& a, const std::string& b, const std::string& c, const std::string& d) {
+    for (const std::string& corner : {a, b, c, d}) text += "v " + corner + "\n";
+    text += "f " + std::to_string(corners + 1) + " " + std::to_string(corners + 2) + " " + std::to_string(corners + 3) +
+            " " + std::to_string(corners + 4) + "\n";
+    corners += 4;
+  };
+  const auto wall = [&](const std::string& from, const std::string& to) {
+    quad(from + " 0", to + " 0", to + " 2500", from + " 2500");
+  };
+  wall("0 0", "8000 0");
+  wall("8000 0", "8000 6000");
+  wall("8000 6000", "0 6000");
+  wall("0 6000", "0 0");
+  wall("4010 0", "4010 4000");
+  for (const char* height : {" 0", " 2500"})
+    quad(std::string("0 0") + height, std::string("8000 0") + height, std::string("8000 6000") + height,
+         std::string("0 6000") + height);
+  const std::string room = write("room.obj", text);
+  std::optional<bridge::RunResult> first;
+  for (const char* engine : {"fcl", "slice"}) {
+    const bridge::RunResult result = run(bridge::read_scenario(
+        test::project_root() / "scenarios" / "office.yaml",
+        {"world.shapes=[{mesh: " + room + ", scale: 0.001}]", "until_s=600", std::string("world.engine=") + engine,
+         "robots.0.start=[2, 1, 90]", "robots.0.goals=[[6, 1], [2, 2]]"}));
+    expect_all_reached(result);
+    EXPECT_GT(result.robots[0].distance_m, 14) << "around the wall, and back";
+    if (first) {
+      EXPECT_EQ(result.digest, first->digest);
+    }
+    first = result;
+  }
+}
+
 TEST_F(WorldFiles, AHeightIsForWhatHasNone) {
   const std::string map = write("a.world", "model( size [1 1 1] )\n");
   const bridge::Scenario scenario = scenario_on("{file: " + map + ", height_m: 2}", "[2, 1, 90]", "[]");

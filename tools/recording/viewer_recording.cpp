@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/recording/viewer_recording.hpp"
 
+#include "modules/bridge/plan.hpp"
+
 namespace waitpoint::tools {
 namespace {
 
@@ -29,6 +31,7 @@ void ViewerRecording::record(const bridge::Experiment& experiment, Time now) {
   if (is_sampled) {
     sampled_ = now;
     write_clock();
+    if (!meshes_) meshes_ = shapes_of(bridge::meshes_on_plan(experiment.world().description()));
     record_obstacles(experiment.world().description().obstacles);
   }
   for (OfRobot& robot : robots_) {
@@ -39,6 +42,7 @@ void ViewerRecording::record(const bridge::Experiment& experiment, Time now) {
 
 void ViewerRecording::record_obstacles(const std::vector<world::Obstacle>& obstacles) {
   std::vector<world::Shape> shapes = shapes_of(obstacles);
+  shapes.insert(shapes.end(), meshes_->begin(), meshes_->end());
   if (drawn_ == shapes) return;
   write_obstacles(shapes);
   drawn_ = std::move(shapes);

@@ -58,7 +58,8 @@ class ViewerRecording : public Recording {
 
   const bridge::Scenario& scenario_;
   std::vector<OfRobot> robots_;
-  std::optional<std::vector<world::Shape>> drawn_;  // the obstacles, as they were written last
+  std::optional<std::vector<world::Shape>> meshes_;  // as a plan shows them, once they have been looked at
+  std::optional<std::vector<world::Shape>> drawn_;   // the obstacles, as they were written last
   std::optional<Time> sampled_;
 };
 
