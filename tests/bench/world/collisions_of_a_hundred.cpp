@@ -40,11 +40,14 @@ class Office final : public world::MeetingPlace {
 
   const Outline& outline(std::uint32_t body) const override { return step_->outlines[body]; }
   Mover mover(std::uint32_t body) const override { return Mover(own_, step_->outlines[body], step_->arcs[body]); }
-  void near(const world::Bounds& bounds, std::vector<std::uint32_t>& found) const override {
+  void near(std::uint32_t, const world::Bounds& bounds, std::vector<std::uint32_t>& found) const override {
     const world::Heights any;
     footprints_.near(bounds, 0, any.low_m, any.high_m, found);
   }
   Mover obstacle(std::uint32_t obstacle) const override { return Mover(obstacles_[obstacle]); }
+  double gap_m(std::uint32_t body, std::uint32_t obstacle) const override {
+    return world::separation(outline(body), obstacles_[obstacle]).distance_m;
+  }
 
   /// How all drive for so many steps; one that has touched something turns to anywhere.
   std::vector<Step> drive(std::size_t count) {

@@ -20,7 +20,8 @@ class ByEmbree : public Contender {
       : device_(rtcNewDevice("threads=1")), standing_(rtcNewScene(device_)), moving_(rtcNewScene(device_)) {
     WAITPOINT_CHECK(device_ != nullptr, "Embree does not start");
     rtcSetSceneBuildQuality(standing_, RTC_BUILD_QUALITY_HIGH);
-    attach(standing_, place.obstacles, RTC_BUILD_QUALITY_HIGH);
+    if (!place.obstacles.empty()) attach(standing_, place.obstacles, RTC_BUILD_QUALITY_HIGH);
+    for (const world::MeshObstacle& mesh : place.meshes) attach(*mesh.mesh);
     if (place.robots.empty()) return;
     rtcSetSceneFlags(moving_, RTC_SCENE_FLAG_DYNAMIC);
     robots_ = attach(moving_, place.robots, RTC_BUILD_QUALITY_REFIT);
@@ -83,6 +84,22 @@ class ByEmbree : public Contender {
         }
       }
     }
+  }
+
+  void attach(const world::TriangleMesh& mesh) {
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    auto* corner = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), mesh.corners.size()));
+    for (const world::SpaceVector& c : mesh.corners)
+      for (const double coordinate : {c.x, c.y, c.z}) *corner++ = static_cast<float>(coordinate);
+    auto* number = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                  3 * sizeof(unsigned), mesh.triangles.size()));
+    for (const auto& triangle : mesh.triangles) number = std::copy(triangle.begin(), triangle.end(), number);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(standing_, geometry);
+    rtcReleaseGeometry(geometry);  // the scene keeps it
+    rtcCommitScene(standing_);
   }
 
   RTCGeometry attach(RTCScene scene, std::span<const world::Shape> shapes, RTCBuildQuality quality) {

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exact slice, and the walk of FCL's trees.
 #include "tests/bench/world/contenders.hpp"
+#include "world/fcl/mesh_tree.hpp"
 #include "world/fcl/scene.hpp"
+#include "world/mesh/surfaces.hpp"
 #include "world/slice/depth_buffer.hpp"
 #include "world/slice/footprints.hpp"
 
 namespace waitpoint::bench {
 namespace {
 
+world::Slice slice_of(const Place& place) {
+  const world::Surfaces::Cut cut = world::Surfaces(place.meshes).cut(height_m);
+  return world::Slice(place.obstacles, height_m, cut.segments, cut.meshes);
+}
+
 class BySlice : public Contender {
  public:
-  explicit BySlice(const Place& place) : slice_(place.obstacles, height_m), robots_(place.robots) {}
+  explicit BySlice(const Place& place) : slice_(slice_of(place)), robots_(place.robots) {}
 
   void place(std::span<const world::Shape> robots) override {
     for (std::size_t i = 0; i < robots.size(); ++i) robots_.place(i, world::outline_of(robots[i]));
@@ -31,7 +38,8 @@ class BySlice : public Contender {
 
 class ByFclTrees : public Contender {
  public:
-  explicit ByFclTrees(const Place& place) : obstacles_(place.obstacles), robots_(place.robots, 0.4) {}
+  explicit ByFclTrees(const Place& place)
+      : obstacles_(place.obstacles), meshes_(place.meshes), robots_(place.robots, 0.4) {}
 
   void place(std::span<const world::Shape> robots) override {
     for (std::uint32_t i = 0; i < robots.size(); ++i) robots_.place(i, world::outline_of(robots[i]));
@@ -42,11 +50,14 @@ class ByFclTrees : public Contender {
     for (const Point& d : directions()) turned_.push_back({c * d.x - s * d.y, s * d.x + c * d.y});
     std::fill(ranges_m.begin(), ranges_m.end(), range_max_m);
     obstacles_.cast(at.position(), turned_, height_m, world::Scene::none, ranges_m);
+    meshes_.cast(at.position(), turned_, height_m, ranges_m);
     robots_.cast(at.position(), turned_, height_m, own, ranges_m);
   }
 
  private:
-  world::Scene obstacles_, robots_;
+  world::Scene obstacles_;
+  world::MeshTree meshes_;
+  world::Scene robots_;
   std::vector<Point> turned_;
 };
 

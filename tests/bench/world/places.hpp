@@ -15,12 +15,16 @@ struct Place {
   std::vector<world::Shape> obstacles;
   std::vector<world::Shape> robots;  ///< discs, apart from each other and from what stands there
   std::vector<Pose> stations;        ///< in free space: the first are the robots' own
+  std::vector<world::MeshObstacle> meshes = {};
 };
 
 /// 40 x 30 m: rooms of 10 x 10 m with doors, furnished, 300 obstacles in all.
 Place office(std::size_t robots);
 /// 200 x 200 m: racks, pallets and columns, 5 000 obstacles.
 Place warehouse(std::size_t robots);
+
+/// 42 x 42 m: 49 rough things that stand about, a mesh of 50 176 triangles.
+Place mesh_hall();
 
 /// The corners of an outline, counter-clockwise, for who has no discs: of one, sixteen on it.
 std::vector<Point> corners(const world::Shape& shape);

@@ -28,30 +28,30 @@ constexpr const char *us = "waitpoint", *fcl_trees = "waitpoint, fcl", *grid = "
 
 struct Subject {
   std::string name;
-  bool peer;
+  bool peer, knows_meshes;
   std::unique_ptr<Contender> (*make)(const Place&);  // null: not installed
 };
 const std::vector<Subject> subjects = {
-    {us, false, &our_slice},      {fcl_trees, false, &our_fcl_trees}, {grid, false, &grid_of_5_cm},
+    {us, false, true, &our_slice},       {fcl_trees, false, true, &our_fcl_trees}, {grid, false, false, &grid_of_5_cm},
 #ifdef WAITPOINT_BENCH_EMBREE
-    {embree_name, true, &embree},
+    {embree_name, true, true, &embree},
 #else
-    {embree_name, true, nullptr},
+    {embree_name, true, true, nullptr},
 #endif
 #ifdef WAITPOINT_BENCH_BOX2D
-    {box2d_name, true, &box2d},
+    {box2d_name, true, false, &box2d},
 #else
-    {box2d_name, true, nullptr},
+    {box2d_name, true, false, nullptr},
 #endif
 #ifdef WAITPOINT_BENCH_BULLET
-    {bullet_name, true, &bullet},
+    {bullet_name, true, false, &bullet},
 #else
-    {bullet_name, true, nullptr},
+    {bullet_name, true, false, nullptr},
 #endif
 #ifdef WAITPOINT_BENCH_ODE
-    {ode_name, true, &ode},
+    {ode_name, true, false, &ode},
 #else
-    {ode_name, true, nullptr},
+    {ode_name, true, false, nullptr},
 #endif
 };
 
@@ -59,6 +59,7 @@ struct Bounds {
   std::map<std::string, double> musts, aims;  // times faster than whom, at least
 };
 const Bounds of_scans = {{{embree_name, 2.5}, {box2d_name, 25}, {grid, 7}}, {{embree_name, 3.5}}};
+const Bounds of_mesh_scans = {{{embree_name, 1.5}}, {{embree_name, 2.5}}};
 const Bounds of_collisions = {{{fcl_name, 5}}, {{fcl_name, 10}}};
 const Bounds of_steps = {{{embree_name, 1 / 0.4}}, {{embree_name, 1 / 0.28}}};
 
@@ -105,7 +106,7 @@ class Bench {
       for (std::size_t i = 0; i < place.stations.size(); ++i) contender.scan(place.stations[i], own(place, i), ranges);
     };
     measure(entries, pass);
-    print(place.name + ", a scan", entries, "ns a beam", 1 / answers_, of_scans);
+    print(place.name + ", a scan", entries, "ns a beam", 1 / answers_, place.meshes.empty() ? of_scans : of_mesh_scans);
   }
 
   /// Robots move by a centimetre, then all scan.
@@ -164,6 +165,7 @@ class Bench {
     std::vector<Entry> entries;
     for (const Subject& subject : subjects) {
       if (subject.make == nullptr || (subject.peer && !peers_)) continue;
+      if (!subject.knows_meshes && !place.meshes.empty()) continue;
       entries.push_back({subject.name, subject.make(place)});
     }
     for (std::size_t i = 0; i < place.stations.size(); ++i) {
@@ -261,6 +263,7 @@ int main(int argc, char** argv) {
         if (robots > 0) bench.steps(place);
       }
     }
+    if (const Place place = mesh_hall(); place.name.find(pattern) != std::string::npos) bench.scans(place);
     Figures figures;
     for (const auto& [name, measure] : figures_alone)
       if (std::string_view(name).find(pattern) != std::string_view::npos) measure(quick, figures);
