@@ -51,7 +51,7 @@ std::filesystem::path commands() {
   std::vector<std::string> words = files.programs.words();
   words.front() = files.program.string();
   const std::string wrapper = "set exec-wrapper env" + quoted(environment_of(files, memory));
-  become_gdb(options, {"-iex", "set startup-with-shell on", "-ex", wrapper}, words);
+  become_gdb(options, {"-iex", "set breakpoint pending on", "-ex", wrapper}, words);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -125,6 +126,19 @@ class Instrumented(ExecCase):
             again = explore(*replay_words(done.stdout))
             self.assertIn("the same run as in the record", again.stderr)
             self.assertIn("racing.cpp:", again.stderr)
+
+
+class Debugging(ExecCase):
+    def test_gdb_sees_the_threads_and_changes_no_digest(self):
+        if not shutil.which("gdb"):
+            self.skipTest("there is no gdb")
+        program = self.compile("lost_update.c", "-g")
+        commands = ("break pay_in", "run", "info fibers", "next-event", "virtual-time", "delete", "continue")
+        done = subprocess.run([str(WAITPOINT), "gdb", "-batch", *(word for text in commands for word in ("-ex", text)),
+                               "--", "exec", "--seed", "3", "--", str(program)], capture_output=True, text=True, timeout=120)
+        self.assertRegex(done.stdout, r"\* +2 +thread 1 +lost_update +- +0\.000000000 +running")
+        self.assertRegex(done.stdout, r"event \d+ at 0\.000000000 s: \S.* of lost_update: ")
+        self.assertIn("exited normally", done.stdout)
 
 
 class Refusals(ExecCase):
