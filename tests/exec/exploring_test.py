@@ -129,7 +129,7 @@ class Instrumented(ExecCase):
 
 
 class Debugging(ExecCase):
-    def test_gdb_sees_the_threads_and_changes_no_digest(self):
+    def test_gdb_sees_the_threads(self):
         if not shutil.which("gdb"):
             self.skipTest("there is no gdb")
         program = self.compile("lost_update.c", "-g")
