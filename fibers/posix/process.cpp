@@ -125,22 +125,27 @@ bool wait_for_news(const Awaited& awaited) {
 // Nothing comes between these and the fork: of what is to be done before one, the first that was named is done last.
 void register_fork() { pthread_atfork(copy_record, drop_copy, begin_as_child); }
 
+// Whose process is a host's: a copy of that would be no process of the program's.
+bool is_guest() { return has_host && is_simulated(); }
+
 }  // namespace waitpoint::posix
 
 using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED pid_t fork() noexcept {
-  if (is_simulated() && has_host) return fail(ENOSYS);  // a copy of the host is no process of a guest
+  if (is_guest()) return fail(ENOSYS);
   return is_simulated() ? fork_by(WAITPOINT_NEXT(fork), true) : WAITPOINT_NEXT(fork)();
 }
 WAITPOINT_INTERPOSED pid_t _Fork() noexcept {
+  if (is_guest()) return fail(ENOSYS);
   return is_simulated() ? fork_by(WAITPOINT_NEXT(_Fork), false) : WAITPOINT_NEXT(_Fork)();
 }
 
 // The child does not borrow its parent's memory, but the parent waits until it is done with it, as programs may expect.
 WAITPOINT_INTERPOSED pid_t vfork() noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(fork)();
+  if (is_guest()) return fail(ENOSYS);
   int ends[2] = {-1, -1};
   if (WAITPOINT_NEXT(pipe2)(ends, O_CLOEXEC) != 0) return fork();
   constexpr int out_of_the_way = 512;
@@ -166,6 +171,7 @@ WAITPOINT_INTERPOSED pid_t wait4(pid_t pid, int* status, int options, rusage* us
   if (!is_simulated()) return WAITPOINT_NEXT(wait4)(pid, status, options, usage);
   if ((options & WNOHANG) != 0) {
     spend(cost_of_giving_way);  // a loop that asks without waiting is to end
+    const InKernel within;
     kernel::running->scheduler->yield();
   } else if (!wait_for_news(awaited_by(pid, options))) {
     return -1;

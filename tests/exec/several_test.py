@@ -28,8 +28,9 @@ def several(*programs):
     return words
 
 
-def execute(words, *options):
-    return subprocess.run([WAITPOINT, "exec", *options, "--", *words], capture_output=True, text=True, timeout=30)
+def execute(words, *options, folder=None):
+    return subprocess.run([WAITPOINT, "exec", *options, "--", *words], capture_output=True, text=True, timeout=30,
+                          cwd=folder)
 
 
 def digest(run):
@@ -116,7 +117,7 @@ class Instances(unittest.TestCase):
         self.assertEqual(run.returncode, 2)
 
     def test_one_alone(self):
-        run = execute([str(word) for word in instance(7)])
+        run = execute(["instance.so", "7"], folder=PROGRAMS)
         self.assertEqual(run.stdout, "7: 3 3 3 3 3, 2\n7: destroyed at 3\n")
         self.assertTrue(run.stderr.endswith("waitpoint: exit status: instance 0\n"), run.stderr)
 

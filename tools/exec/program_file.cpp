@@ -106,8 +106,7 @@ bool is_shared_object(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   Elf64_Ehdr header;
   return read(file, 0, header) && std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 && is_x86_64(header) &&
-         header.e_type == ET_DYN && has_part(file, header, PT_DYNAMIC) && !has_part(file, header, PT_INTERP) &&
-         path.string().find('/') != std::string::npos;
+         header.e_type == ET_DYN && has_part(file, header, PT_DYNAMIC) && !has_part(file, header, PT_INTERP);
 }
 
 std::string cannot_be_simulated(const std::filesystem::path& program) {
