@@ -76,7 +76,7 @@ void end_member(int status) {
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   end_other_threads(member, scheduler);
   close_descriptors_of(member);
-  if (member.record != nullptr) system_v::undo_semaphores_of(*member.robot);
+  system_v::undo_semaphores_of(member);
   member.ended = true;
   member.status = status & 0xFF;
   if (member.record != nullptr) {

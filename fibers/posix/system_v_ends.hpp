@@ -2,7 +2,7 @@
 // What becomes of System V's objects when threads, programs and runs end.
 #pragma once
 
-#include "fibers/kernel/task.hpp"
+#include "fibers/posix/program_state.hpp"
 
 namespace waitpoint::posix::system_v {
 
@@ -11,8 +11,8 @@ void forget_waiter(const kernel::Task& task);
 void forget_semaphore_waiter(const kernel::Task& task);
 void forget_message_waiter(const kernel::Task& task);
 
-/// Takes back what the program, a robot of the simulation, did to semaphores with SEM_UNDO.
-void undo_semaphores_of(const kernel::Robot& program);
+/// Takes back what the program did to semaphores with SEM_UNDO.
+void undo_semaphores_of(const Program& program);
 
 /// There are none any more, and identifiers begin anew: nobody is left who uses any.
 void forget_memory();

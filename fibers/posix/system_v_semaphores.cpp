@@ -40,7 +40,7 @@ struct Waiting {
 
 /// What a program has done with SEM_UNDO to a set, negated.
 struct Adjustments {
-  const kernel::Robot* program;
+  const Program* program;
   Adjustments* next;
   int* by;  // behind it
 };
@@ -64,7 +64,7 @@ struct Set : Common {
 Table<Set, sets_max> sets;
 
 // Null without memory.
-Adjustments* adjustments_of(Set& set, const kernel::Robot* program) {
+Adjustments* adjustments_of(Set& set, const Program* program) {
   for (Adjustments* each = set.adjustments; each != nullptr; each = each->next)
     if (each->program == program) return each;
   const std::size_t bytes = sizeof(Adjustments) + static_cast<std::size_t>(set.size) * sizeof(int);
@@ -76,7 +76,7 @@ Adjustments* adjustments_of(Set& set, const kernel::Robot* program) {
   return set.adjustments = made;
 }
 
-const kernel::Robot* program_of(const kernel::Task* task) { return task != nullptr ? task->robot : nullptr; }
+const Program* program_of(const kernel::Task* task) { return task != nullptr ? thread_of(*task).program : nullptr; }
 
 // Whether all operations of a call could be done, and were; if not, which one is the first in the way and, if it can
 // never be done, why.
@@ -348,7 +348,7 @@ void forget_semaphore_waiter(const kernel::Task& task) {
 
 void forget_semaphores() { sets.clear(); }
 
-void undo_semaphores_of(const kernel::Robot& program) {
+void undo_semaphores_of(const Program& program) {
   for (int slot = 0; slot < sets.end(); ++slot) {
     Set* const set = sets.in_slot(slot);
     if (set == nullptr) continue;

@@ -65,6 +65,13 @@ class Chain(unittest.TestCase):
         self.assertEqual(run.returncode, 124)
         self.assertRegex(run.stderr, r"deadlock at .*\n  filter: main waits for .*\n  writer: main waits for .*\n")
 
+    def test_what_a_program_holds_at_its_end_is_given_back_if_it_asked_for_that(self):
+        run = execute(several(*([PROGRAMS / "holder.so", 5] for _ in range(3))))
+        self.assertEqual((run.returncode, run.stdout), (0, "has it\n" * 3), run.stderr)
+        holders = ", ".join(f"{{name: h{i}, file: {PROGRAMS / 'holder.so'}, arguments: [5]}}" for i in range(3))
+        run = office("run", "--until", "5", programs=f"[{holders}]")
+        self.assertEqual(run.stdout.count("ended with exit status 0\n"), 3, run.stdout)
+
     def test_schedules_are_explored(self):
         words = several(["a=" + INSTANCE, 1], ["b=" + INSTANCE, 1, "1"])
         run = subprocess.run([WAITPOINT, "explore", "--iterations", "3", "--exec", "--", *words], capture_output=True,
