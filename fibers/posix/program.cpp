@@ -171,10 +171,7 @@ void run_program(int (*body)(), const char* name) {
   scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
   static constinit Thread thread;
   thread.start.posix = run_body;
-  kernel::Task* const task =
-      scheduler.spawn(record->robot, {.name = "main", .stack = kernel::StackSize::program}, run_thread, &thread);
-  if (task == nullptr) refuse("there is no address space for the stacks of threads");
-  adopt_main_thread(thread, program, *task);
+  if (!begin_main_thread(thread, program, scheduler)) refuse("there is no address space for the stacks of threads");
   // No frame that is on this stack now is ever left by its return.
   draw_stack_guard(thread.area);
   // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).

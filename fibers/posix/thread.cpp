@@ -163,16 +163,15 @@ void begin_again_as_first(Thread& thread) {
   last_id = 0;
 }
 
-void adopt_main_thread(Thread& thread, Program& program, kernel::Task& task) {
+bool begin_main_thread(Thread& thread, Program& program, kernel::Scheduler& scheduler) {
   main_thread = &thread;
   thread.program = &program;
-  thread.task = &task;
   thread.area = own_thread_area();
   thread.id = getpid();
   thread.blocked = signals_of_program.blocked_before_main;
   std::strncpy(thread.name, program_invocation_short_name, sizeof thread.name - 1);
   thread_of_area(thread.area) = &thread;
-  count_threads(program);
+  return begin(thread, scheduler, "main");
 }
 
 Thread* make_main_thread(Program& program, kernel::Scheduler& scheduler, void* (*body)(void*), void* argument) {

@@ -138,8 +138,9 @@ int join(pthread_t id, void** result, Time deadline);
 [[noreturn]] void end_thread(Thread& thread);
 /// The running thread ends as it is: nothing of its own is called any more.
 [[noreturn]] void end_running_thread();
-/// The thread that main() runs in, where the process is one program: it has the area of the process's own thread.
-void adopt_main_thread(Thread& thread, Program& program, kernel::Task& task);
+/// The thread that main() runs in, where the process is one program: it has the area of the process's own thread. False
+/// without memory.
+bool begin_main_thread(Thread& thread, Program& program, kernel::Scheduler& scheduler);
 /// The first thread of one of several programs; null without memory. It runs `body`.
 Thread* make_main_thread(Program& program, kernel::Scheduler& scheduler, void* (*body)(void*), void* argument);
 /// Ends all threads of `program` but the running one; nothing of theirs is unwound.
