@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "world/planar/ray.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -81,14 +82,20 @@ bool DepthBuffer::hidden(const Pending& what) const {
   return hidden(what.near_m2, what.first, static_cast<std::int32_t>(beams_) - 1) && hidden(what.near_m2, 0, what.last);
 }
 
-// The nearest on top of what was pending before.
-void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children) {
+// Shows `ask` what is narrow, at once; the rest is pending, the nearest on top of what was so before.
+template <class Ask>
+void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children,
+                                Ask ask) {
   Sight sight;
   const std::size_t before = pending_.size();
   for (unsigned seen = kernels_->look(bounds, view, sight); seen != 0; seen &= seen - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(seen));
     const Pending child = {sight.near_m2[i], children[i], sight.first[i], sight.last[i]};
     if (hidden(child)) continue;
+    if (child.child < 0 && is_narrow(child)) {
+      ask(static_cast<std::size_t>(~child.child), child);
+      continue;
+    }
     std::size_t at = pending_.size();
     pending_.push_back(child);
     for (; at > before && pending_[at - 1].near_m2 < child.near_m2; --at) pending_[at] = pending_[at - 1];
@@ -96,7 +103,27 @@ void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std
   }
 }
 
+void DepthBuffer::ask_narrow(const Outline& outline, std::uint32_t solid, const Pending& where) {
+  bool lowered = false;
+  for (auto i = static_cast<std::size_t>(where.first); i <= static_cast<std::size_t>(where.last); ++i) {
+    if (squared_up(ranges_m_[i]) < where.near_m2) continue;
+    const double range_m = hit_distance(outline, {origin_, {x_[i], y_[i]}});
+    if (range_m > ranges_m_[i]) continue;
+    const bool nearer = range_m < ranges_m_[i];
+    // A hit at the limit is none, and is not told from one.
+    if (identify_ && (nearer || (solids_[i] != no_solid && solid < solids_[i]))) solids_[i] = solid;
+    ranges_m_[i] = range_m;
+    lowered = lowered || nearer;
+  }
+  if (!lowered) return;
+  for (std::int32_t block = where.first / Beams::block; block <= where.last / Beams::block; ++block) {
+    const auto first = ranges_m_.begin() + block * Beams::block;
+    farthest_m2_[static_cast<std::size_t>(block)] = squared_up(*std::max_element(first, first + Beams::block));
+  }
+}
+
 void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending& where) {
+  if (is_narrow(where)) return ask_narrow(outline, solid, where);
   const auto question = outline.is_box ? kernels_->ask_box : kernels_->ask_disc;
   const std::int32_t first = where.first / Beams::block, last = where.last / Beams::block;
   if (where.first <= where.last) return question({outline, solid, first, last, where.near_m2}, beams());
@@ -109,14 +136,14 @@ template <class Ask>
 void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Ask ask) {
   if (nodes.empty() || beams_ == 0) return;
   pending_.clear();
-  push_in_sight(nodes[0].bounds, from, nodes[0].child);
+  push_in_sight(nodes[0].bounds, from, nodes[0].child, ask);
   while (!pending_.empty()) {
     const Pending next = pending_.back();
     pending_.pop_back();
     if (hidden(next)) continue;
     if (next.child >= 0) {
       const TreeNode& node = nodes[static_cast<std::size_t>(next.child)];
-      push_in_sight(node.bounds, from, node.child);
+      push_in_sight(node.bounds, from, node.child, ask);
     } else {
       ask(static_cast<std::size_t>(~next.child), next);
     }

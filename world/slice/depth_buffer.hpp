@@ -52,13 +52,21 @@ class DepthBuffer {
     std::int32_t child, first, last;
   };
 
+  /// What is so narrow is asked about at once, beam by beam: the kernels would take longer to begin than to answer.
+  static constexpr std::int32_t narrow_beams = 3;
+  static bool is_narrow(const Pending& what) {
+    return what.first <= what.last && what.last - what.first < narrow_beams;
+  }
+
   View view(Point middle, double extent_m) const;
   bool hidden(const Pending& what) const;
   bool hidden(float near_m2, std::int32_t first, std::int32_t last) const;
   template <class Ask>
   void walk(std::span<const TreeNode> nodes, const View& from, Ask ask);
-  void push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children);
+  template <class Ask>
+  void push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children, Ask ask);
   void ask(const Outline& outline, std::uint32_t solid, const Pending& where);
+  void ask_narrow(const Outline& outline, std::uint32_t solid, const Pending& where);
   Beams beams();
 
   const Kernels* kernels_;
