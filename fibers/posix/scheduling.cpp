@@ -21,8 +21,8 @@ namespace {
 Thread* thread_with(pid_t id) {
   if (!is_simulated()) return nullptr;
   if (id == 0) return &this_thread();
-  for (kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
-    if (thread_of(*task).id == id) return &thread_of(*task);
+  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id == id) return &thread_of(*task);
   return nullptr;
 }
 

@@ -221,6 +221,7 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int sigaction(int signal, const struct sigaction* action, struct sigaction* old) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(sigaction)(signal, action, old);
   if (!is_signal(signal) || signal == 32 || signal == 33) return fail(EINVAL);
   if (action != nullptr && contains(unblockable, signal)) return fail(EINVAL);
   struct sigaction& known = signals_of_program.actions[signal];
@@ -234,8 +235,8 @@ WAITPOINT_INTERPOSED int sigaction(int signal, const struct sigaction* action, s
     if (is_simulated() && !is_handled(signal) &&
         (known.sa_handler == SIG_IGN || contains(ignored_by_default, signal))) {
       signals_of_program.pending.drop(only(signal));
-      for (kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
-        thread_of(*task).pending.drop(only(signal));
+      for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+        if (is_thread(*task)) thread_of(*task).pending.drop(only(signal));
     }
   }
   if (old != nullptr) *old = before;
@@ -246,6 +247,7 @@ WAITPOINT_INTERPOSED int __sigaction(int signal, const struct sigaction* action,
 }
 
 WAITPOINT_INTERPOSED Handler signal(int signal, Handler handler) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(signal)(signal, handler);
   struct sigaction action {
   }, old{};
   if (!is_signal(signal)) {

@@ -36,8 +36,8 @@ SignalDescriptor* find_descriptor(int descriptor) {
 // Of any thread: whoever reads takes what pends for itself.
 SignalSet pending_anywhere() {
   SignalSet set = signals_of_program.pending.set();
-  for (const kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
-    set |= thread_of(*task).pending.set();
+  for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task)) set |= thread_of(*task).pending.set();
   return set;
 }
 

@@ -130,9 +130,11 @@ void waitpoint_checked_longjmp(__jmp_buf_tag* buffer, int value) {
 }
 
 WAITPOINT_INTERPOSED int pthread_sigmask(int how, const sigset_t* set, sigset_t* old) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(pthread_sigmask)(how, set, old);
   return change_mask(how, set, old);
 }
 WAITPOINT_INTERPOSED int sigprocmask(int how, const sigset_t* set, sigset_t* old) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(sigprocmask)(how, set, old);
   const int error = change_mask(how, set, old);
   return error == 0 ? 0 : fail(error);
 }

@@ -48,8 +48,8 @@ int send_to_thread(Thread* thread, siginfo_t information) {
 }
 
 Thread* thread_with_id(int id) {
-  for (kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
-    if (thread_of(*task).id == id) return &thread_of(*task);
+  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id == id) return &thread_of(*task);
   return nullptr;
 }
 
@@ -102,9 +102,11 @@ WAITPOINT_INTERPOSED int sigqueue(pid_t process, int signal, sigval value) noexc
 }
 
 WAITPOINT_INTERPOSED int pthread_kill(pthread_t id, int signal) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(pthread_kill)(id, signal);
   return send_to_thread(find(id), from_here(signal, SI_TKILL));
 }
 
 WAITPOINT_INTERPOSED int pthread_sigqueue(pthread_t id, int signal, sigval value) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(pthread_sigqueue)(id, signal, value);
   return send_to_thread(find(id), with_value(signal, value));
 }

@@ -29,10 +29,12 @@ bool wants(const Thread& thread, int signal) {
   return thread.task != nullptr && (!contains(thread.blocked, signal) || contains(thread.awaited, signal));
 }
 
-// As in Linux the first thread is asked first.
+// As in Linux the first thread is asked first; of several programs, one of that which sends.
 Thread* taker_of(int signal) {
-  for (kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
-    if (wants(thread_of(*task), signal)) return &thread_of(*task);
+  const Program* const of = is_simulated() ? &this_program() : nullptr;
+  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && (of == nullptr || thread_of(*task).program == of) && wants(thread_of(*task), signal))
+      return &thread_of(*task);
   return nullptr;
 }
 

@@ -145,6 +145,11 @@ bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
 
 }  // namespace
 
+kernel::Task* first_task() {
+  if (kernel::running != nullptr) return kernel::running->scheduler->first_task();
+  return has_host || record == nullptr || !record->began ? nullptr : record->scheduler.first_task();
+}
+
 Thread* find(pthread_t id) {
   void* const area = reinterpret_cast<void*>(id);
   return area == nullptr ? nullptr : thread_of_area(area);

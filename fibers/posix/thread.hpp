@@ -118,6 +118,9 @@ class OutOfKernel {
   Thread& thread_;
 };
 
+/// The first task of the run, which leads to the others; not all are threads. Null outside any.
+kernel::Task* first_task();
+
 /// The thread with this id; null if it is none of ours.
 Thread* find(pthread_t id);
 

@@ -61,7 +61,7 @@ void ring(SignalTimer& expired, std::uint64_t count) {
     case SIGEV_NONE: return;
     case SIGEV_THREAD:
       ++timer.to_start;
-      record->scheduler.wake_all(starter_object);
+      starter_object.robot->scheduler->wake_all(starter_object);
       return;
     default: break;
   }
@@ -145,8 +145,8 @@ int prepare(Timer& timer, sigevent* event) {
       pthread_attr_setdetachstate(&timer.attributes, PTHREAD_CREATE_DETACHED);
       return make_starter() ? 0 : EAGAIN;
     case SIGEV_THREAD_ID:
-      for (kernel::Task* task = record->scheduler.first_task(); task != nullptr; task = task->next)
-        if (thread_of(*task).id == event->_sigev_un._tid) timer.to = &thread_of(*task);
+      for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+        if (is_thread(*task) && thread_of(*task).id == event->_sigev_un._tid) timer.to = &thread_of(*task);
       if (timer.to == nullptr) return EINVAL;
       break;
     default: return EINVAL;

@@ -43,11 +43,12 @@ NOT_CALLED = {
 # Functions without which no case can end otherwise, and why.
 NOT_MISSED = (
     dict.fromkeys(
-        "cnd_destroy mtx_destroy pthread_cond_destroy pthread_mutex_destroy pthread_rwlock_destroy sem_destroy".split(),
+        """cnd_destroy mtx_destroy pthread_cond_destroy pthread_mutex_destroy pthread_rwlock_destroy pthread_spin_destroy
+        sem_destroy thrd_detach""".split(),
         "gives back memory of the layer's",
     )
     | dict.fromkeys(
-        "cnd_init mtx_init pthread_mutex_init pthread_rwlock_init".split(),
+        "cnd_init mtx_init pthread_mutex_init pthread_rwlock_init pthread_spin_init pthread_spin_trylock".split(),
         "the C library's leaves the same bytes; it is here so that this does not depend on them",
     )
     | dict.fromkeys(
@@ -58,6 +59,9 @@ NOT_MISSED = (
         "__pthread_once": "only what was linked with an older C library can call it so",
         "clock_settime": "natively it would set the machine's date (debian_test.py, Options)",
         "settimeofday": "natively it would set the machine's date",
+        "sched_getcpu": "any processor is as good",
+        "vfork": "a child that does nothing but become a program does not show whose memory it has",
+        "tss_delete": "as pthread_key_delete",
         "pthread_key_delete": "what the C library forgot has no value, and no destructor is called for it",
         "pthread_mutex_setprioceiling": "it waits for who holds the mutex, which natively takes a right to priorities",
     }

@@ -316,6 +316,29 @@ CASE(a_thread_waits_for_a_child_while_others_go_on) {
   EXPECT_EXIT(child, 0);
   join(id);
 }
+static pid_t wait_so(int way, pid_t child) {
+  siginfo_t information;
+  switch (way) {
+    case 0: return wait(NULL);
+    case 1: return wait3(NULL, 0, NULL);
+    case 2: return wait4(child, NULL, 0, NULL);
+    case 3: return waitpid(-1, NULL, 0);
+    default: return waitid(P_PID, (id_t)child, &information, WEXITED) == 0 ? information.si_pid : -1;
+  }
+}
+CASE(every_way_to_wait_lets_others_go_on) {
+  extern void* write_later(void*);
+  for (int way = 0; way < 5; ++way) {
+    int ends[2];
+    EXPECT_IS(pipe(ends), 0);
+    const pid_t child = fork();
+    char byte;
+    if (child == 0) _exit(read(ends[0], &byte, 1) == 1 ? 0 : 1);
+    const pthread_t id = start(write_later, &ends[1]);
+    EXPECT_IS(wait_so(way, child), child);
+    join(id);
+  }
+}
 void* write_later(void* end);
 void* write_later(void* end) {
   sleep_ms(5);

@@ -43,6 +43,16 @@ CASE(recv_waits) {
   EXPECT_IS(done, 1);
   join(id);
 }
+CASE(recvmsg_waits) {
+  make_pair(SOCK_STREAM);
+  char byte = 0;
+  struct iovec part = {&byte, 1};
+  struct msghdr message = {.msg_iov = &part, .msg_iovlen = 1};
+  const pthread_t id = start(send_one, NULL);
+  EXPECT_IS(recvmsg(ends[0], &message, 0), 1);
+  EXPECT_IS(byte, 'x');
+  join(id);
+}
 CASE(nothing_waits_with_MSG_DONTWAIT) {
   make_pair(SOCK_STREAM);
   char byte = 0;

@@ -66,6 +66,12 @@ CASE_ENDING_WITH(-14, an_alarm_ends_the_process_by_default) {
   alarm(1);
   for (;;) pause();
 }
+CASE(ualarm_ends_a_sleep) {
+  act(SIGALRM);
+  EXPECT_IS(ualarm(500000, 0), 0);
+  EXPECT(sleep(4) > 0);
+  EXPECT_IS(handled, 1);
+}
 CASE(ualarm_repeats) {
   act(SIGALRM);
   EXPECT_IS(ualarm(5000, 5000), 0);
