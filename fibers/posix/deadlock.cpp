@@ -42,7 +42,9 @@ void report_deadlock(const kernel::Scheduler& scheduler) {
   for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
     std::fprintf(stderr, "  ");
     print_name(*task);
-    if (task->blocked_on != nullptr) {
+    if (task->blocked_on == nullptr) {
+      std::fprintf(stderr, " can go on");
+    } else {
       std::fprintf(stderr, " waits for ");
       print_object(*task->blocked_on);
       if (const kernel::Task* owner = task->blocked_on->owner; owner != nullptr) {

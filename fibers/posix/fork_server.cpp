@@ -55,6 +55,7 @@ void answer(int socket, const T& what) {
 // In the run: its descriptors are those that it would have if it had been started anew.
 int become_run(int socket, const int (&descriptors)[run_descriptors]) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  setpgid(0, 0);
   for (int i = 0; i < run_count; ++i) {
     close(runs[i].end);
     close(runs[i].answers);
@@ -70,6 +71,7 @@ int become_run(int socket, const int (&descriptors)[run_descriptors]) {
 void reap(int index) {
   const Run run = runs[index];
   runs[index] = runs[--run_count];
+  kill(-run.process, SIGKILL);  // what it has started, too
   int status = 0;
   while (waitpid(run.process, &status, 0) < 0 && errno == EINTR) {
   }
@@ -100,6 +102,7 @@ bool wait_for_packet(int socket) {
 }  // namespace
 
 int serve_runs(int socket) {
+  answer(socket, ServerReady{});
   int descriptors[run_descriptors];
   while (wait_for_packet(socket) && receive(socket, descriptors)) {
     const pid_t process = fork();

@@ -3,7 +3,8 @@
 //
 // Who explores asks over a socket, one packet a run, with four descriptors in it: the run's record, where its input
 // comes from and where its output goes, and a socket on which the server answers the run's process id, and at its end
-// how it ended, as waitpid() gives it. A run whose answers nobody waits for any more is killed.
+// how it ended, as waitpid() gives it. A run whose answers nobody waits for any more is killed. What a run has started
+// ends with it, if it is of its process group.
 #pragma once
 
 #include <sys/types.h>
@@ -12,6 +13,9 @@ namespace waitpoint::posix {
 
 /// The descriptors of a packet, in their order.
 enum ServerDescriptor : int { run_record, run_input, run_output, run_answers, run_descriptors };
+
+/// Sent over the server's own socket, before it is asked.
+struct ServerReady {};
 
 struct RunStarted {
   pid_t process;

@@ -157,8 +157,8 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
 
 void end_run(const kernel::Scheduler& scheduler, int status) {
   const bool failed = record->ending == Ending::deadlock || record->ending == Ending::no_progress;
+  std::fflush(nullptr);  // what the program has written so far comes before the report
   if (failed) report_deadlock(scheduler);
-  std::fflush(nullptr);
   end_process(failed ? status_of_deadlock : status);
 }
 

@@ -102,7 +102,9 @@ Pool pool;
 
 const char* kept(const Found& found) {
   const auto add = [](const char* text, std::size_t length, void*) { pool.add(text, length); };
-  if (__gcclibcxx_demangle_callback(found.name, add, nullptr) != 0) pool.add(found.name, std::strlen(found.name));
+  const bool is_mangled = std::strncmp(found.name, "_Z", 2) == 0;
+  if (!is_mangled || __gcclibcxx_demangle_callback(found.name, add, nullptr) != 0)
+    pool.add(found.name, std::strlen(found.name));
   char offset[32] = "";
   if (found.offset != 0) std::snprintf(offset, sizeof offset, "+%llu", static_cast<unsigned long long>(found.offset));
   pool.add(offset, std::strlen(offset));

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/code_place.hpp"
 
+#include <cxxabi.h>
 #include <dlfcn.h>
 
+#include <cstdlib>
+#include <memory>
+
 namespace waitpoint::sync {
+
+std::string demangled(const std::string& symbol) {
+  // "m" alone would be "unsigned long".
+  if (!symbol.starts_with("_Z")) return symbol;
+  int status = 0;
+  const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &status),
+                                                    std::free);
+  return status == 0 ? name.get() : symbol;
+}
 
 CodePlace code_place_of(const void* return_address) {
   // The call is before the address it returns to.

@@ -13,6 +13,9 @@ struct CodePlace {
   std::string symbol;  ///< as the linker knows it; empty where it does not
 };
 
+/// A symbol as people write it: of C++ without its mangling, of C as it is.
+std::string demangled(const std::string& symbol);
+
 /// Of the call that returns to this address of this process.
 CodePlace code_place_of(const void* return_address);
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/source_lines.hpp"
 
-#include <cxxabi.h>
 #include <dlfcn.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <memory>
 #include <string_view>
 
 namespace waitpoint::sync {
@@ -62,12 +60,7 @@ struct Place : CodePlace {
 
 std::string name_from_symbols(const Place& place) {
   if (place.module.empty()) return "?";
-  if (!place.symbol.empty()) {
-    int status = 0;
-    const std::unique_ptr<char, void (*)(void*)> demangled(
-        abi::__cxa_demangle(place.symbol.c_str(), nullptr, nullptr, &status), std::free);
-    return status == 0 ? demangled.get() : place.symbol;
-  }
+  if (!place.symbol.empty()) return demangled(place.symbol);
   char text[64];
   std::snprintf(text, sizeof text, "+0x%zx", static_cast<std::size_t>(place.offset));
   return place.module + text;

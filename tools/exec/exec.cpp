@@ -138,6 +138,9 @@ int exec(const ExecOptions& options) {
     if (!files.programs.is_one_program() && (!options.quiet || run.exit_status() != 0))
       std::fprintf(stderr, "waitpoint: %s\n", ends_of_programs(memory.record()).c_str());
   }
+  if (!memory.record().began && run.signal() != 0)
+    std::fprintf(stderr, "waitpoint: it was ended by signal %d (%s), before its main()\n", run.signal(),
+                 strsignal(run.signal()));
   if (run.signal() != 0) end_by(run.signal());
   return run.exit_status();
 }

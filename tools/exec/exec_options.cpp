@@ -96,8 +96,10 @@ ExecArguments::ExecArguments(CLI::App& app)
       ->disable_flag_override();
   command_->add_flag("--quiet", quiet_, "no line about the run at its end, unless it failed")->disable_flag_override();
   command_->footer(
+      "Several programs in one process, built as shared objects: exec -- a.so ARGUMENTS :: NAME=b.so ARGUMENTS\n"
       "The exit status is the program's own; 124 if its threads wait for each other for ever, 125 if it\n"
-      "cannot be run.");
+      "cannot be run; with --seeds 1 if a seed failed. Data races (programs compiled with -fsanitize=thread) are\n"
+      "told and change no status: waitpoint explore --exec takes them for failures.");
 }
 
 bool ExecArguments::parsed() const { return command_->parsed(); }

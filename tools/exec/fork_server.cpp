@@ -30,6 +30,12 @@ bool receive(int socket, Answer& answer) {
   return size == static_cast<ssize_t>(sizeof answer);
 }
 
+std::string how_it_ended(int status) {
+  if (WIFSIGNALED(status))
+    return "it was ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+  return "it ended with exit status " + std::to_string(WEXITSTATUS(status));
+}
+
 void ask(int socket, const int (&descriptors)[posix::run_descriptors]) {
   char byte = 0;
   iovec part{&byte, 1};
@@ -59,6 +65,12 @@ ForkServer::ForkServer(const ProgramFiles& files, posix::Settings settings) {
   close(ends[1]);
   close(settings.server);
   socket_ = ends[0];
+  if (posix::ServerReady ready; receive(socket_, ready)) return;
+  close(socket_);
+  int status = 0;
+  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  throw BadInput("exec", files.program.string() + " did not come to its main(): " + how_it_ended(status));
 }
 
 ForkServer::~ForkServer() {
@@ -74,7 +86,7 @@ ServedRun::ServedRun(const ForkServer& server, const RunMemory& memory, int inpu
   ask(server.socket_, {memory.descriptor(), input, output, ends[1]});
   close(ends[1]);
   posix::RunStarted started{};
-  if (!receive(answers_, started)) throw BadInput("exec", "the program ended before it came to its main()");
+  if (!receive(answers_, started)) throw BadInput("exec", "the program is not there any more");
   if (started.process < 0) throw BadInput("exec", "no process can be made");
   process_ = started.process;
 }

@@ -10,7 +10,8 @@ namespace waitpoint::tools {
 
 class ForkServer {
  public:
-  /// Starts the program and lets it stand there; what it writes before goes where this process writes.
+  /// Starts the program and lets it stand there; what it writes before goes where this process writes. BadInput if it
+  /// does not come as far.
   ForkServer(const ProgramFiles& files, posix::Settings settings);
   /// Runs that are left are ended.
   ~ForkServer();
@@ -26,8 +27,7 @@ class ForkServer {
 /// A run; it may be asked for in a process that was forked from that of the server's object. It is ended with it.
 class ServedRun {
  public:
-  /// As `memory` says, with descriptors that its input comes from and its output goes to. BadInput if the program does
-  /// not come to its main().
+  /// As `memory` says, with descriptors that its input comes from and its output goes to.
   ServedRun(const ForkServer& server, const RunMemory& memory, int input, int output);
   ~ServedRun();
   ServedRun(const ServedRun&) = delete;

@@ -54,6 +54,8 @@ ProgramFiles::ProgramFiles(const std::vector<std::string>& words)
     return;
   }
   program = find_program(name);
+  if (program.empty() && name.find('/') != std::string::npos && std::filesystem::exists(name))
+    throw BadInput("exec", "'" + name + "' is no file that can be executed");
   if (program.empty()) throw BadInput("exec", "there is no program '" + name + "'");
   if (const std::string reason = cannot_be_simulated(program); !reason.empty())
     throw BadInput("exec", program.string() + " " + reason);

@@ -145,8 +145,7 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   if (const std::string strategy = text_of(strategy_, "WAITPOINT_STRATEGY", where); !strategy.empty())
     options.strategy = strategy;
   if (exploration::make_strategy(options.strategy)->is_exhaustive())
-    refuse(where, "a strategy that draws its schedules, as a scenario has too many to try all of them",
-           options.strategy);
+    refuse(where, "a strategy that draws its schedules: there are too many to try all of them", options.strategy);
   take("--time-limit", "WAITPOINT_TIME_LIMIT", time_limit_, "a positive number of seconds", 0.0, options.time_limit_s);
   if (options.time_limit_s > 0) options.iterations = ~std::uint64_t{0};
   take<std::uint64_t>("--iterations", "WAITPOINT_ITERATIONS", iterations_, "a whole number", 0, options.iterations);

@@ -40,7 +40,7 @@ std::string end_of(int output) {
   text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
   if (from > 0) text.erase(0, text.find('\n') + 1);
   while (text.ends_with('\n')) text.pop_back();
-  std::string indented;
+  std::string indented = from > 0 ? "  ..." : "";
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.size(), text.find('\n', at));
     indented += (indented.empty() ? "  " : "\n  ") + text.substr(at, end - at);

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/races/located_race.hpp"
 
-#include <cxxabi.h>
 #include <dlfcn.h>
 #include <link.h>
 
-#include <cstdlib>
-#include <memory>
-
 namespace waitpoint::races {
 namespace {
-
-std::string demangled(const char* symbol) {
-  int status = 0;
-  const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(symbol, nullptr, nullptr, &status), std::free);
-  return status == 0 ? name.get() : symbol;
-}
 
 std::string where(const FoundRace& race) {
   if (race.stack_of[0] != '\0') return std::string("the stack of task ") + race.stack_of;
@@ -27,7 +17,7 @@ std::string where(const FoundRace& race) {
   if (info.dli_sname == nullptr || symbol == nullptr) return std::string("data of ") + info.dli_fname;
   const std::uint64_t offset = race.address - reinterpret_cast<std::uint64_t>(info.dli_saddr);
   if (offset >= symbol->st_size) return std::string("data of ") + info.dli_fname;
-  return demangled(info.dli_sname) + (offset == 0 ? "" : " + " + std::to_string(offset));
+  return sync::demangled(info.dli_sname) + (offset == 0 ? "" : " + " + std::to_string(offset));
 }
 
 sync::CodePlaces places_of(const Side& side) {

@@ -43,6 +43,36 @@ CASE(recv_waits) {
   EXPECT_IS(done, 1);
   join(id);
 }
+CASE(several_messages_are_sent_and_received_by_one_call) {
+  make_pair(SOCK_DGRAM);
+  char from[3] = "ab", to[3] = "..";
+  struct iovec sent[2] = {{from, 1}, {from + 1, 1}}, got[2] = {{to, 1}, {to + 1, 1}};
+  struct mmsghdr out[2] = {{{.msg_iov = &sent[0], .msg_iovlen = 1}, 0}, {{.msg_iov = &sent[1], .msg_iovlen = 1}, 0}};
+  struct mmsghdr in[3] = {{{.msg_iov = &got[0], .msg_iovlen = 1}, 0}, {{.msg_iov = &got[1], .msg_iovlen = 1}, 0}};
+  EXPECT_IS(sendmmsg(ends[1], out, 2, 0), 2);
+  EXPECT_IS(out[1].msg_len, 1);
+  EXPECT_IS(recvmmsg(ends[0], in, 3, MSG_WAITFORONE, NULL), 2);
+  EXPECT_IS(to[0] == 'a' && to[1] == 'b' && in[0].msg_len == 1, 1);
+  EXPECT_FAILS(recvmmsg(ends[0], in, 1, MSG_DONTWAIT, NULL), EAGAIN);
+  EXPECT_FAILS(sendmmsg(-1, out, 2, 0), EBADF);
+}
+static void* send_a_message(void* unused) {
+  struct iovec part = {"x", 1};
+  struct mmsghdr message = {{.msg_iov = &part, .msg_iovlen = 1}, 0};
+  let_others_wait();
+  EXPECT_IS(sendmmsg(ends[1], &message, 1, 0), 1);
+  return unused;
+}
+CASE(recvmmsg_waits) {
+  make_pair(SOCK_DGRAM);
+  char byte = 0;
+  struct iovec part = {&byte, 1};
+  struct mmsghdr message = {{.msg_iov = &part, .msg_iovlen = 1}, 0};
+  const pthread_t id = start(send_a_message, NULL);
+  EXPECT_IS(recvmmsg(ends[0], &message, 1, 0, NULL), 1);
+  EXPECT_IS(byte, 'x');
+  join(id);
+}
 CASE(recvmsg_waits) {
   make_pair(SOCK_STREAM);
   char byte = 0;
