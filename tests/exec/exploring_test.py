@@ -76,6 +76,19 @@ class Exploring(ExecCase):
             self.assertIn("thread 1#1 of ends  timeout sleep", done.stdout)
             self.assertEqual(explore(*replay_words(done.stdout)).returncode, 1, way)
 
+    def test_what_a_run_has_started_ends_with_it(self):
+        program = self.compile("parent.c")
+        self.assertEqual(explore("--iterations", "5", "--", program).returncode, 0)
+        left = subprocess.run(["pgrep", "-f", f"^{program}$"], capture_output=True, text=True).stdout.split()
+        self.assertEqual(left, [])
+
+    def test_variables_of_one_letter_keep_their_names(self):
+        source = self.folder / "short.c"
+        source.write_text("#include <pthread.h>\nstatic pthread_mutex_t m = PTHREAD_MUTEX_INITIALIZER;\n"
+                          "int main(void) { pthread_mutex_lock(&m); return pthread_mutex_lock(&m); }\n")
+        done = explore("--", self.compile(str(source)))
+        self.assertIn("main waits for mutex m, held by itself", done.stdout)
+
     def test_each_run_reads_a_file_from_its_beginning(self):
         with (self.folder / "lines").open("w") as file:
             file.write("one\ntwo\n")
@@ -156,6 +169,9 @@ class Refusals(ExecCase):
         self.assertIn("--set: cannot be used", self.refused("--set", "world.step_ms=5", "--", "true"))
         self.assertIn("--property: cannot be used", self.refused("--property", "collisions=0", "--", "true"))
         self.assertIn("no --exec with the scenario 'office.yaml'", self.refused("office.yaml", "--", "true"))
+        self.assertIn(f"'{self.folder}' is no file that can be executed", self.refused("--", self.folder))
+        early = self.compile("early.c")
+        self.assertIn("did not come to its main(): it was ended by signal 6 (Aborted)", self.refused("--", early))
         self.assertIn("unknown strategy 'best'", self.refused("--strategy", "best", "--", "true"))
 
     def test_of_records_of_something_else(self):

@@ -108,7 +108,7 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
             "--replay: cannot be used together with --strategy");
   EXPECT_TRUE(refusal({"a", "--strategy", "pcd"}).starts_with("strategy: unknown strategy 'pcd', did you mean 'pct'?"));
   EXPECT_EQ(refusal({"a", "--strategy", "dfs"}),
-            "--strategy: expected a strategy that draws its schedules, as a scenario has too many to try all of them, "
+            "--strategy: expected a strategy that draws its schedules: there are too many to try all of them, "
             "found 'dfs'");
   for (const char* shard : {"0/2", "3/2", "1", "1/0", "a/b", "1/2/3"})
     EXPECT_EQ(refusal({"a", "--shard", shard}),
