@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/formats/mesh_builder.hpp"
 
+#include <array>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "world/formats/limits.hpp"
+#include "world/formats/line_words.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -27,6 +30,16 @@ void MeshBuilder::add_corner(const SpaceVector& corner, int line) {
   if (mesh_.corners.size() == corner_count_max)
     fail(line, "expected at most " + std::to_string(corner_count_max) + " corners");
   mesh_.corners.push_back(corner);
+}
+
+void MeshBuilder::read_corner(std::string_view line, int number, const std::string& expected) {
+  std::array<double, 3> values{};
+  for (double& value : values) {
+    std::string_view word = take_word(line);
+    if (word.starts_with('+')) word.remove_prefix(1);
+    if (!parse_number(word, value)) fail(number, expected + ", found " + shown(word));
+  }
+  add_corner({values[0], values[1], values[2]}, number);
 }
 
 void MeshBuilder::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, int line) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "world/formats/left_out.hpp"
 #include "world/triangle_mesh.hpp"
@@ -16,6 +17,9 @@ class MeshBuilder {
 
   /// BadInput at that line (0: of a file without lines) for coordinates that are no numbers or too large.
   void add_corner(const SpaceVector& corner, int line);
+  /// The same of three words of a line; more may come behind. BadInput begins with `expected` where they are no
+  /// numbers.
+  void read_corner(std::string_view line, int number, const std::string& expected);
   std::size_t corner_count() const { return mesh_.corners.size(); }
 
   /// Of corners that are there. One without area is left out, and told. BadInput for one too many.

@@ -6,13 +6,12 @@
 #include <cstdint>
 
 #include "core/number_text.hpp"
+#include "world/formats/line_words.hpp"
 #include "world/formats/mesh_builder.hpp"
 
 namespace waitpoint::world {
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
-constexpr std::size_t shown_max = 20;  // letters of a word, in a message
 // What says how a mesh looks, or what its parts are called.
 constexpr std::array<std::string_view, 17> looks = {"vn",     "vt",     "vp",     "g",          "o",        "s",
                                                     "mtllib", "usemtl", "mg",     "bevel",      "c_interp", "d_interp",
@@ -25,13 +24,6 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, count>&
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-std::string_view take_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(blanks));
-  line.remove_prefix(word.size());
-  return word;
-}
-
 class ObjReader {
  public:
   ObjReader(const std::string& file, LeftOut& left_out) : builder_(file, left_out), file_(file), left_out_(left_out) {}
@@ -41,31 +33,19 @@ class ObjReader {
     const std::string_view word = take_word(line);
     if (word.empty() || is_one_of(word, looks)) return;
     if (word == "v") {
-      read_corner(line, number);
+      builder_.read_corner(line, number, "expected 'v x y z'");
     } else if (word == "f") {
       read_face(line, number);
     } else if (is_one_of(word, others)) {
       left_out_.add(file_, number, "'" + std::string(word) + "'", "is left out");
     } else {
-      builder_.fail(number, "expected OBJ: 'v', 'f' and so on, found '" + std::string(word.substr(0, shown_max)) + "'");
+      builder_.fail(number, "expected OBJ: 'v', 'f' and so on, found " + shown(word));
     }
   }
 
   TriangleMesh mesh() { return builder_.mesh(); }
 
  private:
-  // Weights and colours may come behind.
-  void read_corner(std::string_view line, int number) {
-    std::array<double, 3> values{};
-    for (double& value : values) {
-      std::string_view word = take_word(line);
-      if (word.starts_with('+')) word.remove_prefix(1);
-      if (!parse_number(word, value))
-        builder_.fail(number, "expected 'v x y z', found '" + std::string(word.substr(0, shown_max)) + "'");
-    }
-    builder_.add_corner({values[0], values[1], values[2]}, number);
-  }
-
   void read_face(std::string_view line, int number) {
     std::uint32_t first = 0, last = 0;
     std::size_t count = 0;
@@ -85,8 +65,7 @@ class ObjReader {
     std::int64_t given = 0;
     const bool good = parse_number(word, given) && given != 0 && given <= count && given >= -count;
     if (!good)
-      builder_.fail(number, "expected one of the " + std::to_string(count) + " corners before, found '" +
-                                std::string(word.substr(0, shown_max)) + "'");
+      builder_.fail(number, "expected one of the " + std::to_string(count) + " corners before, found " + shown(word));
     return static_cast<std::uint32_t>(given > 0 ? given - 1 : count + given);
   }
 

@@ -12,13 +12,13 @@
 #include "core/number_text.hpp"
 #include "world/formats/file_contents.hpp"
 #include "world/formats/limits.hpp"
+#include "world/formats/line_words.hpp"
 
 namespace waitpoint::world {
 namespace {
 
 constexpr int levels = 16;
 constexpr double resolution_m_max = 1e3;
-constexpr std::size_t shown_max = 20;  // letters of a word, in a message
 
 /// A box of cells, in cells of the least size from the corner of the whole.
 struct Block {
@@ -62,14 +62,13 @@ class OctreeReader {
       if (key == "id") {
         is_coloured_ = value == "ColorOcTree";
         if (value != "OcTree" && !is_coloured_)
-          fail("expected a tree of id OcTree or ColorOcTree, found '" + std::string(value.substr(0, shown_max)) + "'");
+          fail("expected a tree of id OcTree or ColorOcTree, found " + shown(value));
       } else if (key == "size") {
-        if (!parse_number(value, node_count_))
-          fail("expected 'size' to be a number of nodes, found '" + std::string(value.substr(0, shown_max)) + "'");
+        if (!parse_number(value, node_count_)) fail("expected 'size' to be a number of nodes, found " + shown(value));
       } else if (key == "res") {
         if (!parse_number(value, resolution_m_)) resolution_m_ = 0;
       } else if (!key.starts_with('#') && !key.empty()) {
-        fail("expected 'id', 'size', 'res' or 'data', found '" + std::string(key.substr(0, shown_max)) + "'");
+        fail("expected 'id', 'size', 'res' or 'data', found " + shown(key));
       }
     }
     fail("expected a header that ends with 'data'");

@@ -9,21 +9,13 @@
 #include "core/exact_math.hpp"
 #include "core/number_text.hpp"
 #include "world/formats/limits.hpp"
+#include "world/formats/line_words.hpp"
 
 namespace waitpoint::world {
 namespace {
 
 constexpr double shortest_m = 1e-9;
-constexpr std::size_t shown_max = 20;  // letters of a word, in a message
 constexpr std::string_view between_words = " \t\r,";
-
-// Takes the first word off the line; empty at its end.
-std::string_view take_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(between_words), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(between_words));
-  line.remove_prefix(word.size());
-  return word;
-}
 
 class SegmentReader {
  public:
@@ -32,20 +24,19 @@ class SegmentReader {
 
   void read_line(std::string_view line, int number) {
     line = line.substr(0, line.find('#'));
-    std::string_view word = take_word(line);
+    std::string_view word = take_word(line, between_words);
     if (word.empty()) return;
     std::array<double, 4> ends{};
     for (double& coordinate : ends) {
       if (!parse_number(word, coordinate) || std::fabs(coordinate) > coordinate_m_max) {
         throw BadInput(file_, number,
                        "expected a segment 'x0 y0 x1 y1' in metres within 100 km, found " +
-                           (word.empty() ? "the line's end" : "'" + std::string(word.substr(0, shown_max)) + "'"));
+                           (word.empty() ? "the line's end" : shown(word)));
       }
-      word = take_word(line);
+      word = take_word(line, between_words);
     }
     if (!word.empty()) {
-      throw BadInput(file_, number,
-                     "expected nothing behind 'x0 y0 x1 y1', found '" + std::string(word.substr(0, shown_max)) + "'");
+      throw BadInput(file_, number, "expected nothing behind 'x0 y0 x1 y1', found " + shown(word));
     }
     const Point a = {ends[0], ends[1]}, b = {ends[2], ends[3]};
     if (length(b - a) < shortest_m) {

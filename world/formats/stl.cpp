@@ -8,14 +8,13 @@
 
 #include "core/number_text.hpp"
 #include "world/formats/limits.hpp"
+#include "world/formats/line_words.hpp"
 #include "world/formats/mesh_builder.hpp"
 
 namespace waitpoint::world {
 namespace {
 
 constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
-constexpr std::string_view blanks = " \t\r";
-constexpr std::size_t shown_max = 20;  // letters of a word, in a message
 
 std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   std::uint32_t number = 0;
@@ -41,14 +40,6 @@ TriangleMesh parse_bytes(std::string_view contents, std::size_t count, MeshBuild
   return builder.mesh();
 }
 
-// Takes the first word off the line; empty at its end.
-std::string_view take_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(blanks));
-  line.remove_prefix(word.size());
-  return word;
-}
-
 bool is_word(std::string_view word, std::string_view lower_case) {
   return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(),
                     [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
@@ -68,15 +59,14 @@ class TextReader {
       in_loop_ = true;
       first_ = builder_.corner_count();
     } else if (is_word(word, "vertex") && in_loop_) {
-      read_corner(line, number);
+      builder_.read_corner(line, number, "expected 'vertex x y z'");
     } else if (is_word(word, "endloop") && in_loop_) {
       if (builder_.corner_count() != first_ + 3) builder_.fail(number, "expected three vertices in a loop");
       const auto a = static_cast<std::uint32_t>(first_);
       builder_.add_triangle(a, a + 1, a + 2, number);
       in_loop_ = false;
     } else {
-      builder_.fail(number, "expected STL: 'facet', 'outer loop', 'vertex' and so on, found '" +
-                                std::string(word.substr(0, shown_max)) + "'");
+      builder_.fail(number, "expected STL: 'facet', 'outer loop', 'vertex' and so on, found " + shown(word));
     }
   }
 
@@ -85,17 +75,6 @@ class TextReader {
   }
 
  private:
-  void read_corner(std::string_view line, int number) {
-    std::array<double, 3> values{};
-    for (double& value : values) {
-      std::string_view word = take_word(line);
-      if (word.starts_with('+')) word.remove_prefix(1);
-      if (!parse_number(word, value))
-        builder_.fail(number, "expected 'vertex x y z', found '" + std::string(word.substr(0, shown_max)) + "'");
-    }
-    builder_.add_corner({values[0], values[1], values[2]}, number);
-  }
-
   MeshBuilder& builder_;
   bool in_loop_ = false;
   std::size_t first_ = 0;  // corner of the loop
