@@ -10,6 +10,7 @@ import os
 import random
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -183,6 +184,14 @@ class Ends(Exec):
             self.assertGreaterEqual(Summary(text).seconds, 2, "not known up to its last event")
             self.assertIn(f"it was ended by signal {-expected}", text)
             self.assertRegex(text, r"replay: waitpoint exec --seed 1 -- \S+ends ")
+
+    def test_by_a_signal_that_is_sent_to_waitpoint_alone(self):
+        for sent in (signal.SIGINT, signal.SIGQUIT, signal.SIGTERM):
+            words = [str(word) for word in (WAITPOINT, "exec", "--", "cat")]
+            with subprocess.Popen(words, stdin=subprocess.PIPE, stderr=subprocess.DEVNULL) as running:
+                time.sleep(0.5)
+                running.send_signal(sent)
+                self.assertEqual(running.wait(20), -sent)
 
     def test_by_a_deadlock_that_is_explained(self):
         status, _, text = self.end("deadlock")

@@ -21,11 +21,17 @@ constexpr int looks_ms = 1000;
 
 pid_t child = 0;
 void pass_on(int signal) { kill(child, signal); }
+// The terminal's go to the program too; what another process sends goes to this one alone.
+void pass_on_if_sent(int signal, siginfo_t* information, void*) {
+  if (information->si_code <= 0) kill(child, signal);
+}
 
-/// Signals of the terminal go to the program too, and it decides; others are passed on to it.
+/// Signals are the program's affair: it decides.
 int wait_for_end(Watchdog watchdog) {
-  signal(SIGINT, SIG_IGN);
-  signal(SIGQUIT, SIG_IGN);
+  struct sigaction of_terminal {};
+  of_terminal.sa_sigaction = pass_on_if_sent;
+  of_terminal.sa_flags = SA_SIGINFO | SA_RESTART;
+  for (const int signal : {SIGINT, SIGQUIT}) sigaction(signal, &of_terminal, nullptr);
   for (const int signal : {SIGTERM, SIGHUP, SIGUSR1, SIGUSR2}) std::signal(signal, pass_on);
   int status = 0;
   const int end = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
