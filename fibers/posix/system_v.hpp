@@ -57,6 +57,12 @@ class Table {
     return found != nullptr && found->id == id ? found : nullptr;
   }
   int count() const { return count_; }
+  /// 0 where none is in use.
+  int greatest_slot() const {
+    int slot = end_ - 1;
+    while (slot > 0 && slots_[slot] == nullptr) --slot;
+    return slot < 0 ? 0 : slot;
+  }
 
   /// As semget() and its kin: `check` says what is wrong with an object that exists already, and `make` makes one that
   /// does not; both give 0 or an error.

@@ -93,18 +93,11 @@ int tell_status(const Segment& segment, shmid_ds* to) {
   return 0;
 }
 
-int greatest_slot() {
-  int greatest = 0;
-  for (int slot = 0; slot < segments.end(); ++slot)
-    if (segments.in_slot(slot) != nullptr) greatest = slot;
-  return greatest;
-}
-
 int tell_limits(void* to) {
   constexpr unsigned long most = ~0UL - (1UL << 24);
   const shminfo limits{most, 1, segments_max, segments_max, most, 0, 0, 0, 0};
   std::memcpy(to, &limits, sizeof limits);
-  return greatest_slot();
+  return segments.greatest_slot();
 }
 
 int tell_use(void* to) {
@@ -115,7 +108,7 @@ int tell_use(void* to) {
       use.shm_tot += segment->mapped_bytes() / page;
   use.shm_rss = use.shm_tot;
   std::memcpy(to, &use, sizeof use);
-  return greatest_slot();
+  return segments.greatest_slot();
 }
 
 int control(Segment& segment, int command, shmid_ds* status) {

@@ -233,17 +233,14 @@ int tell_limits(void* to, bool used) {
   limits.msgpool = queues_max * limits.msgmnb / 1024;
   limits.msgtql = limits.msgmnb;
   if (used) limits.msgpool = limits.msgmap = limits.msgtql = 0;
-  int greatest = 0;
-  for (int slot = 0; slot < queues.end(); ++slot)
+  for (int slot = 0; used && slot < queues.end(); ++slot)
     if (const Queue* queue = queues.in_slot(slot); queue != nullptr) {
-      greatest = slot;
-      if (!used) continue;
       ++limits.msgpool;
       limits.msgmap += static_cast<int>(queue->count);
       limits.msgtql += static_cast<int>(queue->bytes);
     }
   std::memcpy(to, &limits, sizeof limits);
-  return greatest;
+  return queues.greatest_slot();
 }
 
 void end_all(Queue& queue, int error) {

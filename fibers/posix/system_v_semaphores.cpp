@@ -67,14 +67,10 @@ int tell_limits(seminfo* to, bool used) {
   to->semmap = to->semmnu = to->semmns;
   to->semume = operations_a_call_max;
   to->semusz = used ? sets.count() : 20;
-  int greatest = 0;
-  for (int slot = 0; slot < sets.end(); ++slot)
-    if (const Set* set = sets.in_slot(slot); set != nullptr) {
-      greatest = slot;
-      if (used) to->semaem += set->size;
-    }
+  for (int slot = 0; used && slot < sets.end(); ++slot)
+    if (const Set* set = sets.in_slot(slot); set != nullptr) to->semaem += set->size;
   if (used) to->semaem -= value_max;
-  return greatest;
+  return sets.greatest_slot();
 }
 
 int tell_status(const Set& set, semid_ds* to) {

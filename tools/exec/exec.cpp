@@ -15,6 +15,7 @@
 #include "tools/exec/race_report.hpp"
 #include "tools/output_file.hpp"
 #include "tools/shell_words.hpp"
+#include "tools/signal_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -41,7 +42,7 @@ void print_summary(const posix::Record& record, const std::string& program) {
 void print_failure(const ExecOptions& options, const posix::Record& record, int signal, std::uint64_t seed) {
   const std::string name = program_of_last_turn(record);
   if (signal != 0)
-    std::fprintf(stderr, "waitpoint: it was ended by signal %d (%s)%s\n", signal, strsignal(signal),
+    std::fprintf(stderr, "waitpoint: it was ended by %s%s\n", signal_in_words(signal).c_str(),
                  name.empty() ? "" : (", in " + name).c_str());
   std::fprintf(stderr, "waitpoint: replay: %s\n", replay_line(options, seed).c_str());
 }
@@ -139,8 +140,7 @@ int exec(const ExecOptions& options) {
       std::fprintf(stderr, "waitpoint: %s\n", ends_of_programs(memory.record()).c_str());
   }
   if (!memory.record().began && run.signal() != 0)
-    std::fprintf(stderr, "waitpoint: it was ended by signal %d (%s), before its main()\n", run.signal(),
-                 strsignal(run.signal()));
+    std::fprintf(stderr, "waitpoint: it was ended by %s, before its main()\n", signal_in_words(run.signal()).c_str());
   if (run.signal() != 0) end_by(run.signal());
   return run.exit_status();
 }

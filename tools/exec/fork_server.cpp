@@ -13,11 +13,10 @@
 
 #include "core/error.hpp"
 #include "fibers/posix/fork_server.hpp"
+#include "tools/signal_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-constexpr int least_descriptor = 900;  // see run_memory.cpp
 
 [[noreturn]] void fail(const char* what) { throw BadInput("exec", std::string(what) + ": " + std::strerror(errno)); }
 
@@ -31,8 +30,7 @@ bool receive(int socket, Answer& answer) {
 }
 
 std::string how_it_ended(int status) {
-  if (WIFSIGNALED(status))
-    return "it was ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+  if (WIFSIGNALED(status)) return "it was ended by " + signal_in_words(WTERMSIG(status));
   return "it ended with exit status " + std::to_string(WEXITSTATUS(status));
 }
 

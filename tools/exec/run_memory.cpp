@@ -13,9 +13,6 @@
 namespace waitpoint::tools {
 namespace {
 
-// Programs that look at the numbers of their descriptors find the first ones free.
-constexpr int least_descriptor = 900;
-
 [[noreturn]] void no_memory() { throw BadInput("exec", std::string("no memory to share: ") + std::strerror(errno)); }
 
 }  // namespace

@@ -7,6 +7,9 @@
 
 namespace waitpoint::tools {
 
+/// From here on descriptors that a program inherits: those that look at the numbers of theirs find the first ones free.
+inline constexpr int least_descriptor = 900;
+
 /// There is one at a time in a process, at an address that is the same in the program.
 class RunMemory {
  public:

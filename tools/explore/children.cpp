@@ -14,6 +14,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "tools/signal_words.hpp"
+
 namespace waitpoint::tools {
 namespace {
 
@@ -117,8 +119,7 @@ void Children::kill_from(std::uint64_t number) {
 std::string death_of(const Children::Ended& ended) {
   std::string text;
   if (WIFSIGNALED(ended.status))
-    text = std::string("the process was killed by signal ") + std::to_string(WTERMSIG(ended.status)) + " (" +
-           strsignal(WTERMSIG(ended.status)) + ")";
+    text = "the process was killed by " + signal_in_words(WTERMSIG(ended.status));
   else if (WEXITSTATUS(ended.status) != 0 || ended.bytes.empty())
     text = "the process ended with status " + std::to_string(WEXITSTATUS(ended.status));
   if (!text.empty() && !ended.errors.empty()) text += ", after saying:\n" + ended.errors;

@@ -92,7 +92,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.profile.code);
 }
 
-constexpr std::size_t events_shown = 30;
+constexpr std::size_t events_shown = 30, lines_of_switches_max = 12;
 
 // Numbers out of the way: those in the words differ from schedule to schedule.
 std::string without_digits(std::string text) {
@@ -101,6 +101,21 @@ std::string without_digits(std::string text) {
 }
 
 }  // namespace
+
+void Finding::take(const exploration::Explorer& explorer) {
+  decisions = explorer.schedule().decisions.size();
+  parted = explorer.parted();
+  if (passed()) return;
+  switches = explorer.schedule().switches;
+  deviations = explorer.schedule().deviations();
+}
+
+void Finding::tell(const exploration::Narrator& narrator, bool decision_asked, bool switches_too) {
+  if (const auto& answer = narrator.answer(); decision_asked && answer)
+    told = "at " + to_string(answer->time) + " s: " + answer->words;
+  else if (switches_too)
+    told = to_text(narrator.switches(), lines_of_switches_max);
+}
 
 void Finding::tell(const exploration::Timeline& timeline, bool trace_too) {
   last_events = to_text(timeline, events_shown);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/explore/narrator.hpp"
 #include "fibers/explore/profile.hpp"
 #include "fibers/explore/schedule.hpp"
 #include "fibers/explore/timeline.hpp"
@@ -34,14 +35,15 @@ struct Finding {
   exploration::Profile profile;                    ///< where asked for
 
   bool passed() const { return kind == Kind::passed; }
+  /// Takes over what was chosen; of a failure, how it repeats.
+  void take(const exploration::Explorer& explorer);
+  /// Takes over the decision that was asked for, or with `switches_too` the switches in words.
+  void tell(const exploration::Narrator& narrator, bool decision_asked, bool switches_too);
   /// Takes over what the tasks did.
   void tell(const exploration::Timeline& timeline, bool trace_too);
   /// "2 collisions, expected 0".
   std::string headline() const { return words.substr(0, words.find('\n')); }
 };
-
-/// Of the switches in words.
-inline constexpr std::size_t lines_of_switches_max = 12;
 
 /// Whether both failed in the same way: in the same words, but for numbers, which differ from schedule to schedule.
 bool is_same_failure(const Finding& a, const Finding& b);

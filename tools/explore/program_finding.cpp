@@ -10,6 +10,7 @@
 #include "fibers/posix/exploration.hpp"
 #include "fibers/posix/race_log.hpp"
 #include "tools/exec/race_report.hpp"
+#include "tools/signal_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -50,7 +51,7 @@ void judge(const RunMemory& memory, int status, Finding& finding) {
     finding.kind = Finding::Kind::no_progress;
     finding.words = "no progress: its threads look for something again and again";
   } else if (WIFSIGNALED(status)) {
-    finding.words = "ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+    finding.words = "ended by " + signal_in_words(WTERMSIG(status));
   } else if (WEXITSTATUS(status) != 0) {
     finding.words = "exit status " + std::to_string(WEXITSTATUS(status));
   } else {
@@ -109,21 +110,13 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   finding.digest = record.digest().value();
   finding.end = record.scheduler.global_time();
   finding.events = record.scheduler.events();
-  finding.decisions = explored.explorer.schedule().decisions.size();
-  finding.parted = explored.explorer.parted();
-  if (!finding.passed()) {
-    finding.switches = explored.explorer.schedule().switches;
-    finding.deviations = explored.explorer.schedule().deviations();
-  }
+  finding.take(explored.explorer);
   if (request.profile) {
     finding.profile = explored.profile;
     finding.profile.finish(explored.explorer.steps());
   }
   if (request.learn && record.race_log != nullptr) finding.profile.code = record.race_log->code;
-  if (request.decision && explored.narrator.answer())
-    finding.told = "at " + to_string(explored.narrator.answer()->time) + " s: " + explored.narrator.answer()->words;
-  else if (request.words)
-    finding.told = to_text(explored.narrator.switches(), lines_of_switches_max);
+  finding.tell(explored.narrator, request.decision.has_value(), request.words);
   if (request.events) finding.tell(explored.timeline, trace_too);
   return finding;
 }

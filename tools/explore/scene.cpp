@@ -96,11 +96,7 @@ Finding Scene::run(const Plan& plan, const Request& request) {
   explorer.begin(*strategy, {.switches = stage_->plan.switches, .deviations = stage_->plan.deviations});
   Finding finding;
   watch_and_carry_out(plan, request, finding);
-  if (!finding.passed()) {
-    finding.switches = explorer.schedule().switches;
-    finding.deviations = explorer.schedule().deviations();
-  }
-  finding.parted = explorer.parted();
+  finding.take(explorer);
   return finding;
 }
 
@@ -120,10 +116,7 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   scheduler.set_watch(nullptr);
   scheduler.set_decisions(stage_->explorer);
   if (profiling) finding.profile.finish(stage_->explorer.steps());
-  if (const auto& answer = narrator.answer(); request.decision && answer)
-    finding.told = "at " + to_string(answer->time) + " s: " + answer->words;
-  else if (request.words)
-    finding.told = to_text(narrator.switches(), lines_of_switches_max);
+  finding.tell(narrator, request.decision.has_value(), request.words);
   if (request.events) finding.tell(timeline, options_.trace.has_value());
 }
 
@@ -152,7 +145,6 @@ void Scene::carry_out(Time until, Finding& finding) {
   finding.end = end == RunEnd::time_reached ? reached : experiment.simulation().global_time();
   finding.digest = experiment.simulation().digest().value();
   finding.events = experiment.simulation().scheduler().events();
-  finding.decisions = stage_->explorer.schedule().decisions.size();
 }
 
 void Scene::judge(Finding& finding, bool goals_too) const {
