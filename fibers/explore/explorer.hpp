@@ -69,7 +69,7 @@ class Explorer final : public kernel::Decisions {
 
  private:
   // What a task did lately, by Task::number.
-  struct Habit {
+  struct alignas(32) Habit {
     kernel::Object* at[2] = {};
     std::uint32_t instant = 0;  // of which the rest is
     std::uint8_t looks = 0;

@@ -27,6 +27,7 @@ WAITPOINT_WEAK void __tsan_release(void* address);
 WAITPOINT_WEAK void waitpoint_races_open_run();
 WAITPOINT_WEAK void waitpoint_races_close_run();
 WAITPOINT_WEAK void waitpoint_races_forget(const void* low, std::size_t size);
+WAITPOINT_WEAK void waitpoint_races_use(const void* object);
 #undef WAITPOINT_WEAK
 }
 
@@ -38,6 +39,7 @@ namespace {
 
 bool address = false;
 bool thread = false;
+bool own_races = false;  // the runtime behind ThreadSanitizer's calls is ours: it tells itself what is outside
 bool valgrind = false;
 
 // AddressSanitizer asks for the bounds of every stack that is entered, and tells those of the one that was left: so
@@ -72,6 +74,7 @@ std::size_t size_of(const Stack& stack) { return static_cast<std::size_t>(stack.
 void look() {
   address = &__sanitizer_start_switch_fiber != nullptr && &__asan_unpoison_memory_region != nullptr;
   thread = &__tsan_switch_to_fiber != nullptr;
+  own_races = &waitpoint_races_use != nullptr;
   valgrind = ask_valgrind(running_on_valgrind) != 0;
   present = address || thread || valgrind;
 }
@@ -124,12 +127,8 @@ void leave(Fiber& from, Fiber& to) {
     __sanitizer_start_switch_fiber(from.ended ? nullptr : &from.known_as, low, size);
   }
   if (thread) {
-    if (is_outside(from)) {
-      from.known_as = __tsan_get_current_fiber();
-      __tsan_release(&from_outside);
-    } else {
-      __tsan_release(&to_outside);
-    }
+    if (is_outside(from)) from.known_as = __tsan_get_current_fiber();
+    if (!own_races) __tsan_release(is_outside(from) ? &from_outside : &to_outside);
     __tsan_switch_to_fiber(to.known_as, without_synchronization);
   }
 }
@@ -145,7 +144,7 @@ void arrive(Fiber& left, Fiber& here) {
     }
   }
   if (thread) {
-    __tsan_acquire(is_outside(here) ? &to_outside : &from_outside);
+    if (!own_races) __tsan_acquire(is_outside(here) ? &to_outside : &from_outside);
     if (left.ended) __tsan_destroy_fiber(left.known_as);
   }
   if (valgrind && left.ended) ask_valgrind(deregister_stack, reinterpret_cast<std::uint64_t>(left.known_as));
@@ -159,13 +158,13 @@ void* enter_timer(void*& known_as) {
     __tsan_set_fiber_name(known_as, "timers");
   }
   __tsan_switch_to_fiber(known_as, without_synchronization);
-  __tsan_acquire(&from_outside);
+  if (!own_races) __tsan_acquire(&from_outside);
   return interrupted;
 }
 
 void leave_timer(void* interrupted) {
   if (!thread) return;
-  __tsan_release(&to_outside);
+  if (!own_races) __tsan_release(&to_outside);
   __tsan_switch_to_fiber(interrupted, without_synchronization);
 }
 
@@ -179,6 +178,13 @@ void release(const void* object) {
 
 void acquire(const void* object) {
   if (thread) __tsan_acquire(const_cast<void*>(object));
+}
+
+void use(const void* object) {
+  if (own_races) return waitpoint_races_use(object);
+  if (!thread) return;
+  __tsan_acquire(const_cast<void*>(object));
+  __tsan_release(const_cast<void*>(object));
 }
 
 }  // namespace waitpoint::kernel::sanitizer

@@ -54,7 +54,10 @@ void end_timer(void* known_as);
 
 /// What the caller did so far happens before what others do after they acquired `object`.
 void release(const void* object);
+/// What others did before they released `object` happens before what the caller does from now on.
 void acquire(const void* object);
+/// Both: first acquire(), then release().
+void use(const void* object);
 
 }  // namespace sanitizer
 }  // namespace waitpoint::kernel

@@ -62,12 +62,8 @@ class CallStack {
   std::uint32_t path(CallPaths& paths) {
     const std::uint32_t depth = depth_ < depth_max ? depth_ : depth_max;
     if (depth == 0) return 0;
-    if (calls_[depth - 1].path != 0) return calls_[depth - 1].path;
-    std::uint32_t known = depth;
-    while (known != 0 && calls_[known - 1].path == 0) --known;
-    std::uint32_t path = known == 0 ? 0 : calls_[known - 1].path;
-    for (; known < depth; ++known) path = calls_[known].path = paths.extend(path, calls_[known].address);
-    return path;
+    const std::uint32_t known = calls_[depth - 1].path;
+    return __builtin_expect(known != 0, 1) ? known : seek(paths, depth);
   }
 
  private:
@@ -75,6 +71,15 @@ class CallStack {
     std::uint64_t address;
     std::uint32_t path;  // 0: not sought yet
   };
+
+  [[gnu::noinline]] std::uint32_t seek(CallPaths& paths, std::uint32_t depth) {
+    std::uint32_t known = depth;
+    while (known != 0 && calls_[known - 1].path == 0) --known;
+    std::uint32_t path = known == 0 ? 0 : calls_[known - 1].path;
+    for (; known < depth; ++known) path = calls_[known].path = paths.extend(path, calls_[known].address);
+    return path;
+  }
+
   std::uint32_t depth_ = 0;
   Call calls_[depth_max];
 };

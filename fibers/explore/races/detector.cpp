@@ -13,14 +13,6 @@ constinit Detector detector;
 
 namespace {
 
-// Who accesses only what nobody else touches passes no switch point. One that waits so for another's write would wait
-// for ever: after accesses of so much weight the others get a turn.
-constexpr std::uint32_t weight_max = 100'000;
-
-std::uint8_t bytes_of(std::uint64_t address, std::uint64_t size) {
-  return static_cast<std::uint8_t>(((1u << size) - 1) << (address % 8));
-}
-
 bool is_unwound(const kernel::Task* task) { return task != nullptr && task->scheduler->unwinding(); }
 
 }  // namespace
@@ -30,13 +22,14 @@ bool is_unwound(const kernel::Task* task) { return task != nullptr && task->sche
 void Detector::access_word(std::uint64_t address, std::uint32_t size, std::uint8_t kind, const void* place,
                            kernel::Operation operation) {
   const std::uint64_t at = reinterpret_cast<std::uint64_t>(place);
-  std::uint32_t index = shadow_.cell_of(address / 8);
-  if (is_switch_point(shadow_[index], kind, at)) {
-    pass_switch_point(operation, shadow_[index]);
+  Cell* cell = &shadow_.cell_of(address / 8);
+  if (is_switch_point(*cell, kind, at)) {
+    const std::uint32_t index = shadow_.index_of(*cell);
+    pass_switch_point(operation, *cell);
     if (!watching_) return;
-    if (shadow_[index].word != address / 8) index = shadow_.cell_of(address / 8);  // others have forgotten it meanwhile
+    cell = &shadow_.cell_again(index, address / 8);
   }
-  record(index, bytes_of(address, size), static_cast<std::uint8_t>(size), kind, at);
+  record(*cell, footprint_of(address, size, kind), size, at);
 }
 
 void Detector::access_range(std::uint64_t address, std::size_t size, std::uint8_t kind, const void* place,
@@ -46,17 +39,17 @@ void Detector::access_range(std::uint64_t address, std::size_t size, std::uint8_
   const std::uint64_t end = address + size;
   // One switch point for all of it.
   for (std::uint64_t word = address / 8; word * 8 < end; ++word) {
-    const std::uint32_t index = shadow_.cell_of(word);
-    if (!is_switch_point(shadow_[index], kind, at)) continue;
-    pass_switch_point(operation, shadow_[index]);
+    Cell& cell = shadow_.cell_of(word);
+    if (!is_switch_point(cell, kind, at)) continue;
+    pass_switch_point(operation, cell);
     if (!watching_) return;
     break;
   }
-  const auto size_kept = static_cast<std::uint8_t>(std::min<std::size_t>(size, 63));
+  const auto size_kept = static_cast<std::uint32_t>(std::min<std::size_t>(size, 63));
   for (std::uint64_t word = address / 8; word * 8 < end; ++word) {
     const std::uint64_t low = std::max(address, word * 8);
     const std::uint64_t high = std::min(end, word * 8 + 8);
-    record(shadow_.cell_of(word), bytes_of(low, high - low), size_kept, kind, at);
+    record(shadow_.cell_of(word), footprint_of(low, high - low, kind), size_kept, at);
   }
 }
 
@@ -81,77 +74,80 @@ void Detector::unwatched(std::uint32_t weight) {
   kernel::give_turn();
 }
 
-inline void Detector::record(std::uint32_t index, std::uint8_t bytes, std::uint8_t size, std::uint8_t kind,
-                             std::uint64_t place) {
+[[gnu::always_inline]] inline void Detector::record(Cell& cell, Footprint footprint, std::uint32_t size,
+                                                    std::uint64_t place) {
   Context& self = *current_;
-  Cell& cell = shadow_[index];
   const Epoch epoch = self.epoch();
   const MemoryAccess& latest = cell.latest;
-  if (latest.task == self.index && latest.epoch == epoch &&
-      MemoryAccess::covers(latest.bytes, latest.kind, bytes, kind))
-    return;
-  const std::uint32_t calls = self.calls.path(paths_);
-  // Written field by field to where it belongs: a copy of what was just put together waits for all of it.
-  const auto note_in = [&](MemoryAccess& access) {
-    access.place = place;
-    access.epoch = epoch;
-    access.calls = calls;
-    access.event = static_cast<std::uint32_t>(kernel::running->sequence);
-    access.task = self.index;
-    access.bytes = bytes;
-    access.kind = static_cast<std::uint8_t>(kind & 3);
-    access.size = static_cast<std::uint8_t>(size & 63);
-  };
-  const bool writes = (kind & kind::write) != 0, is_atomic = (kind & kind::atomic) != 0;
+  if (latest.task == self.index && latest.epoch == epoch && footprint::covers(latest.footprint, footprint)) return;
   self.accessed = epoch;
-  if (!cell.touched) {
+  if (__builtin_expect(!cell.touched, 0)) {
     cell.touched = true;
     cell.owner = self.index;
-    cell.written = writes && is_atomic;
-    note_in(cell.latest);
-    return;
   }
+  const bool writes = (footprint & footprint::write) != 0, is_atomic = (footprint & footprint::plain) == 0;
   cell.several |= cell.owner != self.index;
   cell.written |= writes && (cell.several || is_atomic);
-  const auto is_ordered = [&](const MemoryAccess& earlier) {
-    return earlier.task == self.index || earlier.epoch <= self.clock.of(earlier.task);
-  };
-  // Mostly it comes in the place of the one before.
-  if (cell.more == no_more && !learning_ && MemoryAccess::covers(bytes, kind, latest.bytes, latest.kind) &&
-      is_ordered(latest))
-    return note_in(cell.latest);
 
-  MemoryAccess access;
-  note_in(access);
-  // What the new access stands for makes room for it; what is left moves back.
-  MemoryAccess kept[1 + more_max];
-  int count = 0;
-  const auto look_at = [&](const MemoryAccess& earlier) {
-    if (earlier.bytes == 0) return;
-    const bool ordered = is_ordered(earlier);
-    const bool races = !ordered && earlier.conflicts_with(access);
-    if (races) report(cell, earlier, access);
-    cell.written |= races;
-    if ((ordered || races) && access.stands_for(earlier)) return;
-    kept[count++] = earlier;
+  // Of the earlier ones, those that this one does not stand for, one bit each.
+  const auto is_kept = [&](const MemoryAccess& earlier) -> unsigned {
+    const bool is_ordered = earlier.task == self.index || earlier.epoch <= self.clock.of(earlier.task);
+    if (!is_ordered) {
+      if (!footprint::conflict(footprint, earlier.footprint)) return 1;
+      report(cell, earlier, describe(footprint, size, place));
+    }
+    return !footprint::covers(footprint, earlier.footprint);
   };
-  look_at(cell.latest);
-  if (cell.more != no_more)
-    for (const MemoryAccess& earlier : shadow_.more(cell).access) look_at(earlier);
-  if (learning_ && cell.several && cell.written) learn_from(cell, place);
-  cell.latest = access;
-  if (count == 0 && cell.more == no_more) return;
-  MoreAccesses& more = shadow_.more(cell);
-  for (int i = 0; i < more_max; ++i) more.access[i] = i < count ? kept[i] : MemoryAccess{};
+  unsigned kept = is_kept(latest);
+  if (cell.more_count != 0) {
+    const MemoryAccess* const more = shadow_.more(cell);
+    for (unsigned i = 0; i < cell.more_count; ++i) kept |= is_kept(more[i]) << (i + 1);
+  }
+  if (__builtin_expect(learning_, 0) && cell.several && cell.written) learn_from(cell, place);
+  if ((kept | cell.more_count) != 0) keep(cell, kept);
+  cell.latest = describe(footprint, size, place);
+}
+
+// What is kept of the earlier accesses moves back, the latest first; the earliest falls off where there is no room.
+void Detector::keep(Cell& cell, unsigned kept) {
+  const unsigned count = cell.more_count;
+  cell.more_count = 0;
+  if (kept == 0) return;
+  MemoryAccess* const more = shadow_.more(cell);
+  MemoryAccess moved = cell.latest;
+  bool is_moving = (kept & 1) != 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const bool stays = (kept >> (i + 1) & 1) != 0;
+    const MemoryAccess here = more[i];
+    if (is_moving) more[cell.more_count++] = moved;
+    moved = here;
+    is_moving = stays;
+  }
+  if (is_moving && cell.more_count < more_max) more[cell.more_count++] = moved;
+}
+
+// The same where all are of one task; of the latest it is known already whether it is kept.
+void Detector::keep_own(Cell& cell, Footprint footprint, unsigned kept) {
+  if (cell.more_count != 0) {
+    const MemoryAccess* const more = shadow_.more(cell);
+    unsigned none_covered = 0;
+    for (unsigned i = 0; i < cell.more_count; ++i) {
+      const unsigned bit = 2u << i;
+      none_covered |= bit;
+      if (!footprint::covers(footprint, more[i].footprint)) kept |= bit;
+    }
+    if (kept == none_covered) return;  // the new one comes in the place of the latest
+  }
+  keep(cell, kept);
 }
 
 // All the code that accesses what tasks share, as far as it is remembered.
 void Detector::learn_from(Cell& cell, std::uint64_t place) {
   learn_place(place);
   learn_place(cell.latest.place);
-  if (cell.more == no_more) return;
-  for (const MemoryAccess& access : shadow_.more(cell).access)
-    if (access.bytes != 0) learn_place(access.place);
+  if (cell.more_count == 0) return;
+  const MemoryAccess* const more = shadow_.more(cell);
+  for (unsigned i = 0; i < cell.more_count; ++i) learn_place(more[i].place);
 }
 
 void Detector::learn_place(std::uint64_t place) {
@@ -181,7 +177,8 @@ void Detector::describe(Side& side, const MemoryAccess& access) {
   }
 }
 
-void Detector::report(const Cell& cell, const MemoryAccess& first, const MemoryAccess& second) {
+void Detector::report(Cell& cell, const MemoryAccess& first, const MemoryAccess& second) {
+  cell.written = true;
   if (race_count_ == races_kept) return;
   for (std::size_t i = 0; i < race_count_; ++i) {
     const std::uint64_t a = races_[i].first.access.place, b = races_[i].second.access.place;
@@ -191,7 +188,7 @@ void Detector::report(const Cell& cell, const MemoryAccess& first, const MemoryA
   std::memset(&race, 0, sizeof race);
   describe(race.first, first);
   describe(race.second, second);
-  race.address = cell.word * 8 + static_cast<std::uint64_t>(__builtin_ctz(first.bytes & second.bytes));
+  race.address = cell.word * 8 + static_cast<std::uint64_t>(__builtin_ctz(first.bytes() & second.bytes()));
   const char* address = reinterpret_cast<const char*>(race.address);
   for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
     if (address >= task->fiber.stack.low && address < task->fiber.stack.high)

@@ -26,6 +26,9 @@ namespace waitpoint::races {
 
 /// Of an access by which a task may wait for another's, against a plain one.
 inline constexpr std::uint32_t atomic_weight = 100;
+/// Who accesses only what nobody else touches passes no switch point. One that waits so for another's write would wait
+/// for ever: after accesses of so much weight the others get a turn.
+inline constexpr std::uint32_t weight_max = 100'000;
 
 /// A task as the detector sees it, or what runs outside all tasks.
 struct Context {
@@ -37,7 +40,9 @@ struct Context {
   bool is_task;
   std::uint32_t ignoring;  ///< calls of ignore_begin that are open
   std::uint32_t record;    ///< index of what reports call it
-  Context* next_free;
+  Context* next;           ///< of those that there are, or that are free
+  Context* previous;
+  std::uint64_t outside_known;  ///< how often the code outside had been left when it learned what that did
   CallStack calls;
 
   Epoch epoch() const { return clock.epochs[index]; }
@@ -63,6 +68,8 @@ class Detector {
   // --- what happens before what ---
 
   void release(const void* at);
+  /// acquire(), then release().
+  void use(const void* at);
   void acquire(const void* at);
   /// An atomic operation at `at` with that order, as it takes effect.
   void atomic_load(const void* at, int order);
@@ -73,6 +80,24 @@ class Detector {
   // --- accesses ---
 
   bool watching() const { return watching_; }
+  /// A plain one within an aligned word that no other task has touched, as most are: nothing can race. False, and
+  /// nothing is done, if it is another, for access_word().
+  [[gnu::always_inline]] bool access_own(std::uint64_t address, std::uint32_t size, std::uint8_t kind,
+                                         const void* place) {
+    Cell* const cell = shadow_.find(address / 8);
+    const Footprint footprint = footprint_of(address, size, kind);
+    if (cell == nullptr || cell->owner != current_->index || !cell->touched || cell->several) return false;
+    const auto at = reinterpret_cast<std::uint64_t>(place);
+    if (weight_ + 1 >= weight_max || learned_.find(at) != nullptr) return false;
+    ++weight_;
+    const Epoch epoch = current_->epoch();
+    if (cell->latest.epoch == epoch && footprint::covers(cell->latest.footprint, footprint)) return true;
+    current_->accessed = epoch;
+    const unsigned kept = !footprint::covers(footprint, cell->latest.footprint);
+    if (__builtin_expect((kept | cell->more_count) != 0, 0)) keep_own(*cell, footprint, kept);
+    cell->latest = describe(footprint, size, at);
+    return true;
+  }
   /// One within an aligned word.
   void access_word(std::uint64_t address, std::uint32_t size, std::uint8_t kind, const void* place,
                    kernel::Operation operation);
@@ -111,13 +136,30 @@ class Detector {
   Context& fresh_context();
   void take_index(Context& context, const Context& maker);
   void next_epoch(Context& context);
+  void leave_outside();
+  void enter_outside();
   void update_watching();
   bool is_switch_point(const Cell& cell, std::uint8_t kind, std::uint64_t place);
   void pass_switch_point(kernel::Operation operation, Cell& cell);
   void learn_from(Cell& cell, std::uint64_t place);
   void learn_place(std::uint64_t place);
-  void record(std::uint32_t cell, std::uint8_t bytes, std::uint8_t size, std::uint8_t kind, std::uint64_t place);
-  void report(const Cell& cell, const MemoryAccess& first, const MemoryAccess& second);
+  void record(Cell& cell, Footprint footprint, std::uint32_t size, std::uint64_t place);
+  static Footprint footprint_of(std::uint64_t address, std::uint64_t size, std::uint8_t kind) {
+    return footprint::of(((1u << size) - 1) << (address % 8), kind);
+  }
+  [[gnu::always_inline]] MemoryAccess describe(Footprint footprint, std::uint32_t size, std::uint64_t place) {
+    Context& self = *current_;
+    return {.place = place,
+            .epoch = self.epoch(),
+            .calls = self.calls.path(paths_),
+            .event = static_cast<std::uint32_t>(kernel::running->sequence),
+            .task = self.index,
+            .footprint = static_cast<Footprint>(footprint & 0x3FF),
+            .size = static_cast<Footprint>(size & 63)};
+  }
+  [[gnu::noinline]] void keep_own(Cell& cell, Footprint footprint, unsigned kept);
+  void keep(Cell& cell, unsigned kept);
+  [[gnu::noinline]] void report(Cell& cell, const MemoryAccess& first, const MemoryAccess& second);
   void describe(Side& side, const MemoryAccess& access);
 
   Shadow shadow_;
@@ -131,7 +173,10 @@ class Detector {
   Table<FreeIndex> free_indices_;
   Arena contexts_;  // never reset
   Context* free_contexts_ = nullptr;
+  Context* contexts_in_use_ = nullptr;  // the tasks'
   Context* outside_ = nullptr;
+  VectorClock ended_;               // what tasks that ended knew, for the code outside to learn
+  std::uint64_t outside_left_ = 0;  // how often that was left
   Context* current_ = nullptr;
   std::uint64_t run_ = 0;
   std::uint32_t indices_ = 0;

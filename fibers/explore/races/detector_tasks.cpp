@@ -38,6 +38,9 @@ void Detector::begin_run() {
   recent_sync_at_ = nullptr;
   weight_ = 0;
   indices_ = 0;
+  contexts_in_use_ = nullptr;
+  ended_ = VectorClock();
+  outside_left_ = 0;
   if (outside_ == nullptr) outside_ = &fresh_context();
   clear(*outside_);
   take_index(*outside_, *outside_);
@@ -80,9 +83,14 @@ Context& Detector::make() {
   if (made == nullptr)
     made = &fresh_context();
   else
-    free_contexts_ = made->next_free;
+    free_contexts_ = made->next;
   clear(*made);
   made->is_task = true;
+  made->outside_known = 0;
+  made->previous = nullptr;
+  made->next = contexts_in_use_;
+  if (contexts_in_use_ != nullptr) contexts_in_use_->previous = made;
+  contexts_in_use_ = made;
   assign(made->clock, current_->clock, clocks_);
   take_index(*made, *current_);
   next_epoch(*current_);
@@ -94,13 +102,36 @@ void Detector::name(Context& context, const char* name) {
 }
 
 void Detector::switch_to(Context& context) {
+  if (current_ == outside_) leave_outside();
+  if (&context == outside_) {
+    enter_outside();
+  } else if (context.outside_known != outside_left_) {
+    context.outside_known = outside_left_;
+    join(context.clock, outside_->clock, clocks_);
+  }
   current_ = &context;
   update_watching();
 }
 
+// What was done outside happens before what any task does from now on: each learns of it when it is next switched to.
+void Detector::leave_outside() { ++outside_left_; }
+
+// All that tasks did happens before what is done outside from now on.
+void Detector::enter_outside() {
+  join(outside_->clock, ended_, clocks_);
+  for (Context* context = contexts_in_use_; context != nullptr; context = context->next) {
+    join(outside_->clock, context->clock, clocks_);
+    next_epoch(*context);
+  }
+  next_epoch(*outside_);
+}
+
 void Detector::end(Context& context) {
   free_indices_[free_indices_.add()] = {context.index, context.epoch(), context.accessed};
-  context.next_free = free_contexts_;
+  join(ended_, context.clock, clocks_);
+  if (context.next != nullptr) context.next->previous = context.previous;
+  (context.previous == nullptr ? contexts_in_use_ : context.previous->next) = context.next;
+  context.next = free_contexts_;
   free_contexts_ = &context;
 }
 
@@ -126,6 +157,11 @@ inline void Detector::next_epoch(Context& context) { ++context.clock.epochs[cont
 
 void Detector::release(const void* at) {
   join(sync_point(at), current_->clock, clocks_);
+  next_epoch(*current_);
+}
+
+void Detector::use(const void* at) {
+  meet(current_->clock, sync_point(at), clocks_);
   next_epoch(*current_);
 }
 

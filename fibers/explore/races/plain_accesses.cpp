@@ -20,10 +20,10 @@ inline void access(const volatile void* at, std::uint32_t size, std::uint8_t kin
   Detector& detector = Detector::the();
   if (__builtin_expect(!detector.watching(), 0)) return detector.unwatched(1);
   const auto address = reinterpret_cast<std::uint64_t>(at);
-  if (__builtin_expect(address % 8 + size <= 8, 1))
-    detector.access_word(address, size, kind, place, operation_of(kind));
-  else
+  if (__builtin_expect(address % 8 + size > 8, 0))
     detector.access_range(address, size, kind, place, operation_of(kind));
+  else if (!detector.access_own(address, size, kind, place))
+    detector.access_word(address, size, kind, place, operation_of(kind));
 }
 
 inline void access_range(const volatile void* at, std::size_t size, std::uint8_t kind, const void* place) {

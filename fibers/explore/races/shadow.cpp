@@ -5,6 +5,15 @@
 
 namespace waitpoint::races {
 
+Cell& Shadow::new_cell(std::uint64_t word) {
+  Page*& page = pages_[word / words_per_page];
+  if (page == nullptr) page = static_cast<Page*>(page_memory_.take(sizeof(Page)));
+  page->run = run_;
+  const std::uint32_t index = cells_.add();
+  page->cells[word % words_per_page] = index;
+  return cells_[index] = Cell{word, nullptr, no_more, 0, 0, false, false, false, {}};
+}
+
 void Shadow::forget(const void* low, std::size_t size) {
   if (size == 0 || cells_.size() == 0) return;
   const std::uint64_t first = reinterpret_cast<std::uint64_t>(low) / 8;

@@ -38,6 +38,7 @@ void __tsan_release(void* address);
 void waitpoint_races_open_run();
 void waitpoint_races_close_run();
 void waitpoint_races_forget(const void* low, std::size_t size);
+void waitpoint_races_use(const void* object);
 
 void* __tsan_get_current_fiber() { return &Detector::the().current(); }
 void* __tsan_create_fiber(unsigned) { return &Detector::the().make(); }
@@ -56,6 +57,9 @@ void waitpoint_races_open_run() {
   if (open_runs++ == 0) Detector::the().begin_run();
 }
 void waitpoint_races_close_run() { --open_runs; }
+void waitpoint_races_use(const void* object) {
+  if (Detector::the().has_current()) Detector::the().use(object);
+}
 void waitpoint_races_forget(const void* low, std::size_t size) { Detector::the().forget(low, size); }
 
 }  // extern "C"
