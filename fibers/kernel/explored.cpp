@@ -12,8 +12,12 @@ namespace waitpoint::kernel {
 namespace {
 
 // Of all phases the one in which there is a choice.
-bool is_before_tasks(const EventKey& key) { return key.order < make_order(Phase::tasks, 0); }
-bool is_of_tasks(const EventKey& key) { return !is_before_tasks(key) && key.order < make_order(Phase::processors, 0); }
+bool is_before_tasks_at(const EventKey& key, Time time) {
+  return key.time <= time && key.order < make_order(Phase::tasks, 0);
+}
+bool is_of_tasks(const EventKey& key) {
+  return key.order >= make_order(Phase::tasks, 0) && key.order < make_order(Phase::processors, 0);
+}
 
 }  // namespace
 
@@ -37,8 +41,7 @@ void Scheduler::set_decisions(Decisions& decisions) {
 
 Fiber& Scheduler::next_explored() {
   for (;;) {
-    const EventKey& least = events_.least().key;
-    if (ready_.empty() || (least.time <= now_ && is_before_tasks(least))) {
+    if (ready_.empty() || (!events_.empty() && is_before_tasks_at(events_.least().key, now_))) {
       EventNode* node = events_.pop_before(until_);
       if (node == nullptr) return outside(pending_events() == 0 ? RunState::idle : RunState::reached);
       now_ = events_.present();

@@ -57,7 +57,7 @@ Fiber& note_where_left(const context::transfer_t& transfer) {
 // The switch, seen by a sanitizer.
 void jump_seen(Fiber& from, void* target, Fiber& to) {
   sanitizer::leave(from, to);
-  Fiber& left = note_where_left(context::jump_fcontext(target, &from));
+  Fiber& left = note_where_left(jump(target, &from));
   sanitizer::arrive(left, from);
 }
 

@@ -135,7 +135,7 @@ void Scheduler::set_watch(Watch* watch) {
 
 void Scheduler::show(Operation operation, const Object* object) {
   // Every use of an object comes after all earlier ones; not so of memory.
-  if (sanitizer::present && object != nullptr && object->kind != memory_kind) sanitizer::use(object);
+  if (object != nullptr && object->kind != memory_kind && sanitizer::present) sanitizer::use(object);
   if (watch_ != nullptr) watch_->event(*watch_, {now_, running, operation, object});
   if (debugger_view.watching) show_debugger(now_, *running, operation, object);
 }
