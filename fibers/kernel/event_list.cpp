@@ -23,7 +23,7 @@ EventEntry* reserve(std::size_t entries) {
 std::size_t entries(std::uint32_t capacity) { return std::size_t{capacity} * 4 + EventHeap::margin + 1; }
 
 // Buckets that hold one event or two each.
-unsigned ideal_width_log2(std::uint64_t gap_ns) { return static_cast<unsigned>(std::bit_width(gap_ns)); }
+unsigned ideal_width_log2(std::uint64_t gap_ns) { return static_cast<unsigned>(std::bit_width(gap_ns)) + 2; }
 
 }  // namespace
 
