@@ -84,6 +84,16 @@ Globals* globals = nullptr;
 int* error_number = nullptr;
 void* own_thread_pointer = nullptr;
 
+// What a fiber with a thread pointer of its own has of this is there.
+void save_thread_state(Fiber& fiber) {
+  fiber.thread_state = {globals->caught_exceptions, globals->uncaught_exceptions, *error_number};
+}
+void restore_thread_state(const Fiber& fiber) {
+  globals->caught_exceptions = fiber.thread_state.caught_exceptions;
+  globals->uncaught_exceptions = fiber.thread_state.uncaught_exceptions;
+  *error_number = fiber.thread_state.error_number;
+}
+
 }  // namespace
 
 void bind_to_thread() {
@@ -102,12 +112,14 @@ void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), 
 }
 
 void switch_fiber(Fiber& from, Fiber& to) {
-  from.thread_state = {globals->caught_exceptions, globals->uncaught_exceptions, *error_number};
-  globals->caught_exceptions = to.thread_state.caught_exceptions;
-  globals->uncaught_exceptions = to.thread_state.uncaught_exceptions;
-  *error_number = to.thread_state.error_number;
-  if (__builtin_expect(from.thread_pointer != to.thread_pointer, 0))
+  if (__builtin_expect(from.thread_pointer == to.thread_pointer, 1)) {
+    save_thread_state(from);
+    restore_thread_state(to);
+  } else {
+    if (from.thread_pointer == nullptr) save_thread_state(from);
+    if (to.thread_pointer == nullptr) restore_thread_state(to);
     set_thread_pointer(to.thread_pointer != nullptr ? to.thread_pointer : own_thread_pointer);
+  }
   void* target = to.context;
   to.context = nullptr;
   if (__builtin_expect(sanitizer::present, 0)) return jump_seen(from, target, to);

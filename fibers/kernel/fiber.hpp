@@ -23,7 +23,8 @@ struct Fiber {
   void* context = nullptr;  ///< where it goes on; null while it runs. A debugger reads it.
   ThreadState thread_state;
   Stack stack;
-  /// Where it finds its thread-local variables; null: where the thread that runs the fibers does.
+  /// Where it finds its thread-local variables, its thread's state among them; null: where the thread that runs the
+  /// fibers does.
   void* thread_pointer = nullptr;
   bool ended = false;        ///< it is left for good
   void* known_as = nullptr;  ///< to a sanitizer
