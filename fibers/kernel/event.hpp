@@ -16,6 +16,7 @@ inline constexpr std::uint64_t tie_mask = (std::uint64_t{1} << 60) - 1;
 constexpr std::uint64_t make_order(Phase phase, std::uint64_t tie) {
   return static_cast<std::uint64_t>(phase) << 60 | (tie & tie_mask);
 }
+constexpr Phase phase_of(std::uint64_t order) { return static_cast<Phase>(order >> 60); }
 
 /// When an event is due, not before the start of the run, and its place among those due then: phase:4 | tie:60.
 struct EventKey {

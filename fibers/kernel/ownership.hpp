@@ -14,13 +14,14 @@ inline void own(Object& object, Task& task) {
   task.held = &object;
 }
 
-/// Takes `object` from its owner.
-inline void disown(Object& object) {
+/// Takes `object` from `owner`, who owns it.
+inline void disown(Object& object, Task& owner) {
   // Locks are mostly given up in the reverse order of their taking: the first link is the right one.
-  Object** link = &object.owner->held;
+  Object** link = &owner.held;
   while (*link != &object) link = &(*link)->next_held;
   *link = object.next_held;
   object.owner = nullptr;
 }
+inline void disown(Object& object) { disown(object, *object.owner); }
 
 }  // namespace waitpoint::kernel

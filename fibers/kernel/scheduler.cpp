@@ -34,11 +34,16 @@ constexpr int stack_lines_fetched = 5;
 }  // namespace
 
 Scheduler::Scheduler(Order order, std::uint64_t seed) : events_(events_max), chooser_(order, seed), epoch_(++runs) {
-  // The short way through a waitpoint is inline, in code that ThreadSanitizer may look at: it would take what tasks
-  // write to the scheduler for races.
-  may_stay_ = order == Order::fifo && !sanitizer::present;
+  allow_free_passes();
   set_watch(nullptr);
   if (sanitizer::present) sanitizer::begin_run();
+}
+
+// The short way through a waitpoint is inline, in code that ThreadSanitizer may look at: it would take what tasks write
+// to the scheduler for races.
+void Scheduler::allow_free_passes() {
+  may_stay_ = chooser_.order() == Order::fifo && !sanitizer::present;
+  may_stay_alone_ = chooser_.order() == Order::seeded && !sanitizer::present;
 }
 
 Scheduler::~Scheduler() {
@@ -63,7 +68,7 @@ void Scheduler::restart(std::uint64_t seed) {
   state_ = RunState::idle;
   cause_ = StopCause::none;
   unheard_ = PairDigest();
-  may_stay_ = chooser_.order() == Order::fifo && !sanitizer::present;
+  allow_free_passes();
   unwinding_ = interrupted_ = false;
   if (sanitizer::present) {
     sanitizer::end_run();
@@ -118,7 +123,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
     ++robot.live_tasks;
   }
   place(task, task.local_time);
-  if (task.local_time <= now_ && running != nullptr && task.phase < running->phase) end_free_passes(*running);
+  if (task.local_time <= now_) note_present_event(task.phase);
   return &task;
 }
 

@@ -140,6 +140,16 @@ class Scheduler {
     execute(task, operation, object);
     return true;
   }
+  /// The same where nothing can come between, and nobody watches; else false, with nothing done.
+  [[gnu::always_inline]] bool waitpoint_at_once(Task& task, Operation operation, Object& object) {
+    const std::uint32_t passes = free_passes_;
+    if (passes == 0 || task.local_time != now_ || object.epoch != epoch_ || watched_) return false;
+    free_passes_ = passes - 1;
+    task.operation = operation;
+    task.at = &object;
+    count(task, operation, &object);
+    return true;
+  }
   /// The running task looks at its clock: no event, but what it does again and again must end, so that others get a
   /// turn after as many looks as waitpoints at one instant. False when the run is over.
   bool look_at_clock(Time& local) {
@@ -270,12 +280,15 @@ class Scheduler {
   Task* wake_a_waiter(Object& object);
   // The task's event is executed: counted, and hashed.
   [[gnu::always_inline]] void execute(Task& task, Operation operation, const Object* object) {
+    count(task, operation, object);
+    if (__builtin_expect(watched_, 0)) show(operation, object);
+  }
+  [[gnu::always_inline]] void count(Task& task, Operation operation, const Object* object) {
     ++executed_;
     ++task.sequence;
     std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
     if (object != nullptr) what ^= object->identity;
     lane_->add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
-    if (__builtin_expect(watched_, 0)) show(operation, object);
   }
   void show(Operation operation, const Object* object);
   bool give_turn(Task& task);
@@ -300,6 +313,8 @@ class Scheduler {
   void hash_events_of(Robot& robot);
   void let_pass(Task& task);
   void end_free_passes(Task& task);
+  void note_present_event(Phase phase);
+  void allow_free_passes();
   void set_local_time(Task& task, Time time);
   void make_ready(Task& task);
   void put(EventNode& node, const EventKey& key);
@@ -350,11 +365,13 @@ class Scheduler {
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
   // How many more waitpoints the running task passes at the present instant without a look at the event list: some in
-  // the first-in-first-out order, as long as no event of an earlier phase was put in for this instant.
+  // the first-in-first-out order, as long as no event of an earlier phase was put in for this instant; in the seeded
+  // order as long as no other event is due at it.
   std::uint32_t free_passes_ = 0;
   PairDigest* lane_ = nullptr;  // where the running task's events are hashed
   PairDigest unheard_;          // of robots that ended
-  bool may_stay_;
+  bool may_stay_;               // it may have some, by its order
+  bool may_stay_alone_;         // it may where no other event is due at its instant
   bool unwinding_ = false;
   bool interrupted_ =
       false;                 // tasks that get control are not to go on: they are unwound, or asked for their call stack

@@ -19,7 +19,7 @@ inline void Scheduler::hash_events_of(Robot& robot) { lane_ = robot.lane; }
 // What is left to the running task of its waitpoints at the present instant, it may pass without a look at the event
 // list: they count as passed until something comes between.
 inline void Scheduler::let_pass(Task& task) {
-  if (!may_stay_ || task.attention != 0 || task.turns >= turns_max) return;
+  if (task.attention != 0 || task.turns >= turns_max) return;
   free_passes_ = turns_max - task.turns;
   task.turns = turns_max;
 }
@@ -27,6 +27,11 @@ inline void Scheduler::let_pass(Task& task) {
 inline void Scheduler::end_free_passes(Task& task) {
   task.turns -= free_passes_;
   free_passes_ = 0;
+}
+
+// An event of this phase was put in for the present instant.
+inline void Scheduler::note_present_event(Phase phase) {
+  if (running != nullptr && (!may_stay_ || phase < running->phase)) end_free_passes(*running);
 }
 
 // A new instant for the task: it may pass as many waitpoints again.
@@ -38,7 +43,7 @@ inline void Scheduler::set_local_time(Task& task, Time time) {
 
 inline void Scheduler::put(EventNode& node, const EventKey& key) {
   events_.insert(node, key);
-  if (key.time <= now_ && running != nullptr && key.order < make_order(running->phase, 0)) end_free_passes(*running);
+  if (key.time <= now_) note_present_event(phase_of(key.order));
 }
 
 // The task's event at `time`.
@@ -109,7 +114,7 @@ inline void Scheduler::resume(Task& task) {
   task.state = TaskState::running;
   running = &task;
   hash_events_of(*task.robot);
-  let_pass(task);
+  if (may_stay_) let_pass(task);
 }
 
 // The task's event is next: it runs.
@@ -136,7 +141,7 @@ inline void Scheduler::make_ready(Task& task) {
   task.state = TaskState::ready;
   set_local_time(task, now_);
   if (!placed) place(task, now_);
-  if (running != nullptr && task.phase < running->phase) end_free_passes(*running);
+  note_present_event(task.phase);
 }
 
 }  // namespace waitpoint::kernel

@@ -30,7 +30,7 @@ inline bool Scheduler::arrive(Task& task) {
   }
   now_ = task.local_time;
   events_.advance(now_);
-  let_pass(task);
+  if (may_stay_ || (may_stay_alone_ && now_ < least.time)) let_pass(task);
   return true;
 }
 
