@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// pthread_barrier_t: a word in its bytes leads to its count.
+// pthread_barrier_t: its counts are in its own bytes.
 #include <pthread.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
-#include "fibers/posix/signals.hpp"
+#include "fibers/posix/shared_object.hpp"
 #include "fibers/posix/waitable.hpp"
-#include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -17,12 +17,33 @@ namespace {
 struct Barrier : Waitable {
   static constexpr Kind kind_of_all = Kind::barrier;
   explicit Barrier(const void* address) : Waitable(kind_of_all, "barrier", address) {}
-
-  unsigned count = 0, arrived = 0;
-  std::uint64_t opened = 0;  ///< how often all had arrived
 };
 
-Barrier*& known_of(pthread_barrier_t* barrier) { return *reinterpret_cast<Barrier**>(barrier); }
+struct Bytes {
+  Barrier* known;  // of one that processes do not share
+  std::uint32_t mark;
+  unsigned count, arrived;
+  std::uint32_t opened;  // how often all had arrived
+
+  bool is_shared() const { return mark == mark_of_shared; }
+};
+static_assert(sizeof(Bytes) <= sizeof(pthread_barrier_t));
+
+Bytes& bytes_of(pthread_barrier_t* barrier) { return *reinterpret_cast<Bytes*>(barrier); }
+
+Barrier& barrier_of(Bytes& bytes) {
+  return bytes.is_shared() ? waitable_at<Barrier>(&bytes) : waitable_at(bytes.known, &bytes);
+}
+
+// Whether all others have.
+bool arrive(Bytes& bytes, std::uint32_t& opened) {
+  const family::Section section(bytes.is_shared());
+  opened = bytes.opened;
+  if (++bytes.arrived < bytes.count) return false;
+  bytes.arrived = 0;
+  ++bytes.opened;
+  return true;
+}
 
 }  // namespace
 }  // namespace waitpoint::posix
@@ -30,35 +51,47 @@ Barrier*& known_of(pthread_barrier_t* barrier) { return *reinterpret_cast<Barrie
 using namespace waitpoint;
 using namespace waitpoint::posix;
 
-WAITPOINT_INTERPOSED int pthread_barrier_init(pthread_barrier_t* barrier, const pthread_barrierattr_t*,
+WAITPOINT_INTERPOSED int pthread_barrier_init(pthread_barrier_t* barrier, const pthread_barrierattr_t* attributes,
                                               unsigned count) noexcept {
   if (count == 0) return EINVAL;
-  known_of(barrier) = &make_waitable<Barrier>(barrier);
-  known_of(barrier)->count = count;
+  int sharing = PTHREAD_PROCESS_PRIVATE;
+  if (attributes != nullptr) pthread_barrierattr_getpshared(attributes, &sharing);
+  std::memset(barrier, 0, sizeof *barrier);
+  Bytes& bytes = bytes_of(barrier);
+  bytes.count = count;
+  if (sharing == PTHREAD_PROCESS_SHARED) bytes.mark = mark_of_shared;
+  // What was at this address may still be waited for.
+  if (!bytes.is_shared()) bytes.known = &make_waitable<Barrier>(barrier);
   return 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_barrier_destroy(pthread_barrier_t* barrier) noexcept {
-  Barrier* const known = known_of(barrier);
-  if (!known->idle()) return EBUSY;
-  forget(*known);
+  Bytes& bytes = bytes_of(barrier);
+  if (bytes.arrived > 0) return EBUSY;
+  Waitable* const known = bytes.is_shared() ? find_waitable(barrier, Waitable::Kind::barrier) : bytes.known;
+  if (known != nullptr && !known->idle()) return EBUSY;
+  if (known != nullptr) forget(*known);
+  bytes.known = nullptr;
   return 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_barrier_wait(pthread_barrier_t* barrier) noexcept {
   if (!is_simulated()) refuse("a thread waits before main() begins");
-  Barrier& known = *known_of(barrier);
+  Bytes& bytes = bytes_of(barrier);
+  Barrier& known = barrier_of(bytes);
   pass(kernel::Operation::arrive, &known.object);
-  if (++known.arrived < known.count) {
-    const std::uint64_t opened = known.opened;
-    while (wait_on(known.object, Time::max()) == Wait::interrupted) {
-      handle_signals();
-      if (known.opened != opened) break;
-    }
-    return 0;
+  std::uint32_t opened = 0;
+  if (arrive(bytes, opened)) {
+    if (bytes.is_shared())
+      tell_change(known.object);
+    else
+      kernel::running->scheduler->wake_all(known.object);
+    return PTHREAD_BARRIER_SERIAL_THREAD;
   }
-  known.arrived = 0;
-  ++known.opened;
-  kernel::running->scheduler->wake_all(known.object);
-  return PTHREAD_BARRIER_SERIAL_THREAD;
+  for (;;) {
+    const Wait ended = bytes.is_shared() ? wait_for_change(known.object, bytes.opened, opened, Time::max())
+                                         : wait_on(known.object, Time::max());
+    if (ended == Wait::interrupted) handle_signals();
+    if (__atomic_load_n(&bytes.opened, __ATOMIC_SEQ_CST) != opened) return 0;
+  }
 }

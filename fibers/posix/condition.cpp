@@ -12,6 +12,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/mutex.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/shared_object.hpp"
 #include "fibers/posix/signals.hpp"
 
 namespace waitpoint::posix {
@@ -23,40 +24,104 @@ struct Condition : Waitable {
 };
 
 struct Bytes {
-  Condition* known;
-  clockid_t clock;  // 0: CLOCK_REALTIME
+  Condition* known;  // of one that processes do not share
+  clockid_t clock;   // 0: CLOCK_REALTIME
+  // Of one that they share: who waits has a ticket, and those below `released` go on.
+  std::uint32_t mark;
+  std::uint64_t next_ticket;
+  std::uint64_t released;
+  std::uint32_t changes;
+
+  bool is_shared() const { return mark == mark_of_shared; }
 };
 static_assert(sizeof(Bytes) <= sizeof(pthread_cond_t));
 
 Bytes& bytes_of(pthread_cond_t* condition) { return *reinterpret_cast<Bytes*>(condition); }
 
+Condition& condition_of(pthread_cond_t* condition) {
+  Bytes& bytes = bytes_of(condition);
+  return bytes.is_shared() ? waitable_at<Condition>(condition) : waitable_at(bytes.known, condition);
+}
+
+std::uint64_t take_ticket(Bytes& bytes) {
+  const family::Section section;
+  return bytes.next_ticket++;
+}
+
+// Whose wait ends otherwise leaves a ticket that nobody waits with. The others go on too, unless it is the last: for
+// nothing, as POSIX lets them, and no signal is lost.
+void give_ticket_back(Bytes& bytes, std::uint64_t ticket) {
+  const family::Section section;
+  if (ticket < bytes.released) return;
+  if (ticket + 1 == bytes.next_ticket)
+    --bytes.next_ticket;
+  else
+    bytes.released = bytes.next_ticket;
+  ++bytes.changes;
+}
+
+Wait wait_shared(Condition& known, Bytes& bytes, std::uint64_t ticket, Time deadline, const CancellationPoint& point) {
+  for (;;) {
+    std::uint32_t changes = 0;
+    {
+      const family::Section section;
+      if (ticket < bytes.released) return Wait::came;
+      changes = bytes.changes;
+    }
+    Wait ended = Wait::interrupted;
+    if (!point.was_cancelled())
+      ended = deadline > kernel::running->local_time ? wait_for_change(known.object, bytes.changes, changes, deadline)
+                                                     : Wait::timed_out;
+    if (ended == Wait::came) continue;
+    give_ticket_back(bytes, ticket);
+    tell_change(known.object);
+    return ended;
+  }
+}
+
+void release_shared(Condition& known, Bytes& bytes, bool all) {
+  {
+    const family::Section section;
+    if (bytes.released == bytes.next_ticket) return;
+    bytes.released = all ? bytes.next_ticket : bytes.released + 1;
+    ++bytes.changes;
+  }
+  tell_change(known.object);
+}
+
 int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
-  Condition& known = waitable_at(bytes_of(condition).known, condition);
+  Bytes& words = bytes_of(condition);
+  Condition& known = condition_of(condition);
   Mutex& mutex = mutex_of(bytes);
   const CancellationPoint point;
   pass(kernel::Operation::wait, &known.object);
-  if (mutex.object.owner != kernel::running && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP) return EPERM;
+  if (!is_mine(*bytes) && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP) return EPERM;
   // Unlocked and waiting in one step, without a waitpoint between: nothing else tells what happened before it.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);
-  const std::uint32_t depth = release(mutex);
+  const std::uint64_t ticket = words.is_shared() ? take_ticket(words) : 0;
+  const std::uint32_t depth = release(*bytes);
   // A handler is no reason to wait on: who signals meanwhile does not find it waiting. It comes back as if signalled.
   Wait ended = Wait::came;
-  if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
+  if (words.is_shared())
+    ended = wait_shared(known, words, ticket, deadline, point);
+  else if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
     ended = deadline > kernel::running->local_time ? point.block(known.object, deadline) : Wait::timed_out;
   if (ended == Wait::interrupted && !point.was_cancelled()) handle_signals();
   pass(kernel::Operation::lock, &mutex.object);
-  const int error = lock(mutex, type_of(*bytes), Time::max());
-  mutex.depth = depth;
+  const int error = lock(*bytes, Time::max());
+  set_depth(*bytes, depth);
   if (point.was_cancelled()) leave_if_cancelled();
   return error != 0 ? error : ended == Wait::timed_out ? ETIMEDOUT : 0;
 }
 
 int notify(pthread_cond_t* condition, bool all) {
   if (!is_simulated()) return 0;
-  Condition& known = waitable_at(bytes_of(condition).known, condition);
+  Condition& known = condition_of(condition);
   pass(all ? kernel::Operation::notify_all : kernel::Operation::notify_one, &known.object);
-  if (all)
+  if (bytes_of(condition).is_shared())
+    release_shared(known, bytes_of(condition), all);
+  else if (all)
     kernel::running->scheduler->wake_all(known.object);
   else
     wake_one(known.object);
@@ -71,13 +136,18 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int pthread_cond_init(pthread_cond_t* condition, const pthread_condattr_t* attributes) noexcept {
   std::memset(condition, 0, sizeof *condition);
-  if (attributes != nullptr) pthread_condattr_getclock(attributes, &bytes_of(condition).clock);
+  if (attributes == nullptr) return 0;
+  int sharing = PTHREAD_PROCESS_PRIVATE;
+  pthread_condattr_getclock(attributes, &bytes_of(condition).clock);
+  pthread_condattr_getpshared(attributes, &sharing);
+  if (sharing == PTHREAD_PROCESS_SHARED) bytes_of(condition).mark = mark_of_shared;
   return 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_cond_destroy(pthread_cond_t* condition) noexcept {
   Bytes& bytes = bytes_of(condition);
-  if (bytes.known != nullptr) forget(*bytes.known);
+  Waitable* const known = bytes.is_shared() ? find_waitable(condition, Waitable::Kind::condition) : bytes.known;
+  if (known != nullptr) forget(*known);
   bytes.known = nullptr;
   return 0;
 }

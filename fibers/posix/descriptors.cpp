@@ -12,6 +12,7 @@
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
+#include "fibers/posix/family.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/real_waits.hpp"
@@ -33,6 +34,7 @@ struct Waiter {
   bool outside;
   bool (*is_ready)(const void*) = nullptr;  // null: one of the descriptors
   const void* what = nullptr;
+  bool shared = false;  ///< for what another process of the family may do, if there is one
   Waiter* next = nullptr;
   Waiter* previous = nullptr;
 };
@@ -40,6 +42,7 @@ Waiter* first = nullptr;
 Waiter* last = nullptr;
 int waiting_outside = 0;
 int waiting_for_no_descriptor = 0;  // of which nothing tells but asking
+int waiting_for_family = 0;
 
 kernel::Object descriptors_object{"descriptor"};
 kernel::Object outside_object{"something outside"};
@@ -49,18 +52,42 @@ int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
   return WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
 }
 
+void count_outside(const Waiter& waiter, int by) {
+  waiting_outside += by;
+  if (waiter.count == 0) waiting_for_no_descriptor += by;
+  if (!waiter.shared) return;
+  waiting_for_family += by;
+  family::note_waiting(waiting_for_family > 0);
+}
+
 void add(Waiter& waiter) {
   waiter.next = nullptr;
   waiter.previous = last;
   (last == nullptr ? first : last->next) = &waiter;
   last = &waiter;
-  if (waiter.outside) ++waiting_outside;
+  if (waiter.outside) count_outside(waiter, 1);
 }
 
 void remove(Waiter& waiter) {
   (waiter.previous == nullptr ? first : waiter.previous->next) = waiter.next;
   (waiter.next == nullptr ? last : waiter.next->previous) = waiter.previous;
-  if (waiter.outside) --waiting_outside;
+  if (waiter.outside) count_outside(waiter, -1);
+}
+
+// Shared objects are waited for outside while there is a family, and inside without one: then all can be stuck.
+void take_shared_outside() {
+  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+    if (!waiter->shared || waiter->outside) continue;
+    waiter->outside = true;
+    count_outside(*waiter, 1);
+  }
+}
+
+// The others of the family have ended: whoever waits for them looks once more, and waits inside.
+void wake_shared() {
+  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+    if (waiter->shared && waiter->outside && waiter->task->state == kernel::TaskState::blocked)
+      waiter->task->scheduler->wake(*waiter->task);
 }
 
 // Those whose descriptors are ready go on.
@@ -68,6 +95,7 @@ bool wake_ready(bool outside_too) {
   bool any = false;
   for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
     if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too)) continue;
+    if (waiter->shared && !waiter->outside) continue;  // who changes that wakes it
     const bool is_ready = waiter->is_ready != nullptr ? waiter->is_ready(waiter->what)
                                                       : poll_now(waiter->descriptors, waiter->count) != 0;
     if (!is_ready) continue;
@@ -147,11 +175,14 @@ void note_start() {
     }
 }
 
-void note_fork() { std::memset(inside, 0, sizeof inside); }
+void note_fork() {
+  std::memset(inside, 0, sizeof inside);
+  take_shared_outside();
+}
 
 void forget_waiters() {
   first = last = nullptr;
-  waiting_outside = waiting_for_no_descriptor = 0;
+  waiting_outside = waiting_for_no_descriptor = waiting_for_family = 0;
 }
 
 void forget_waiter(const kernel::Task& task) {
@@ -200,15 +231,25 @@ int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restar
     task.scheduler->enter(outside_object);
     Waiter waiter{&task, nullptr, 0, true, is_ready, what};
     add(waiter);
-    ++waiting_for_no_descriptor;
     task.scheduler->pause();
     const Wait ended = wait_on(outside_object, Time::max());
-    --waiting_for_no_descriptor;
     remove(waiter);
     if (thread_of(task).in_cancellation_point && is_to_leave(thread_of(task))) return 0;
     if (ended == Wait::interrupted && !is_ready(what) && is_interrupted(restart)) return fail(EINTR);
   }
   return 1;
+}
+
+Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(const void*), const void* what) {
+  kernel::Task& task = *kernel::running;
+  Waiter waiter{&task, nullptr, 0, family::has_others(), is_ready, what};
+  waiter.shared = true;
+  add(waiter);
+  if (waiter.outside) task.scheduler->pause();
+  // From here on other processes ring; what was changed before is seen now.
+  const Wait ended = waiter.outside && is_ready(what) ? Wait::came : wait_on(object, deadline);
+  remove(waiter);
+  return ended;
 }
 
 bool wait_for_reader(int descriptor, int patience_ms) {
@@ -228,7 +269,12 @@ bool wait_outside_for(Duration longest) {
 bool look_outside(bool may_wait) {
   const bool came = take_in_signals_from_outside();
   if (wake_ready(true) || came) return true;
-  if (!may_wait || waiting_outside == 0) return false;
+  if (!may_wait) return false;
+  if (waiting_for_family > 0 && !family::has_others()) {
+    wake_shared();
+    return true;
+  }
+  if (waiting_outside == 0) return false;
   wait_really(Duration::max());
   take_in_signals_from_outside();
   wake_ready(true);

@@ -14,6 +14,7 @@
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/signals.hpp"
+#include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
 
@@ -29,7 +30,7 @@ bool is_inside(int descriptor);
 void note_owner(int descriptor);
 /// Closes what a program has left open that has ended before its process does: who is at the other end waits no longer.
 void close_descriptors_of(const Program& program);
-/// A child has copies of all of them: nothing is inside any more.
+/// A child has copies of all of them: nothing is inside any more. Nor is what threads wait for on shared objects.
 void note_fork();
 /// The same of a program that is started: it has no copies of those that are closed then.
 void note_start();
@@ -64,6 +65,10 @@ void look_at_descriptors();
 /// The running thread waits for something outside that is no descriptor, until `is_ready` says so: 1; 0 if the thread
 /// was cancelled; -1 with EINTR if a signal ended the wait.
 int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart);
+
+/// The running thread waits as wait_on() does. While there are other processes of its family, until `is_ready` too:
+/// what it waits for may be done by one of them.
+Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(const void*), const void* what);
 
 /// From outside all threads, at the end of an instant: looks at what threads wait for, and waits in real time if
 /// `may_wait`. Whether one of them goes on.

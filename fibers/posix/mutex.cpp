@@ -8,6 +8,7 @@
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
+#include "fibers/posix/shared_mutex.hpp"
 #include "fibers/posix/signals.hpp"
 
 namespace waitpoint::posix {
@@ -24,9 +25,8 @@ void hand_on(Mutex& mutex) {
 
 // What the new owner is told.
 int enter(Mutex& mutex) {
-  if (!mutex.owner_died) return 0;
-  mutex.owner_died = false;
-  mutex.is_inconsistent = true;
+  if (mutex.sound != Mutex::Sound::owner_died) return 0;
+  mutex.sound = Mutex::Sound::not_yet;
   return EOWNERDEAD;
 }
 
@@ -39,29 +39,72 @@ int lock_again(Mutex& mutex, int type) {
   return 0;
 }
 
-int lock_before(pthread_mutex_t* bytes, Time deadline, bool is_valid_deadline) {
+int wait_and_lock(Mutex& mutex, int type, Time deadline) {
+  if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+  if (mutex.object.owner == kernel::running)
+    if (const int result = lock_again(mutex, type); result >= 0) return result;
+  while (mutex.object.owner != nullptr) {
+    if (deadline <= kernel::running->local_time) return ETIMEDOUT;
+    const Wait ended = wait_on(mutex.object, deadline);
+    if (ended == Wait::timed_out) return ETIMEDOUT;
+    if (ended == Wait::interrupted) handle_signals();
+    if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+    if (ended == Wait::came) return enter(mutex);
+  }
+  kernel::own(mutex.object, *kernel::running);
+  mutex.depth = 1;
+  return enter(mutex);
+}
+
+// What nobody holds is taken, and what nobody waits for is given up, in a few steps where no event can come between:
+// programs do it more often than anything else.
+[[gnu::always_inline]] inline bool lock_at_once(const pthread_mutex_t& bytes) {
+  Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
+  kernel::Task* const task = kernel::running;
+  if (mutex == nullptr || mutex->object.owner != nullptr || mutex->sound != Mutex::Sound::yes) return false;
+  if (!pass_at_once(task, kernel::Operation::lock, mutex->object)) return false;
+  kernel::own(mutex->object, *task);
+  mutex->depth = 1;
+  return true;
+}
+
+[[gnu::always_inline]] inline bool unlock_at_once(const pthread_mutex_t& bytes) {
+  Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
+  kernel::Task* const task = kernel::running;
+  if (mutex == nullptr || mutex->object.first_waiter != nullptr || mutex->depth != 1 ||
+      mutex->sound != Mutex::Sound::yes || mutex->object.owner != task)
+    return false;
+  if (!pass_at_once(task, kernel::Operation::unlock, mutex->object)) return false;
+  kernel::disown(mutex->object, *task);
+  return true;
+}
+
+[[gnu::noinline]] int lock_before(pthread_mutex_t* bytes, Time deadline, bool is_valid_deadline) {
   Mutex& mutex = mutex_of(bytes);
   pass(kernel::Operation::lock, &mutex.object);
+  if (mutex.is_shared) return shared_mutex::lock(*bytes, deadline, is_valid_deadline);
   // What the owner locks again looks at no deadline, unless it is to wait for itself.
   const bool is_known = mutex.object.owner == kernel::running && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP &&
                         type_of(*bytes) != PTHREAD_MUTEX_ADAPTIVE_NP;
   if (!is_valid_deadline && mutex.object.owner != nullptr && !is_known) return EINVAL;
-  return lock(mutex, type_of(*bytes), deadline);
+  return wait_and_lock(mutex, type_of(*bytes), deadline);
 }
 
 int try_lock(pthread_mutex_t* bytes) {
   Mutex& mutex = mutex_of(bytes);
   pass(kernel::Operation::try_lock, &mutex.object);
-  if (mutex.is_lost) return ENOTRECOVERABLE;
+  if (mutex.is_shared) return shared_mutex::try_lock(*bytes);
+  if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP)
     return lock_again(mutex, PTHREAD_MUTEX_RECURSIVE_NP);
   if (mutex.object.owner != nullptr) return EBUSY;
-  return lock(mutex, type_of(*bytes), Time::max());
+  return wait_and_lock(mutex, type_of(*bytes), Time::max());
 }
 
-int unlock(pthread_mutex_t* bytes) {
+[[gnu::noinline]] int unlock(pthread_mutex_t* bytes) {
   Mutex& mutex = mutex_of(bytes);
   pass(kernel::Operation::unlock, &mutex.object);
+  if (mutex.is_shared) return shared_mutex::unlock(*bytes);
   const bool is_mine = mutex.object.owner == kernel::running;
   if (!is_mine && (type_of(*bytes) == PTHREAD_MUTEX_ERRORCHECK_NP || type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP ||
                    mutex.is_robust))
@@ -72,9 +115,8 @@ int unlock(pthread_mutex_t* bytes) {
     --mutex.depth;
     return 0;
   }
-  if (mutex.is_inconsistent) {
-    mutex.is_inconsistent = false;
-    mutex.is_lost = true;
+  if (mutex.sound == Mutex::Sound::not_yet) {
+    mutex.sound = Mutex::Sound::never;
     kernel::disown(mutex.object);
     kernel::running->scheduler->wake_all(mutex.object);
     return 0;
@@ -85,27 +127,36 @@ int unlock(pthread_mutex_t* bytes) {
 
 }  // namespace
 
-int lock(Mutex& mutex, int type, Time deadline) {
-  if (mutex.is_lost) return ENOTRECOVERABLE;
-  if (mutex.object.owner == kernel::running)
-    if (const int result = lock_again(mutex, type); result >= 0) return result;
-  while (mutex.object.owner != nullptr) {
-    if (deadline <= kernel::running->local_time) return ETIMEDOUT;
-    const Wait ended = wait_on(mutex.object, deadline);
-    if (ended == Wait::timed_out) return ETIMEDOUT;
-    if (ended == Wait::interrupted) handle_signals();
-    if (mutex.is_lost) return ENOTRECOVERABLE;
-    if (ended == Wait::came) return enter(mutex);
-  }
-  kernel::own(mutex.object, *kernel::running);
-  mutex.depth = 1;
-  return enter(mutex);
+int lock(pthread_mutex_t& bytes, Time deadline) {
+  if (is_shared(bytes)) return shared_mutex::lock(bytes, deadline, true);
+  return wait_and_lock(mutex_of(&bytes), type_of(bytes), deadline);
 }
 
-std::uint32_t release(Mutex& mutex) {
+std::uint32_t release(pthread_mutex_t& bytes) {
+  if (is_shared(bytes)) return shared_mutex::release(bytes);
+  Mutex& mutex = mutex_of(&bytes);
   const std::uint32_t depth = mutex.depth;
   if (mutex.object.owner != nullptr) hand_on(mutex);
   return depth;
+}
+
+void set_depth(pthread_mutex_t& bytes, std::uint32_t depth) {
+  if (is_shared(bytes)) return shared_mutex::set_depth(bytes, depth);
+  mutex_of(&bytes).depth = depth;
+}
+
+bool is_mine(pthread_mutex_t& bytes) {
+  return is_shared(bytes) ? shared_mutex::is_mine(bytes) : mutex_of(&bytes).object.owner == kernel::running;
+}
+
+void leave_shared_mutexes() {
+  for (kernel::Object *held = kernel::running->held, *next = nullptr; held != nullptr; held = next) {
+    next = held->next_held;
+    const Waitable* const waitable = waitable_of(*held);
+    if (waitable != nullptr && waitable->kind == Waitable::Kind::mutex &&
+        static_cast<const Mutex*>(waitable)->is_shared)
+      kernel::disown(*held);
+  }
 }
 
 void let_robust_mutexes_go() {
@@ -114,9 +165,10 @@ void let_robust_mutexes_go() {
     kernel::Object* const next = held->next_held;
     if (const Waitable* waitable = waitable_of(*held); waitable != nullptr && waitable->kind == Waitable::Kind::mutex) {
       auto& mutex = *static_cast<Mutex*>(const_cast<Waitable*>(waitable));
-      if (mutex.is_robust) {
-        mutex.owner_died = true;
-        mutex.is_inconsistent = false;
+      if (mutex.is_shared && mutex.is_robust) {
+        shared_mutex::let_go(*static_cast<pthread_mutex_t*>(const_cast<void*>(mutex.address)));
+      } else if (mutex.is_robust) {
+        mutex.sound = Mutex::Sound::owner_died;
         if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);  // without a waitpoint
         hand_on(mutex);
       }
@@ -138,6 +190,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_init(pthread_mutex_t* mutex, const pthrea
 
 WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept {
   auto*& known = reinterpret_cast<Mutex*&>(mutex->__data.__list.__prev);
+  if (is_shared(*mutex)) return shared_mutex::destroy(*mutex);
   if (known == nullptr) return 0;
   if (!known->idle()) return EBUSY;
   forget(*known);
@@ -147,6 +200,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept 
 
 // Before main() there is one thread: no lock is in its way.
 WAITPOINT_INTERPOSED int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
+  if (lock_at_once(*mutex)) return 0;
   return is_simulated() ? lock_before(mutex, Time::max(), true) : 0;
 }
 
@@ -155,6 +209,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept 
 }
 
 WAITPOINT_INTERPOSED int pthread_mutex_unlock(pthread_mutex_t* mutex) noexcept {
+  if (unlock_at_once(*mutex)) return 0;
   return is_simulated() ? unlock(mutex) : 0;
 }
 
@@ -184,7 +239,8 @@ WAITPOINT_INTERPOSED int pthread_mutex_setprioceiling(pthread_mutex_t* mutex, in
 
 WAITPOINT_INTERPOSED int pthread_mutex_consistent(pthread_mutex_t* mutex) noexcept {
   Mutex& known = mutex_of(mutex);
-  if (!known.is_robust || !known.is_inconsistent || known.object.owner != kernel::running) return EINVAL;
-  known.is_inconsistent = false;
+  if (known.is_shared) return known.is_robust ? shared_mutex::make_consistent(*mutex) : EINVAL;
+  if (!known.is_robust || known.sound != Mutex::Sound::not_yet || known.object.owner != kernel::running) return EINVAL;
+  known.sound = Mutex::Sound::yes;
   return 0;
 }

@@ -7,6 +7,8 @@ namespace waitpoint::posix {
 /// All of them, when nobody is left that uses any.
 void forget_named_objects();
 
+/// Before the first fork: what the processes open is theirs together.
+void share_named_semaphores();
 void forget_named_semaphores();
 
 }  // namespace waitpoint::posix

@@ -15,10 +15,13 @@
 #include "fibers/posix/children.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
+#include "fibers/posix/family.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/interval_timers.hpp"
+#include "fibers/posix/named_objects.hpp"
 #include "fibers/posix/pace.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/robust_mutexes.hpp"
 #include "fibers/posix/signals.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -31,6 +34,8 @@ void* copy_of_record = nullptr;
 
 void copy_record() {
   if (!is_simulated() || copy_of_record != nullptr) return;
+  share_named_semaphores();
+  family::expect_child();
   void* const copy =
       mmap(nullptr, record_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (copy == MAP_FAILED) refuse("there is no memory for a child's simulation");
@@ -58,7 +63,9 @@ void begin_as_child() {
   if (!is_simulated() || is_child) return;
   is_child = true;
   take_own_record();
+  family::begin_as_child();
   forget_waiters();
+  leave_shared_mutexes();
   kernel::running->scheduler->keep_running_task_only();
   forget_interval_timers();
   forget_timers();
@@ -82,7 +89,10 @@ pid_t fork_by(pid_t (*real)(), bool calls_handlers) {
   if (!calls_handlers) copy_record();
   const pid_t child = real();
   if (child == 0) begin_as_child();
-  if (child != 0) drop_copy();
+  if (child != 0) {
+    drop_copy();
+    family::note_child(child);
+  }
   if (child > 0) note_child(child);
   return child;
 }

@@ -13,6 +13,7 @@
 #include "fibers/posix/deadlock.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/exploration.hpp"
+#include "fibers/posix/family.hpp"
 #include "fibers/posix/fork_server.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/pace.hpp"
@@ -114,6 +115,7 @@ kernel::Scheduler& begin_run() {
   begin();
   if (const int server = record->settings.server; server >= 0) map_record(serve_runs(server));
   if (record->began) begin_anew();
+  family::begin();
   const Asked* const asked = record->settings.asked;
   record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
   kernel::Scheduler& scheduler =

@@ -8,6 +8,7 @@
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/shared_rwlock.hpp"
 #include "fibers/posix/signals.hpp"
 #include "fibers/posix/waitable.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -30,7 +31,10 @@ struct RwLock : Waitable {
 };
 
 // As glibc's: `__flags` is the kind, `__readers` and its kin are not needed.
-RwLock& lock_of(pthread_rwlock_t* lock) { return waitable_at(*reinterpret_cast<RwLock**>(lock), lock); }
+RwLock& lock_of(pthread_rwlock_t* lock) {
+  if (shared_rwlock::is_shared(*lock)) return waitable_at<RwLock>(lock);
+  return waitable_at(*reinterpret_cast<RwLock**>(lock), lock);
+}
 
 bool prefers_writers(const pthread_rwlock_t& bytes) {
   return bytes.__data.__flags == PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP;
@@ -44,6 +48,7 @@ bool readers_wait(const pthread_rwlock_t& bytes, const RwLock& lock) {
 int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::lock_shared, &lock.object);
+  if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::read_before(*bytes, lock.object, deadline, valid);
   if (lock.object.owner == kernel::running) return EDEADLK;
   for (;;) {
     if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) {
@@ -74,6 +79,7 @@ void admit_readers(RwLock& lock) {
 int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::lock, &lock.object);
+  if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::write_before(*bytes, lock.object, deadline, valid);
   if (lock.object.owner == kernel::running) return EDEADLK;
   for (;;) {
     if (lock.free()) {
@@ -107,6 +113,7 @@ void hand_on(RwLock& lock, bool prefers_writers) {
 int unlock(pthread_rwlock_t* bytes) {
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::unlock, &lock.object);
+  if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::unlock(*bytes, lock.object);
   if (lock.object.owner != nullptr)
     kernel::disown(lock.object);
   else if (lock.readers > 0)
@@ -129,7 +136,9 @@ WAITPOINT_INTERPOSED int pthread_rwlock_init(pthread_rwlock_t* lock, const pthre
 
 WAITPOINT_INTERPOSED int pthread_rwlock_destroy(pthread_rwlock_t* lock) noexcept {
   RwLock*& known = *reinterpret_cast<RwLock**>(lock);
-  if (known != nullptr) forget(*known);
+  Waitable* const waitable =
+      shared_rwlock::is_shared(*lock) ? find_waitable(lock, Waitable::Kind::rwlock) : static_cast<Waitable*>(known);
+  if (waitable != nullptr) forget(*waitable);
   known = nullptr;
   return 0;
 }

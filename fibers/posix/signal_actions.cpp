@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "fibers/posix/error_number.hpp"
+#include "fibers/posix/family.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/processor_counter.hpp"
 #include "fibers/posix/program.hpp"
@@ -52,6 +53,9 @@ Range range_of_library_with(const void* address) {
   dl_iterate_phdr(look, &search);
   return search.found;
 }
+
+std::atomic<bool> has_rung = false;
+bool has_bell = false;
 
 // What has come and was not sent on yet. Written by a handler, with nothing of the system's blocked: it may be
 // interrupted by itself.
@@ -111,6 +115,7 @@ void handle_fault(int signal, siginfo_t* information, void* context) {
 }
 
 void catch_signal(int signal, siginfo_t* information, void* context) {
+  if (signal == bell && family::is_ring(*information)) return has_rung.store(true);
   const int error = errno;
   // So does the system when this thread writes what nobody can read.
   const bool from_itself =
@@ -150,11 +155,13 @@ SignalSet interrupting = 0;  // siginterrupt()
 }  // namespace
 
 bool has_come_from_outside() {
-  return next_kept.load(std::memory_order_relaxed) != next_taken.load(std::memory_order_relaxed);
+  return next_kept.load(std::memory_order_relaxed) != next_taken.load(std::memory_order_relaxed) ||
+         has_rung.load(std::memory_order_relaxed);
 }
 
 bool take_in_signals_from_outside() {
   bool any = false;
+  has_rung.store(false);
   while (next_taken.load() != next_kept.load()) {
     Kept& place = kept[next_taken.load() % kept_max];
     if (!place.is_there.load()) return any;
@@ -173,7 +180,8 @@ void install(int signal) {
   real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
   real.sa_sigaction = catch_signal;
   const bool is_default = !is_handled(signal);
-  const bool is_looked_for_always = signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc;
+  const bool is_looked_for_always =
+      (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) || (signal == bell && has_bell);
   const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
   if (is_default && action.sa_handler == SIG_IGN && !is_looked_for_always) {
     real.sa_flags &= ~SA_SIGINFO;
@@ -183,6 +191,11 @@ void install(int signal) {
     real.sa_handler = SIG_DFL;
   }
   WAITPOINT_NEXT(sigaction)(signal, &real, nullptr);
+}
+
+void install_bell() {
+  has_bell = true;
+  install(bell);
 }
 
 void do_default(int signal) {

@@ -60,6 +60,11 @@ void drop_signals(Thread& thread);
 /// In a child: nothing pends.
 void forget_pending_signals();
 
+/// By which processes of a family ring for each other (family.hpp): nobody else sends it with that address.
+inline constexpr int bell = SIGURG;
+/// It is looked for from now on.
+void install_bell();
+
 /// What came from outside is sent on; whether there was anything.
 bool take_in_signals_from_outside();
 /// Whether something has come. Quick.

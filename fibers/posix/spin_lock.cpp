@@ -6,7 +6,7 @@
 #include <cerrno>
 
 #include "fibers/posix/interposed.hpp"
-#include "fibers/posix/waiting.hpp"
+#include "fibers/posix/shared_object.hpp"
 #include "fibers/posix/word.hpp"
 
 namespace waitpoint::posix {
@@ -14,6 +14,10 @@ namespace {
 
 // As glibc's: 1 is free, so that what is not initialised is found out.
 constexpr int is_free = 1, is_taken = 0;
+
+bool take(pthread_spinlock_t* lock) { return __atomic_exchange_n(lock, is_taken, __ATOMIC_SEQ_CST) == is_free; }
+
+bool is_left(const void* lock) { return __atomic_load_n(static_cast<const int*>(lock), __ATOMIC_SEQ_CST) == is_free; }
 
 }  // namespace
 }  // namespace waitpoint::posix
@@ -32,8 +36,10 @@ WAITPOINT_INTERPOSED int pthread_spin_lock(pthread_spinlock_t* lock) noexcept {
   if (is_simulated()) {
     Word& word = word_at(const_cast<const int*>(lock));
     pass(kernel::Operation::lock, &word.object);
-    // Who unlocks leaves it taken for whom it wakes.
-    if (*lock != is_free) return block(word.object, Time::max()) ? 0 : EDEADLK;
+    while (!take(lock))
+      if (wait_on_shared(word.object, Time::max(), is_left, const_cast<const int*>(lock)) == Wait::interrupted)
+        handle_signals();
+    return 0;
   }
   *lock = is_taken;
   return 0;
@@ -41,16 +47,16 @@ WAITPOINT_INTERPOSED int pthread_spin_lock(pthread_spinlock_t* lock) noexcept {
 
 WAITPOINT_INTERPOSED int pthread_spin_trylock(pthread_spinlock_t* lock) noexcept {
   if (is_simulated()) pass(kernel::Operation::try_lock, &word_at(const_cast<const int*>(lock)).object);
-  if (*lock != is_free) return EBUSY;
-  *lock = is_taken;
-  return 0;
+  return take(lock) ? 0 : EBUSY;
 }
 
 WAITPOINT_INTERPOSED int pthread_spin_unlock(pthread_spinlock_t* lock) noexcept {
   if (is_simulated()) {
     Word& word = word_at(const_cast<const int*>(lock));
     pass(kernel::Operation::unlock, &word.object);
-    if (wake_one(word.object) != nullptr) return 0;
+    __atomic_store_n(lock, is_free, __ATOMIC_SEQ_CST);
+    tell_change(word.object);
+    return 0;
   }
   *lock = is_free;
   return 0;

@@ -137,7 +137,8 @@ bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
                                               .clock = thread.clock != nullptr ? &thread.clock->local() : nullptr},
                                              run_thread, &thread);
   if (task == nullptr) return false;
-  task->fiber.thread_pointer = thread.area;
+  // The area of the process's own thread is where all fibers without one find theirs.
+  if (thread.area != own_thread_area()) task->fiber.thread_pointer = thread.area;
   thread.task = task;
   count_threads(program);
   return true;
@@ -232,7 +233,7 @@ namespace {
 // On the thread's own stack and area. pthread_exit() and cancellation unwind to the buffer.
 void call_start_routine(void* argument) {
   Thread& thread = *static_cast<Thread*>(argument);
-  thread.in_kernel = false;
+  thread.leave_kernel();
   __ctype_init();
   __pthread_unwind_buf_t buffer;
   if (__sigsetjmp(reinterpret_cast<__jmp_buf_tag*>(buffer.__cancel_jmp_buf), 0) == 0) {

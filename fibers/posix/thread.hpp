@@ -18,7 +18,14 @@ union StartRoutine {
   int (*c11)(void*);
 };
 
+struct SharedFutex;
+
 struct Thread {
+  static constexpr std::uint32_t in_kernel = 1U << 31;
+  bool is_in_kernel() const { return (operations & in_kernel) != 0; }
+  void enter_kernel() { operations |= in_kernel; }
+  void leave_kernel() { operations &= ~in_kernel; }
+
   kernel::Task* task = nullptr;  ///< null once it has ended
   Program* program = nullptr;
   void* area = nullptr;  ///< the pthread_t
@@ -55,10 +62,6 @@ struct Thread {
   bool in_cancellation_point = false;
   bool exiting = false;
 
-  /// It has not begun, or is within a call of the kernel's, which may show an event to whoever watches: what that calls
-  /// is not simulated.
-  bool in_kernel = true;
-
   // Signals: see signals.hpp.
   SignalSet blocked = 0;        ///< its mask
   SignalSet blocked_after = 0;  ///< with a temporary mask: the one that comes after a handler
@@ -72,11 +75,15 @@ struct Thread {
 
   /// Primitives used, and looks at clocks and turns given away, since virtual time was last moved for that: see
   /// waiting.hpp.
-  std::uint32_t operations = 0;
+  ///
+  /// With the bit of those that are in the kernel: it has not begun, or is within a call of the kernel's, which may
+  /// show an event to whoever watches. What that calls is not simulated.
+  std::uint32_t operations = in_kernel;
   std::uint32_t looks = 0;
   std::uint32_t clock_readings = 0;  ///< the same of clocks, since others had their turn
   /// Of a wait on a futex: which wake-ups are for it.
   std::uint32_t futex_mask = 0;
+  SharedFutex* shared_futex = nullptr;  ///< and where it waits, if other processes may wake it
 };
 
 /// What a task of a thread executes: the function, as the C library would call it.
@@ -92,14 +99,14 @@ inline Program& this_program() { return *this_thread().program; }
 inline bool is_thread(const kernel::Task& task) { return task.entry == run_thread; }
 /// Whether the code is that of a simulated thread: before main() there is none.
 inline bool is_simulated() {
-  return kernel::running != nullptr && is_thread(*kernel::running) && !this_thread().in_kernel;
+  return kernel::running != nullptr && is_thread(*kernel::running) && !this_thread().is_in_kernel();
 }
 
 /// While it lives, the running thread is within the kernel.
 class InKernel {
  public:
-  InKernel() : thread_(this_thread()) { thread_.in_kernel = true; }
-  ~InKernel() { thread_.in_kernel = false; }
+  InKernel() : thread_(this_thread()) { thread_.enter_kernel(); }
+  ~InKernel() { thread_.leave_kernel(); }
   InKernel(const InKernel&) = delete;
   InKernel& operator=(const InKernel&) = delete;
 
@@ -109,8 +116,8 @@ class InKernel {
 /// The other way round: the kernel calls what is the program's.
 class OutOfKernel {
  public:
-  OutOfKernel() : thread_(this_thread()) { thread_.in_kernel = false; }
-  ~OutOfKernel() { thread_.in_kernel = true; }
+  OutOfKernel() : thread_(this_thread()) { thread_.leave_kernel(); }
+  ~OutOfKernel() { thread_.enter_kernel(); }
   OutOfKernel(const OutOfKernel&) = delete;
   OutOfKernel& operator=(const OutOfKernel&) = delete;
 

@@ -52,6 +52,19 @@ inline void pass(kernel::Operation operation, kernel::Object* object) {
   task.scheduler->waitpoint(operation, object);
 }
 
+/// The same of `task`, which is running, where nothing can come between, which takes no more than a count; else false,
+/// with nothing done.
+[[gnu::always_inline]] inline bool pass_at_once(kernel::Task* task, kernel::Operation operation,
+                                                kernel::Object& object) {
+  if (task == nullptr || !is_thread(*task)) return false;
+  Thread& thread = thread_of(*task);
+  const std::uint32_t operations = thread.operations + 1;
+  if (operations >= operations_at_one_instant) return false;  // or in the kernel
+  if (!task->scheduler->waitpoint_at_once(*task, operation, object)) return false;
+  thread.operations = operations;
+  return true;
+}
+
 /// Blocks the running thread on `object`; false if the deadline came first. Signals wait until it goes on.
 inline bool block(kernel::Object& object, Time deadline) {
   const InKernel within;

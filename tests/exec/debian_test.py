@@ -41,6 +41,31 @@ for thread in consumers: thread.join()
 print(sorted(taken) == [(who, i) for who in range(3) for i in range(200)], len(taken))
 """
 
+MULTIPROCESSING_PROGRAM = """
+import multiprocessing as processes
+def count(lock, number):
+    for _ in range(100):
+        with lock: number.value += 1
+def produce(queue):
+    for i in range(100): queue.put(i)
+    queue.put(None)
+def wait(event, barrier): event.wait(); barrier.wait()
+def square(x): return x * x
+if __name__ == '__main__':
+    lock, number = processes.Lock(), processes.Value('i', 0, lock=False)
+    workers = [processes.Process(target=count, args=(lock, number)) for _ in range(4)]
+    for worker in workers: worker.start()
+    for worker in workers: worker.join()
+    queue = processes.Queue(3)
+    producer = processes.Process(target=produce, args=(queue,)); producer.start()
+    total = sum(iter(queue.get, None)); producer.join()
+    event, barrier = processes.Event(), processes.Barrier(2)
+    other = processes.Process(target=wait, args=(event, barrier)); other.start()
+    event.set(); barrier.wait(); other.join()
+    with processes.Pool(3) as pool: squares = sum(pool.map(square, range(200)))
+    print(number.value, total, squares, other.exitcode)
+"""
+
 ASYNCIO_PROGRAM = """
 import asyncio, threading, time
 async def serve(reader, writer):
@@ -163,6 +188,16 @@ class Programs(Exec):
 
     def test_a_program_with_libuv(self):
         self.check(self.compile("uv_program.c", "-luv"))
+
+
+class Processes(Exec):
+    """Children of a program: when they do what is not of the seed."""
+
+    @unittest.skipUnless(os.path.exists(PYTHON), "there is no Python of the system")
+    def test_of_python_share_locks_queues_and_pools(self):
+        for seed in range(1, 4):
+            status, output, text = execute(seed, PYTHON, "-c", MULTIPROCESSING_PROGRAM)
+            self.assertEqual((0, hashlib.sha256(b"400 4950 2646700 0\n").hexdigest()), (status, output), text)
 
 
 class Ends(Exec):
