@@ -184,8 +184,13 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int pthread_mutex_init(pthread_mutex_t* mutex, const pthread_mutexattr_t* attributes) noexcept {
   const int error = WAITPOINT_NEXT(pthread_mutex_init)(mutex, attributes);
-  if (error == 0) mutex->__data.__list.__prev = nullptr;
-  return error;
+  if (error != 0) return error;
+  mutex->__data.__list.__prev = nullptr;
+  // glibc has all robust ones for shared.
+  int sharing = PTHREAD_PROCESS_PRIVATE;
+  if (attributes != nullptr) pthread_mutexattr_getpshared(attributes, &sharing);
+  if (sharing == PTHREAD_PROCESS_PRIVATE) mutex->__data.__kind &= ~Mutex::shared_bit;
+  return 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept {
