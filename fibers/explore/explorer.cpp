@@ -97,7 +97,8 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
   }
   if (__builtin_expect(chosen == Strategy::cut, 0)) return give_up(*ready[0]);
   if (chooses) {
-    schedule_.decisions.push_back({count, chosen, usual_place});
+    schedule_.decisions.push_back(
+        {count, chosen, usual_place, Choice::task, may_go_on, some_spin ? spinning_among(count) : 0});
     if (chosen != usual_place)
       schedule_.switches.push_back({Choice::task, event_of(*ready[usual_place]), event_of(*ready[chosen])});
   }
@@ -129,6 +130,14 @@ std::uint32_t Explorer::choose(std::span<Task* const> ready, std::uint32_t usual
       if (i != usual && is_played({Choice::task, event_of(*ready[usual]), event_of(*ready[i])})) return i;
   }
   return count;
+}
+
+// Those of `count` that are not offered, after leave_spinning_out().
+std::uint64_t Explorer::spinning_among(std::uint32_t count) const {
+  std::uint64_t left = count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+  for (const std::uint32_t place : places_)
+    if (place < 64) left &= ~(std::uint64_t{1} << place);
+  return left;
 }
 
 void Explorer::stop_spinning() {

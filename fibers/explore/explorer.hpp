@@ -80,6 +80,7 @@ class Explorer final : public kernel::Decisions {
   std::uint32_t stop(std::span<Task* const> ready, std::uint32_t usual);
   std::uint32_t give_up(Task& task);
   std::span<Task* const> leave_spinning_out(std::span<Task* const> ready);
+  std::uint64_t spinning_among(std::uint32_t count) const;
   void note(const Task& task);
   void note_look(const Task& task, Habit& habit);
   std::uint32_t of_deviations(std::uint32_t count);

@@ -38,8 +38,11 @@ struct Decision {
   std::uint32_t chosen;  ///< below count
   std::uint32_t usual;   ///< what the default order would have chosen
   kernel::Choice choice = kernel::Choice::task;
+  bool may_go_on = false;      ///< the usual one is the task whose event was executed last: another preempts it
+  std::uint64_t spinning = 0;  ///< of the first 64 alternatives: tasks that spin, whose turn it is not
 
   bool is_switch() const { return chosen != usual; }
+  bool spins(std::uint32_t alternative) const { return alternative < 64 && (spinning >> alternative & 1) != 0; }
 };
 
 /// At which decision of a schedule, counted from 0, which alternative.

@@ -98,6 +98,83 @@ class Exploring(ExecCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
+class Exhaustive(ExecCase):
+    """Strategies that try all there are."""
+
+    def outcomes(self, *words):
+        """Of all schedules: how each ended, and the line about them."""
+        results = self.folder / "results"
+        done = explore("--iterations", "100000", "--results", results, *words, "--", self.compile("orders.c"))
+        lines = results.read_text().splitlines()[1:]
+        self.assertEqual(len({line.split()[1] for line in lines}), len(lines), "a schedule came twice")
+        return {line.split(" ", 2)[2] for line in lines}, done.stdout.splitlines()[0]
+
+    def test_bounded_search_tries_all_orders_that_so_many_preemptions_make(self):
+        passed, status = {"passed"}, "failed: exit status "
+        without_one = {status + "5"} | passed
+        found, line = self.outcomes("--strategy", "bounded:1")
+        self.assertLess(without_one, found)
+        self.assertTrue(line.endswith("; these are all there are with at most 1 preemption"), line)
+        found, line = self.outcomes("--strategy", "bounded:3")
+        self.assertEqual({status + str(order) for order in range(1, 6)} | passed, found)
+        self.assertTrue(line.endswith("; these are all there are with at most 3 preemptions"), line)
+
+    def test_that_is_cut_off_says_nothing_of_all(self):
+        done = explore("--iterations", "10", "--strategy", "dfs", "--", self.compile("lost_update.c"), "locked")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("all there are", done.stdout)
+
+    def test_what_it_finds_is_replayed(self):
+        program = self.compile("lost_update.c")
+        for options in ((), ("--no-minimize",)):
+            done = explore("--strategy", "bounded:2", *options, "--", program)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr)
+
+    def test_the_default_order_is_one_schedule(self):
+        done = explore("--strategy", "fifo", "--", self.compile("lost_update.c"))
+        self.assertIn("lost_update: 1 schedule, 1 distinct, 0 failed", done.stdout)
+
+    def test_bad_input(self):
+        for words, line in (
+            (("--strategy", "dpor"), "--strategy: expected dfs, bounded:K or a strategy that draws its schedules, found 'dpor'"),
+            (("--strategy", "dfs", "--jobs", "2"),
+             "--jobs: cannot be used together with dfs, whose schedules follow from each other"),
+        ):
+            done = explore(*words, "--", self.compile("lost_update.c"))
+            self.assertEqual((done.returncode, done.stderr), (2, f"waitpoint: {line}\n"))
+
+
+class Conditions(ExecCase):
+    """What runs have in common beside their schedules."""
+
+    def test_computing_costs_what_the_clock_says(self):
+        program = self.compile("lost_update.c")
+        done = explore("--clock", "fixed:100", "--strategy", "random", "--", program)
+        self.assertRegex(done.stdout, r"failed at 0\.00[1-9]\d+ s: exit status 1")
+        words = replay_words(done.stdout)
+        self.assertEqual(words[2:4], ["--clock", "fixed:100"])
+        self.assertIn("the same run as in the record", explore(*words).stderr)
+
+    def test_what_a_computation_costs_is_chosen(self):
+        done = explore("--clock", "interval:1..9", "--iterations", "20", "--", self.compile("lost_update.c"), "locked")
+        self.assertRegex(done.stdout, r"20 schedules, (1\d|20) distinct, 0 failed")
+
+    def test_the_outside_and_the_counter_are_kept_from_it(self):
+        program = self.compile("options.c")
+        done = explore("--isolate", "--iterations", "2", "--", program, "isolated")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        done = explore("--trap-rdtsc", "--iterations", "2", "--", program, "trapped")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(explore("--iterations", "2", "--", program, "trapped").returncode, 1)
+
+    def test_bad_input(self):
+        done = explore("--clock", "cpu", "--", self.compile("options.c"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "waitpoint: --clock: expected fixed:US or interval:US..US, as what is measured does not "
+                             "repeat, found 'cpu'\n"))
+
+
 class Instrumented(ExecCase):
     """Programs that are compiled with -fsanitize=thread, as they are for the compiler's own runtime."""
 

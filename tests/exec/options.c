@@ -26,6 +26,13 @@ int main(int argc, char** argv) {
     const unsigned long long first = __rdtsc(), second = __rdtscp(&processor);
     usleep(1000);
     printf("%llu %llu %u\n", second - first, __rdtsc() - second, processor);
+  } else if (strcmp(what, "trapped") == 0) {
+    const unsigned long long first = __rdtsc();
+    usleep(1000);
+    const unsigned long long slept = __rdtsc() - first;
+    return slept < 1000000 || slept >= 1010000;
+  } else if (strcmp(what, "isolated") == 0) {
+    return connect_to("192.0.2.1") != EACCES;
   } else if (strcmp(what, "connect") == 0) {
     printf("%d %d\n", connect_to("127.0.0.1"), connect_to("192.0.2.1") == EACCES);
   } else if (strcmp(what, "random") == 0) {

@@ -23,10 +23,7 @@ namespace {
 std::string replay_line(const ExecOptions& options, std::uint64_t seed) {
   std::string line = "waitpoint exec --seed " + std::to_string(seed);
   if (options.order == kernel::Order::fifo) line += " --strategy fifo";
-  if (options.clock) line += " --clock " + options.clock_text;
-  if (options.isolate) line += " --isolate";
-  if (options.trap_rdtsc) line += " --trap-rdtsc";
-  return line + " --" + quoted(options.words);
+  return line + options.conditions.words() + " --" + quoted(options.words);
 }
 
 void print_summary(const posix::Record& record, const std::string& program) {
@@ -115,11 +112,8 @@ posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed) {
   posix::Settings settings;
   settings.order = options.order;
   settings.seed = seed;
-  settings.has_clock = options.clock.has_value();
-  settings.clock = options.clock.value_or(kernel::ClockOptions());
   settings.traced = options.trace.has_value();
-  settings.isolate = options.isolate;
-  settings.trap_rdtsc = options.trap_rdtsc;
+  options.conditions.apply_to(settings);
   return settings;
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fibers/kernel/chooser.hpp"
-#include "fibers/kernel/clock_options.hpp"
+#include "tools/exec/program_conditions.hpp"
 #include "tools/option_values.hpp"
 
 namespace CLI {
@@ -21,13 +21,10 @@ namespace waitpoint::tools {
 struct ExecOptions {
   std::uint64_t seed = 1;
   kernel::Order order = kernel::Order::seeded;
-  std::optional<SeedRange> seeds;              ///< instead of `seed`: a run for each, to the first that fails
-  std::optional<kernel::ClockOptions> clock;   ///< what computing costs; without one nothing
-  std::string clock_text;                      ///< as it was written
+  std::optional<SeedRange> seeds;  ///< instead of `seed`: a run for each, to the first that fails
+  ProgramConditions conditions;
   std::optional<std::filesystem::path> trace;  ///< to write
   bool quiet = false;
-  bool isolate = false;
-  bool trap_rdtsc = false;
   std::vector<std::string> words;  ///< the program and its arguments: at least one
 };
 
@@ -44,8 +41,9 @@ class ExecArguments {
 
  private:
   CLI::App* command_;
-  std::string seed_, seeds_, clock_, trace_, strategy_ = "random";
-  bool quiet_ = false, isolate_ = false, trap_rdtsc_ = false;
+  std::string seed_, seeds_, trace_, strategy_ = "random";
+  bool quiet_ = false;
+  ConditionArguments conditions_;
 };
 
 }  // namespace waitpoint::tools

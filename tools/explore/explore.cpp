@@ -65,10 +65,11 @@ void tell(const FailureReport& report, Files& files) {
 }
 
 std::string sum(const Target& target, const Search& search, double seconds) {
-  return fmt::format("{}: {}, {} distinct, {} failed, in {:.1f} s ({:.1f} a second){}\n", target.name(),
+  const std::string scope = search.scope() ? "; these are all there are" + *search.scope() : "";
+  return fmt::format("{}: {}, {} distinct, {} failed, in {:.1f} s ({:.1f} a second){}{}\n", target.name(),
                      counted(search.schedules(), "schedule"), search.distinct(), search.failures(), seconds,
                      seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
-                     search.interrupted() ? "; stopped by a signal" : "");
+                     search.interrupted() ? "; stopped by a signal" : "", scope);
 }
 
 int search(Target& target, Files& files) {

@@ -11,6 +11,7 @@
 #include "fibers/explore/strategy.hpp"
 #include "fibers/explore/token.hpp"
 #include "modules/bridge/expectation.hpp"
+#include "tools/explore/depth_first.hpp"
 #include "tools/option_values.hpp"
 
 namespace waitpoint::tools {
@@ -109,6 +110,7 @@ ExploreArguments::ExploreArguments(CLI::App& app)
   add("--schedule", schedule_, "FILE", "write the failing schedule, minimised, for --replay");
   add("--trace", trace_, "FILE.json",
       "write the last seconds before the failure for the viewers of Chrome and Perfetto");
+  conditions_.add_to(*command_);
   command_->add_flag("--no-minimize", keep_all_, "tell the failure as it was found")->disable_flag_override();
   command_->footer(
       "Exit status: 0 no failure was found, 1 one was, 2 bad input, 130 stopped by a signal, after telling what was\n"
@@ -127,6 +129,17 @@ void ExploreArguments::check_program() const {
   if (!properties_.empty()) throw BadInput("--property", "cannot be used together with --exec");
 }
 
+void ExploreArguments::check_exhaustive(const std::string& where, const ExploreOptions& options) const {
+  if (!is_program_)
+    refuse(where, "a strategy that draws its schedules: there are too many to try all of them", options.strategy);
+  if (!DepthFirst::of(options.strategy))
+    refuse(where, "dfs, bounded:K or a strategy that draws its schedules", options.strategy);
+  for (const auto& [name, value] : {std::pair<const char*, const std::string&>{"--jobs", jobs_}, {"--shard", shard_}})
+    if (!value.empty())
+      throw BadInput(name,
+                     "cannot be used together with " + options.strategy + ", whose schedules follow from each other");
+}
+
 ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {
   ExploreOptions options;
   if (is_program_) {
@@ -134,8 +147,11 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
     if (words.empty())
       throw BadInput("explore", "expected what to run: waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");
     options.program = words;
+    options.conditions = conditions_.conditions(true);
   } else if (scenario_.empty()) {
     throw BadInput("explore", "expected a scenario's file, or --exec and a program");
+  } else if (const std::string given = conditions_.first_given(); !given.empty()) {
+    throw BadInput(given, "expected --exec and a program: a scenario says such things itself");
   }
   options.scenario = scenario_;
   options.assignments = assignments_;
@@ -144,8 +160,7 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   std::string where = "--strategy";
   if (const std::string strategy = text_of(strategy_, "WAITPOINT_STRATEGY", where); !strategy.empty())
     options.strategy = strategy;
-  if (exploration::make_strategy(options.strategy)->is_exhaustive())
-    refuse(where, "a strategy that draws its schedules: there are too many to try all of them", options.strategy);
+  if (exploration::make_strategy(options.strategy)->is_exhaustive()) check_exhaustive(where, options);
   take("--time-limit", "WAITPOINT_TIME_LIMIT", time_limit_, "a positive number of seconds", 0.0, options.time_limit_s);
   if (options.time_limit_s > 0) options.iterations = ~std::uint64_t{0};
   take<std::uint64_t>("--iterations", "WAITPOINT_ITERATIONS", iterations_, "a whole number", 0, options.iterations);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "tools/exec/program_conditions.hpp"
 
 namespace CLI {
 class App;
@@ -37,6 +38,7 @@ struct ExploreOptions {
   std::optional<std::filesystem::path> results, trace, schedule;  ///< to write
   std::string replay;                                             ///< a token or a file's name: that one alone
   bool minimize = true;
+  ProgramConditions conditions;  ///< of a program
 
   /// When a run ends at the latest, of a scenario that says `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
@@ -55,11 +57,13 @@ class ExploreArguments {
 
  private:
   void check_program() const;
+  void check_exhaustive(const std::string& where, const ExploreOptions& options) const;
 
   CLI::App* command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, jobs_, until_, from_, shard_;
   std::string results_, trace_, schedule_, replay_;
   std::vector<std::string> assignments_, properties_;
+  ConditionArguments conditions_;
   bool is_program_ = false, keep_all_ = false;
 };
 

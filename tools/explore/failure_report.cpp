@@ -8,6 +8,7 @@
 
 #include "core/number_text.hpp"
 #include "fibers/explore/token.hpp"
+#include "tools/explore/depth_first.hpp"
 #include "tools/explore/fewer_switches.hpp"
 #include "tools/explore/last_choice.hpp"
 #include "tools/shell_words.hpp"
@@ -45,6 +46,7 @@ std::string replay_command(const ExploreOptions& options, const std::string& rep
   line += options.program.empty() ? quoted(options.scenario.string()) : "--exec";
   line += " --seed " + std::to_string(options.seed);
   if (options.until) line += " --until " + to_string(Time() + *options.until);
+  line += options.conditions.words();
   if (options.from) line += " --from " + to_string(Time() + *options.from);
   const std::size_t sets = options.assignments.size() - options.properties.size();
   for (std::size_t i = 0; i < sets; ++i) line += " --set " + quoted(options.assignments[i]);
@@ -74,9 +76,13 @@ FailureReport report(Target& target, SearchProgress& progress, const Search::Fai
   report.text =
       headline(fmt::format("schedule {} of strategy {}, seed {},", failed.number, options.strategy, options.seed),
                failed.finding);
-  const Token found{0, token_digest(failed.finding.digest), options.strategy, options.seed, failed.number, {}};
-  std::string token = to_text(found);
+  Token found{0, token_digest(failed.finding.digest), options.strategy, options.seed, failed.number, {}};
   Plan plan{.number = failed.number};
+  if (DepthFirst::of(options.strategy)) {  // which draws nothing
+    found = {0, found.digest, "", 0, 0, failed.finding.deviations};
+    plan = {.drawn = false, .switches = {}, .deviations = failed.finding.deviations};
+  }
+  std::string token = to_text(found);
   Finding least = failed.finding;
   if (options.minimize) {
     Budget budget(runs_to_minimize, seconds_to_minimize);

@@ -82,6 +82,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.decisions);
   pass(finding.switches);
   pass(finding.deviations);
+  pass(finding.choices);
   pass(finding.parted);
   pass(finding.details);
   pass(finding.told);

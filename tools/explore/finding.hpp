@@ -27,6 +27,7 @@ struct Finding {
   std::uint64_t decisions = 0;
   std::vector<exploration::Switch> switches;       ///< of a failure
   std::vector<exploration::Deviation> deviations;  ///< the same
+  std::vector<exploration::Decision> choices;      ///< where asked for: all
   bool parted = false;                             ///< what was played did not fit the run
   std::string details;                             ///< of a failure, where places are asked for: lines about its kind
   std::string told;                                ///< where asked for: the switches in words, or a decision

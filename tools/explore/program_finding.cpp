@@ -67,6 +67,7 @@ posix::Settings settings_of(const ExploreOptions& options) {
   settings.seed = options.seed;
   settings.looks_at_once = looks_at_once;
   if (options.until) settings.until = Time() + *options.until;
+  options.conditions.apply_to(settings);
   return settings;
 }
 
@@ -111,6 +112,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   finding.end = record.scheduler.global_time();
   finding.events = record.scheduler.events();
   finding.take(explored.explorer);
+  if (request.choices) finding.choices = explored.explorer.schedule().decisions;
   if (request.profile) {
     finding.profile = explored.profile;
     finding.profile.finish(explored.explorer.steps());

@@ -64,6 +64,7 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
   for (const std::string& word : options.program) digest.add(std::string_view(word));
   digest.add(options.seed);
   if (options.until) digest.add(static_cast<std::uint64_t>(options.until->ns()));
+  digest.add(std::string_view(options.conditions.words()));
   return digest.value();
 }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/interruption.hpp"
 
 namespace waitpoint::tools {
@@ -37,23 +39,32 @@ std::string result_line(std::uint64_t number, const Finding& finding) {
 bool Search::may_start(bool all) const {
   const ExploreOptions& options = target_.options();
   const std::uint64_t number = options.shard.index - 1 + started_ * options.shard.count;
-  return number < options.iterations && (all || !first_) &&
+  // The default order is one schedule, where nothing but the order differs.
+  const bool is_one = options.strategy == "fifo" && !target_.has_noise();
+  return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && (all || !first_) &&
          !(options.time_limit_s > 0 && progress_.seconds() >= options.time_limit_s);
 }
 
-void Search::take(const Children::Ended& ended, bool all) {
-  Finding finding = outcome_of(ended);
+void Search::take(std::uint64_t number, Finding finding, bool all) {
   ++schedules_;
   if (finding.kind != Finding::Kind::killed) digests_.insert(finding.digest);
-  if (all) lines_.emplace(ended.number, result_line(ended.number, finding));
+  if (all) lines_.emplace(number, result_line(number, finding));
   if (finding.passed()) return;
   ++failures_;
-  if (first_ && first_->number < ended.number) return;
-  if (!all) children_.kill_from(ended.number);
-  first_ = Failed{ended.number, std::move(finding)};
+  if (first_ && first_->number < number) return;
+  if (!all) children_.kill_from(number);
+  first_ = Failed{number, std::move(finding)};
 }
 
 void Search::run(bool all) {
+  if (std::optional<DepthFirst> tree = DepthFirst::of(target_.options().strategy))
+    run_depth_first(std::move(*tree), all);
+  else
+    run_drawn(all);
+  progress_.finish();
+}
+
+void Search::run_drawn(bool all) {
   const ExploreOptions& options = target_.options();
   while (!interrupted_) {
     while (children_.count() < options.jobs && may_start(all)) {
@@ -61,12 +72,25 @@ void Search::run(bool all) {
       children_.start(number, [&] { return to_bytes(target_.run({.number = number})); });
     }
     if (children_.count() == 0) break;
-    if (const auto ended = children_.wait(look_around_ms)) take(*ended, all);
+    if (const auto ended = children_.wait(look_around_ms)) take(ended->number, outcome_of(*ended), all);
     progress_.update(schedules_, distinct(), failures_);
     interrupted_ = interruption() != 0;
   }
   children_.kill_from(0);
-  progress_.finish();
+}
+
+// One after the other: each follows from the one before it.
+void Search::run_depth_first(DepthFirst tree, bool all) {
+  std::optional<std::vector<exploration::Deviation>> deviations{std::in_place};
+  for (; deviations && may_start(all); ++started_) {
+    std::optional<Finding> found = run_apart(target_, {.drawn = false, .deviations = *deviations}, {.choices = true});
+    interrupted_ = !found;
+    if (!found) return;
+    deviations = tree.after(found->choices);
+    take(started_, std::move(*found), all);
+    progress_.update(schedules_, distinct(), failures_);
+  }
+  if (!deviations) scope_ = tree.scope();
 }
 
 }  // namespace waitpoint::tools

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "tools/explore/children.hpp"
+#include "tools/explore/depth_first.hpp"
 #include "tools/explore/search_progress.hpp"
 #include "tools/explore/target.hpp"
 
@@ -39,13 +40,17 @@ class Search {
   std::uint64_t distinct() const { return digests_.size(); }
   std::uint64_t failures() const { return failures_; }
   bool interrupted() const { return interrupted_; }
+  /// Of a strategy that tries all there are, once it has: what they are all of.
+  const std::optional<std::string>& scope() const { return scope_; }
   const std::optional<Failed>& first() const { return first_; }
   /// With `all`: the lines of all, in their order.
   const std::map<std::uint64_t, std::string>& lines() const { return lines_; }
 
  private:
   bool may_start(bool all) const;
-  void take(const Children::Ended& ended, bool all);
+  void take(std::uint64_t number, Finding finding, bool all);
+  void run_drawn(bool all);
+  void run_depth_first(DepthFirst tree, bool all);
 
   Target& target_;
   SearchProgress& progress_;
@@ -56,6 +61,7 @@ class Search {
   std::optional<Failed> first_;
   std::map<std::uint64_t, std::string> lines_;
   bool interrupted_ = false;
+  std::optional<std::string> scope_;
 };
 
 }  // namespace waitpoint::tools

@@ -18,10 +18,11 @@ class Target {
   /// What is to be seen of a run beside what it comes to.
   struct Request {
     bool profile = false;
-    bool learn = false;   ///< for the profile: which code accesses memory that tasks share
-    bool words = false;   ///< switches in words
-    bool places = false;  ///< where in the source tasks stand that a report names
-    bool events = false;  ///< the last of them, and with ExploreOptions::trace the trace
+    bool learn = false;    ///< for the profile: which code accesses memory that tasks share
+    bool choices = false;  ///< all that were chosen
+    bool words = false;    ///< switches in words
+    bool places = false;   ///< where in the source tasks stand that a report names
+    bool events = false;   ///< the last of them, and with ExploreOptions::trace the trace
     Time events_from = Time();
     std::optional<std::size_t> decision = {};  ///< what was chosen there
   };

@@ -22,6 +22,7 @@ class Dfs final : public Strategy {
   bool end() override;
   bool is_exhaustive() const override { return true; }
   std::string scope() const override;
+  std::uint32_t preemptions() const { return preemptions_; }
 
  private:
   struct Level {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/program_conditions.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "tools/option_values.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using kernel::ClockKind;
+using kernel::ClockOptions;
+
+bool parse_cost(std::string_view text, Duration& cost) {
+  double us = 0;
+  if (!parse_number(text, us) || !(us > 0 && us <= 1e15)) return false;
+  cost = Duration::from_seconds(us * 1e-6);
+  return true;
+}
+
+bool parse_interval(std::string_view text, ClockOptions& clock) {
+  const std::size_t dots = text.find("..");
+  return dots != std::string_view::npos && parse_cost(text.substr(0, dots), clock.least) &&
+         parse_cost(text.substr(dots + 2), clock.greatest) && clock.least <= clock.greatest;
+}
+
+// "x0.5", or nothing.
+bool parse_scale(std::string_view text, ClockOptions& clock) {
+  double scale = 1;
+  if (!text.empty() && (text[0] != 'x' || !parse_number(text.substr(1), scale))) return false;
+  clock.scale_millionths = std::llround(scale * 1e6);
+  return scale >= 0 && scale <= 1e6;
+}
+
+ClockOptions clock_of(const std::string& where, const std::string& text) {
+  const std::size_t colon = std::min(text.size(), text.find(':'));
+  const std::string kind = text.substr(0, colon);
+  const std::string_view value = std::string_view(text).substr(std::min(text.size(), colon + 1));
+  ClockOptions clock;
+  bool good = false;
+  if (kind == "fixed") {
+    good = parse_cost(value, clock.least);
+    clock.greatest = clock.least;
+  } else if (kind == "interval") {
+    clock.kind = ClockKind::interval;
+    good = parse_interval(value, clock);
+  } else if (kind == "cpu" || kind == "proportional") {
+    clock.kind = kind == "cpu" ? ClockKind::cpu : ClockKind::proportional;
+    good = parse_scale(value, clock);
+  }
+  if (!good) refuse(where, "fixed:US, interval:US..US, cpu[:xFACTOR] or proportional[:xFACTOR]", text);
+  return clock;
+}
+
+}  // namespace
+
+void ProgramConditions::apply_to(posix::Settings& settings) const {
+  settings.has_clock = clock.has_value();
+  settings.clock = clock.value_or(kernel::ClockOptions());
+  settings.isolate = isolate;
+  settings.trap_rdtsc = trap_rdtsc;
+}
+
+std::string ProgramConditions::words() const {
+  std::string all;
+  if (clock) all += " --clock " + clock_text;
+  if (isolate) all += " --isolate";
+  if (trap_rdtsc) all += " --trap-rdtsc";
+  return all;
+}
+
+void ConditionArguments::add_to(CLI::App& command) {
+  command
+      .add_option("--clock", clock_,
+                  "what a thread's code costs from one call to the next: fixed:US, interval:US..US\n"
+                  "(chosen by the seed), or as measured, which does not repeat: cpu, proportional,\n"
+                  "with :xFACTOR of that (default: nothing)")
+      ->type_name("CLOCK");
+  command.add_flag("--isolate", isolate_, "what would leave this machine fails (EACCES)")->disable_flag_override();
+  command
+      .add_flag("--trap-rdtsc", trap_rdtsc_,
+                "the processor's counter shows virtual time, a nanosecond a tick, where the\n"
+                "program reads it by an instruction (some microseconds each)")
+      ->disable_flag_override();
+}
+
+ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
+  ProgramConditions conditions;
+  if (!clock_.empty()) conditions.clock = clock_of("--clock", clock_);
+  conditions.clock_text = clock_;
+  conditions.isolate = isolate_;
+  conditions.trap_rdtsc = trap_rdtsc_;
+  const bool is_measured = conditions.clock && (conditions.clock->kind == kernel::ClockKind::cpu ||
+                                                conditions.clock->kind == kernel::ClockKind::proportional);
+  if (is_measured && is_repeated)
+    refuse("--clock", "fixed:US or interval:US..US, as what is measured does not repeat", clock_);
+  return conditions;
+}
+
+std::string ConditionArguments::first_given() const {
+  return !clock_.empty() ? "--clock" : isolate_ ? "--isolate" : trap_rdtsc_ ? "--trap-rdtsc" : "";
+}
+
+}  // namespace waitpoint::tools

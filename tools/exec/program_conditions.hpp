@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a program meets beside its schedule: what its computing costs, and what is kept from it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fibers/kernel/clock_options.hpp"
+#include "fibers/posix/record.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace waitpoint::tools {
+
+struct ProgramConditions {
+  std::optional<kernel::ClockOptions> clock;  ///< what computing costs; without one nothing
+  std::string clock_text;                     ///< as it was written
+  bool isolate = false;                       ///< what would leave the machine fails
+  bool trap_rdtsc = false;                    ///< the processor's counter shows virtual time
+
+  void apply_to(posix::Settings& settings) const;
+  /// As options, each with a blank before it.
+  std::string words() const;
+};
+
+/// The options as they are written.
+class ConditionArguments {
+ public:
+  void add_to(CLI::App& command);
+  /// BadInput where they cannot be meant. `is_repeated`: what does not repeat cannot.
+  ProgramConditions conditions(bool is_repeated) const;
+  /// The first of them that was given; empty without any.
+  std::string first_given() const;
+
+ private:
+  std::string clock_;
+  bool isolate_ = false, trap_rdtsc_ = false;
+};
+
+}  // namespace waitpoint::tools

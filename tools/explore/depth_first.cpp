@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/depth_first.hpp"
+
+#include "fibers/explore/strategies/dfs.hpp"
+
+namespace waitpoint::tools {
+
+using exploration::Decision;
+using exploration::Deviation;
+using kernel::Choice;
+
+namespace {
+
+// The usual alternative is tried first, then the others in their order, but those that spin: the next one. None left:
+// the count of them all.
+std::uint32_t next_alternative(const Decision& decision) {
+  if (decision.choice == Choice::spurious) return decision.count;  // it could end for nothing for ever
+  if (decision.choice == Choice::computing) return decision.is_switch() ? decision.count : decision.count - 1;
+  std::uint32_t next = decision.is_switch() ? decision.chosen + 1 : 0;
+  while (next < decision.count && (next == decision.usual || decision.spins(next))) ++next;
+  return next;
+}
+
+}  // namespace
+
+std::optional<DepthFirst> DepthFirst::of(const std::string& strategy) {
+  const auto made = exploration::make_strategy(strategy);
+  const auto* const dfs = dynamic_cast<const exploration::Dfs*>(made.get());
+  if (dfs == nullptr) return std::nullopt;
+  return DepthFirst(dfs->preemptions(), dfs->scope());
+}
+
+std::optional<std::vector<Deviation>> DepthFirst::after(const std::vector<Decision>& decisions) {
+  std::uint32_t preempted = 0;
+  std::optional<Deviation> last;
+  for (std::uint32_t at = 0; at < decisions.size(); ++at) {
+    const Decision& decision = decisions[at];
+    left_out_turns_ = left_out_turns_ || decision.spinning != 0;
+    left_out_costs_ = left_out_costs_ || (decision.choice == Choice::computing && decision.count > 2);
+    left_out_spurious_ = left_out_spurious_ || decision.choice == Choice::spurious;
+    const std::uint32_t next = next_alternative(decision);
+    if (next < decision.count && (!decision.may_go_on || preempted < preemptions_)) last = {at, next};
+    if (decision.may_go_on && decision.is_switch()) ++preempted;
+  }
+  if (!last) return std::nullopt;
+  std::vector<Deviation> deviations;
+  for (std::uint32_t at = 0; at < last->decision; ++at)
+    if (decisions[at].is_switch()) deviations.push_back({at, decisions[at].chosen});
+  deviations.push_back(*last);
+  return deviations;
+}
+
+std::string DepthFirst::scope() const {
+  std::string but;
+  const auto add = [&](bool is_left_out, const char* what) {
+    if (is_left_out) but += (but.empty() ? ", but for " : " and ") + std::string(what);
+  };
+  add(left_out_turns_, "turns of tasks that spin");
+  add(left_out_costs_, "computing costs between the least and the greatest");
+  add(left_out_spurious_, "waits that end for nothing");
+  return scope_ + but;
+}
+
+}  // namespace waitpoint::tools
