@@ -24,7 +24,8 @@ namespace {
 
 constexpr int known_max = 65536;  // descriptors beyond are taken for outside ones
 std::uint64_t inside[known_max / 64];
-const Program* owners[known_max];  // of those that share a process
+std::uint64_t waited_in_vain[known_max / 64];  // for a reader
+const Program* owners[known_max];              // of those that share a process
 
 /// A thread that waits: on its own stack.
 struct Waiter {
@@ -144,6 +145,7 @@ void note_inside(int descriptor, bool is) {
   const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
   std::uint64_t& word = inside[descriptor / 64];
   word = is ? word | bit : word & ~bit;
+  waited_in_vain[descriptor / 64] &= ~bit;
   owners[descriptor] = nullptr;
   if (is) note_owner(descriptor);
 }
@@ -254,7 +256,19 @@ Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(cons
 
 bool wait_for_reader(int descriptor, int patience_ms) {
   pollfd one{descriptor, POLLOUT, 0};
-  return poll_now(&one, 1, patience_ms) > 0;
+  if (poll_now(&one, 1) > 0) return true;
+  // A thread that waits for what is there already may be the reader.
+  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+    if (waiter->count > 0 && poll_now(waiter->descriptors, waiter->count) > 0) return false;
+  // Nor is anybody outside who did not read the last time.
+  const bool is_known = descriptor < known_max;
+  std::uint64_t none = 0;
+  std::uint64_t& word = is_known ? waited_in_vain[descriptor / 64] : none;
+  const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
+  if ((word & bit) != 0) return false;
+  if (poll_now(&one, 1, patience_ms) > 0) return true;
+  word |= bit;
+  return false;
 }
 
 void look_at_descriptors() {

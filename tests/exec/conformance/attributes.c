@@ -271,3 +271,18 @@ CASE(what_was_used_is_told) {
   EXPECT_IS(usage.ru_utime.tv_sec, 0);
   EXPECT_FAILS(getrusage((__rusage_who_t)77, &usage), EINVAL);
 }
+
+static void* ask_by_number(void* unused) {
+  struct sched_param parameters = {99};
+  EXPECT_IS(sched_getparam(gettid(), &parameters), 0);
+  EXPECT_IS(parameters.sched_priority, 0);
+  EXPECT_IS(sched_setparam(gettid(), &parameters), 0);
+  cpu_set_t all;
+  EXPECT_IS(sched_getaffinity(0, sizeof all, &all), 0);
+  EXPECT_IS(sched_setaffinity(gettid(), sizeof all, &all), 0);
+  parameters.sched_priority = 1;
+  EXPECT_FAILS(sched_setparam(gettid(), &parameters), EINVAL);
+  return unused;
+}
+
+CASE(thread_is_asked_about_by_its_number) { join(start(ask_by_number, NULL)); }

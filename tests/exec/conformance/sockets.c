@@ -415,3 +415,43 @@ CASE(connecting_waits_for_room) {
   join(id);
   unlink(local.sun_path);
 }
+
+static void* send_many_to(void* address) {
+  const int sender = socket(AF_UNIX, SOCK_DGRAM, 0);
+  for (int i = 0; i < 600; ++i)
+    EXPECT_IS(sendto(sender, big, 4096, 0, address, sizeof(struct sockaddr_un)), 4096);
+  EXPECT_IS(close(sender), 0);
+  return NULL;
+}
+
+CASE(sendto_waits_until_there_is_room) {
+  struct sockaddr_un address = {AF_UNIX, ""};
+  snprintf(address.sun_path + 1, sizeof address.sun_path - 1, "waitpoint-sendto-%d", (int)getpid());
+  const int receiver = socket(AF_UNIX, SOCK_DGRAM, 0);
+  EXPECT_IS(bind(receiver, (struct sockaddr*)&address, sizeof address), 0);
+  const pthread_t id = start(send_many_to, &address);
+  let_others_wait();
+  static char bytes[4096];
+  for (int i = 0; i < 600; ++i) EXPECT_IS(recv(receiver, bytes, sizeof bytes, 0), 4096);
+  join(id);
+}
+
+// Noticed at once, not when all have nothing else to do.
+static long long told_at_ns;
+static void* receive_end(void* unused) {
+  char byte;
+  EXPECT_IS(recv(ends[0], &byte, 1, 0), 0);
+  told_at_ns = now_ns(CLOCK_MONOTONIC);
+  return unused;
+}
+
+CASE(shutdown_wakes_who_receives) {
+  make_pair(SOCK_STREAM);
+  const pthread_t id = start(receive_end, NULL);
+  let_others_wait();
+  const long long begin_ns = now_ns(CLOCK_MONOTONIC);
+  EXPECT_IS(shutdown(ends[1], SHUT_RDWR), 0);
+  sleep_ms(200);
+  join(id);
+  EXPECT(told_at_ns - begin_ns < 150000000);
+}
