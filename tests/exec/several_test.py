@@ -208,6 +208,17 @@ class Robot(unittest.TestCase):
         self.assertNotIn("program", alone.stdout)
         self.assertEqual(digest_of_summary(run), digest_of_summary(office("run", "--until", "5")))
 
+    def test_the_example_that_is_shipped_runs_as_it_is_described(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scenarios = shutil.copytree(SCENARIO.parent, pathlib.Path(folder) / "scenarios")
+            lines = (scenarios / "office-programs.yaml").read_text().splitlines()
+            command = next(line for line in lines if " cc " in line).lstrip("# ")
+            subprocess.run(command, shell=True, check=True, cwd=folder)
+            run = subprocess.run([WAITPOINT, "run", scenarios / "office-programs.yaml"], capture_output=True, text=True,
+                                 timeout=60)
+            self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+            self.assertIn("LINE 10 AT 1.0 S\n5 lines\n", run.stdout)
+
     def test_schedules_of_them_are_explored(self):
         run = office("explore", "--until", "2", "--iterations", "4")
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
