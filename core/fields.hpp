@@ -17,6 +17,7 @@
 // the digest hashes it, with its name, only where it is set. So a run that does not use it keeps its digest.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -58,10 +59,21 @@ concept HasFields = requires {
   T::fields();
 };
 
-/// An array of at most `Capacity` elements in place: values without pointers, of which only the first size() count.
+/// An array of at most `Capacity` elements in place: values without pointers, of which only the first size() count. The
+/// others are neither made nor copied: a value costs by what it holds, not by what it could.
 template <class T, std::size_t Capacity>
 class Bounded {
  public:
+  Bounded() {}
+  Bounded(const Bounded& other) : size_(other.size_) { std::copy(other.begin(), other.end(), begin()); }
+  Bounded& operator=(const Bounded& other) {
+    if (this == &other) return *this;
+    size_ = other.size_;
+    std::copy(other.begin(), other.end(), begin());
+    return *this;
+  }
+  ~Bounded() = default;
+
   static constexpr std::size_t capacity() { return Capacity; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -87,7 +99,7 @@ class Bounded {
 
  private:
   std::uint32_t size_ = 0;
-  std::array<T, Capacity> items_{};
+  std::array<T, Capacity> items_;
 };
 
 /// Calls `visit(name, member)` for every declared field, in order.

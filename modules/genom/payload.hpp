@@ -2,9 +2,8 @@
 // The input of a request or the output of a reply: a plain value of some type with declared fields, carried by letters.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstring>
+#include <new>
 #include <type_traits>
 
 #include "core/fields.hpp"
@@ -23,10 +22,18 @@ class Payload {
   Payload() : Payload(Nothing{}) {}
   template <HasFields T>
   explicit Payload(const T& value) : type_(type_of<T>()) {
-    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= payload_bytes_max,
+    static_assert(std::is_trivially_destructible_v<T> && sizeof(T) <= payload_bytes_max && alignof(T) <= alignment,
                   "the input or output of a request is a small plain struct");
-    std::memcpy(bytes_.data(), &value, sizeof value);
+    new (bytes_) T(value);
   }
+  Payload(const Payload& other) : type_(other.type_) { type_->copy(bytes_, other); }
+  Payload& operator=(const Payload& other) {
+    if (this == &other) return *this;
+    type_ = other.type_;
+    type_->copy(bytes_, other);
+    return *this;
+  }
+  ~Payload() = default;
 
   template <HasFields T>
   bool holds() const {
@@ -36,25 +43,31 @@ class Payload {
   template <HasFields T>
   T as() const {
     WAITPOINT_CHECK(holds<T>(), "a request's input or output is taken for another type");
-    T value;
-    std::memcpy(static_cast<void*>(&value), bytes_.data(), sizeof value);
-    return value;
+    return held<T>();
   }
   /// Adds the value to a digest by its declared fields.
   void add_to(Digest& digest) const { type_->add(digest, *this); }
 
  private:
+  static constexpr std::size_t alignment = 8;
+
   struct Type {
+    void (*copy)(std::byte* to, const Payload& payload);
     void (*add)(Digest& digest, const Payload& payload);
   };
   template <class T>
+  const T& held() const {
+    return *std::launder(reinterpret_cast<const T*>(bytes_));
+  }
+  template <class T>
   static const Type* type_of() {
-    static constexpr Type type{[](Digest& digest, const Payload& payload) { add_value(digest, payload.as<T>()); }};
+    static constexpr Type type{[](std::byte* to, const Payload& payload) { new (to) T(payload.held<T>()); },
+                               [](Digest& digest, const Payload& payload) { add_value(digest, payload.held<T>()); }};
     return &type;
   }
 
   const Type* type_;
-  alignas(8) std::array<std::byte, payload_bytes_max> bytes_{};
+  alignas(alignment) std::byte bytes_[payload_bytes_max];
 };
 
 }  // namespace waitpoint::genom

@@ -135,6 +135,30 @@ TEST(Bounded, HoldsUpToItsCapacityInOrder) {
   EXPECT_EQ(list.size(), 0u);
 }
 
+/// Counts how often it is copied.
+struct Counted {
+  Counted() = default;
+  Counted(const Counted&) { ++copies; }
+  Counted& operator=(const Counted&) {
+    ++copies;
+    return *this;
+  }
+  static inline int copies = 0;
+};
+
+TEST(Bounded, OnlyWhatCountsIsCopied) {
+  Bounded<Counted, 100> list;
+  list.resize(3);
+  Counted::copies = 0;
+  Bounded<Counted, 100> other = list;
+  EXPECT_EQ(Counted::copies, 3);
+  other.resize(50);
+  Counted::copies = 0;
+  other = list;
+  EXPECT_EQ(Counted::copies, 3);
+  EXPECT_EQ(other.size(), 3u);
+}
+
 TEST(BoundedDeathTest, MoreThanItsCapacityIsABug) {
   Bounded<int, 1> list;
   list.push_back(1);
