@@ -2,6 +2,7 @@
 #include "world/slice/depth_buffer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -17,6 +18,7 @@ constexpr std::size_t beams_max = 1 << 20;
 constexpr double per_rad_alone = 1e6;
 
 // Rounded up, so that nothing as near is dropped.
+float rounded_up(double range_m) { return static_cast<float>(range_m) * (1 + 1e-6f); }
 float squared_up(double range_m) {
   const float rounded = static_cast<float>(range_m);
   return rounded * rounded * (1 + 1e-6f);
@@ -93,7 +95,7 @@ void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std
     const Pending child = {sight.near_m2[i], children[i], sight.first[i], sight.last[i]};
     if (hidden(child)) continue;
     if (child.child < 0 && is_narrow(child)) {
-      ask(static_cast<std::size_t>(~child.child), child);
+      ask(~child.child, child);
       continue;
     }
     std::size_t at = pending_.size();
@@ -103,23 +105,29 @@ void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std
   }
 }
 
+// Whether its range is less now.
+bool DepthBuffer::ask_beam(std::size_t beam, const Outline& outline, std::uint32_t solid) {
+  const double range_m = hit_distance(outline, {origin_, {x_[beam], y_[beam]}});
+  if (range_m > ranges_m_[beam]) return false;
+  const bool nearer = range_m < ranges_m_[beam];
+  // A hit at the limit is none, and is not told from one.
+  if (identify_ && (nearer || (solids_[beam] != no_solid && solid < solids_[beam]))) solids_[beam] = solid;
+  ranges_m_[beam] = range_m;
+  return nearer;
+}
+
+void DepthBuffer::note_farthest(std::int32_t block) {
+  const auto first = ranges_m_.begin() + block * Beams::block;
+  farthest_m2_[static_cast<std::size_t>(block)] = squared_up(*std::max_element(first, first + Beams::block));
+}
+
 void DepthBuffer::ask_narrow(const Outline& outline, std::uint32_t solid, const Pending& where) {
   bool lowered = false;
-  for (auto i = static_cast<std::size_t>(where.first); i <= static_cast<std::size_t>(where.last); ++i) {
-    if (squared_up(ranges_m_[i]) < where.near_m2) continue;
-    const double range_m = hit_distance(outline, {origin_, {x_[i], y_[i]}});
-    if (range_m > ranges_m_[i]) continue;
-    const bool nearer = range_m < ranges_m_[i];
-    // A hit at the limit is none, and is not told from one.
-    if (identify_ && (nearer || (solids_[i] != no_solid && solid < solids_[i]))) solids_[i] = solid;
-    ranges_m_[i] = range_m;
-    lowered = lowered || nearer;
-  }
+  for (auto i = static_cast<std::size_t>(where.first); i <= static_cast<std::size_t>(where.last); ++i)
+    if (squared_up(ranges_m_[i]) >= where.near_m2) lowered = ask_beam(i, outline, solid) || lowered;
   if (!lowered) return;
-  for (std::int32_t block = where.first / Beams::block; block <= where.last / Beams::block; ++block) {
-    const auto first = ranges_m_.begin() + block * Beams::block;
-    farthest_m2_[static_cast<std::size_t>(block)] = squared_up(*std::max_element(first, first + Beams::block));
-  }
+  for (std::int32_t block = where.first / Beams::block; block <= where.last / Beams::block; ++block)
+    note_farthest(block);
 }
 
 void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending& where) {
@@ -134,7 +142,6 @@ void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending
 // Shows `ask` what is in sight and not hidden, near to far, by its number in the tree.
 template <class Ask>
 void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Ask ask) {
-  if (nodes.empty() || beams_ == 0) return;
   pending_.clear();
   push_in_sight(nodes[0].bounds, from, nodes[0].child, ask);
   while (!pending_.empty()) {
@@ -145,21 +152,104 @@ void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Ask as
       const TreeNode& node = nodes[static_cast<std::size_t>(next.child)];
       push_in_sight(node.bounds, from, node.child, ask);
     } else {
-      ask(static_cast<std::size_t>(~next.child), next);
+      ask(~next.child, next);
     }
   }
 }
 
+// There are no solids beyond, and what is nowhere is farther.
+double DepthBuffer::finite_reach_m() const { return std::min(range_max_m_, 1e20); }
+
+// Around all of every beam.
+FloatBounds DepthBuffer::bounds_of_beams(Point middle, double margin_m) const {
+  double low_x = 0, low_y = 0, high_x = 0, high_y = 0;
+  for (std::size_t i = 0; i < beams_; ++i) {
+    low_x = std::min(low_x, x_[i]), high_x = std::max(high_x, x_[i]);
+    low_y = std::min(low_y, y_[i]), high_y = std::max(high_y, y_[i]);
+  }
+  const Point o = origin_ - middle;
+  const double reach_m = finite_reach_m();
+  return {static_cast<float>(o.x + low_x * reach_m - margin_m), static_cast<float>(o.y + low_y * reach_m - margin_m),
+          static_cast<float>(o.x + high_x * reach_m + margin_m), static_cast<float>(o.y + high_y * reach_m + margin_m)};
+}
+
+// The nodes that have solids within the bounds of all beams; false if those are too many.
+bool DepthBuffer::find_near(std::span<const TreeNode> nodes, Point middle, double extent_m) {
+  const Point o = origin_ - middle;
+  const double margin_m = 2 * float_margin_m(extent_m + std::max(std::fabs(o.x), std::fabs(o.y)) + finite_reach_m());
+  const FloatBounds wanted = bounds_of_beams(middle, margin_m);
+  near_.clear();
+  pending_.clear();
+  pending_.push_back({0, 0, 0, 0});
+  while (!pending_.empty()) {
+    const TreeNode& node = nodes[static_cast<std::size_t>(pending_.back().child)];
+    pending_.pop_back();
+    unsigned leaves = 0;
+    for (unsigned met = kernels_->overlap(node.bounds, wanted); met != 0; met &= met - 1) {
+      const std::int32_t child = node.child[static_cast<std::size_t>(std::countr_zero(met))];
+      if (child < 0)
+        leaves |= met & -met;
+      else
+        pending_.push_back({0, child, 0, 0});
+    }
+    if (leaves == 0) continue;
+    if (near_.size() == near_nodes_max) return false;
+    near_.push_back({&node, leaves});
+  }
+  return true;
+}
+
+// Asks about what is near, in whatever order.
+template <class Find>
+void DepthBuffer::ask_near(const View& from, Find find) {
+  FewBeams few;
+  few.low_x = from.low_x, few.low_y = from.low_y, few.high_x = from.high_x, few.high_y = from.high_y;
+  few.count = static_cast<std::int32_t>(beams_);
+  for (std::size_t i = 0; i < beams_; ++i) {
+    few.x[i] = static_cast<float>(x_[i]);
+    few.y[i] = static_cast<float>(y_[i]);
+    few.reach_m[i] = rounded_up(ranges_m_[i]);
+  }
+  std::array<std::uint8_t, FewBeams::most> met;
+  for (const NearNode& near : near_) {
+    kernels_->meet(near.node->bounds, few, met.data());
+    for (std::size_t beam = 0; beam < beams_; ++beam) {
+      for (unsigned rest = met[beam] & near.leaves; rest != 0; rest &= rest - 1) {
+        const Candidate candidate = find(~near.node->child[static_cast<std::size_t>(std::countr_zero(rest))]);
+        if (candidate.outline != nullptr && ask_beam(beam, *candidate.outline, candidate.solid))
+          few.reach_m[beam] = rounded_up(ranges_m_[beam]);
+      }
+    }
+  }
+  for (std::size_t beam = 0; beam < beams_; beam += Beams::block)
+    note_farthest(static_cast<std::int32_t>(beam / Beams::block));
+}
+
+// Asks about the solids that the beams may meet, by their numbers in the tree.
+template <class Find>
+void DepthBuffer::lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find) {
+  if (nodes.empty() || beams_ == 0) return;
+  const View from = view(middle, extent_m);
+  if (beams_ <= FewBeams::most && find_near(nodes, middle, extent_m)) return ask_near(from, find);
+  walk(nodes, from, [&](std::int32_t in_tree, const Pending& where) {
+    const Candidate candidate = find(in_tree);
+    if (candidate.outline != nullptr) ask(*candidate.outline, candidate.solid, where);
+  });
+}
+
 void DepthBuffer::lower(const Slice& slice) {
   const Tree& tree = slice.tree();
-  walk(tree.nodes(), view(tree.middle(), tree.extent_m()),
-       [&](std::size_t in_tree, const Pending& where) { ask(slice.outline(in_tree), slice.solid(in_tree), where); });
+  lower(tree.nodes(), tree.middle(), tree.extent_m(), [&](std::int32_t in_tree) {
+    const auto number = static_cast<std::size_t>(in_tree);
+    return Candidate{&slice.outline(number), slice.solid(number)};
+  });
 }
 
 void DepthBuffer::lower(const MovingSolids& solids, double height_m, std::uint32_t except) {
-  walk(solids.nodes(), view({0, 0}, solids.extent_m()), [&](std::size_t at, const Pending& where) {
+  lower(solids.nodes(), {0, 0}, solids.extent_m(), [&](std::int32_t in_tree) {
+    const auto at = static_cast<std::size_t>(in_tree);
     const std::uint32_t solid = solids.first_solid() + static_cast<std::uint32_t>(at);
-    if (solid != except && solids.reaches(at, height_m)) ask(solids.outline(at), solid, where);
+    return solid != except && solids.reaches(at, height_m) ? Candidate{&solids.outline(at), solid} : Candidate{};
   });
 }
 

@@ -7,6 +7,8 @@
 //                beam
 //   lower(moving) the same for the tree of those that move
 //
+// A few beams that do not reach far have little to hide: what overlaps their bounds is asked about as it comes.
+//
 // Floats cull, with margins; hits are those of hit_distance(), so the ranges are those of asking every solid, to the
 // last bit, in whatever order. A buffer is used again and again: only a scan of more beams than any before allocates.
 #pragma once
@@ -58,15 +60,37 @@ class DepthBuffer {
     return what.first <= what.last && what.last - what.first < narrow_beams;
   }
 
+  /// Of few beams the bounds are looked at first; where so many nodes have solids within those, the beams reach far.
+  static constexpr std::size_t near_nodes_max = 32;
+  struct NearNode {
+    const TreeNode* node;
+    unsigned leaves;  ///< a bit for each that overlaps
+  };
+
+  /// A solid that the beams may meet; none for one that does not count.
+  struct Candidate {
+    const Outline* outline = nullptr;
+    std::uint32_t solid = no_solid;
+  };
+
   View view(Point middle, double extent_m) const;
+  double finite_reach_m() const;
+  FloatBounds bounds_of_beams(Point middle, double margin_m) const;
+  bool find_near(std::span<const TreeNode> nodes, Point middle, double extent_m);
   bool hidden(const Pending& what) const;
   bool hidden(float near_m2, std::int32_t first, std::int32_t last) const;
+  template <class Find>
+  void lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find);
+  template <class Find>
+  void ask_near(const View& from, Find find);
   template <class Ask>
   void walk(std::span<const TreeNode> nodes, const View& from, Ask ask);
   template <class Ask>
   void push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children, Ask ask);
   void ask(const Outline& outline, std::uint32_t solid, const Pending& where);
   void ask_narrow(const Outline& outline, std::uint32_t solid, const Pending& where);
+  bool ask_beam(std::size_t beam, const Outline& outline, std::uint32_t solid);
+  void note_farthest(std::int32_t block);
   Beams beams();
 
   const Kernels* kernels_;
@@ -80,6 +104,7 @@ class DepthBuffer {
   std::vector<std::uint32_t> solids_;
   std::vector<float> farthest_m2_;  // of each block
   std::vector<Pending> pending_;
+  std::vector<NearNode> near_;
 };
 
 }  // namespace waitpoint::world

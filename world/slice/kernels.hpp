@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inner loops of scans and of looking for neighbours, in the widest instructions that this processor has.
 //
-// All variants give the same bits: `look` and `all_nearer` only cull, and the others do what hit_distance() does, with
-// the same operations in the same order (sums, products, quotients and square roots are exact to the last bit in every
-// width), so that any beam alone and the same beam within a fan agree.
+// All variants give the same bits: `look`, `all_nearer`, `overlap` and `meet` only cull, and the others do what
+// hit_distance() does, with the same operations in the same order (sums, products, quotients and square roots are exact
+// to the last bit in every width), so that any beam alone and the same beam within a fan agree.
 #pragma once
 
 #include <cstdint>
@@ -50,6 +50,15 @@ struct alignas(32) Sight {
   std::int32_t first[EightBounds::width], last[EightBounds::width];
 };
 
+/// A few beams as eight rectangles are met by them, in floats.
+struct FewBeams {
+  static constexpr int most = 16;
+  float low_x, low_y, high_x, high_y;  ///< the origin, as a view's
+  std::int32_t count;
+  float x[most], y[most];  ///< directions
+  float reach_m[most];     ///< rounded up
+};
+
 /// A solid, and which blocks of beams are to be asked about it.
 struct Question {
   const Outline& outline;
@@ -69,6 +78,8 @@ struct Kernels {
   bool (*all_nearer)(const float* farthest_m2, std::int32_t first, std::int32_t last, float than_m2);
   /// A bit for each rectangle that overlaps `wanted`.
   unsigned (*overlap)(const EightBounds& bounds, const FloatBounds& wanted);
+  /// For each beam a bit for each rectangle that it meets within its reach.
+  void (*meet)(const EightBounds& bounds, const FewBeams& beams, std::uint8_t* met);
   /// Lowers the ranges of beams that meet the box (the disc) nearer; the origin lies outside of it. Of equally near
   /// solids the one of the lesser number is hit.
   void (*ask_box)(const Question& question, const Beams& beams);

@@ -12,6 +12,7 @@ constinit const Kernels kernels_baseline = {
     &VectorCulling<2>::look,
     &VectorCulling<2>::all_nearer,
     &VectorCulling<2>::overlap,
+    &VectorCulling<2>::meet,
     &VectorAsking<2>::ask_box,
     &VectorAsking<2>::ask_disc,
 };

@@ -129,6 +129,30 @@ struct VectorCulling {
     return met;
   }
 
+  // A beam meets a rectangle where neither the line across it nor that along it tells them apart. What is rounded, the
+  // directions too, is far less than what the rectangles are made larger by.
+  static void meet(const EightBounds& bounds, const FewBeams& beams, std::uint8_t* met) {
+    for (std::int32_t i = 0; i < beams.count; ++i) met[i] = 0;
+    for (int at = 0; at < EightBounds::width; at += V::float_lanes) {
+      const Floats low_x = V::template load<Floats>(bounds.low_x + at) - beams.high_x;
+      const Floats low_y = V::template load<Floats>(bounds.low_y + at) - beams.high_y;
+      const Floats high_x = V::template load<Floats>(bounds.high_x + at) - beams.low_x;
+      const Floats high_y = V::template load<Floats>(bounds.high_y + at) - beams.low_y;
+      const Floats c_x = 0.5f * (low_x + high_x), c_y = 0.5f * (low_y + high_y);
+      const Floats larger = (V::absolute(c_x) + V::absolute(c_y)) * 2e-6f;
+      const Floats half_x = 0.5f * (high_x - low_x) + larger, half_y = 0.5f * (high_y - low_y) + larger;
+      for (std::int32_t i = 0; i < beams.count; ++i) {
+        const Floats x = V::all(beams.x[i]), y = V::all(beams.y[i]);
+        const Floats along_x = V::absolute(x), along_y = V::absolute(y);
+        const Floats beside = V::absolute(x * c_y - y * c_x), ahead = x * c_x + y * c_y;
+        const Floats half_along = half_x * along_x + half_y * along_y;
+        const Ints meets = (beside <= half_x * along_y + half_y * along_x) & (ahead + half_along >= 0) &
+                           (ahead - half_along <= beams.reach_m[i]);
+        met[i] |= static_cast<std::uint8_t>(V::bits(meets) << at);
+      }
+    }
+  }
+
   static bool all_nearer(const float* farthest_m2, std::int32_t first, std::int32_t last, float than_m2) {
     Ints place;
     for (int i = 0; i < V::float_lanes; ++i) place[i] = i;

@@ -103,6 +103,22 @@ TEST(DepthBuffer, AFanIsEachOfItsBeamsAskedOfEveryShapeToTheLastBit) {
   EXPECT_GT(hits, beams / 2);
 }
 
+TEST(DepthBuffer, AFewBeamsFarAndNearAreEachAskedOfEveryShapeToTheLastBit) {
+  // So dense that near beams find all at once, and far ones are many nodes long.
+  const std::vector<Shape> shapes = random_shapes(8, 1500, half_square_m);
+  const Slice slice(shapes, height_m);
+  Draws draw(9);
+  long hits = 0, beams = 0;
+  for (int k = 0; k < 1500 && !testing::Test::HasFailure(); ++k) {
+    const Point origin = {draw(-half_square_m, half_square_m), draw(-half_square_m, half_square_m)};
+    const std::size_t count = 1 + draw.below(17);
+    const OwnFan fan(origin, draw(-3.2, 3.2), k % 2 == 0 ? 2 * exact::pi : draw(0.01, 3), count);
+    hits += expect_as_asking_all(shapes, slice, fan, k % 7 == 0 ? HUGE_VAL : k % 3 == 0 ? draw(5, 30) : draw(0.1, 2));
+    beams += static_cast<long>(count);
+  }
+  EXPECT_GT(hits, beams / 3);
+}
+
 TEST(DepthBuffer, GrazingBeamsAreThoseOfAskingEveryShapeToTheLastBit) {
   const std::vector<Shape> shapes = random_shapes(4, 60, half_square_m);
   const Slice slice(shapes, height_m);
