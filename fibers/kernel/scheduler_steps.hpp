@@ -48,9 +48,10 @@ inline void Scheduler::put(EventNode& node, const EventKey& key) {
 
 // The task's event at `time`.
 inline void Scheduler::place(Task& task, Time time) {
-  if (time <= now_ && task.phase == Phase::tasks) {
-    if (chooser_.order() == Order::fifo) return present_.add(task, key(task, time).order);
-    if (is_explored()) return ready_.add(task);
+  if (time <= now_) {
+    if (chooser_.order() == Order::fifo && PresentQueue::is_for(task.phase))
+      return present_.add(task, key(task, time).order);
+    if (is_explored() && task.phase == Phase::tasks) return ready_.add(task);
   }
   events_.insert(task.event, key(task, time));
 }
