@@ -8,11 +8,17 @@
 
 namespace waitpoint::wander {
 
-Way::Room Way::room(const posters::LaserReading& scan) const {
+Way::Room Way::room(const posters::LaserReading& scan) {
+  if (scan.first_angle_rad != first_angle_rad_ || scan.angle_step_rad != angle_step_rad_) {
+    first_angle_rad_ = scan.first_angle_rad;
+    angle_step_rad_ = scan.angle_step_rad;
+    first_ = exact::sincos(first_angle_rad_);
+    step_ = exact::sincos(angle_step_rad_);
+  }
   Room room = {scan.range_max_m, 0, 0};
   std::size_t beams_left = 0, beams_right = 0;
-  const auto [first_s, first_c] = exact::sincos(scan.first_angle_rad);
-  const auto [step_s, step_c] = exact::sincos(scan.angle_step_rad);
+  const auto [first_s, first_c] = first_;
+  const auto [step_s, step_c] = step_;
   Point direction = {first_c, first_s};
   for (const float range : scan.range_m) {
     const double range_m = static_cast<double>(range);

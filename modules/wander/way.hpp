@@ -42,9 +42,12 @@ class Way {
     double ahead_m;          ///< in the lane
     double left_m, right_m;  ///< mean ranges
   };
-  Room room(const posters::LaserReading& scan) const;
+  Room room(const posters::LaserReading& scan);
 
   Parameters parameters_;
+  // The angles of the last scan, and their sines and cosines: a range finder's stay.
+  double first_angle_rad_ = 0, angle_step_rad_ = 0;
+  exact::SinCos first_ = {0, 1}, step_ = {0, 1};
   double turning_ = 0;  // to the left 1, to the right -1; 0: not
   Time back_until_;
 };

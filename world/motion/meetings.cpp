@@ -2,6 +2,7 @@
 #include "world/motion/meetings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace waitpoint::world {
@@ -10,6 +11,16 @@ namespace {
 // What is nearer than this is asked for contacts; beyond, first_contact() has none to tell.
 constexpr double sure_gap_m = 2 * contact_gap_m;
 constexpr double unknown = -std::numeric_limits<double>::infinity();
+
+// Of the discs around two outlines, less than what sums and roots round; quickly.
+double gap_at_least_m(const Outline& a, const Outline& b) {
+  const auto around_m = [](const Outline& o) {
+    return o.radius_m + std::sqrt(o.half_length_m * o.half_length_m + o.half_width_m * o.half_width_m);
+  };
+  const Point between = b.centre - a.centre;
+  constexpr double rounding = 1e-12;
+  return std::sqrt(dot(between, between)) * (1 - rounding) - (around_m(a) + around_m(b)) * (1 + rounding);
+}
 
 // A skin that lasts for some steps, and for many where it need not be thicker than bodies are wide for that.
 constexpr double few_steps = 4, many_steps = 100;
@@ -92,9 +103,13 @@ void Meetings::meet_obstacles(std::uint32_t number, const Motion& motion) {
 void Meetings::meet(Pair& pair, std::span<const Motion> motions) {
   const Motion &a = motions[pair.body], &b = motions[pair.other];
   if (!a.moves && !b.moves) return;
+  const Outline &body_outline = place_.outline(pair.body), &other_outline = place_.outline(pair.other);
   const double way_m = bodies_[pair.body].way_m + bodies_[pair.other].way_m;
-  const double gap_m = separation(place_.outline(pair.body), place_.outline(pair.other)).distance_m;
-  pair.reserve_m = way_m - a.path_m - b.path_m + gap_m - sure_gap_m;
+  const double before_m = way_m - a.path_m - b.path_m - sure_gap_m;
+  pair.reserve_m = before_m + gap_at_least_m(body_outline, other_outline);
+  // Where the discs around them would do for this step alone, their own gap lasts for more.
+  if (way_m + a.path_m + b.path_m > pair.reserve_m)
+    pair.reserve_m = before_m + separation(body_outline, other_outline).distance_m;
   if (way_m > pair.reserve_m) {
     const std::uint32_t body = in_loop(pair.body);
     contacts_.add_pair(body, in_loop(pair.other));
