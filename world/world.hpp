@@ -25,6 +25,7 @@
 
 #include "core/pose.hpp"
 #include "core/time.hpp"
+#include "core/working_set.hpp"
 #include "world/arc.hpp"
 #include "world/description.hpp"
 
@@ -172,6 +173,8 @@ class World {
   /// Reads the voltages of the body's infrared range finders, which it must have; `volts` is resized. Noise as for
   /// scan().
   virtual void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const = 0;
+  /// Adds what a scan of the body touches, without what is everybody's.
+  virtual void add_to(WorkingSet& set, BodyId id) const = 0;
   /// The distance along the beam to the first obstacle or body as a sensor of the body `own` sees them (all bodies as
   /// published at the last step but one, without `own`), without noise; range_max_m if there is none nearer.
   virtual double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own = std::nullopt) const = 0;

@@ -30,6 +30,31 @@ void copy_name(char (&to)[name_size], const char* from) {
 
 // A parked task's registers, and the frames from its switch up to its own code.
 constexpr int stack_lines_fetched = 5;
+// Of a task's record, what waking it touches; of its robot's, where its events are hashed.
+constexpr int record_lines_fetched = 4, robot_lines_fetched = 2;
+// So many that are ready may be out of the cache.
+constexpr std::uint32_t many_ready = 32;
+
+void fetch_lines(const void* from, std::ptrdiff_t count) {
+  for (std::ptrdiff_t line = 0; line < count; ++line) fetch(static_cast<const char*>(from) + 64 * line);
+}
+
+// Of the tasks that come next, in three steps, each of which reads what the one before it has fetched: the record; the
+// stack, and what else the task works on; that. Any of them may be null.
+void prepare(const Task* next, const Task* second, const Task* third) {
+  if (third != nullptr) fetch_lines(third, record_lines_fetched);
+  if (second != nullptr) {
+    fetch_lines(second->fiber.context, stack_lines_fetched);
+    fetch_lines(second->robot, robot_lines_fetched);
+    const std::size_t listed = second->working_set_size * sizeof(CacheLines);
+    fetch_lines(second->working_set, static_cast<std::ptrdiff_t>((listed + 63) / 64));
+  }
+  if (next == nullptr) return;
+  for (std::uint32_t i = 0; i < next->working_set_size; ++i) {
+    const CacheLines& lines = next->working_set[i];
+    fetch_lines(reinterpret_cast<const void*>(lines.first * CacheLines::bytes), lines.count);
+  }
+}
 
 }  // namespace
 
@@ -155,8 +180,11 @@ RunState Scheduler::run_before(Time until) {
 Fiber& Scheduler::next_fiber() {
   if (__builtin_expect(is_explored(), 0)) return next_explored();
   for (;;) {
-    if (!present_.empty() && now_ < until_ && !(events_.least().key < EventKey{now_, present_.order()}))
-      return go(present_.take()).fiber;
+    if (!present_.empty() && now_ < until_ && !(events_.least().key < EventKey{now_, present_.order()})) {
+      Task& task = present_.take();
+      if (present_.size() >= many_ready) prepare_ready();
+      return go(task).fiber;
+    }
     EventNode* node = events_.pop_before(until_);
     if (node == nullptr) return outside(pending_events() == 0 ? RunState::idle : RunState::reached);
     if (Task* task = due(*node, events_.present())) return task->fiber;
@@ -177,10 +205,18 @@ inline Task* Scheduler::due(EventNode& node, Time time) {
 // With many tasks, each one's record and stack are out of the cache by the time it is due: they are fetched while the
 // ones before it run.
 inline void Scheduler::prepare_coming() const {
-  const EventNode* soon = events_.coming(0);
-  if (soon == nullptr || soon->fire != nullptr) return;
-  const char* stack = static_cast<const char*>(reinterpret_cast<const Task*>(soon)->fiber.context);
-  for (std::ptrdiff_t line = 0; line < stack_lines_fetched; ++line) fetch(stack + 64 * line);
+  const EventNode* const third = events_.coming(2);
+  prepare(as_task(events_.coming(0)), as_task(events_.coming(1)), reinterpret_cast<const Task*>(third));
+}
+
+inline void Scheduler::prepare_ready() const {
+  const Task* const next = present_.first();
+  const Task* const second = next->next_waiter;
+  prepare(next, second, second != nullptr ? second->next_waiter : nullptr);
+}
+
+inline const Task* Scheduler::as_task(const EventNode* node) {
+  return node == nullptr || node->fire != nullptr ? nullptr : reinterpret_cast<const Task*>(node);
 }
 
 Time Scheduler::next_event_time() const {

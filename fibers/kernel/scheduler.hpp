@@ -309,6 +309,8 @@ class Scheduler {
   void place_timeout(Task& task, Time time);
   EventKey next_key() const;
   void prepare_coming() const;
+  void prepare_ready() const;
+  static const Task* as_task(const EventNode* node);
   void resume(Task& task);
   void hash_events_of(Robot& robot);
   void let_pass(Task& task);

@@ -11,6 +11,7 @@
 
 #include "core/digest.hpp"
 #include "core/time.hpp"
+#include "core/working_set.hpp"
 #include "fibers/kernel/event_list.hpp"
 #include "fibers/kernel/fiber.hpp"
 #include "fibers/kernel/operation.hpp"
@@ -117,7 +118,9 @@ struct Task {
   Fiber fiber;
 
   Object* blocked_on = nullptr;
-  Object* held = nullptr;       ///< what it owns: the latest, then by Object::next_held
+  Object* held = nullptr;                   ///< what it owns: the latest, then by Object::next_held
+  const CacheLines* working_set = nullptr;  ///< what it touches whenever it runs, if it has said so
+  std::uint32_t working_set_size = 0;
   Task* next_waiter = nullptr;  // or, of those that are ready at the present instant, see present_queue.hpp
   Task* previous_waiter = nullptr;
   std::uint64_t queue_order = 0;  // its event's, while it is in that queue

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "core/time.hpp"
+#include "core/working_set.hpp"
 #include "fibers/kernel/clock_options.hpp"
 #include "fibers/kernel/stack_arena.hpp"
 #include "fibers/sync/local_values.hpp"
@@ -224,6 +225,7 @@ using std::this_thread::sleep_until;
 using std::this_thread::yield;
 inline void sleep_for(Duration span) { std::this_thread::sleep_for(std::chrono::nanoseconds(span.ns())); }
 inline void sleep_until(Time time) { sleep_for(time - now()); }
+inline void set_working_set(const WorkingSet&) {}
 }  // namespace this_thread
 
 class periodic_timer {

@@ -144,6 +144,13 @@ namespace this_thread {
 
 inline thread::id get_id() { return thread::id(sync::running_task().id); }
 
+/// Tells what the caller touches whenever it runs; that is to stay until it has ended, or been told anew.
+inline void set_working_set(const WorkingSet& set) {
+  kernel::Task& task = sync::running_task();
+  task.working_set = set.lines().data();
+  task.working_set_size = static_cast<std::uint32_t>(set.lines().size());
+}
+
 /// Goes behind all tasks of this instant.
 inline void yield() {
   if (!sync::running_task().scheduler->yield()) sync::unwind();

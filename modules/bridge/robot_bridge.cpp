@@ -11,10 +11,12 @@
 namespace waitpoint::bridge {
 
 RobotBridge::Laser::Laser(std::size_t n, const world::LaserDescription& d)
-    : number(n), description(&d), line(world::transmission(d)) {}
+    : number(n), period(d.period), line(world::transmission(d)) {
+  scan.range_m.resize(d.beams);
+}
 
 RobotBridge::RobotBridge(const RobotScenario& robot, world::World& world, world::BodyId body, genom::NameSpace& names)
-    : robot_(robot), world_(world), body_(body), names_(names) {
+    : world_(world), body_(body), has_battery_(robot.body.battery.has_value()), robot_(robot), names_(names) {
   lasers_.reserve(robot.body.lasers.size());  // rows refer to them
   for (const world::LaserDescription& laser : robot.body.lasers) lasers_.emplace_back(lasers_.size(), laser);
   sonar_rings_.resize(robot.body.sonars.size());
@@ -25,9 +27,9 @@ RobotBridge::RobotBridge(const RobotScenario& robot, world::World& world, world:
 
 void RobotBridge::add_row(const BridgeRow& scenario) {
   for (const Row& other : rows_)
-    if (other.scenario.device == scenario.device)
+    if (other.scenario->device == scenario.device)
       throw scenario.written.bad("device '" + scenario.device + "' is in the table already, at " +
-                                 other.scenario.written.text());
+                                 other.scenario->written.text());
   const auto value = std::find_if(device_values_.begin(), device_values_.end(),
                                   [&](const DeviceValue& known) { return known.name == scenario.device; });
   if (value == device_values_.end()) {
@@ -36,7 +38,7 @@ void RobotBridge::add_row(const BridgeRow& scenario) {
     throw scenario.written.bad("this robot has no device value '" + scenario.device + "'" +
                                did_you_mean(scenario.device, known));
   }
-  rows_.push_back({scenario, nullptr, nullptr});
+  rows_.push_back({nullptr, nullptr, std::nullopt, &scenario, nullptr});
   value->add(rows_.back());
 }
 
@@ -57,27 +59,29 @@ void RobotBridge::find_device_values() {
   }
 }
 
-template <class T>
-void RobotBridge::read_command(Row& row, std::function<void(const T&)> take) {
-  row.connect = [&row, take = std::move(take)](genom::PosterBase& base) {
-    auto* poster = dynamic_cast<genom::Poster<T>*>(&base);
-    if (poster == nullptr)
-      throw row.scenario.written.bad("poster '" + base.name() + "' is not what device '" + row.scenario.device +
-                                     "' takes");
-    row.exchange = [poster, take, taken = std::optional<Time>()](Time) mutable {
+template <class T, class Take>
+void RobotBridge::read_command(Row& row, Take take) {
+  row.connect = [&row, take](genom::PosterBase& base) {
+    if (dynamic_cast<genom::Poster<T>*>(&base) == nullptr)
+      throw row.scenario->written.bad("poster '" + base.name() + "' is not what device '" + row.scenario->device +
+                                      "' takes");
+    row.poster = &base;
+    row.exchange = [&row, take](Time) {
       T command;
       Time date;
-      if (poster->read(command, &date) != genom::PosterStatus::ok || taken == date) return;
-      taken = date;
+      const auto& poster = static_cast<const genom::Poster<T>&>(*row.poster);
+      if (poster.read(command, &date) != genom::PosterStatus::ok || row.taken == date) return;
+      row.taken = date;
       take(command);
     };
   };
 }
 
 template <class T>
-genom::Poster<T>& RobotBridge::create_poster(const Row& row) {
-  genom::Poster<T>& poster = names_.create_poster<T>(row.scenario.poster, "the bridge");
-  poster.set_latency(row.scenario.latency);
+genom::Poster<T>& RobotBridge::create_poster(Row& row) {
+  genom::Poster<T>& poster = names_.create_poster<T>(row.scenario->poster, "the bridge");
+  poster.set_latency(row.scenario->latency);
+  row.poster = &poster;
   return poster;
 }
 
@@ -171,7 +175,7 @@ void RobotBridge::add_laser_command(Row& row, Laser& laser) {
 void RobotBridge::add_laser_reading(Row& row, Laser& laser) {
   laser.poster = &create_poster<posters::LaserReading>(row);
   row.exchange = [this, &laser](Time date) {
-    if (!laser.on || !due(laser.description->period)) return;
+    if (!laser.on || !due(laser.period)) return;
     posters::LaserReading& reading = laser.reading;
     ++reading.number;
     world_.scan(body_, laser.number, reading.number, laser.scan);
@@ -191,15 +195,15 @@ void RobotBridge::add_laser_reading(Row& row, Laser& laser) {
 void RobotBridge::connect() {
   for (Row& row : rows_) {
     if (row.connect == nullptr) continue;
-    genom::PosterBase* poster = names_.find_poster(row.scenario.poster);
+    genom::PosterBase* poster = names_.find_poster(row.scenario->poster);
     if (poster == nullptr) {
       std::vector<std::string_view> known;
       for (const auto& [name, entry] : names_.posters()) known.push_back(name);
-      throw row.scenario.written.bad("poster '" + row.scenario.poster + "', which no module writes" +
-                                     did_you_mean(row.scenario.poster, known));
+      throw row.scenario->written.bad("poster '" + row.scenario->poster + "', which no module writes" +
+                                      did_you_mean(row.scenario->poster, known));
     }
     row.connect(*poster);
-    poster->set_latency(row.scenario.latency);
+    poster->set_latency(row.scenario->latency);
   }
 }
 
@@ -219,12 +223,11 @@ void RobotBridge::exchange(Time date) {
   ++step_;
 }
 
-bool RobotBridge::powered() const { return !robot_.body.battery || !world_.battery(body_).empty_at; }
+bool RobotBridge::powered() const { return !has_battery_ || !world_.battery(body_).empty_at; }
 
 void RobotBridge::give_arrived(Time now) {
   for (Laser& laser : lasers_) {
-    const std::optional<Time> next = laser.line.next_arrival();
-    if (!next || *next > now) continue;
+    if (laser.line.empty() || *laser.line.next_arrival() > now) continue;
     posters::LaserReading reading;
     while (laser.line.take(now, reading)) laser.poster->write(reading);
   }
@@ -234,8 +237,9 @@ void RobotBridge::wait_for_step() {
   for (;;) {
     std::optional<Time> arrival;
     for (const Laser& laser : lasers_) {
-      const std::optional<Time> next = laser.line.next_arrival();
-      if (next && (!arrival || *next < *arrival)) arrival = next;
+      if (laser.line.empty()) continue;
+      const Time next = *laser.line.next_arrival();
+      if (!arrival || next < *arrival) arrival = next;
     }
     if (!arrival) return stepped_.acquire();
     if (stepped_.try_acquire_for(std::chrono::nanoseconds((*arrival - threads::now()).ns()))) return;
@@ -243,7 +247,24 @@ void RobotBridge::wait_for_step() {
   }
 }
 
+// What an exchange touches as a rule, but of what there may be much, only the beginning.
+void RobotBridge::find_working_set() {
+  constexpr std::size_t beams_known = 32, of_stack = 1200;
+  working_set_.add_stack_below(of_stack);
+  working_set_.add(*this);
+  working_set_.add(rows_.data(), rows_.size() * sizeof(Row));
+  for (const Row& row : rows_) row.poster->add_to(working_set_);
+  for (const Laser& laser : lasers_) {
+    const std::size_t beams = std::min(beams_known, laser.scan.range_m.size());
+    working_set_.add_between(&laser, laser.reading.range_m.begin() + beams);
+    working_set_.add(laser.scan.range_m.data(), beams * sizeof(double));
+  }
+  world_.add_to(working_set_, body_);
+  threads::this_thread::set_working_set(working_set_);
+}
+
 void RobotBridge::run() {
+  find_working_set();
   for (;;) {
     exchange(threads::now());
     wait_for_step();

@@ -24,6 +24,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,12 +62,12 @@ class RobotBridge {
     Laser(std::size_t n, const world::LaserDescription& d);
 
     std::size_t number;
-    const world::LaserDescription* description;
+    Duration period;
     bool on = false;
-    world::LaserScan scan;
-    posters::LaserReading reading;
     ScanLine line;
     genom::Poster<posters::LaserReading>* poster = nullptr;
+    world::LaserScan scan;
+    posters::LaserReading reading;
   };
   struct SonarRing {
     std::uint64_t firings = 0;
@@ -74,9 +75,11 @@ class RobotBridge {
   };
   using Exchange = std::function<void(Time date)>;
   struct Row {
-    BridgeRow scenario;
-    std::function<void(genom::PosterBase&)> connect;  // of commands
     Exchange exchange;
+    genom::PosterBase* poster;
+    std::optional<Time> taken;  // the date of the last command
+    const BridgeRow* scenario;
+    std::function<void(genom::PosterBase&)> connect;  // of commands
   };
 
   /// A value of a device that this robot has, and what makes its row.
@@ -96,28 +99,32 @@ class RobotBridge {
   void add_laser_command(Row& row, Laser& laser);
   void add_laser_reading(Row& row, Laser& laser);
   template <class T>
-  genom::Poster<T>& create_poster(const Row& row);
-  template <class T>
-  void read_command(Row& row, std::function<void(const T&)> take);
+  genom::Poster<T>& create_poster(Row& row);
+  template <class T, class Take>
+  void read_command(Row& row, Take take);
   void fire_sonars();
   bool powered() const;
   std::int64_t times_due(Duration period) const;
   bool due(Duration period) const { return times_due(period) > 0; }
   void give_arrived(Time now);
   void wait_for_step();
+  void find_working_set();
 
-  const RobotScenario& robot_;
+  // What every exchange touches comes first.
   world::World& world_;
   world::BodyId body_;
-  genom::NameSpace& names_;
-  std::vector<DeviceValue> device_values_;
+  bool has_battery_;
+  bool sonars_on_ = false;
   std::vector<Laser> lasers_;
   std::vector<Row> rows_;
-  bool sonars_on_ = false;
   std::vector<SonarRing> sonar_rings_;
   std::vector<double> infrared_v_;
   std::uint64_t step_ = 0;  // exchanges made
   threads::counting_semaphore<> stepped_{0, "world step"};
+  const RobotScenario& robot_;
+  genom::NameSpace& names_;
+  std::vector<DeviceValue> device_values_;
+  WorkingSet working_set_;
 };
 
 }  // namespace waitpoint::bridge

@@ -14,6 +14,7 @@ class ScanLine {
   /// Each scan takes `transmission`, which may be 0.
   explicit ScanLine(Duration transmission) : transmission_(transmission) {}
 
+  bool empty() const { return scans_.empty(); }
   bool takes_time() const { return transmission_ > Duration(); }
   /// Puts a scan on the line, behind those that are there.
   void send(Time now, const posters::LaserReading& scan);

@@ -16,7 +16,16 @@ void ExecutionTask::signal() {
   event_.release();
 }
 
+// Its own, what it gives, and of the module what all its tasks touch.
+void ExecutionTask::find_working_set() {
+  working_set_.add(*this);
+  module_.add_to(working_set_);
+  for (const OutputPosterBase* poster : posters_) poster->add_to(working_set_);
+  threads::this_thread::set_working_set(working_set_);
+}
+
 void ExecutionTask::run() {
+  find_working_set();
   if (periodic()) timer_.emplace(Period::every(options_.period_ms), options_.delay_ms, "task period");
   {
     const Module::BothLocks locks(module_);

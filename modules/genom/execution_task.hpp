@@ -74,6 +74,7 @@ class ExecutionTask {
   void run();
 
  private:
+  void find_working_set();
   std::int64_t wait();
   bool wake_up(std::int64_t periods);
   void call_permanent(const std::function<void()>& codel);
@@ -94,6 +95,7 @@ class ExecutionTask {
   Duration greatest_lateness_;
   bool suspended_ = false;
   bool ended_ = false;
+  WorkingSet working_set_;
 };
 
 }  // namespace waitpoint::genom

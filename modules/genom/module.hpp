@@ -34,6 +34,8 @@ class Network;
 
 namespace waitpoint::genom {
 
+struct ModuleType;
+
 /// What a module is made from.
 struct ModuleSetup {
   NameSpace& names;   ///< of its robot
@@ -117,6 +119,8 @@ class Module {
   void set_interrupt_end(bool value) { control_.set_interrupt_end(value); }
 
  private:
+  template <class M>
+  friend ModuleType module_type(std::string name);
   friend class ControlTask;
   friend class ExecutionTask;
 
@@ -133,6 +137,7 @@ class Module {
   RequestType& add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts);
   ActivityTable& activities() { return activities_; }
   bool ending() const { return control_.ending(); }
+  void add_to(WorkingSet& set) const;
 
   struct Link {
     std::unique_ptr<PosterLinkBase> poster;
@@ -154,6 +159,7 @@ class Module {
   std::vector<Link> links_;
   ControlTask control_;
   std::vector<threads::thread> threads_;
+  std::size_t size_ = sizeof(Module);  // with what a class of its own adds
 };
 
 // --- templates ---

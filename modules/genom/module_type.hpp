@@ -18,7 +18,11 @@ struct ModuleType {
 /// Registers a module class, whose constructor takes a ModuleSetup&, under a name.
 template <class M>
 ModuleType module_type(std::string name) {
-  return {std::move(name), [](ModuleSetup& setup) -> std::unique_ptr<Module> { return std::make_unique<M>(setup); }};
+  return {std::move(name), [](ModuleSetup& setup) -> std::unique_ptr<Module> {
+            auto module = std::make_unique<M>(setup);
+            static_cast<Module&>(*module).size_ = sizeof(M);
+            return module;
+          }};
 }
 
 }  // namespace waitpoint::genom

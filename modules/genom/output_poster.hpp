@@ -11,6 +11,8 @@ class OutputPosterBase {
   virtual ~OutputPosterBase() = default;
   /// Takes over the automatic source, if there is one: at the end of every wake-up.
   virtual void update() = 0;
+  /// What of it and of the poster every giving touches.
+  virtual void add_to(WorkingSet& set) const = 0;
   /// Gives what was written since the last time.
   void give() {
     if (!written_) return;  // mostly: this is asked after every codel
@@ -41,8 +43,14 @@ class OutputPoster : public OutputPosterBase {
   void update() override {
     if (automatic_ != nullptr) write(*automatic_);
   }
+  void add_to(WorkingSet& set) const override {
+    set.add(this, std::min(sizeof *this, small));
+    poster_.add_to(set);
+  }
 
  private:
+  static constexpr std::size_t small = 256;
+
   void give_staged() override {
     threads::access_hardware(poster_.latency());
     poster_.write(staged_);

@@ -5,6 +5,7 @@
 // from s on is dated, and seen by others, at s + c. A read before the first write finds the poster empty.
 #pragma once
 
+#include <algorithm>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -31,6 +32,9 @@ class PosterBase {
   Duration latency() const { return latency_; }
   void set_latency(Duration latency) { latency_ = latency; }
 
+  /// What of it every access touches; of a large value only the beginning.
+  virtual void add_to(WorkingSet& set) const = 0;
+
  protected:
   PosterBase(std::string name, std::string writer);
 
@@ -50,6 +54,7 @@ class Poster : public PosterBase {
  public:
   Poster(std::string name, std::string writer) : PosterBase(std::move(name), std::move(writer)) {}
   const std::type_info& type() const override { return typeid(T); }
+  void add_to(WorkingSet& set) const override;
 
   /// Gives a new value; for the poster's writer only.
   void write(const T& value) {
@@ -80,6 +85,12 @@ class Poster : public PosterBase {
   T value_{};
 };
 
+template <HasFields T>
+void Poster<T>::add_to(WorkingSet& set) const {
+  constexpr std::size_t of_value_max = 192;
+  set.add_between(&name_hash_, reinterpret_cast<const char*>(&value_) + std::min(sizeof value_, of_value_max));
+}
+
 /// A module's wish to read a poster of another, found by its name when the robot is put together.
 class PosterLinkBase {
  public:
@@ -88,6 +99,8 @@ class PosterLinkBase {
   virtual const std::type_info& type() const = 0;
   /// Connects; false if `poster` is of another type.
   virtual bool connect(PosterBase& poster) = 0;
+  /// What of it and of the poster every reading touches.
+  virtual void add_to(WorkingSet& set) const = 0;
 
  protected:
   explicit PosterLinkBase(std::string name) : name_(std::move(name)) {}
@@ -104,6 +117,10 @@ class PosterLink : public PosterLinkBase {
     return poster_ != nullptr;
   }
   bool connected() const { return poster_ != nullptr; }
+  void add_to(WorkingSet& set) const override {
+    set.add(*this);
+    if (poster_ != nullptr) poster_->add_to(set);
+  }
 
   /// As Poster::read; a link that may be absent and is not connected reads as empty.
   PosterStatus read(T& value, Time* date = nullptr) const {

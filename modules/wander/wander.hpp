@@ -30,9 +30,9 @@ class Wander : public genom::Module {
   posters::BaseCommand base_command_;
   genom::OutputPoster<posters::LaserCommand>& laser_;
   genom::OutputPoster<posters::BaseCommand>& base_;
+  bool on_;
   posters::LaserReading last_scan_;
   posters::BaseReading report_;
-  bool on_;
 };
 
 }  // namespace waitpoint::wander

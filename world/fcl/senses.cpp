@@ -91,6 +91,12 @@ void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t ste
   if (devices.gps) devices.gps->add(now, description_.step, state.pose, state.height_m);
 }
 
+void Senses::add_to(WorkingSet& set, std::uint32_t body) const {
+  const Devices& devices = devices_.at(body);
+  set.add(devices);
+  for (const Laser& laser : devices.lasers) laser.add_to(set);
+}
+
 const ImuSample& Senses::imu(std::uint32_t own) const {
   WAITPOINT_CHECK(devices_.at(own).imu != nullptr, "a body without an inertial measurement unit is asked for it");
   return devices_[own].imu->sample();

@@ -57,6 +57,9 @@ class Senses {
   /// A hand has put it there.
   void put(std::uint32_t body, const Pose& pose) { devices_[body].trail.restart(pose); }
 
+  /// Adds what its devices touch, without what is everybody's.
+  void add_to(WorkingSet& set, std::uint32_t body) const;
+
   // What World has of the same names, for the body `own`, which is `vehicle`.
 
   void scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number, double time_s,

@@ -33,6 +33,10 @@ class VehicleWorld : public World {
   void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const final {
     senses_.infrareds(vehicles_.at(index(id)), number(id), reading_number, volts);
   }
+  void add_to(WorkingSet& set, BodyId id) const final {
+    set.add(vehicles_.at(index(id)));
+    senses_.add_to(set, number(id));
+  }
   double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const final {
     return senses_.cast(beam, range_max_m, own);
   }

@@ -46,6 +46,11 @@ struct Spot {
   }
 };
 
+bool is_plain(const LaserDescription& d) {
+  return d.mirror_turn == Duration() && d.angle_noise_rad == 0 && d.spot_m == 0 && d.spot_divergence_rad == 0 &&
+         d.incidence_max_rad >= 0.5 * exact::pi;
+}
+
 RandomStream stream(std::uint64_t seed, std::string_view robot, std::size_t number, std::string_view what) {
   return RandomStream(seed, robot, "laser " + std::to_string(number) + "." + std::string(what));
 }
@@ -60,6 +65,7 @@ double range_noise_m(const LaserDescription& laser, double range_m) {
 
 Laser::Laser(const LaserDescription& description, std::uint64_t seed, std::string_view robot, std::size_t number)
     : description_(&description),
+      plain_(is_plain(description)),
       range_noise_(stream(seed, robot, number, "range")),
       angle_noise_(stream(seed, robot, number, "angle")),
       mixed_(stream(seed, robot, number, "mixed")),
@@ -74,10 +80,11 @@ double Laser::angle_step_rad() const {
   return description_->beams > 1 ? description_->field_of_view_rad / (description_->beams - 1) : 0;
 }
 
-bool Laser::plain() const {
-  const LaserDescription& d = *description_;
-  return d.mirror_turn == Duration() && d.angle_noise_rad == 0 && d.spot_m == 0 && d.spot_divergence_rad == 0 &&
-         d.incidence_max_rad >= 0.5 * exact::pi;
+void Laser::add_to(WorkingSet& set) const {
+  constexpr std::size_t beams_known = 32;
+  set.add(*this);
+  set.add(*description_);
+  set.add(directions_.data(), std::min(directions_.size(), beams_known) * sizeof(Point));
 }
 
 void Laser::look(std::uint64_t scan_number, const ArcTrail& body, const RayCaster& caster,

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "core/working_set.hpp"
 #include "world/description.hpp"
 #include "world/sensors/arc_trail.hpp"
 #include "world/sensors/ray_caster.hpp"
@@ -42,7 +43,9 @@ class Laser {
   std::span<const Point> directions() const { return directions_; }
 
   /// Whether the beams are lines at equal angles from one point, so that a fan cast from there is what look() finds.
-  bool plain() const;
+  bool plain() const { return plain_; }
+  /// Adds what a scan touches of it, of many beams only the first.
+  void add_to(WorkingSet& set) const;
   /// Finds what each beam sees of a scan that has just ended, from where the body has been: range_max_m without echo.
   /// As many ranges as beams.
   void look(std::uint64_t scan_number, const ArcTrail& body, const RayCaster& caster, std::span<double> ranges_m) const;
@@ -56,6 +59,7 @@ class Laser {
   double seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& middle, const RayCaster& caster) const;
 
   const LaserDescription* description_;
+  bool plain_;
   RandomStream range_noise_, angle_noise_, mixed_, dropout_;
   std::vector<Point> directions_;
 };
