@@ -1,52 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/planar/ray.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "world/planar/hit.hpp"
 
 namespace waitpoint::world {
-namespace {
 
-double hit_box(const Outline& box, const Ray& ray) {
-  const Point o = box.local(ray.origin);
-  const Point d = {box.axis_cos * ray.direction.x + box.axis_sin * ray.direction.y,
-                   box.axis_cos * ray.direction.y - box.axis_sin * ray.direction.x};
-  const double half_x = box.half_length_m + seal_m, half_y = box.half_width_m + seal_m;
-  double enter = 0, leave = no_hit;
-  if (d.x != 0) {
-    const double far_side = std::copysign(half_x, d.x);
-    enter = std::max(enter, (-far_side - o.x) / d.x);
-    leave = std::min(leave, (far_side - o.x) / d.x);
-  } else if (std::fabs(o.x) > half_x) {
-    return no_hit;
-  }
-  if (d.y != 0) {
-    const double far_side = std::copysign(half_y, d.y);
-    enter = std::max(enter, (-far_side - o.y) / d.y);
-    leave = std::min(leave, (far_side - o.y) / d.y);
-  } else if (std::fabs(o.y) > half_y) {
-    return no_hit;
-  }
-  return enter <= leave ? enter : no_hit;
-}
-
-double hit_disc(const Outline& disc, const Ray& ray) {
-  const Point to_centre = disc.centre - ray.origin;
-  const double square = disc.radius_m * disc.radius_m;
-  if (dot(to_centre, to_centre) <= square) return 0;
-  const double along = dot(to_centre, ray.direction);
-  if (along <= 0) return no_hit;
-  // The offset as a cross product, not as a difference of squares: it keeps its digits far away.
-  const double offset = cross(to_centre, ray.direction);
-  const double rest = square - offset * offset;
-  if (rest < 0) return no_hit;
-  return std::max(along - std::sqrt(rest), 0.0);
-}
-
-}  // namespace
-
-double hit_distance(const Outline& outline, const Ray& ray) {
-  return outline.is_box ? hit_box(outline, ray) : hit_disc(outline, ray);
-}
+double hit_distance(const Outline& outline, const Ray& ray) { return hit(outline, ray); }
 
 }  // namespace waitpoint::world

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "world/planar/ray.hpp"
+#include "world/planar/hit.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -76,7 +76,18 @@ View DepthBuffer::view(Point middle, double extent_m) const {
 }
 
 bool DepthBuffer::hidden(float near_m2, std::int32_t first, std::int32_t last) const {
-  return kernels_->all_nearer(farthest_m2_.data(), first / Beams::block, last / Beams::block, near_m2);
+  const std::int32_t first_block = first / Beams::block, last_block = last / Beams::block;
+  if (last_block - first_block > few_blocks)
+    return kernels_->all_nearer(farthest_m2_.data(), first_block, last_block, near_m2);
+  for (std::int32_t block = first_block; block <= last_block; ++block) {
+    if (farthest_m2_[static_cast<std::size_t>(block)] < near_m2) continue;
+    // Of the blocks at the ends only some beams count.
+    const std::int32_t from = block * Beams::block, end = from + Beams::block - 1;
+    if (from >= first && end <= last) return false;
+    for (std::int32_t beam = std::max(from, first); beam <= std::min(end, last); ++beam)
+      if (squared_up(ranges_m_[static_cast<std::size_t>(beam)]) >= near_m2) return false;
+  }
+  return true;
 }
 
 bool DepthBuffer::hidden(const Pending& what) const {
@@ -107,7 +118,7 @@ void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std
 
 // Whether its range is less now.
 bool DepthBuffer::ask_beam(std::size_t beam, const Outline& outline, std::uint32_t solid) {
-  const double range_m = hit_distance(outline, {origin_, {x_[beam], y_[beam]}});
+  const double range_m = hit(outline, {origin_, {x_[beam], y_[beam]}});
   if (range_m > ranges_m_[beam]) return false;
   const bool nearer = range_m < ranges_m_[beam];
   // A hit at the limit is none, and is not told from one.

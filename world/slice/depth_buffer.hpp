@@ -56,6 +56,8 @@ class DepthBuffer {
 
   /// What is so narrow is asked about at once, beam by beam: the kernels would take longer to begin than to answer.
   static constexpr std::int32_t narrow_beams = 3;
+  /// For so few blocks of beams a loop is quicker than the kernel, and it tells beams apart.
+  static constexpr std::int32_t few_blocks = 3;
   static bool is_narrow(const Pending& what) {
     return what.first <= what.last && what.last - what.first < narrow_beams;
   }

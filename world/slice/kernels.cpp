@@ -7,6 +7,9 @@ std::vector<const Kernels*> all_kernels() {
   std::vector<const Kernels*> all = {&kernels_baseline};
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) all.push_back(&kernels_avx2);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    all.push_back(&kernels_avx512);
 #endif
   return all;
 }

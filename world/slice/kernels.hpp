@@ -91,7 +91,7 @@ const Kernels& kernels();
 /// All that it has, the widest last.
 std::vector<const Kernels*> all_kernels();
 
-// Of each instruction set, whether the processor has it or not; kernels_avx2 only where it is one of x86.
-extern const Kernels kernels_baseline, kernels_avx2;
+// Of each instruction set, whether the processor has it or not; those with names only where it is one of x86.
+extern const Kernels kernels_baseline, kernels_avx2, kernels_avx512;
 
 }  // namespace waitpoint::world

@@ -20,8 +20,9 @@ struct VectorCulling {
   // atan2 to 2.1e-5: a polynomial of the fifth degree in the square, through Chebyshev's points.
   static Floats angle(Floats y, Floats x) {
     const Floats ax = V::absolute(x), ay = V::absolute(y);
-    const Floats q = V::least(ax, ay) / V::greatest(ax, ay), s = q * q;
-    Floats a = q * (0.99996477f + s * (-0.33154461f + s * (0.18446356f + s * (-0.09075202f + s * 0.02328601f))));
+    const Floats q = V::least(ax, ay) / V::greatest(ax, ay), s = q * q, s_2 = s * s;
+    // In pairs, so that less has to wait for what comes before it.
+    Floats a = q * ((0.99996477f + s * -0.33154461f) + s_2 * ((0.18446356f + s * -0.09075202f) + s_2 * 0.02328601f));
     a = ay > ax ? 1.57079633f - a : a;
     a = x < 0 ? 3.14159265f - a : a;
     return y < 0 ? -a : a;
@@ -170,7 +171,10 @@ struct VectorCulling {
       const Doubles low = V::template load<Doubles>(&directions[at].x),
                     high = V::template load<Doubles>(&directions[at + lanes / 2].x);
       Doubles d_x, d_y;
-      if constexpr (lanes == 2) {
+      if constexpr (lanes == 8) {
+        d_x = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+        d_y = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+      } else if constexpr (lanes == 2) {
         d_x = __builtin_shufflevector(low, high, 0, 2);
         d_y = __builtin_shufflevector(low, high, 1, 3);
       } else {

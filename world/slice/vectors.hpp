@@ -14,7 +14,7 @@
 
 namespace waitpoint::world {
 
-/// Vectors of so many doubles, and of integers and floats in the same space.
+/// Vectors of so many doubles, and of integers and floats in the same space; of these at most eight.
 template <int lanes>
 struct VectorTypes;
 template <>
@@ -31,6 +31,13 @@ struct VectorTypes<4> {
   typedef float Floats __attribute__((vector_size(32)));
   typedef std::int32_t Ints __attribute__((vector_size(32)));
 };
+template <>
+struct VectorTypes<8> {
+  typedef double Doubles __attribute__((vector_size(64)));
+  typedef std::int64_t Longs __attribute__((vector_size(64)));
+  typedef float Floats __attribute__((vector_size(32)));
+  typedef std::int32_t Ints __attribute__((vector_size(32)));
+};
 
 /// What is done to such vectors.
 template <int lanes>
@@ -39,7 +46,7 @@ struct Vectors {
   using Longs = typename VectorTypes<lanes>::Longs;
   using Floats = typename VectorTypes<lanes>::Floats;
   using Ints = typename VectorTypes<lanes>::Ints;
-  static constexpr int float_lanes = 2 * lanes;
+  static constexpr int float_lanes = sizeof(Floats) / sizeof(float);
 
   template <class Vector, class Element>
   static Vector load(const Element* from) {
@@ -66,6 +73,10 @@ struct Vectors {
   }
 
   static Doubles root(Doubles v) {
+#if defined(__AVX512F__)
+    // Not _mm512_sqrt_pd(), in whose header GCC 12 finds an uninitialised value (its bug 105593).
+    if constexpr (lanes == 8) return (Doubles)_mm512_maskz_sqrt_pd(0xFF, (__m512d)v);
+#endif
 #if defined(__AVX__)
     if constexpr (lanes == 4) return (Doubles)_mm256_sqrt_pd((__m256d)v);
 #endif
@@ -78,6 +89,9 @@ struct Vectors {
 
   // A bit for each lane that is all ones.
   static unsigned bits(Longs mask) {
+#if defined(__AVX512DQ__)
+    if constexpr (lanes == 8) return _mm512_movepi64_mask((__m512i)mask);
+#endif
 #if defined(__AVX__)
     if constexpr (lanes == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
 #endif
@@ -90,7 +104,7 @@ struct Vectors {
   }
   static unsigned bits(Ints mask) {
 #if defined(__AVX__)
-    if constexpr (lanes == 4) return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
+    if constexpr (float_lanes == 8) return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
 #endif
 #if defined(__SSE2__)
     if constexpr (lanes == 2) return static_cast<unsigned>(_mm_movemask_ps((__m128)mask));
