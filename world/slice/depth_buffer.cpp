@@ -49,7 +49,7 @@ void DepthBuffer::begin(const Fan& fan, double range_max_m, bool identify) {
     x_[i] = x_[beams_ - 1];
     y_[i] = y_[beams_ - 1];
   }
-  ranges_m_.assign(padded, range_max_m);
+  ranges_m_.assign(padded + Beams::beams_read_beyond, range_max_m);
   if (identify) solids_.assign(padded, no_solid);
   farthest_m2_.assign(blocks + Beams::blocks_read_beyond, squared_up(range_max_m));
 }
@@ -72,22 +72,15 @@ View DepthBuffer::view(Point middle, double extent_m) const {
   view.per_rad = static_cast<float>(per_rad_);
   view.beams = static_cast<std::int32_t>(beams_);
   view.reach_m2 = std::min(squared_up(range_max_m_), std::numeric_limits<float>::max());
+  view.farthest_m2 = farthest_m2_.data();
   return view;
 }
 
 bool DepthBuffer::hidden(float near_m2, std::int32_t first, std::int32_t last) const {
-  const std::int32_t first_block = first / Beams::block, last_block = last / Beams::block;
-  if (last_block - first_block > few_blocks)
-    return kernels_->all_nearer(farthest_m2_.data(), first_block, last_block, near_m2);
-  for (std::int32_t block = first_block; block <= last_block; ++block) {
-    if (farthest_m2_[static_cast<std::size_t>(block)] < near_m2) continue;
-    // Of the blocks at the ends only some beams count.
-    const std::int32_t from = block * Beams::block, end = from + Beams::block - 1;
-    if (from >= first && end <= last) return false;
-    for (std::int32_t beam = std::max(from, first); beam <= std::min(end, last); ++beam)
-      if (squared_up(ranges_m_[static_cast<std::size_t>(beam)]) >= near_m2) return false;
-  }
-  return true;
+  if (last - first >= few_blocks * Beams::block)
+    return kernels_->all_nearer(farthest_m2_.data(), first / Beams::block, last / Beams::block, near_m2);
+  const double near_m = std::sqrt(static_cast<double>(near_m2)) * (1 - 1e-6);
+  return kernels_->all_end_nearer(ranges_m_.data(), first, last, near_m);
 }
 
 bool DepthBuffer::hidden(const Pending& what) const {
@@ -104,11 +97,11 @@ void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std
   for (unsigned seen = kernels_->look(bounds, view, sight); seen != 0; seen &= seen - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(seen));
     const Pending child = {sight.near_m2[i], children[i], sight.first[i], sight.last[i]};
-    if (hidden(child)) continue;
     if (child.child < 0 && is_narrow(child)) {
       ask(~child.child, child);
       continue;
     }
+    if (!is_of_two_blocks(child) && hidden(child)) continue;
     std::size_t at = pending_.size();
     pending_.push_back(child);
     for (; at > before && pending_[at - 1].near_m2 < child.near_m2; --at) pending_[at] = pending_[at - 1];
@@ -128,8 +121,10 @@ bool DepthBuffer::ask_beam(std::size_t beam, const Outline& outline, std::uint32
 }
 
 void DepthBuffer::note_farthest(std::int32_t block) {
-  const auto first = ranges_m_.begin() + block * Beams::block;
-  farthest_m2_[static_cast<std::size_t>(block)] = squared_up(*std::max_element(first, first + Beams::block));
+  const double* const first = ranges_m_.data() + block * Beams::block;
+  double most = 0;
+  for (int i = 0; i < Beams::block; ++i) most = std::max(most, first[i]);
+  farthest_m2_[static_cast<std::size_t>(block)] = squared_up(most);
 }
 
 void DepthBuffer::ask_narrow(const Outline& outline, std::uint32_t solid, const Pending& where) {

@@ -56,7 +56,7 @@ class DepthBuffer {
 
   /// What is so narrow is asked about at once, beam by beam: the kernels would take longer to begin than to answer.
   static constexpr std::int32_t narrow_beams = 3;
-  /// For so few blocks of beams a loop is quicker than the kernel, and it tells beams apart.
+  /// Within so few blocks beams are looked at one by one: those at the ends may be all that is not hidden.
   static constexpr std::int32_t few_blocks = 3;
   static bool is_narrow(const Pending& what) {
     return what.first <= what.last && what.last - what.first < narrow_beams;
@@ -74,6 +74,11 @@ class DepthBuffer {
     const Outline* outline = nullptr;
     std::uint32_t solid = no_solid;
   };
+
+  /// What is so narrow, and hidden by whole blocks, is not in view.
+  static bool is_of_two_blocks(const Pending& what) {
+    return what.first <= what.last && what.last / Beams::block - what.first / Beams::block <= 1;
+  }
 
   View view(Point middle, double extent_m) const;
   double finite_reach_m() const;

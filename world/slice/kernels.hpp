@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inner loops of scans and of looking for neighbours, in the widest instructions that this processor has.
 //
-// All variants give the same bits: `look`, `all_nearer`, `overlap` and `meet` only cull, and the others do what
-// hit_distance() does, with the same operations in the same order (sums, products, quotients and square roots are exact
-// to the last bit in every width), so that any beam alone and the same beam within a fan agree.
+// All variants give the same bits: `look`, `all_nearer`, `all_end_nearer`, `overlap` and `meet` only cull, and the
+// others do what hit_distance() does, with the same operations in the same order (sums, products, quotients and square
+// roots are exact to the last bit in every width), so that any beam alone and the same beam within a fan agree.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ inline constexpr std::uint32_t no_solid = 0xFFFFFFFFu;
 /// The beams of a scan, of which blocks of eight are treated together.
 struct Beams {
   static constexpr int block = 8;
-  static constexpr int blocks_read_beyond = 8;
+  static constexpr int blocks_read_beyond = 8, beams_read_beyond = 8;
   Point origin;
   const double *x, *y;      ///< directions
   double* range_m;          ///< the nearest hit so far, or the limit
@@ -35,7 +35,8 @@ struct View {
   float half_rad;                      ///< from there to the last beam
   float per_rad;                       ///< beams
   std::int32_t beams;
-  float reach_m2;  ///< finite
+  float reach_m2;            ///< finite
+  const float* farthest_m2;  ///< as Beams'
 };
 
 /// A rectangle in floats, like those of a tree.
@@ -72,10 +73,13 @@ struct Kernels {
   /// Turns directions into the frame in which `axis` is the x axis of theirs; gives how many it has done: all but a few
   /// at the end.
   std::size_t (*turn)(const Point* directions, std::size_t count, Point axis, double* x, double* y);
-  /// A bit for each rectangle that is in view; `sight` means something for those.
+  /// A bit for each rectangle that is in view, but for those that are hidden and as narrow as two blocks of beams;
+  /// `sight` means something for those.
   unsigned (*look)(const EightBounds& bounds, const View& view, Sight& sight);
   /// Whether all of these blocks are nearer than that; blocks beyond the last are read, too, but do not count.
   bool (*all_nearer)(const float* farthest_m2, std::int32_t first, std::int32_t last, float than_m2);
+  /// Whether all of these beams end nearer than that; beams beyond the last are read, too, but do not count.
+  bool (*all_end_nearer)(const double* range_m, std::int32_t first, std::int32_t last, double than_m);
   /// A bit for each rectangle that overlaps `wanted`.
   unsigned (*overlap)(const EightBounds& bounds, const FloatBounds& wanted);
   /// For each beam a bit for each rectangle that it meets within its reach.

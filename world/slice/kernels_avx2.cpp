@@ -11,6 +11,7 @@ constinit const Kernels kernels_avx2 = {
     &VectorCulling<4>::turn,
     &VectorCulling<4>::look,
     &VectorCulling<4>::all_nearer,
+    &VectorCulling<4>::all_end_nearer,
     &VectorCulling<4>::overlap,
     &VectorCulling<4>::meet,
     &VectorAsking<4>::ask_box,

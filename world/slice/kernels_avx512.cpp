@@ -11,6 +11,7 @@ constinit const Kernels kernels_avx512 = {
     &VectorCulling<8>::turn,
     &VectorCulling<8>::look,
     &VectorCulling<8>::all_nearer,
+    &VectorCulling<8>::all_end_nearer,
     &VectorCulling<8>::overlap,
     &VectorCulling<8>::meet,
     &VectorAsking<8>::ask_box,

@@ -11,6 +11,7 @@ constinit const Kernels kernels_baseline = {
     &VectorCulling<2>::turn,
     &VectorCulling<2>::look,
     &VectorCulling<2>::all_nearer,
+    &VectorCulling<2>::all_end_nearer,
     &VectorCulling<2>::overlap,
     &VectorCulling<2>::meet,
     &VectorAsking<2>::ask_box,

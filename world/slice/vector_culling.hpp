@@ -14,6 +14,7 @@ template <int lanes>
 struct VectorCulling {
   using V = Vectors<lanes>;
   using Doubles = typename V::Doubles;
+  using Longs = typename V::Longs;
   using Floats = typename V::Floats;
   using Ints = typename V::Ints;
 
@@ -72,7 +73,7 @@ struct VectorCulling {
     V::store(sight.last + at, last);
     const unsigned around = ~V::bits(west | east | south | north),
                    behind = V::bits((Ints)((left > pi) | (right < -pi)));
-    unsigned seen = in_reach & V::bits((Ints)(first <= last));
+    unsigned seen = in_reach & V::bits((Ints)(first <= last) & ~hidden(near_m2, first, last, view));
     for (unsigned rest = in_reach & (around | behind); rest != 0; rest &= rest - 1) {
       const int lane = __builtin_ctz(rest);
       std::int32_t &first_of_it = sight.first[at + lane], &last_of_it = sight.last[at + lane];
@@ -85,6 +86,16 @@ struct VectorCulling {
       }
     }
     return seen;
+  }
+
+  // Whether all is nearer in the one or two blocks of these beams.
+  static Ints hidden(Floats near_m2, Ints first, Ints last, const View& view) {
+    static_assert(Beams::block == 8);
+    constexpr int block_shift = 3;
+    const Ints first_block = V::greatest(first, Ints{}) >> block_shift,
+               last_block = V::greatest(last, Ints{}) >> block_shift;
+    return (Ints)(V::gather(view.farthest_m2, first_block) < near_m2) &
+           (Ints)(V::gather(view.farthest_m2, last_block) < near_m2) & (Ints)(last_block - first_block <= 1);
   }
 
   // The whole parts, between -1 and the number of beams.
@@ -160,6 +171,16 @@ struct VectorCulling {
     for (std::int32_t at = first; at <= last; at += V::float_lanes) {
       const Ints farther = (Ints)(V::template load<Floats>(farthest_m2 + at) >= than_m2);
       if (V::bits(farther & (Ints)(place <= last - at)) != 0) return false;
+    }
+    return true;
+  }
+
+  static bool all_end_nearer(const double* range_m, std::int32_t first, std::int32_t last, double than_m) {
+    Longs place;
+    for (int i = 0; i < lanes; ++i) place[i] = i;
+    for (std::int32_t at = first; at <= last; at += lanes) {
+      const Longs farther = (Longs)(V::template load<Doubles>(range_m + at) >= than_m);
+      if (V::bits(farther & (Longs)(place <= last - at)) != 0) return false;
     }
     return true;
   }

@@ -72,6 +72,15 @@ struct Vectors {
     return a < b ? b : a;
   }
 
+  static Floats gather(const float* from, Ints at) {
+#if defined(__AVX2__)
+    if constexpr (float_lanes == 8) return (Floats)_mm256_i32gather_ps(from, (__m256i)at, sizeof(float));
+#endif
+    Floats v;
+    for (int i = 0; i < float_lanes; ++i) v[i] = from[at[i]];
+    return v;
+  }
+
   static Doubles root(Doubles v) {
 #if defined(__AVX512F__)
     // Not _mm512_sqrt_pd(), in whose header GCC 12 finds an uninitialised value (its bug 105593).
