@@ -27,7 +27,11 @@ enum class Choice : std::uint8_t {
 
 class Decisions {
  public:
-  /// Which of `ready`, of which there are `count`, at least one, goes on.
+  /// In place of one of those that are ready: all of them poll for something that takes time. Only where something is
+  /// due later; they go on at that instant.
+  static constexpr std::uint32_t later = ~std::uint32_t{0};
+
+  /// Which of `ready`, of which there are `count`, at least one, goes on; or `later`.
   virtual std::uint32_t next(Task* const* ready, std::uint32_t count) = 0;
   /// Which of `count` alternatives, at least two, at something that `task` does.
   virtual std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) = 0;

@@ -30,8 +30,8 @@ unsigned ideal_width_log2(std::uint64_t gap_ns) { return static_cast<unsigned>(s
 EventList::EventList(std::uint32_t capacity)
     : capacity_(capacity), memory_(reserve(entries(capacity))), heap_(memory_), calendar_(capacity) {
   run_ = memory_ + capacity + EventHeap::margin;
-  run_[0].key = EventKey::never();
-  run_bound_ = std::min(2 * capacity, run_bound_);
+  empty_run();
+  set_bound();
 }
 
 bool EventList::has_address_space(std::uint32_t capacity) {
@@ -48,7 +48,7 @@ void EventList::restart() {
   WAITPOINT_CHECK(size_ == 0, "a list with events is begun anew");
   if (calendar_.is_open()) close_calendar();
   empty_run();
-  run_bound_ = std::min(2 * capacity_, 4 * run_length_min);
+  set_bound();
   calibration_period_ = until_upkeep_ = calibration_period_min;
   present_ns_ = calibrated_at_ns_ = 0;
   passed_ = 0;
@@ -70,19 +70,18 @@ void EventList::remove(EventNode& node) {
   }
   node.place = EventNode::absent;
   --size_;
-  if (run_end_ - run_head_ < lookahead_) refill();
+  if (end_ < head_ + lookahead_) refill();
 }
 
 void EventList::remove_from_run(std::uint32_t index) {
   run_[index].node = nullptr;
-  if (index == run_head_) pass_gaps();
+  if (run_ + index == head_) pass_gaps();
 }
 
 std::uint32_t EventList::find_in_run(const EventNode& node) const {
-  const EventEntry* entry =
-      std::lower_bound(run_ + run_head_, run_ + run_end_, calendar_.key(node),
-                       [](const EventEntry& entry, const EventKey& key) { return entry.key < key; });
-  return find_from(static_cast<std::uint32_t>(entry - run_), node);
+  const EventEntry* entry = std::lower_bound(
+      head_, end_, calendar_.key(node), [](const EventEntry& entry, const EventKey& key) { return entry.key < key; });
+  return find_from(index_of(*entry), node);
 }
 
 // A node knows where it was put; since then it may have been moved up, once by each that came before it near the end.
@@ -94,8 +93,8 @@ std::uint32_t EventList::find_from(std::uint32_t index, const EventNode& node) c
 void EventList::put_elsewhere(EventNode& node, const EventKey& key) {
   if (key.due_ns() >= calendar_.horizon()) {
     calendar_.insert(node, key);
-    if (run_end_ - run_head_ < lookahead_) refill();
-  } else if (run_end_ >= run_bound_) {
+    if (end_ < head_ + lookahead_) refill();
+  } else if (end_ >= bound_) {
     tidy_run();
     put(node, key);
   } else {
@@ -106,47 +105,48 @@ void EventList::put_elsewhere(EventNode& node, const EventKey& key) {
 // Entries that were passed, and gaps, are to be fewer than those that stay, so that this costs each of them little.
 void EventList::tidy_run() {
   move_run_down();
-  run_bound_ = std::min(2 * capacity_, 2 * run_end_ + 4 * run_length_min);
+  set_bound();
 }
 
+void EventList::set_bound() { bound_ = run_ + std::min(2 * capacity_, 2 * index_of(*end_) + 4 * run_length_min); }
+
 void EventList::pass_gaps() {
-  while (run_head_ < run_end_ && run_[run_head_].node == nullptr) ++run_head_;
-  if (run_head_ == run_end_) empty_run();
+  while (head_ < end_ && head_->node == nullptr) ++head_;
 }
 
 void EventList::move_run_down() {
-  std::uint32_t end = 0;
-  for (std::uint32_t i = run_head_; i < run_end_; ++i) {
-    if (run_[i].node == nullptr) continue;
-    run_[end] = run_[i];
-    note_place_in_run(run_[end++]);
+  EventEntry* end = run_;
+  for (const EventEntry* entry = head_; entry < end_; ++entry) {
+    if (entry->node == nullptr) continue;
+    *end = *entry;
+    note_place_in_run(*end++);
   }
-  run_head_ = 0;
-  run_end_ = end;
-  run_[end].key = EventKey::never();
+  head_ = run_;
+  end_ = end;
+  end_->key = EventKey::never();
 }
 
 void EventList::refill() {
   if (size_ < few) return close_calendar();
   // What is left is little, and would wander through the memory.
-  if (run_head_ >= run_length_min) move_run_down();
-  const std::uint32_t known = run_end_;
+  if (head_ >= run_ + run_length_min) move_run_down();
+  const EventEntry* const known = end_;
   do {
-    const std::uint32_t count = calendar_.take_next(run_ + run_end_);
+    const std::uint32_t count = calendar_.take_next(end_);
     if (count == 0) break;
-    run_end_ += count;
-  } while (run_end_ - run_head_ < lookahead_ + batch);
-  passed_ += run_end_ - known;
-  run_[run_end_].key = EventKey::never();
+    end_ += count;
+  } while (end_ < head_ + lookahead_ + batch);
+  passed_ += static_cast<std::uint32_t>(end_ - known);
+  end_->key = EventKey::never();
   // Each is in a page of its own, which the processor has not seen for long. The looks for where the pages are take the
   // time of one only where they follow each other closely.
-  for (std::uint32_t i = known; i < run_end_; ++i) fetch(run_[i].node);
-  for (std::uint32_t i = known; i < run_end_; ++i) fetch(reinterpret_cast<const char*>(run_[i].node) + 64);
-  calendar_.prepare_next(batch);
+  for (const EventEntry* entry = known; entry < end_; ++entry) fetch(entry->node);
+  for (const EventEntry* entry = known; entry < end_; ++entry) fetch(reinterpret_cast<const char*>(entry->node) + 64);
+  calendar_.prepare_next(buckets_prepared);
 }
 
 void EventList::keep_up() {
-  if (run_end_ - run_head_ < lookahead_) refill();
+  if (end_ < head_ + lookahead_) refill();
   if (until_upkeep_ == 0) calibrate();
 }
 
@@ -171,7 +171,7 @@ void EventList::open_calendar(std::uint64_t gap_ns) {
   }
   // All of the run stays ahead of the horizon.
   std::uint64_t bound_ns = present_ns_;
-  if (run_head_ < run_end_ && run_[run_end_ - 1].key.due_ns() > bound_ns) bound_ns = run_[run_end_ - 1].key.due_ns();
+  if (head_ < end_ && end_[-1].key.due_ns() > bound_ns) bound_ns = end_[-1].key.due_ns();
   calendar_.open(bound_ns, width, buckets, [&](const EventEntry& early) { heap_.insert(early); });
   heap_.drain_from(calendar_.horizon(), [&](const EventEntry& late) { calendar_.insert(*late.node, late.key); });
   lookahead_ = lookahead;

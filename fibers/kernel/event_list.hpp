@@ -39,16 +39,11 @@ class EventList {
   bool empty() const { return size_ == 0; }
   std::uint32_t size() const { return size_; }
   /// The least entry; its key reads as never due if the list is empty.
-  const EventEntry& least() const {
-    const EventEntry& run = run_[run_head_];
-    return heap_.least().key < run.key ? heap_.least() : run;
-  }
+  const EventEntry& least() const { return heap_.least().key < head_->key ? heap_.least() : *head_; }
   /// Whether the events are so many that they are in a calendar.
   bool is_large() const { return lookahead_ != 0; }
   /// The node that is `ahead` events behind the least one of the run, if it is known already: to make it ready early.
-  const EventNode* coming(std::uint32_t ahead) const {
-    return run_head_ + ahead < run_end_ ? run_[run_head_ + ahead].node : nullptr;
-  }
+  const EventNode* coming(std::uint32_t ahead) const { return head_ + ahead < end_ ? head_[ahead].node : nullptr; }
 
   /// `node` must not be in the list.
   [[gnu::always_inline]] void insert(EventNode& node, const EventKey& key) {
@@ -61,13 +56,18 @@ class EventList {
   /// The list must not be empty.
   EventNode& pop() {
     WAITPOINT_CHECK(size_ > 0, "the event list is empty");
-    return take_least(heap_.least().key < run_[run_head_].key);
+    return take(least());
+  }
+  /// As pop() and insert(node, key), where `least` is least().
+  [[gnu::always_inline]] EventNode& exchange(const EventEntry& least, EventNode& node, const EventKey& key) {
+    EventNode& taken = take(least);
+    insert(node, key);
+    return taken;
   }
   /// As pop(), unless the least event is due at `until` or later, or there is none: null then.
   EventNode* pop_before(Time until) {
-    const bool of_heap = heap_.least().key < run_[run_head_].key;
-    const EventEntry& least = of_heap ? heap_.least() : run_[run_head_];
-    return least.key.time < until ? &take_least(of_heap) : nullptr;
+    const EventEntry& first = least();
+    return first.key.time < until ? &take(first) : nullptr;
   }
   /// The present instant: that of the event that was taken last, or to which advance() came.
   Time present() const { return Time::from_ns(static_cast<std::int64_t>(present_ns_)); }
@@ -79,8 +79,9 @@ class EventList {
   static constexpr std::uint32_t many = 32;      // from which on one is taken
   static constexpr std::uint32_t lookahead = 8;  // where there is a calendar, events that are known ahead at least
   static constexpr std::uint32_t batch = 8;      // and how many more are made known at once then
-  static constexpr std::uint32_t reach = 12;     // entries of the run that an event may come before
-  static constexpr std::uint32_t run_length_min = 64;  // the run begins anew when so much was passed
+  static constexpr std::uint32_t buckets_prepared = 2;  // that come next then
+  static constexpr std::uint32_t reach = 12;            // entries of the run that an event may come before
+  static constexpr std::uint32_t run_length_min = 64;   // the run begins anew when so much was passed
   static constexpr std::uint32_t calibration_period_min = 512;
 
   void check_insertion(const EventNode& node) const {
@@ -90,29 +91,29 @@ class EventList {
   }
   // Into its place in the run, if that is near its end; else to the others.
   [[gnu::always_inline]] void put(EventNode& node, const EventKey& key) {
-    EventEntry* at = run_ + run_end_;
-    const bool is_far = run_end_ - run_head_ > reach && key < at[-std::ptrdiff_t{reach}].key;
-    if (__builtin_expect(is_far || key.due_ns() >= calendar_.horizon() || run_end_ >= run_bound_, 0))
+    EventEntry* at = end_;
+    const bool is_far = at > head_ + reach && key < at[-std::ptrdiff_t{reach}].key;
+    if (__builtin_expect(is_far || key.due_ns() >= calendar_.horizon() || at >= bound_, 0))
       return put_elsewhere(node, key);
     at[1].key = EventKey::never();
     // Those that are moved up are not told: see find_from().
-    for (const EventEntry* const head = run_ + run_head_; at != head && key < at[-1].key; --at) *at = at[-1];
+    for (; at != head_ && key < at[-1].key; --at) *at = at[-1];
     *at = {key, &node};
-    node.place = EventNode::in_run(static_cast<std::uint32_t>(at - run_));
-    ++run_end_;
+    node.place = EventNode::in_run(index_of(*at));
+    ++end_;
   }
   // Events that came from the calendar keep their places there.
   void note_place_in_run(const EventEntry& entry) {
     if (entry.node != nullptr && entry.node->part() == EventNode::Part::run)
-      entry.node->place = EventNode::in_run(static_cast<std::uint32_t>(&entry - run_));
+      entry.node->place = EventNode::in_run(index_of(entry));
   }
+  std::uint32_t index_of(const EventEntry& entry) const { return static_cast<std::uint32_t>(&entry - run_); }
   [[gnu::noinline]] void put_elsewhere(EventNode& node, const EventKey& key);
-  [[gnu::always_inline]] EventNode& take_least(bool of_heap) {
-    if (of_heap) return take_from_heap();
-    const EventEntry& least = run_[run_head_];
+  [[gnu::always_inline]] EventNode& take(const EventEntry& least) {
+    if (__builtin_expect(&least != head_, 0)) return take_from_heap();
     EventNode* node = least.node;
     present_ns_ = least.key.due_ns();
-    ++run_head_;
+    ++head_;
     return taken(*node);
   }
   [[gnu::noinline]] EventNode& take_from_heap() {
@@ -129,21 +130,18 @@ class EventList {
     --size_;
     if (node.place >= EventNode::in_calendar(0)) calendar_.release(node);
     node.place = EventNode::absent;
-    if (run_head_ == run_end_) {
-      if (run_head_ >= run_length_min) empty_run();
-    } else if (run_[run_head_].node == nullptr) {
-      pass_gaps();
-    }
-    if (__builtin_expect(--until_upkeep_ == 0 || run_end_ - run_head_ < lookahead_, 0)) keep_up();
+    if (__builtin_expect(head_->node == nullptr, 0)) pass_gaps();  // behind the end it may be anything
+    if (__builtin_expect(--until_upkeep_ == 0 || end_ < head_ + lookahead_, 0)) keep_up();
     return node;
   }
   void empty_run() {
-    run_head_ = run_end_ = 0;
-    run_[0].key = EventKey::never();
+    head_ = end_ = run_;
+    end_->key = EventKey::never();
   }
   // The head of the run is an event that was not removed; an empty run begins at the beginning.
-  void pass_gaps();
+  [[gnu::noinline]] void pass_gaps();
   void move_run_down();
+  void set_bound();
   void tidy_run();
   void remove_from_run(std::uint32_t index);
   std::uint32_t find_in_run(const EventNode& node) const;
@@ -159,9 +157,9 @@ class EventList {
   EventEntry* memory_;
   EventHeap heap_;
   EventEntry* run_;  // from head to end in ascending order, and behind it an entry that is never due
-  std::uint32_t run_head_ = 0;
-  std::uint32_t run_end_ = 0;
-  std::uint32_t run_bound_ = 4 * run_length_min;               // it is tidied up before it ends beyond
+  EventEntry* head_;
+  EventEntry* end_;
+  EventEntry* bound_;                                          // the run is tidied up before it ends beyond
   std::uint32_t lookahead_ = 0;                                // the run is kept so long, while there is a calendar
   std::uint32_t calibration_period_ = calibration_period_min;  // in events taken
   std::uint32_t until_upkeep_ = calibration_period_min;

@@ -39,6 +39,19 @@ void Scheduler::set_decisions(Decisions& decisions) {
   chooser_.set_decisions(decisions);
 }
 
+bool Scheduler::is_due_later() const { return !events_.empty() && events_.least().key.time < until_; }
+
+// Those that are ready go on at the instant of the next event.
+void Scheduler::let_time_pass() {
+  WAITPOINT_CHECK(is_due_later(), "nothing is due later, for which time could pass");
+  const Time next = events_.least().key.time;
+  while (!ready_.empty()) {
+    Task& task = ready_.take(0);
+    set_local_time(task, next);
+    events_.insert(task.event, key(task, next));
+  }
+}
+
 Fiber& Scheduler::next_explored() {
   for (;;) {
     if (ready_.empty() || (!events_.empty() && is_before_tasks_at(events_.least().key, now_))) {
@@ -57,6 +70,10 @@ Fiber& Scheduler::next_explored() {
     if (now_ >= until_) return outside(RunState::reached);
     const std::uint32_t chosen = chooser_.decisions()->next(ready_.tasks(), ready_.size());
     if (cause_ != StopCause::none) return outside(RunState::stopped);
+    if (__builtin_expect(chosen == Decisions::later, 0)) {
+      let_time_pass();
+      continue;
+    }
     return go(ready_.take(chosen)).fiber;
   }
 }

@@ -226,7 +226,7 @@ Time Scheduler::next_event_time() const {
 
 void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
   task.attention = static_cast<std::uint8_t>(needed ? task.attention | reason : task.attention & ~reason);
-  if (&task == running) end_free_passes(task);
+  if (&task == running) end_free_passes();
 }
 
 Fiber& Scheduler::outside(RunState state) {
@@ -244,12 +244,12 @@ void Scheduler::leave_to_main(RunState state) {
   state_ = state;
   if (running == nullptr) return;
   Fiber& from = running->fiber;
-  end_free_passes(*running);
+  end_free_passes();
   leave(from, outside(state));
 }
 
 void Scheduler::leave_for_next(Task& task) {
-  end_free_passes(task);
+  end_free_passes();
   leave(task.fiber, next_fiber());
 }
 
@@ -267,7 +267,7 @@ void Scheduler::stop_between_events(StopCause cause, Task& culprit) {
 
 void Scheduler::pause() {
   until_ = Time();  // no event is before it
-  if (running != nullptr) end_free_passes(*running);
+  if (running != nullptr) end_free_passes();
 }
 
 void Scheduler::reclaim_ended() {
@@ -277,22 +277,24 @@ void Scheduler::reclaim_ended() {
   arena_.give_back(stack);
 }
 
-// Another event, due at `time`, is before the task's: the fiber to leave for.
-Fiber& Scheduler::give_way(Task& task, Time time) {
+// The least event of the list is before the task's, and none of the present instant: the fiber to leave for.
+Fiber& Scheduler::give_way(Task& task, const EventEntry& least) {
   task.state = TaskState::ready;
   const EventKey own = key(task, task.local_time);
+  const Time time = least.key.time;
   if (time >= until_) {
     events_.insert(task.event, own);
     return outside(RunState::reached);
   }
-  if (!present_.empty()) {
-    events_.insert(task.event, own);
-    return next_fiber();
-  }
-  EventNode& least = events_.pop();
-  events_.insert(task.event, own);
-  Task* next = due(least, time);
+  Task* next = due(events_.exchange(least, task.event, own), time);
   return next != nullptr ? next->fiber : next_fiber();
+}
+
+// The same where some of the present instant are.
+Fiber& Scheduler::give_way_to_present(Task& task) {
+  task.state = TaskState::ready;
+  events_.insert(task.event, key(task, task.local_time));
+  return next_fiber();
 }
 
 // The window ends before the task's event, which is the least. That must not cost it its place: it does not go through

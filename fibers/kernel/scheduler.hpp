@@ -130,10 +130,9 @@ class Scheduler {
   /// The task's event stands at its local time; returns when it is the least. False while unwinding.
   bool waitpoint(Operation operation, Object* object) {
     Task& task = *running;
-    if (__builtin_expect(free_passes_ == 0 || task.local_time != now_, 0))
-      return waitpoint_in_the_list(task, operation, object);
+    if (__builtin_expect(!passes_freely(task), 0)) return waitpoint_in_the_list(task, operation, object);
     // The case that must be quick: nothing can come between.
-    --free_passes_;
+    ++task.turns;
     task.operation = operation;
     task.at = object;
     if (object != nullptr) enter(*object);
@@ -142,9 +141,8 @@ class Scheduler {
   }
   /// The same where nothing can come between, and nobody watches; else false, with nothing done.
   [[gnu::always_inline]] bool waitpoint_at_once(Task& task, Operation operation, Object& object) {
-    const std::uint32_t passes = free_passes_;
-    if (passes == 0 || task.local_time != now_ || object.epoch != epoch_ || watched_) return false;
-    free_passes_ = passes - 1;
+    if (!passes_freely(task) || object.epoch != epoch_ || watched_) return false;
+    ++task.turns;
     task.operation = operation;
     task.at = &object;
     count(task, operation, &object);
@@ -154,8 +152,8 @@ class Scheduler {
   /// turn after as many looks as waitpoints at one instant. False when the run is over.
   bool look_at_clock(Time& local) {
     Task& task = *running;
-    if (__builtin_expect(free_passes_ == 0 || task.local_time != now_, 0)) return look_at_clock_slowly(task, local);
-    --free_passes_;
+    if (__builtin_expect(!passes_freely(task), 0)) return look_at_clock_slowly(task, local);
+    ++task.turns;
     local = task.local_time;
     return true;
   }
@@ -215,6 +213,8 @@ class Scheduler {
   /// Events in the list: those of tasks that can go on or wait with a finite timeout, and those of timers.
   std::uint32_t pending_events() const { return events_.size() + ready_.size() + present_.size(); }
 
+  /// In the explored order, where tasks are ready: whether an event is due behind this instant, and in this window.
+  bool is_due_later() const;
   /// When the next event is due; Time::max() if there is none.
   Time next_event_time() const;
 
@@ -295,11 +295,13 @@ class Scheduler {
   void check_progress(Task& task);
   EventKey key(const Task& task, Time time) { return {time, make_order(task.phase, chooser_.tie(task))}; }
   bool precedes(const Task& task, const EventKey& other);
-  Fiber& give_way(Task& task, Time time);
+  Fiber& give_way(Task& task, const EventEntry& least);
+  Fiber& give_way_to_present(Task& task);
   Fiber& wait_for_window(Task& task);
   Fiber& park(Task& task, Object& object, Time deadline);
   Fiber& next_fiber();
   Fiber& next_explored();
+  void let_time_pass();
   Fiber& outside(RunState state);
   static Task& task_of(EventNode& node) { return reinterpret_cast<Task&>(node); }  // the node is its first member
   Task* due(EventNode& node, Time time);
@@ -313,8 +315,9 @@ class Scheduler {
   static const Task* as_task(const EventNode* node);
   void resume(Task& task);
   void hash_events_of(Robot& robot);
-  void let_pass(Task& task);
-  void end_free_passes(Task& task);
+  void let_pass(const Task& task);
+  void end_free_passes();
+  bool passes_freely(const Task& task) const { return task.local_time == free_at_ && task.turns < turns_max; }
   void note_present_event(Phase phase);
   void allow_free_passes();
   void set_local_time(Task& task, Time time);
@@ -330,6 +333,8 @@ class Scheduler {
   void append_waiter(Object& object, Task& task);
   void remove_waiter(Task& task);
   bool closes_a_cycle(Task& task);
+
+  static constexpr Time never = Time::from_ns(-1);
 
   EventList events_;
   PresentQueue present_;  // of the events of the present instant: those put in at it, first-in-first-out
@@ -366,10 +371,10 @@ class Scheduler {
   Time turns_given_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  // How many more waitpoints the running task passes at the present instant without a look at the event list: some in
-  // the first-in-first-out order, as long as no event of an earlier phase was put in for this instant; in the seeded
-  // order as long as no other event is due at it.
-  std::uint32_t free_passes_ = 0;
+  // The present instant, if the running task passes its waitpoints there without a look at the event list: in the
+  // first-in-first-out order, as long as no event of an earlier phase was put in for this instant; in the seeded order,
+  // while there is none of this instant. Else never.
+  Time free_at_ = never;
   PairDigest* lane_ = nullptr;  // where the running task's events are hashed
   PairDigest unheard_;          // of robots that ended
   bool may_stay_;               // it may have some, by its order

@@ -16,22 +16,17 @@ inline std::uint64_t child_id(std::uint64_t parent, std::uint32_t number) {
 
 inline void Scheduler::hash_events_of(Robot& robot) { lane_ = robot.lane; }
 
-// What is left to the running task of its waitpoints at the present instant, it may pass without a look at the event
-// list: they count as passed until something comes between.
-inline void Scheduler::let_pass(Task& task) {
-  if (task.attention != 0 || task.turns >= turns_max) return;
-  free_passes_ = turns_max - task.turns;
-  task.turns = turns_max;
+// The running task may pass its waitpoints at the present instant without a look at the event list, until something
+// comes between.
+inline void Scheduler::let_pass(const Task& task) {
+  if (task.attention == 0) free_at_ = now_;
 }
 
-inline void Scheduler::end_free_passes(Task& task) {
-  task.turns -= free_passes_;
-  free_passes_ = 0;
-}
+inline void Scheduler::end_free_passes() { free_at_ = never; }
 
 // An event of this phase was put in for the present instant.
 inline void Scheduler::note_present_event(Phase phase) {
-  if (running != nullptr && (!may_stay_ || phase < running->phase)) end_free_passes(*running);
+  if (running != nullptr && (!may_stay_ || phase < running->phase)) end_free_passes();
 }
 
 // A new instant for the task: it may pass as many waitpoints again.

@@ -25,7 +25,7 @@ void Scheduler::adopt(Object& object) {
 
 // The task waits from now on: the fiber to leave for.
 Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
-  end_free_passes(task);
+  end_free_passes();
   if (sanitizer::present) sanitizer::release(&object);
   append_waiter(object, task);
   if (needs_attention(task)) start_waiting(task, object);

@@ -12,16 +12,21 @@
 namespace waitpoint::kernel {
 
 // Goes on when the task's event is the least; false when the run is over.
-inline bool Scheduler::arrive(Task& task) {
+[[gnu::always_inline]] inline bool Scheduler::arrive(Task& task) {
   if (__builtin_expect(is_explored(), 0)) {
     task.state = TaskState::ready;
     place(task, task.local_time);
     leave(task.fiber, next_fiber());
     return !interrupted_ || rest();
   }
-  const EventKey least = next_key();
-  if (!precedes(task, least)) {
-    leave(task.fiber, give_way(task, least.time));
+  const EventEntry& least = events_.least();
+  if (__builtin_expect(!present_.empty(), 0)) {
+    if (!precedes(task, next_key())) {
+      leave(task.fiber, give_way_to_present(task));
+      return !interrupted_ || rest();
+    }
+  } else if (!precedes(task, least.key)) {
+    leave(task.fiber, give_way(task, least));
     return !interrupted_ || rest();
   }
   if (task.local_time >= until_) {
@@ -30,7 +35,7 @@ inline bool Scheduler::arrive(Task& task) {
   }
   now_ = task.local_time;
   events_.advance(now_);
-  if (may_stay_ || (may_stay_alone_ && now_ < least.time)) let_pass(task);
+  if (may_stay_ || (may_stay_alone_ && now_ < least.key.time)) let_pass(task);
   return true;
 }
 
@@ -51,7 +56,7 @@ inline bool Scheduler::take_place(Task& task, Operation operation, Object* objec
 
 bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
   if (unwinding_) return refuse();
-  end_free_passes(task);
+  end_free_passes();
   if (needs_attention(task)) {
     if ((task.attention & attention::timer) != 0) return act_for_timer(task, operation, object);
     if (!end_segment(task)) return false;
@@ -73,7 +78,7 @@ bool Scheduler::look_at_clock_slowly(Task& task, Time& local) {
   const Time before = task.local_time;
   local = local_time(task);
   if ((task.attention & attention::timer) != 0) return true;
-  end_free_passes(task);
+  end_free_passes();
   if (local != before)
     task.turns = 0;
   else if (++task.turns > turns_max && !unwinding_ && give_turn(task))
@@ -84,7 +89,7 @@ bool Scheduler::look_at_clock_slowly(Task& task, Time& local) {
 bool Scheduler::yield() {
   if (unwinding_) return refuse();
   Task& task = *running;
-  end_free_passes(task);
+  end_free_passes();
   if (needs_attention(task)) {
     WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
     if (!end_segment(task)) return false;
@@ -107,7 +112,7 @@ bool Scheduler::yield() {
 bool Scheduler::sleep_until(Time time) {
   if (unwinding_) return refuse();
   Task& task = *running;
-  end_free_passes(task);
+  end_free_passes();
   if (needs_attention(task)) {
     WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
     if (!end_segment(task)) return false;
@@ -195,7 +200,7 @@ inline Wake Scheduler::go_on(Task& task, Object& object) {
 bool Scheduler::suspend(Object& object) {
   if (unwinding_) return false;
   Task& task = *running;
-  end_free_passes(task);
+  end_free_passes();
   append_waiter(object, task);
   task.state = TaskState::blocked;
   task.finite_wait = false;

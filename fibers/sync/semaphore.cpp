@@ -3,13 +3,17 @@
 
 namespace waitpoint::sync {
 
-inline void SemaphoreCore::refresh() {
-  if (running_task().scheduler->enter(object_)) count_ = initial_;
+// The waitpoint before an operation, in the first use in a run that of a fresh semaphore; false when the run is over.
+[[gnu::always_inline]] inline bool SemaphoreCore::pass(kernel::Operation operation) {
+  kernel::Task& task = running_task();
+  kernel::Scheduler& scheduler = *task.scheduler;
+  if (__builtin_expect(scheduler.waitpoint_at_once(task, operation, object_), 1)) return true;
+  if (scheduler.enter(object_)) count_ = initial_;
+  return scheduler.waitpoint(operation, &object_);
 }
 
 void SemaphoreCore::release(std::ptrdiff_t units) {
-  refresh();
-  if (!before_releasing(kernel::Operation::release, object_)) return;
+  if (!pass(kernel::Operation::release)) return;
   WAITPOINT_CHECK(units >= 0, about(object_, "a semaphore is released by a negative number"));
   WAITPOINT_CHECK(units <= most_ - count_, about(object_, "a semaphore is released beyond its greatest count"));
   for (; units > 0 && object_.first_waiter != nullptr; --units) kernel::running->scheduler->wake_one(object_);
@@ -23,14 +27,12 @@ bool SemaphoreCore::take() {
 }
 
 bool SemaphoreCore::try_acquire() {
-  refresh();
-  before_blocking(kernel::Operation::try_acquire, object_);
+  if (!pass(kernel::Operation::try_acquire)) unwind();
   return take();
 }
 
 bool SemaphoreCore::acquire_before(Time deadline) {
-  refresh();
-  before_blocking(kernel::Operation::acquire, object_);
+  if (!pass(kernel::Operation::acquire)) unwind();
   if (take()) return true;
   if (deadline <= kernel::running->local_time) return false;
   return block(object_, deadline);

@@ -32,7 +32,7 @@ class SemaphoreCore {
 
  private:
   bool take();
-  void refresh();
+  bool pass(kernel::Operation operation);
 
   Object object_;
   std::ptrdiff_t initial_;
