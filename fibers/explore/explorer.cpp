@@ -12,6 +12,9 @@ using kernel::Operation;
 
 constexpr std::uint8_t looks_max = 6;
 
+// So often all that are ready may spin before time goes on.
+constexpr std::uint32_t idle_turns_max = 20;
+
 template <class... Operations>
 constexpr std::uint64_t set_of(Operations... operations) {
   return (... | (std::uint64_t{1} << static_cast<unsigned>(operations)));
@@ -39,7 +42,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   habits_.clear();
   stopped_before_.clear();
   last_ = nullptr;
-  spinning_ = step_ = step_of_instant_ = instants_ = 0;
+  spinning_ = idle_turns_ = step_ = step_of_instant_ = instants_ = 0;
   instant_ = Time();
   deviated_ = 0;
   parted_ = was_cut_ = false;
@@ -75,7 +78,11 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
     ++instants_;
     last_ = nullptr;  // its time has moved on like the others': it has no claim to go on
     if (spinning_ != 0) stop_spinning();
+    idle_turns_ = 0;
   }
+  if (__builtin_expect(spinning_ != 0, 0) && polls_only({ready, count}) && ++idle_turns_ > idle_turns_max &&
+      scheduler_.is_due_later())
+    return later;
   if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
   const bool chooses = count > 1;
   const bool some_spin = __builtin_expect(spinning_ != 0, 0) && chooses;
@@ -145,6 +152,12 @@ void Explorer::stop_spinning() {
   spinning_ = 0;
 }
 
+bool Explorer::polls_only(std::span<Task* const> ready) const {
+  for (const Task* task : ready)
+    if (task->number >= habits_.size() || !habits_[task->number].spins) return false;
+  return true;
+}
+
 // The strategy, and the default order, do not see those that spin as long as there are others.
 std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready) {
   offered_.clear();
@@ -172,6 +185,7 @@ inline void Explorer::note(const Task& task) {
     note_look(task, habit);
   } else {
     habit.looks = 0;
+    idle_turns_ = 0;
     if (spinning_ != 0) stop_spinning();
   }
   habit.at[1] = habit.at[0];

@@ -4,7 +4,8 @@
 //
 // A task that looks at the same one or two objects again and again, at one instant and without changing anything (load,
 // try_lock, yield, sleeping for no time), waits for others to do something; while any of them can, it is not offered to
-// the strategy. So loops that wait for a flag end, whatever the strategy prefers.
+// the strategy. So loops that wait for a flag end, whatever the strategy prefers. Where all do so again and again and
+// something is due later, they go on then: loops take time, if little.
 #pragma once
 
 #include <cstdint>
@@ -79,6 +80,7 @@ class Explorer final : public kernel::Decisions {
   std::uint32_t choose(std::span<Task* const> ready, std::uint32_t usual);
   std::uint32_t stop(std::span<Task* const> ready, std::uint32_t usual);
   std::uint32_t give_up(Task& task);
+  bool polls_only(std::span<Task* const> ready) const;
   std::span<Task* const> leave_spinning_out(std::span<Task* const> ready);
   std::uint64_t spinning_among(std::uint32_t count) const;
   void note(const Task& task);
@@ -101,6 +103,7 @@ class Explorer final : public kernel::Decisions {
   std::vector<Task*> stopped_before_;
   const Task* last_ = nullptr;
   std::uint32_t spinning_ = 0;
+  std::uint32_t idle_turns_ = 0;  // given since anybody did something, while all spun
   std::uint32_t step_ = 0;
   std::uint32_t step_of_instant_ = 0;
   Time instant_;

@@ -20,6 +20,8 @@ Dpor::Event Dpor::event_of(const Task& task) {
 }
 
 bool Dpor::are_dependent(const Event& a, const Event& b) {
+  // Who yields is not offered until another has done something: what comes before and what behind it matters.
+  if (a.operation == kernel::Operation::yield || b.operation == kernel::Operation::yield) return true;
   if (releases_unseen(a.operation) && is_of_lock(b.operation)) return true;
   if (releases_unseen(b.operation) && is_of_lock(a.operation)) return true;
   return a.object != 0 && a.object == b.object && !(only_looks(a.operation) && only_looks(b.operation));

@@ -3,8 +3,11 @@
 // schedule that does not end is told in some seconds.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "fibers/explore/explore.hpp"
 #include "fibers/sync/atomic.hpp"
+#include "fibers/sync/clock.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
 
@@ -87,6 +90,71 @@ TEST(Polling, WhatDoesNotEndIsToldInSeconds) {
     other.join();
   });
   EXPECT_NE(spinning.text.find("no progress"), std::string::npos) << spinning;
+}
+
+// Each loop looks for what another task does later: when nobody has anything else to do, time goes on.
+TEST(Polling, LoopsThatWaitForATaskThatSleepsOrComputesEnd) {
+  const std::function<void(atomic<bool>&, mutex&)> loops[] = {
+      [](atomic<bool>& done, mutex&) {
+        while (!done.load()) this_thread::yield();
+      },
+      [](atomic<bool>& done, mutex&) {
+        while (!done.load()) {
+        }
+      },
+      [](atomic<bool>&, mutex& held) {
+        while (!held.try_lock()) this_thread::yield();
+        held.unlock();
+      },
+      [](atomic<bool>&, mutex&) {
+        const auto begun = steady_clock::now();
+        while (steady_clock::now() - begun < 1ms) {
+        }
+      },
+  };
+  for (const auto& wait : loops)
+    for (const bool computes : {false, true})
+      for (const char* strategy : {"portfolio", "random", "fifo"}) {
+        const ExploreReport report = explore(
+            [&] {
+              atomic<bool> done{false};
+              mutex held;
+              held.lock();
+              thread one([&] { wait(done, held); }), other([&] { wait(done, held); });
+              if (computes)
+                compute(5ms);
+              else
+                this_thread::sleep_for(5ms);
+              done.store(true);
+              held.unlock();
+              one.join();
+              other.join();
+            },
+            {.strategy = strategy, .iterations = 30});
+        EXPECT_TRUE(report.passed) << report;
+      }
+}
+
+TEST(Polling, DporKnowsThatAYieldLetsOthersIn) {
+  for (const int missed : {3, 4}) {
+    const auto add_twice_each = [missed] {
+      atomic<int> sum{0};
+      const auto add = [&] {
+        for (int i = 0; i < 2; ++i) {
+          const int seen = sum.load();
+          this_thread::yield();
+          sum.store(seen + 1);
+        }
+      };
+      thread one(add), other(add);
+      one.join();
+      other.join();
+      check(sum.load() != missed, "that sum");
+    };
+    for (const char* strategy : {"bounded:3", "dpor"})
+      EXPECT_FALSE(explore(add_twice_each, {.strategy = strategy, .iterations = 100'000}).passed)
+          << strategy << " " << missed;
+  }
 }
 
 // What a release began before the run was over goes on behind it, up to the next call that waits.
