@@ -4,6 +4,9 @@
 // group does not find it. What it would have to say lies in memory that both share, and is written there before each
 // schedule.
 //
+// It also tells of a schedule that goes on for long, and a body that calls exit() does not end the process as if all
+// were well.
+//
 //   explored process   ===|schedule 1|===|schedule 2|== killed
 //   supervisor             ............................ waits ... prints the line that repeats schedule 2
 #pragma once
@@ -39,10 +42,15 @@ class Supervisor {
  private:
   struct Shared;
   [[noreturn]] void wait_for_the_end(int pipe, const Token& token, const std::string& replay, const std::string& after);
+  void tell_of_long_schedules(int pipe, const Token& token, const std::string& replay, const std::string& after);
+  static void refuse_exit();
+  static Supervisor* latest_;  // for the handler of exit(), which is told nothing
 
   Shared* shared_ = nullptr;
   int pipe_ = -1;
+  pid_t explored_ = -1;
   pid_t process_ = -1;
+  Supervisor* outer_ = nullptr;  // whose body explores in its turn
 };
 
 }  // namespace waitpoint::exploration

@@ -179,6 +179,31 @@ TEST(Explore, ATraceThatCannotBeWrittenLosesNoReport) {
   EXPECT_TRUE(contains(report.text, "replay: ")) << report;
 }
 
+TEST(Explore, ABodyThatCallsExitEndsTheTestProgramWithAFailure) {
+  const auto explore_and_leave = [] {
+    explore([] {
+      atomic<bool> first{false};
+      thread other([&] { first.store(true); });
+      if (first.load()) std::exit(0);
+      other.join();
+    });
+    std::exit(0);
+  };
+  EXPECT_EXIT(explore_and_leave(), testing::ExitedWithCode(1), "the process ended within schedule [0-9]+\nreplay: ");
+}
+
+TEST(Explore, AScheduleThatGoesOnForLongIsTold) {
+  const auto wait_for_real_time = [] {
+    const auto begun = std::chrono::steady_clock::now();
+    explore([&] {
+      while (std::chrono::steady_clock::now() - begun < 13s) {
+      }
+    });
+    std::exit(0);
+  };
+  EXPECT_EXIT(wait_for_real_time(), testing::ExitedWithCode(0), "the default schedule has gone on for 10 s");
+}
+
 TEST(Explore, ABodyThatFailsInTheDefaultOrderOnlyLaterIsSaidToLeak) {
   int runs = 0;
   const ExploreReport report = explore([&] { check(++runs < 200, "too many"); });
