@@ -16,6 +16,9 @@ constexpr Duration longer = std::chrono::seconds(5);
 // Of so few switches each is left out with the later ones moved, too.
 constexpr std::size_t few = 40;
 
+// In a run of so few decisions each is tried in all its other ways.
+constexpr std::uint64_t few_decisions = 400;
+
 }  // namespace
 
 FewerSwitches::FewerSwitches(Target& target, SearchProgress& progress, Budget& budget, std::uint64_t number,
@@ -27,17 +30,23 @@ FewerSwitches::FewerSwitches(Target& target, SearchProgress& progress, Budget& b
       least_(found),
       until_(found.end + longer) {}
 
-bool FewerSwitches::fails(std::uint64_t number, const std::vector<Switch>& switches) {
-  if (interrupted_ || !budget_.take()) return false;
+std::optional<Finding> FewerSwitches::tried(Plan plan) {
+  if (interrupted_ || !budget_.take()) return std::nullopt;
   progress_.update(fmt::format("minimising: {} switches, run {}", least_.switches.size(), budget_.used()));
-  std::optional<Finding> tried =
-      run_apart(target_, {.number = number, .drawn = false, .switches = switches, .until = until_});
-  interrupted_ = !tried;
-  if (!tried || !is_same_failure(least_, *tried)) return false;
+  plan.drawn = false;
+  plan.until = until_;
+  std::optional<Finding> finding = run_apart(target_, plan);
+  interrupted_ = !finding;
+  return finding;
+}
+
+bool FewerSwitches::fails(std::uint64_t number, const std::vector<Switch>& switches) {
+  std::optional<Finding> finding = tried({.number = number, .switches = switches});
+  if (!finding || !is_same_failure(least_, *finding)) return false;
   // A switch that was left out may bring others about that were none before.
-  if (repeats_ && tried->switches.size() > least_.switches.size()) return false;
+  if (repeats_ && finding->switches.size() > least_.switches.size()) return false;
   number_ = number;
-  least_ = std::move(*tried);
+  least_ = std::move(*finding);
   return true;
 }
 
@@ -48,8 +57,22 @@ void FewerSwitches::run() {
     repeats_ = fails(number_, least_.switches);
     if (!repeats_) return;
     leave_out();
+    if (least_.switches.size() > 1 && least_.decisions <= few_decisions) seek_one();
   }
   if (number_ != 0 && !is_noise_) (void)fails(0, least_.switches);
+}
+
+// The default order, but at one decision.
+void FewerSwitches::seek_one() {
+  for (std::uint32_t decision = 0; decision < least_.decisions; ++decision)
+    for (std::uint32_t chosen = 0;; ++chosen) {
+      std::optional<Finding> finding = tried({.number = number_, .deviations = {{decision, chosen}}});
+      if (!finding) return;
+      if (finding->parted) break;  // there are no more ways
+      if (!is_same_failure(least_, *finding)) continue;
+      least_ = std::move(*finding);
+      return;
+    }
 }
 
 // Without a switch its two tasks may have an event more or less, so that later switches stand at other numbers.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A failing schedule of a target with as few switches away from the default order as a budget finds: what is left is
 // what matters. Switches are left out as long as the rest fails in the same way, with the same noise
-// (fibers/explore/leave_out.hpp); and at last the noise too, if it can be.
+// (fibers/explore/leave_out.hpp); where several are left of a short run, one at another place may do the work of all;
+// and at last the noise is left out too, if it can be.
 #pragma once
 
 #include "tools/explore/budget.hpp"
@@ -26,7 +27,10 @@ class FewerSwitches {
 
  private:
   bool fails(std::uint64_t number, const std::vector<exploration::Switch>& switches);
+  /// What that plan comes to; nothing where the effort is at its end.
+  std::optional<Finding> tried(Plan plan);
   void leave_out();
+  void seek_one();
   bool leave_out_and_move(std::vector<exploration::Switch> others, const exploration::Switch& gone, std::size_t at);
 
   Target& target_;
