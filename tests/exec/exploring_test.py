@@ -171,8 +171,40 @@ class Conditions(ExecCase):
     def test_bad_input(self):
         done = explore("--clock", "cpu", "--", self.compile("options.c"))
         self.assertEqual((done.returncode, done.stderr),
-                         (2, "waitpoint: --clock: expected fixed:US or interval:US..US, as what is measured does not "
-                             "repeat, found 'cpu'\n"))
+                         (2, "waitpoint: --clock: expected fixed:US, interval:US..US or counted[:NS], as what is measured "
+                             "does not repeat, found 'cpu'\n"))
+
+
+class CountedTime(ExecCase):
+    """Of programs whose basic blocks are counted."""
+
+    def compile_counted(self):
+        library = self.folder / "libblocks.so"
+        subprocess.run(["gcc", "-shared", "-fPIC", "-x", "c", "-", "-o", str(library)], check=True, text=True,
+                       input="void __sanitizer_cov_trace_pc(void) {}\n")
+        return self.compile("blocks.c", "-fsanitize-coverage=trace-pc", library)
+
+    def take_ns(self, program, *options):
+        done = subprocess.run([str(WAITPOINT), "exec", *options, "--", str(program)], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [int(word) for word in done.stdout.split()], re.search(r"digest (\S+)", done.stderr)[1]
+
+    def test_passes_by_how_often_a_loop_is_gone_through(self):
+        program = self.compile_counted()
+        (few, many), digest = self.take_ns(program, "--clock", "counted")
+        self.assertGreaterEqual(few, 1000)
+        self.assertTrue(9 * few < many < 11 * few, f"{few} {many}")
+        self.assertEqual(self.take_ns(program, "--clock", "counted"), ([few, many], digest))
+        (few_dear, _), _ = self.take_ns(program, "--clock", "counted:7")
+        self.assertTrue(6 * few < few_dear < 7.1 * few, f"{few} {few_dear}")
+        self.assertLess(self.take_ns(program)[0][1], 1000)
+
+    def test_is_refused_where_none_is_counted(self):
+        for words in ("exec",), ("explore", "--exec"):
+            done = subprocess.run([str(WAITPOINT), *words, "--clock", "counted", "--", "/bin/true"], capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertEqual(done.stderr, "waitpoint: --clock: counted is for programs compiled with "
+                                          "-fsanitize-coverage=trace-pc, which '/bin/true' is not\n")
 
 
 class Instrumented(ExecCase):

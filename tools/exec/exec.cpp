@@ -119,6 +119,7 @@ posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed) {
 
 int exec(const ExecOptions& options) {
   const ProgramFiles files(options.words);
+  options.conditions.check(files.named());
   if (options.seeds) return run_seeds(options, files);
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);

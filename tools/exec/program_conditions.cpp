@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "tools/exec/program_file.hpp"
 #include "tools/option_values.hpp"
 
 namespace waitpoint::tools {
@@ -26,6 +27,13 @@ bool parse_interval(std::string_view text, ClockOptions& clock) {
   const std::size_t dots = text.find("..");
   return dots != std::string_view::npos && parse_cost(text.substr(0, dots), clock.least) &&
          parse_cost(text.substr(dots + 2), clock.greatest) && clock.least <= clock.greatest;
+}
+
+bool parse_block_cost(std::string_view text, Duration& cost) {
+  std::int64_t ns = 0;
+  if (!parse_number(text, ns) || ns < 1 || ns > 1'000'000'000) return false;
+  cost = Duration::from_ns(ns);
+  return true;
 }
 
 // "x0.5", or nothing.
@@ -48,11 +56,14 @@ ClockOptions clock_of(const std::string& where, const std::string& text) {
   } else if (kind == "interval") {
     clock.kind = ClockKind::interval;
     good = parse_interval(value, clock);
+  } else if (kind == "counted") {
+    clock.kind = ClockKind::counted;
+    good = value.empty() || parse_block_cost(value, clock.block_cost);
   } else if (kind == "cpu" || kind == "proportional") {
     clock.kind = kind == "cpu" ? ClockKind::cpu : ClockKind::proportional;
     good = parse_scale(value, clock);
   }
-  if (!good) refuse(where, "fixed:US, interval:US..US, cpu[:xFACTOR] or proportional[:xFACTOR]", text);
+  if (!good) refuse(where, "fixed:US, interval:US..US, counted[:NS], cpu[:xFACTOR] or proportional[:xFACTOR]", text);
   return clock;
 }
 
@@ -63,6 +74,14 @@ void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.clock = clock.value_or(kernel::ClockOptions());
   settings.isolate = isolate;
   settings.trap_rdtsc = trap_rdtsc;
+}
+
+void ProgramConditions::check(const std::vector<std::string>& programs) const {
+  if (!clock || clock->kind != kernel::ClockKind::counted) return;
+  for (const std::string& program : programs)
+    if (!counts_blocks(program))
+      throw BadInput("--clock", "counted is for programs compiled with -fsanitize-coverage=trace-pc, which '" +
+                                    program + "' is not");
 }
 
 std::string ProgramConditions::words() const {
@@ -77,7 +96,9 @@ void ConditionArguments::add_to(CLI::App& command) {
   command
       .add_option("--clock", clock_,
                   "what a thread's code costs from one call to the next: fixed:US, interval:US..US\n"
-                  "(chosen by the seed), or as measured, which does not repeat: cpu, proportional,\n"
+                  "(chosen by the seed), counted[:NS] (a nanosecond, or so many, for each basic block of\n"
+                  "a program compiled with -fsanitize-coverage=trace-pc), or as measured, which does not repeat: cpu, "
+                  "proportional,\n"
                   "with :xFACTOR of that (default: nothing)")
       ->type_name("CLOCK");
   command.add_flag("--isolate", isolate_, "what would leave this machine fails (EACCES)")->disable_flag_override();
@@ -97,7 +118,7 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   const bool is_measured = conditions.clock && (conditions.clock->kind == kernel::ClockKind::cpu ||
                                                 conditions.clock->kind == kernel::ClockKind::proportional);
   if (is_measured && is_repeated)
-    refuse("--clock", "fixed:US or interval:US..US, as what is measured does not repeat", clock_);
+    refuse("--clock", "fixed:US, interval:US..US or counted[:NS], as what is measured does not repeat", clock_);
   return conditions;
 }
 

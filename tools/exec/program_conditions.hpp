@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fibers/kernel/clock_options.hpp"
 #include "fibers/posix/record.hpp"
@@ -21,6 +22,8 @@ struct ProgramConditions {
   bool trap_rdtsc = false;                    ///< the processor's counter shows virtual time
 
   void apply_to(posix::Settings& settings) const;
+  /// BadInput for programs that they cannot be had for: these files.
+  void check(const std::vector<std::string>& programs) const;
   /// As options, each with a blank before it.
   std::string words() const;
 };

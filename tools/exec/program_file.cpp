@@ -121,6 +121,29 @@ std::string cannot_be_simulated(const std::filesystem::path& program) {
   return "is neither a program nor a script";
 }
 
+// As a name that the dynamic linker is to find: the file has more of them, in tables that may be left out.
+bool counts_blocks(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  Elf64_Ehdr header;
+  if (!read(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return false;
+  std::vector<Elf64_Shdr> sections(header.e_shnum);
+  for (std::size_t i = 0; i < sections.size(); ++i)
+    if (!read(file, header.e_shoff + i * sizeof(Elf64_Shdr), sections[i])) return false;
+  for (const Elf64_Shdr& section : sections) {
+    if (section.sh_type != SHT_DYNSYM || section.sh_link >= sections.size()) continue;
+    for (std::uint64_t at = 0; at + sizeof(Elf64_Sym) <= section.sh_size; at += sizeof(Elf64_Sym)) {
+      Elf64_Sym symbol;
+      if (!read(file, section.sh_offset + at, symbol)) return false;
+      if (symbol.st_shndx != SHN_UNDEF) continue;
+      file.seekg(static_cast<std::streamoff>(sections[section.sh_link].sh_offset + symbol.st_name));
+      std::string name;
+      std::getline(file, name, '\0');
+      if (name.starts_with("__sanitizer_cov_trace_pc")) return true;
+    }
+  }
+  return false;
+}
+
 bool is_instrumented(const std::filesystem::path& program) {
   std::ifstream file(program, std::ios::binary);
   for (const std::string& library : libraries_of(file))

@@ -20,4 +20,8 @@ std::string cannot_be_simulated(const std::filesystem::path& program);
 /// Whether a program that can be simulated is compiled with -fsanitize=thread, and loads the runtime behind that.
 bool is_instrumented(const std::filesystem::path& program);
 
+/// Whether a program, or a shared object, is compiled with -fsanitize-coverage=trace-pc or trace-pc-guard, and what it
+/// calls then is not in itself.
+bool counts_blocks(const std::filesystem::path& program);
+
 }  // namespace waitpoint::tools

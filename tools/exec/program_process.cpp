@@ -63,6 +63,12 @@ ProgramFiles::ProgramFiles(const std::vector<std::string>& words)
   if (instrumented) library = find_part("libwaitpoint-exec-races.so");
 }
 
+std::vector<std::string> ProgramFiles::named() const {
+  std::vector<std::string> all = programs.files();
+  if (all.empty()) all = {program.string()};
+  return all;
+}
+
 std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemory& memory) {
   memory.record().settings.instrumented = files.instrumented;
   std::vector<std::string> environment = {

@@ -18,6 +18,9 @@ namespace waitpoint::tools {
 struct ProgramFiles {
   explicit ProgramFiles(const std::vector<std::string>& words);
 
+  /// The files of the programs.
+  std::vector<std::string> named() const;
+
   ProgramList programs;
   std::filesystem::path program, library;  ///< the process's
   bool instrumented = false;               ///< by -fsanitize=thread; a layer with a runtime for that is the library

@@ -42,6 +42,7 @@ exploration::Profile take_profile(const ProgramFiles& files, const ExploreOption
 int replay_program(const ExploreOptions& asked) {
   ExploreOptions options = asked;
   const ProgramFiles files(options.program);
+  options.conditions.check(files.named());
   const ReplayRecord record = read_replay_record(options, fingerprint_of(files, options));
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);

@@ -53,9 +53,7 @@ std::string end_of(int output) {
 
 std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& options) {
   Digest digest;
-  std::vector<std::string> all = files.programs.files();
-  if (all.empty()) all = {files.program.string()};
-  for (const std::string& name : all) {
+  for (const std::string& name : files.named()) {
     std::ifstream file(name, std::ios::binary);
     char bytes[65536];
     while (file.read(bytes, sizeof bytes) || file.gcount() > 0)
@@ -69,7 +67,9 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
 }
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
-    : options_(options), files_(options.program), fingerprint_(fingerprint_of(files_, options)), input_(open_input()) {}
+    : options_(options), files_(options.program), fingerprint_(fingerprint_of(files_, options)), input_(open_input()) {
+  options.conditions.check(files_.named());
+}
 
 ProgramTarget::~ProgramTarget() { close(input_); }
 
