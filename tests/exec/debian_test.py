@@ -358,7 +358,7 @@ class Refusals(Exec):
         self.assertIn("--seed: expected a whole number from 0 to 2^64 - 1, found 'x'", self.refused("--seed", "x", "--", "true"))
         self.assertIn("--seeds: expected FIRST..LAST, found '5..1'", self.refused("--seeds", "5..1", "--", "true"))
         for clock in ("best", "fixed", "fixed:-1", "interval:5", "interval:5..1", "cpu:2", "cpu:x-1"):
-            self.assertIn(f"--clock: expected fixed:US, interval:US..US, cpu[:xFACTOR] or proportional[:xFACTOR], found '{clock}'",
+            self.assertIn(f"--clock: expected fixed:US, interval:US..US, counted[:NS], cpu[:xFACTOR] or proportional[:xFACTOR], found '{clock}'",
                           self.refused("--clock", clock, "--", "true"))
         self.assertIn("--trace: cannot be used together with --seeds", self.refused("--seeds", "1..2", "--trace", "x", "--", "true"))
         self.assertIn("--strategy: expected random or fifo (waitpoint explore --exec has others), found 'best'", self.refused("--strategy", "best", "--", "true"))
