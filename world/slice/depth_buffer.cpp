@@ -90,8 +90,8 @@ bool DepthBuffer::hidden(const Pending& what) const {
 
 // Shows `ask` what is narrow, at once; the rest is pending, the nearest on top of what was so before.
 template <class Ask>
-void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children,
-                                Ask ask) {
+void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Ask ask) {
+  const auto& [bounds, children] = nodes[node];
   Sight sight;
   const std::size_t before = pending_.size();
   for (unsigned seen = kernels_->look(bounds, view, sight); seen != 0; seen &= seen - 1) {
@@ -102,6 +102,11 @@ void DepthBuffer::push_in_sight(const EightBounds& bounds, const View& view, std
       continue;
     }
     if (!is_of_two_blocks(child) && hidden(child)) continue;
+    // Of a large tree little is in the cache.
+    if (child.child >= 0) {
+      const char* const coming = reinterpret_cast<const char*>(&nodes[static_cast<std::size_t>(child.child)]);
+      for (std::size_t at = 0; at < sizeof(TreeNode); at += 64) __builtin_prefetch(coming + at);
+    }
     std::size_t at = pending_.size();
     pending_.push_back(child);
     for (; at > before && pending_[at - 1].near_m2 < child.near_m2; --at) pending_[at] = pending_[at - 1];
@@ -149,14 +154,13 @@ void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending
 template <class Ask>
 void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Ask ask) {
   pending_.clear();
-  push_in_sight(nodes[0].bounds, from, nodes[0].child, ask);
+  push_in_sight(nodes, 0, from, ask);
   while (!pending_.empty()) {
     const Pending next = pending_.back();
     pending_.pop_back();
     if (hidden(next)) continue;
     if (next.child >= 0) {
-      const TreeNode& node = nodes[static_cast<std::size_t>(next.child)];
-      push_in_sight(node.bounds, from, node.child, ask);
+      push_in_sight(nodes, static_cast<std::size_t>(next.child), from, ask);
     } else {
       ask(~next.child, next);
     }

@@ -93,7 +93,7 @@ class DepthBuffer {
   template <class Ask>
   void walk(std::span<const TreeNode> nodes, const View& from, Ask ask);
   template <class Ask>
-  void push_in_sight(const EightBounds& bounds, const View& view, std::span<const std::int32_t> children, Ask ask);
+  void push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Ask ask);
   void ask(const Outline& outline, std::uint32_t solid, const Pending& where);
   void ask_narrow(const Outline& outline, std::uint32_t solid, const Pending& where);
   bool ask_beam(std::size_t beam, const Outline& outline, std::uint32_t solid);

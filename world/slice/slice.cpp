@@ -28,11 +28,16 @@ std::vector<Bounds> bounds_of_all(std::span<const Outline> outlines) {
 
 Slice::Slice(std::span<const Shape> shapes, double height_m, std::span<const Outline> others,
              std::span<const std::uint32_t> solids_of_others)
-    : height_m_(height_m), solids_(reaching(shapes, height_m)), tree_(std::span<const Bounds>()) {
-  outlines_ = outlines_of(shapes, solids_);
-  outlines_.insert(outlines_.end(), others.begin(), others.end());
-  solids_.insert(solids_.end(), solids_of_others.begin(), solids_of_others.end());
-  tree_ = Tree(bounds_of_all(outlines_));
+    : height_m_(height_m), tree_(std::span<const Bounds>()) {
+  std::vector<std::uint32_t> solids = reaching(shapes, height_m);
+  std::vector<Outline> outlines = outlines_of(shapes, solids);
+  outlines.insert(outlines.end(), others.begin(), others.end());
+  solids.insert(solids.end(), solids_of_others.begin(), solids_of_others.end());
+  tree_ = Tree(bounds_of_all(outlines));
+  for (const std::uint32_t number : tree_.number_by_nodes()) {
+    outlines_.push_back(outlines[number]);
+    solids_.push_back(solids[number]);
+  }
 }
 
 }  // namespace waitpoint::world

@@ -126,6 +126,18 @@ struct Tree::Builder {
   }
 };
 
+std::vector<std::uint32_t> Tree::number_by_nodes() {
+  std::vector<std::uint32_t> before;
+  for (TreeNode& node : nodes_) {
+    for (std::int32_t& child : node.child) {
+      if (child >= 0) continue;
+      before.push_back(static_cast<std::uint32_t>(~child));
+      child = ~static_cast<std::int32_t>(before.size() - 1);
+    }
+  }
+  return before;
+}
+
 Tree::Tree(std::span<const Bounds> solids) {
   if (solids.empty()) return;
   std::vector<std::uint32_t> all(solids.size());

@@ -47,6 +47,10 @@ class Tree {
   /// Over solids with these bounds, numbered from 0.
   explicit Tree(std::span<const Bounds> solids);
 
+  /// Numbers the solids anew, in the order in which its nodes have them, so that neighbours can lie side by side in
+  /// memory. Gives the number that each had before.
+  std::vector<std::uint32_t> number_by_nodes();
+
   /// The first is the root; none over nothing.
   std::span<const TreeNode> nodes() const { return nodes_; }
   /// What the rectangles are relative to, and the greatest coordinate there.
