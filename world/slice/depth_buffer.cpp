@@ -88,13 +88,24 @@ bool DepthBuffer::hidden(const Pending& what) const {
   return hidden(what.near_m2, what.first, static_cast<std::int32_t>(beams_) - 1) && hidden(what.near_m2, 0, what.last);
 }
 
-// Shows `ask` what is narrow, at once; the rest is pending, the nearest on top of what was so before.
-template <class Ask>
-void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Ask ask) {
+// Shows `ask` what is narrow, at once, and fetches what is at its `place`; the rest is pending, the nearest on top of
+// what was so before.
+template <class Ask, class Place>
+void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Ask ask,
+                                Place place) {
   const auto& [bounds, children] = nodes[node];
   Sight sight;
   const std::size_t before = pending_.size();
-  for (unsigned seen = kernels_->look(bounds, view, sight); seen != 0; seen &= seen - 1) {
+  unsigned seen = kernels_->look(bounds, view, sight);
+  // Of a large tree little is in the cache.
+  for (unsigned rest = seen; rest != 0; rest &= rest - 1) {
+    const std::int32_t child = children[static_cast<std::size_t>(std::countr_zero(rest))];
+    const void* const first =
+        child < 0 ? static_cast<const void*>(place(~child)) : &nodes[static_cast<std::size_t>(child)];
+    const std::size_t size = child < 0 ? sizeof(Outline) : sizeof(TreeNode);
+    for (std::size_t at = 0; at < size; at += 64) __builtin_prefetch(static_cast<const char*>(first) + at);
+  }
+  for (; seen != 0; seen &= seen - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(seen));
     const Pending child = {sight.near_m2[i], children[i], sight.first[i], sight.last[i]};
     if (child.child < 0 && is_narrow(child)) {
@@ -102,11 +113,6 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
       continue;
     }
     if (!is_of_two_blocks(child) && hidden(child)) continue;
-    // Of a large tree little is in the cache.
-    if (child.child >= 0) {
-      const char* const coming = reinterpret_cast<const char*>(&nodes[static_cast<std::size_t>(child.child)]);
-      for (std::size_t at = 0; at < sizeof(TreeNode); at += 64) __builtin_prefetch(coming + at);
-    }
     std::size_t at = pending_.size();
     pending_.push_back(child);
     for (; at > before && pending_[at - 1].near_m2 < child.near_m2; --at) pending_[at] = pending_[at - 1];
@@ -151,16 +157,16 @@ void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending
 }
 
 // Shows `ask` what is in sight and not hidden, near to far, by its number in the tree.
-template <class Ask>
-void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Ask ask) {
+template <class Ask, class Place>
+void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Ask ask, Place place) {
   pending_.clear();
-  push_in_sight(nodes, 0, from, ask);
+  push_in_sight(nodes, 0, from, ask, place);
   while (!pending_.empty()) {
     const Pending next = pending_.back();
     pending_.pop_back();
     if (hidden(next)) continue;
     if (next.child >= 0) {
-      push_in_sight(nodes, static_cast<std::size_t>(next.child), from, ask);
+      push_in_sight(nodes, static_cast<std::size_t>(next.child), from, ask, place);
     } else {
       ask(~next.child, next);
     }
@@ -235,32 +241,38 @@ void DepthBuffer::ask_near(const View& from, Find find) {
     note_farthest(static_cast<std::int32_t>(beam / Beams::block));
 }
 
-// Asks about the solids that the beams may meet, by their numbers in the tree.
-template <class Find>
-void DepthBuffer::lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find) {
+// Asks about the solids that the beams may meet: `find` gives them by their numbers in the tree, `place` tells where
+// their outlines are.
+template <class Find, class Place>
+void DepthBuffer::lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find, Place place) {
   if (nodes.empty() || beams_ == 0) return;
   const View from = view(middle, extent_m);
   if (beams_ <= FewBeams::most && find_near(nodes, middle, extent_m)) return ask_near(from, find);
-  walk(nodes, from, [&](std::int32_t in_tree, const Pending& where) {
+  const auto ask_where = [&](std::int32_t in_tree, const Pending& where) {
     const Candidate candidate = find(in_tree);
     if (candidate.outline != nullptr) ask(*candidate.outline, candidate.solid, where);
-  });
+  };
+  walk(nodes, from, ask_where, place);
 }
 
 void DepthBuffer::lower(const Slice& slice) {
   const Tree& tree = slice.tree();
-  lower(tree.nodes(), tree.middle(), tree.extent_m(), [&](std::int32_t in_tree) {
+  const auto find = [&](std::int32_t in_tree) {
     const auto number = static_cast<std::size_t>(in_tree);
     return Candidate{&slice.outline(number), slice.solid(number)};
-  });
+  };
+  lower(tree.nodes(), tree.middle(), tree.extent_m(), find,
+        [&](std::int32_t in_tree) { return &slice.outline(static_cast<std::size_t>(in_tree)); });
 }
 
 void DepthBuffer::lower(const MovingSolids& solids, double height_m, std::uint32_t except) {
-  lower(solids.nodes(), {0, 0}, solids.extent_m(), [&](std::int32_t in_tree) {
+  const auto find = [&](std::int32_t in_tree) {
     const auto at = static_cast<std::size_t>(in_tree);
     const std::uint32_t solid = solids.first_solid() + static_cast<std::uint32_t>(at);
     return solid != except && solids.reaches(at, height_m) ? Candidate{&solids.outline(at), solid} : Candidate{};
-  });
+  };
+  lower(solids.nodes(), {0, 0}, solids.extent_m(), find,
+        [&](std::int32_t in_tree) { return &solids.outline(static_cast<std::size_t>(in_tree)); });
 }
 
 }  // namespace waitpoint::world

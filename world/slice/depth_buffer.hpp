@@ -86,14 +86,14 @@ class DepthBuffer {
   bool find_near(std::span<const TreeNode> nodes, Point middle, double extent_m);
   bool hidden(const Pending& what) const;
   bool hidden(float near_m2, std::int32_t first, std::int32_t last) const;
-  template <class Find>
-  void lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find);
+  template <class Find, class Place>
+  void lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find, Place place);
   template <class Find>
   void ask_near(const View& from, Find find);
-  template <class Ask>
-  void walk(std::span<const TreeNode> nodes, const View& from, Ask ask);
-  template <class Ask>
-  void push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Ask ask);
+  template <class Ask, class Place>
+  void walk(std::span<const TreeNode> nodes, const View& from, Ask ask, Place place);
+  template <class Ask, class Place>
+  void push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Ask ask, Place place);
   void ask(const Outline& outline, std::uint32_t solid, const Pending& where);
   void ask_narrow(const Outline& outline, std::uint32_t solid, const Pending& where);
   bool ask_beam(std::size_t beam, const Outline& outline, std::uint32_t solid);
