@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t beams_max = 1 << 20;
 // Of a fan of one beam: so many to a radian that what does not lie before it is beside it.
 constexpr double per_rad_alone = 1e6;
+// Of a tree of so many nodes little is in the cache.
+constexpr std::size_t many_nodes = 1024;
 
 // Rounded up, so that nothing as near is dropped.
 float rounded_up(double range_m) { return static_cast<float>(range_m) * (1 + 1e-6f); }
@@ -97,8 +99,8 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
   Sight sight;
   const std::size_t before = pending_.size();
   unsigned seen = kernels_->look(bounds, view, sight);
-  // Of a large tree little is in the cache.
-  for (unsigned rest = seen; rest != 0; rest &= rest - 1) {
+  const bool is_large = nodes.size() >= many_nodes;
+  for (unsigned rest = is_large ? seen : 0; rest != 0; rest &= rest - 1) {
     const std::int32_t child = children[static_cast<std::size_t>(std::countr_zero(rest))];
     const void* const first =
         child < 0 ? static_cast<const void*>(place(~child)) : &nodes[static_cast<std::size_t>(child)];
