@@ -48,6 +48,12 @@ world::WorldDescription described(std::size_t robots) {
 
 void drive(world::World& world, world::BodyId body) {
   world::LaserScan scan;
+  scan.range_m.resize(12);
+  WorkingSet set;
+  set.add_stack_below(1024);
+  set.add(scan.range_m.data(), scan.range_m.size() * sizeof(double));
+  world.add_to(set, body);
+  this_thread::set_working_set(set);
   for (std::uint64_t number = 1;; ++number) {
     world.scan(body, 0, number, scan);
     const double ahead_m = std::min({scan.range_m[4], scan.range_m[5], scan.range_m[6], scan.range_m[7]});

@@ -94,5 +94,26 @@ TEST(Tree, IsFullAndFlatWhereSolidsAreSpreadEvenly) {
 
 TEST(Tree, OfNothingIsEmpty) { EXPECT_TRUE(Tree({}).nodes().empty()); }
 
+TEST(Tree, NumbersByNodesAreThoseOfTheSameSolidsInTheOrderOfTheNodes) {
+  std::vector<Bounds> solids;
+  for (const Shape& shape : random_shapes(7, 500, 40)) solids.push_back(bounds_of(outline_of(shape)));
+  const Tree tree(solids);
+  Tree numbered = tree;
+  const std::vector<std::uint32_t> before = numbered.number_by_nodes();
+  ASSERT_EQ(before.size(), solids.size());
+  std::int32_t next = 0;
+  for (std::size_t node = 0; node < tree.nodes().size(); ++node) {
+    for (std::size_t i = 0; i < EightBounds::width; ++i) {
+      const std::int32_t child = numbered.nodes()[node].child[i];
+      if (child >= 0) {
+        EXPECT_EQ(child, tree.nodes()[node].child[i]);
+        continue;
+      }
+      EXPECT_EQ(~child, next++);
+      EXPECT_EQ(before[static_cast<std::size_t>(~child)], static_cast<std::uint32_t>(~tree.nodes()[node].child[i]));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace waitpoint::world
