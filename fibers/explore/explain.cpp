@@ -5,6 +5,8 @@
 
 #include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/choice_words.hpp"
+#include "fibers/explore/event_pair.hpp"
+#include "fibers/explore/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
@@ -19,43 +21,77 @@ constexpr std::size_t events_shown = 40;
 
 struct Crossing {
   std::size_t decision;
-  std::uint32_t instead;  // with which it passes
+  std::uint32_t instead;              // with which it passes
+  std::vector<Decision> passing;      // all decisions of that run
+  std::optional<EventPair> reversed;  // the pair of events whose order differs
 };
+
+// What of the alternatives that pass at one decision shows best what mattered: the one that passes by the order of the
+// two events between which is chosen, then of one of them.
+bool is_plainer(const Crossing& a, const Crossing& b) {
+  if (!a.reversed || !b.reversed) return a.reversed && !b.reversed;
+  return a.reversed->indirection < b.reversed->indirection;
+}
 
 // From the end backwards: where another choice, and the default order from there on, passes.
 std::optional<Crossing> last_crossing(Body& body, const Failure& failure, Effort effort) {
   const std::vector<Decision>& decisions = failure.schedule.decisions;
   Fifo rest;
-  for (std::size_t i = decisions.size(); i-- > 0;) {
+  std::optional<Crossing> best;
+  for (std::size_t i = decisions.size(); i-- > 0 && !best;) {
     std::vector<Decision> changed(decisions.begin(), decisions.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     // That a wait might have ended for nothing explains nothing.
     if (decisions[i].choice == Choice::spurious && !decisions[i].is_switch()) continue;
     for (std::uint32_t other = 0; other < decisions[i].count; ++other) {
       if (other == decisions[i].chosen) continue;
-      if (!effort.is_left()) return std::nullopt;
+      if (!effort.is_left()) return best;
       changed.back().chosen = other;
       const bool passed = body.run(rest, {.prefix = changed}).passed();
       effort.spend(body);
-      if (passed) return Crossing{i, other};
+      if (!passed) continue;
+      Crossing crossing{i, other, body.explorer().schedule().decisions, {}};
+      crossing.reversed = pair_in_other_order(events_of(body, decisions), events_of(body, crossing.passing));
+      if (!best || is_plainer(crossing, *best)) best = std::move(crossing);
     }
   }
-  return std::nullopt;
+  return best;
 }
 
-// At a choice between tasks: the one that came, and the one that should have.
-std::string describe_pair(Body& body, const Decision& decision, std::span<Task* const> ready, std::uint32_t instead) {
+// An event, in words and with the call stack of its task when it came to it.
+struct ToldEvent {
+  std::string words;
+  sync::ReturnAddresses stack;
+};
+
+ToldEvent tell_event(Body& body, std::span<const Decision> decisions, const EventOf& event) {
   kernel::Scheduler& scheduler = body.simulation().scheduler();
-  Task* const pair[] = {ready[decision.chosen], ready[instead]};
-  std::vector<sync::ReturnAddresses> stacks;
-  for (Task* task : pair) {
-    sync::ReturnAddresses& stack = stacks.emplace_back(frames_searched);
-    stack.resize(scheduler.call_stack(*task, stack.data(), stack.size()));
-  }
+  EventStop stop(scheduler, body.explorer(), event);
+  ToldEvent told;
+  scheduler.set_decisions(stop);
+  body.run_up_to({.prefix = decisions}, [&] {
+    Task* const task = stop.stopped_before();
+    if (task == nullptr) return;
+    told.words = about_to(*task);
+    told.stack.resize(frames_searched);
+    told.stack.resize(scheduler.call_stack(*task, told.stack.data(), told.stack.size()));
+  });
+  scheduler.set_decisions(body.explorer());
+  return told;
+}
+
+// The two events whose order differs, or that there are none.
+std::string describe_pair(Body& body, const Failure& failure, const Crossing& crossing) {
+  if (!crossing.reversed)
+    return "\nno two events at one object are in another order where it passes: what matters is when, or what was "
+           "chosen";
+  const ToldEvent pair[] = {tell_event(body, failure.schedule.decisions, crossing.reversed->failing),
+                            tell_event(body, crossing.passing, crossing.reversed->passing)};
+  const sync::ReturnAddresses stacks[] = {pair[0].stack, pair[1].stack};
   const auto places = sync::user_source_lines(stacks, frames_shown);
   const char* const words[] = {"\n  goes first here:             ", "\n  goes first where it passes:  "};
-  std::string text;
+  std::string text = "\nthe two events whose order matters:";
   for (std::size_t i = 0; i < 2; ++i) {
-    text += words[i] + about_to(*pair[i]);
+    text += words[i] + pair[i].words;
     for (const std::string& line : places[i]) text += "\n      at " + line;
   }
   return text;
@@ -77,22 +113,25 @@ std::string describe_last_crossing(Body& body, const Failure& failure, Effort ef
   const std::optional<Crossing> crossing = last_crossing(body, failure, effort);
   if (!crossing) return "";
   const Decision& decision = failure.schedule.decisions[crossing->decision];
-  std::string text = "the last choice from which it could still have passed: number " +
+  const bool is_usual = failure.schedule.switches.empty();
+  std::string text = "the last choice from which it could still have passed" +
+                     std::string(is_usual ? ", in another than the default order" : "") + ": number " +
                      std::to_string(crossing->decision) + ", " + description(decision.choice);
   if (decision.choice != Choice::task) {
     ChoiceWords words(body.explorer(), crossing->decision, crossing->instead);
     body.run_watched_by(words, failure.schedule);
-    return text + ", " + words.text();
+    return text + ", " + words.text() + describe_pair(body, failure, *crossing);
   }
   Played played{.prefix = failure.schedule.decisions};
   played.stop_at = crossing->decision;
   body.run_up_to(played, [&] {
     const std::span<Task* const> ready = body.explorer().stopped_before();
     if (ready.empty()) return;
-    text += ", at " + to_string(body.simulation().global_time()) + " s" +
-            describe_pair(body, decision, ready, crossing->instead);
+    text += ", at " + to_string(body.simulation().global_time()) + " s";
+    if (crossing->reversed && crossing->reversed->indirection == 0) return;  // these are the pair
+    text += "\n  here " + about_to(*ready[decision.chosen]) + "; it passes with " + about_to(*ready[crossing->instead]);
   });
-  return text;
+  return text + describe_pair(body, failure, *crossing);
 }
 
 // Waits that end for nothing, waiters out of their order, costs: what no order of tasks shows.
@@ -124,7 +163,7 @@ Failure with_places(Body& body, const Failure& failure) {
 
 std::string explain(Body& body, const Failure& failure, Effort effort) {
   const std::size_t switches = failure.schedule.switches.size();
-  std::string text = switches == 0   ? "it is the default order that fails\n"
+  std::string text = switches == 0   ? "the default order fails\n"
                      : switches == 1 ? "one switch away from the default order fails\n"
                                      : std::to_string(switches) + " switches away from the default order fail\n";
   text += describe_other_switches(body, failure.schedule);

@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -18,8 +19,10 @@ bool contains(const std::string& text, const char* part) { return text.find(part
 bool is_ours(const std::string& line) {
   if (contains(line, "tests/fibers/")) return false;
   const std::size_t place = line.rfind(" at ");
-  if (place == std::string::npos) return contains(line, "waitpoint::kernel::") || contains(line, "waitpoint::sync::");
-  for (const char* folder : {"fibers/kernel/", "fibers/sync/", "/include/c++/"})
+  if (place == std::string::npos)
+    return contains(line, "waitpoint::kernel::") || contains(line, "waitpoint::sync::") ||
+           contains(line, "waitpoint::races::");
+  for (const char* folder : {"fibers/kernel/", "fibers/sync/", "fibers/explore/races/", "/include/c++/"})
     if (line.find(folder, place) != std::string::npos) return true;
   return false;
 }
@@ -91,6 +94,7 @@ void add_lines(const std::vector<Place*>& asked, const std::string& module) {
     } else if (line.starts_with(inlined)) {
       line.erase(0, inlined.size());
     }
+    line.erase(std::min(line.find(" (discriminator "), line.size()));  // a compiler's own count of what is on one line
     if (begun > 0 && begun <= asked.size() && !contains(line, "??")) asked[begun - 1]->lines.push_back(line);
   }
   pclose(pipe);

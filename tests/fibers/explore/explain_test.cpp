@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What explore() says of why a schedule failed: the two events whose order matters, with the call stacks of both.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/atomic.hpp"
+#include "fibers/sync/mutex.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint {
+namespace {
+
+using namespace std::chrono_literals;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// The lines from the one that begins with `label` up to the next that stands as far to the left.
+std::string told_under(const std::string& text, const std::string& label) {
+  const std::size_t begin = text.find("\n  " + label);
+  if (begin == std::string::npos) return "";
+  std::size_t end = begin + 1;
+  do end = text.find('\n', end + 1);
+  while (text.compare(end, 5, "\n    ") == 0);
+  return text.substr(begin + 1, end - begin - 1);
+}
+
+// Beside the two tasks stands one that has nothing to do with it, and which the default order would prefer.
+ExploreReport explore_reader_and_writer(const char* strategy) {
+  return explore(
+      [] {
+        atomic<int> x{0};
+        thread other({.name = "other"}, [] {});
+        thread writer({.name = "writer"}, [&] { x.store(1); });
+        thread reader({.name = "reader"}, [&] { check(x.load() == 1, "read too early"); });
+        for (thread* each : {&other, &writer, &reader}) each->join();
+      },
+      {.strategy = strategy});
+}
+
+TEST(Explain, NamesTheTwoEventsAtOneObjectWhoseOrderMatters) {
+  for (const char* strategy : {"portfolio", "random", "dfs"}) {
+    const ExploreReport report = explore_reader_and_writer(strategy);
+    ASSERT_FALSE(report.passed);
+    const std::string here = told_under(report.text, "goes first here:");
+    const std::string there = told_under(report.text, "goes first where it passes:");
+    EXPECT_TRUE(contains(here, "  reader#3, about to load atomic #")) << report;
+    EXPECT_TRUE(contains(there, "  writer#2, about to store atomic #")) << report;
+    // Both were on their way when they came to it.
+    EXPECT_TRUE(contains(here, "\n      at ")) << report;
+    EXPECT_TRUE(contains(there, "\n      at ")) << report;
+    EXPECT_FALSE(contains(here + there, "other")) << report;
+  }
+}
+
+// The second lock is what must not come between the other's two, not the unlock in between.
+TEST(Explain, OfLocksNamesWhoLocksNext) {
+  const ExploreReport report = explore([] {
+    mutex account;
+    int balance = 0;
+    const auto add = [&] {
+      int seen = 0;
+      {
+        const std::lock_guard guard(account);
+        seen = balance;
+      }
+      const std::lock_guard guard(account);
+      balance = seen + 1;
+    };
+    thread a(add), b(add);
+    a.join();
+    b.join();
+    check(balance == 2, "an update was lost");
+  });
+  ASSERT_FALSE(report.passed);
+  EXPECT_TRUE(contains(told_under(report.text, "goes first here:"), "about to lock mutex")) << report;
+  EXPECT_TRUE(contains(told_under(report.text, "goes first where it passes:"), "about to lock mutex")) << report;
+}
+
+TEST(Explain, SaysWhereItIsNoOrderOfTwoEvents) {
+  const ExploreReport report = explore([] {
+    compute(1ms, 3ms);
+    check(now() >= Time() + 2ms, "too early");
+  });
+  ASSERT_FALSE(report.passed);
+  EXPECT_TRUE(contains(report.text, "no two events at one object are in another order where it passes")) << report;
+  EXPECT_EQ(told_under(report.text, "goes first here:"), "") << report;
+}
+
+}  // namespace
+}  // namespace waitpoint
