@@ -27,11 +27,27 @@ bool TimelineRecorder::is_switch(const Explorer& explorer) {
   return is_new && decisions.back().is_switch() && decisions.back().choice == Choice::task;
 }
 
+// Behind its event a task is left when it waits, or when its next one is due: which of them, shows when another's
+// comes. Where none came in between, its next event says that it had waited.
+void TimelineRecorder::note_wait(const kernel::EventRecord& record) {
+  if (last_ == nullptr) return;
+  TimelineEvent& last = timeline_.events.back();
+  if (last.operation == Operation::end) return;
+  if (record.task != last_) {
+    if (last_->state == kernel::TaskState::blocked) last.waits_for = sync::describe(*last_->blocked_on);
+  } else if (record.object != nullptr &&
+             (record.operation == Operation::resume || record.operation == Operation::timeout)) {
+    last.waits_for = sync::describe(*record.object);
+  }
+}
+
 void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& record) {
   TimelineRecorder& self = static_cast<TimelineRecorder&>(watch);
   const bool is_switch = self.explorer_ != nullptr && self.is_switch(*self.explorer_);
   if (record.time < self.from_) return;
   std::vector<TimelineEvent>& events = self.timeline_.events;
+  self.note_wait(record);
+  self.last_ = record.task;
   std::int64_t woken_by = -1;
   if (record.object != nullptr && record.operation == Operation::resume) {
     const auto last = self.last_release_.find(record.object->identity);
@@ -41,7 +57,7 @@ void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& r
   }
   const std::uint32_t task = self.number_of(*record.task);
   events.push_back({record.time, task, record.operation, record.object != nullptr ? sync::describe(*record.object) : "",
-                    woken_by, is_switch});
+                    "", woken_by, is_switch});
 }
 
 }  // namespace waitpoint::exploration

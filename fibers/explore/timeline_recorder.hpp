@@ -19,6 +19,7 @@ class TimelineRecorder : public kernel::Watch {
   static void record(kernel::Watch& watch, const kernel::EventRecord& record);
   std::uint32_t number_of(const Task& task);
   bool is_switch(const Explorer& explorer);
+  void note_wait(const kernel::EventRecord& record);
 
   Timeline& timeline_;
   const Explorer* explorer_;
@@ -26,6 +27,7 @@ class TimelineRecorder : public kernel::Watch {
   std::map<std::uint64_t, std::uint32_t> numbers_;      // of tasks, by id
   std::map<std::uint64_t, std::int64_t> last_release_;  // the last event at an object that may have woken another
   std::size_t decisions_ = 0;
+  const Task* last_ = nullptr;  // whose event was the last taken down
 };
 
 }  // namespace waitpoint::exploration

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each task did, as a trace with spans in virtual time, and as text in which repetitions stand once.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/explore/timeline.hpp"
+#include "fibers/sync/atomic.hpp"
+#include "fibers/sync/mutex.hpp"
+#include "fibers/sync/semaphore.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint {
+namespace {
+
+using namespace std::chrono_literals;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// The trace of what fails, as it is asked for from outside.
+std::string trace_of(const std::function<void()>& body) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("trace-" + std::to_string(getpid()));
+  setenv("WAITPOINT_TRACE", file.c_str(), 1);
+  const ExploreReport report = explore(body, {.strategy = "fifo"});
+  unsetenv("WAITPOINT_TRACE");
+  EXPECT_FALSE(report.passed);
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  std::filesystem::remove(file);
+  return text.str();
+}
+
+// Of the slice with that title: its length, as it stands there, in microseconds; -1 if there is none.
+double length_us(const std::string& trace, const std::string& title) {
+  const std::size_t slice = trace.find("\"name\":\"" + title);
+  if (slice == std::string::npos) return -1;
+  return std::stod(trace.substr(trace.find("\"dur\":", slice) + 6));
+}
+
+TEST(Timeline, ATraceShowsHowLongTasksComputeSleepAndWait) {
+  const std::string trace = trace_of([] {
+    mutex door("door");
+    binary_semaphore never(0, "never");
+    thread computing({.name = "computing"}, [&] {
+      const std::lock_guard guard(door);
+      compute(90ms);
+    });
+    thread waiting({.name = "waiting"}, [&] {
+      this_thread::sleep_for(10ms);
+      const std::lock_guard guard(door);
+    });
+    thread stuck({.name = "stuck"}, [&] { never.acquire(); });
+    thread late({.name = "late"}, [] { this_thread::sleep_for(500ms); });
+    for (thread* each : {&computing, &waiting, &late, &stuck}) each->join();
+  });
+  ASSERT_TRUE(contains(trace, "traceEvents"));
+  constexpr double about = 0.1;  // events at one instant follow each other by a nanosecond
+  EXPECT_NEAR(length_us(trace, "computing\",\"cat"), 90'000, about) << trace;
+  EXPECT_NEAR(length_us(trace, "sleeping"), 10'000, about) << trace;
+  EXPECT_NEAR(length_us(trace, "waiting for mutex #2 \\\"door"), 80'000, about) << trace;
+  EXPECT_NEAR(length_us(trace, "waiting for semaphore #3 \\\"never"), 500'000, about) << trace;  // to the end
+}
+
+TEST(Timeline, ALivelockIsToldInFewLines) {
+  const ExploreReport report = explore([] {
+    atomic<bool> never{false};
+    thread other([&] {
+      while (!never.load()) {
+      }
+    });
+    while (!never.load()) {
+    }
+  });
+  ASSERT_TRUE(contains(report.text, "no progress")) << report;
+  EXPECT_TRUE(std::regex_search(report.text, std::regex("\\.\\.\\. the same \\d+ lines \\d{2,} times more\n")))
+      << report;
+}
+
+TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
+  using kernel::Operation;
+  exploration::Timeline timeline{{"a#1"}, {}};
+  const auto add = [&](Operation operation, const char* object) {
+    timeline.events.push_back({Time(), 0, operation, object, "", -1, false});
+  };
+  add(Operation::start, "");
+  for (int i = 0; i < 20; ++i) {
+    add(Operation::load, "atomic #1");
+    add(Operation::load, "atomic #2");
+  }
+  add(Operation::end, "");
+  EXPECT_EQ(to_text(timeline, 40),
+            "  0.000000000   a#1  start\n  0.000000000   a#1  load atomic #1\n  0.000000000   a#1  load atomic #2\n"
+            "      ... the same 2 lines 19 times more\n  0.000000000   a#1  end\n");
+  EXPECT_EQ(to_text(timeline, 1), "  ... 4 lines before\n  0.000000000   a#1  end\n");
+}
+
+}  // namespace
+}  // namespace waitpoint
