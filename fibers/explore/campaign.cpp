@@ -179,18 +179,35 @@ Outcome Campaign::play(const Token& token) {
   return exploration::play(body_, token, profile_);
 }
 
+// Of a token's run: the event before which that decision is made.
+std::string Campaign::event_at(const Token& token, std::uint32_t decision) {
+  std::string text;
+  Played played{.deviations = token.deviations};
+  played.stop_at = decision;
+  body_.run_up_to(played, [&] {
+    text = "event " + std::to_string(body_.simulation().scheduler().events()) + ", at " +
+           to_string(body_.simulation().global_time()) + " s";
+  });
+  return text;
+}
+
 // What is wrong with it as the run of that token; empty if nothing is.
-std::string Campaign::difference_to(const Token& token, const Outcome& outcome) const {
-  std::string why;
-  const std::size_t decisions = body_.explorer().schedule().decisions.size();
-  if (!token.deviations.empty() && token.deviations.back().decision >= decisions)
-    why = "it has " + std::to_string(decisions) + " choices, none of the number " +
-          std::to_string(token.deviations.back().decision);
-  else if (body_.explorer().parted())
-    why = "a choice has fewer alternatives than the one taken";
-  else if (token.digest != 0 && token.digest != token_digest(outcome.digest))
-    why = "its digest begins with " + digest_text(token_digest(outcome.digest));
-  return why.empty() ? "" : "this is not the run of the token: " + why + "; the program is another one now\n";
+std::string Campaign::difference_to(const Token& token, const Outcome& outcome) {
+  const std::vector<Decision> decisions = body_.explorer().schedule().decisions;
+  for (const Deviation& deviation : token.deviations) {
+    const std::string which = "choice " + std::to_string(deviation.decision);
+    if (deviation.decision >= decisions.size())
+      return which + " was never come to: it left the record before its end, behind event " +
+             std::to_string(outcome.events) + ", at " + to_string(outcome.end_time) + " s";
+    // An explorer that does not have the alternative takes the last that there is, or what is usual.
+    if (deviation.chosen >= decisions[deviation.decision].count)
+      return which + " has only " + std::to_string(decisions[deviation.decision].count) +
+             " alternatives, none of the number " + std::to_string(deviation.chosen) + ": it left the record at " +
+             event_at(token, deviation.decision);
+  }
+  if (token.digest == 0 || token.digest == token_digest(outcome.digest)) return "";
+  return "it had " + std::to_string(outcome.events) + " events, and its digest begins with " +
+         digest_text(token_digest(outcome.digest)) + ", the token's with " + digest_text(token.digest);
 }
 
 ExploreReport Campaign::replay(const Token& token) {
@@ -199,8 +216,12 @@ ExploreReport Campaign::replay(const Token& token) {
   report_.schedules = 1;
   report_.distinct = 1;
   report_.failed_at = token.number;
-  const std::string difference = difference_to(token, outcome);
   const Failure failure{body_.explorer().schedule(), outcome};
+  std::string difference = difference_to(token, outcome);
+  if (!difference.empty()) {
+    difference = "this is not the run of the token: " + difference + "; the program or the test is another one\n";
+    if (asks_for_replay()) throw BadInput(options_.replay, difference.substr(0, difference.size() - 1));
+  }
   if (!outcome.passed()) tell({failure, token, "the replayed schedule", false});
   report_.text = difference + report_.text;
   report_.passed = report_.text.empty();

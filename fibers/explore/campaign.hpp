@@ -38,7 +38,8 @@ class Campaign {
   void say_scope(const Strategy& strategy);
   void tell(const Found& found);
   Outcome play(const Token& token);
-  std::string difference_to(const Token& token, const Outcome& outcome) const;
+  std::string difference_to(const Token& token, const Outcome& outcome);
+  std::string event_at(const Token& token, std::uint32_t decision);
   Token token_of(const Failure& failure) const;
 
   ForeignChecks* checks_;

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/environment.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 
 #include "core/error.hpp"
@@ -13,18 +18,32 @@ namespace {
 
 constexpr const char *strategy_name = "WAITPOINT_STRATEGY", *seed_name = "WAITPOINT_SEED",
                      *iterations_name = "WAITPOINT_ITERATIONS", *time_limit_name = "WAITPOINT_TIME_LIMIT",
-                     *replay_name = "WAITPOINT_REPLAY";
+                     *replay_name = "WAITPOINT_REPLAY", *trace_name = "WAITPOINT_TRACE";
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
 }
 
+enum class Zero { allowed, refused };
+
 template <class Number>
-void take(const char* name, Number& number, const char* expected) {
+void take(const char* name, Number& number, Zero zero, const char* expected) {
   const std::string text = variable(name);
-  if (!text.empty() && (!parse_number(text, number) || number < 0))
+  if (!text.empty() && (!parse_number(text, number) || number < 0 || (zero == Zero::refused && number == 0)))
     throw BadInput(name, std::string("expected ") + expected + ", found '" + text + "'");
+}
+
+// Before anything is run: what a campaign of hours found must not be lost. It is left as it was found.
+void check_can_be_written(const char* name) {
+  const std::string file = variable(name);
+  if (file.empty()) return;
+  const bool is_new = access(file.c_str(), F_OK) != 0;
+  const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (opened < 0)
+    throw BadInput(name, "expected a file that can be written, found '" + file + "': " + std::strerror(errno));
+  close(opened);
+  if (is_new) unlink(file.c_str());
 }
 
 bool came_to_replay = false;
@@ -56,9 +75,10 @@ void replay_was_come_to() { came_to_replay = true; }
 
 ExploreOptions with_environment(ExploreOptions options) {
   if (const std::string strategy = variable(strategy_name); !strategy.empty()) options.strategy = strategy;
-  take(seed_name, options.seed, "a whole number from 0 to 2^64 - 1");
-  take(iterations_name, options.iterations, "a whole number");
-  take(time_limit_name, options.time_limit_s, "a number of seconds");
+  take(seed_name, options.seed, Zero::allowed, "a whole number from 0 to 2^64 - 1");
+  take(iterations_name, options.iterations, Zero::refused, "a positive whole number");
+  take(time_limit_name, options.time_limit_s, Zero::refused, "a positive number of seconds, or no such variable");
+  check_can_be_written(trace_name);
   if (const std::string replay = variable(replay_name); !replay.empty()) {
     options.replay = replay;
     [[maybe_unused]] static const int registered = std::atexit(check_replayed);
@@ -67,11 +87,13 @@ ExploreOptions with_environment(ExploreOptions options) {
 }
 
 void refuse_environment(const BadInput& input) {
-  for (const char* name : {strategy_name, seed_name, iterations_name, time_limit_name, replay_name})
+  for (const char* name : {strategy_name, seed_name, iterations_name, time_limit_name, replay_name, trace_name})
     if (!variable(name).empty()) refuse(input.what());
 }
 
-std::string trace_file() { return variable("WAITPOINT_TRACE"); }
+std::string trace_file() { return variable(trace_name); }
+
+bool asks_for_replay() { return !variable(replay_name).empty(); }
 
 std::string command_line(const ForeignChecks* checks) {
   const std::string name = checks != nullptr ? checks->name() : "";

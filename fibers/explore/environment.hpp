@@ -15,6 +15,9 @@ ExploreOptions with_environment(ExploreOptions options);
 /// 2: it is whoever started the program, and no test, that is at fault.
 void refuse_environment(const BadInput& input);
 
+/// Whether WAITPOINT_REPLAY is set: a token is whoever started the program's, not the test's own.
+bool asks_for_replay();
+
 /// The run that WAITPOINT_REPLAY asks for is about to be replayed. A program that ends without, says so and ends with
 /// status 2.
 void replay_was_come_to();

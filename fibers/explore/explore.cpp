@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/environment.hpp"
+#include "fibers/explore/strategy.hpp"
 
 namespace waitpoint {
 namespace {
@@ -21,6 +22,7 @@ std::uint32_t count_call(const std::string& test) {
 
 ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<void()> body, ExploreOptions options) {
   const std::uint32_t call = count_call(checks != nullptr ? checks->name() : "");
+  (void)exploration::make_strategy(options.strategy);  // BadInput before anything is run
   if (options.replay.empty()) return exploration::Campaign(checks, std::move(body), options, call).run();
   const exploration::Token token = exploration::read_token(options.replay);
   if (token.call == 0)

@@ -51,10 +51,15 @@ class Strategy {
   virtual bool is_exhaustive() const { return false; }
 };
 
-/// The strategy of that name: "random", "pct:3". Throws BadInput, which names those there are.
-std::unique_ptr<Strategy> make_strategy(const std::string& name);
+enum class Kinds {
+  all,
+  drawing,  ///< those that draw a schedule without the ones before it: no exhaustive ones
+};
+
+/// The strategy of that name: "random", "pct:3". Throws BadInput, which names those there are of `named`.
+std::unique_ptr<Strategy> make_strategy(const std::string& name, Kinds named = Kinds::all);
 
 /// Of all strategies, with their parameters, as --help shows them.
-std::string strategy_names();
+std::string strategy_names(Kinds kinds = Kinds::all);
 
 }  // namespace waitpoint::exploration

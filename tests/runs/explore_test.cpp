@@ -224,7 +224,8 @@ TEST_F(ExploreScenario, ARecordOfAnotherRunIsTold) {
   again.replay = "wx1.0.00000001.random.1.7";
   const Told other = explore(again);
   EXPECT_EQ(other.status, 2);
-  EXPECT_NE(other.errors.find("this is not the run of the record"), std::string::npos) << other.errors;
+  EXPECT_NE(other.errors.find("this is not the run of the record: it had "), std::string::npos) << other.errors;
+  EXPECT_NE(other.errors.find(", the record says 00000001"), std::string::npos) << other.errors;
   // The record asks for a switch at an event that the run does not have.
   std::string schedule = folder_.read("schedule");
   schedule = std::regex_replace(schedule, std::regex("\n(task \\S+) \\d+ "), "\n$1 1234567 ");
@@ -235,6 +236,12 @@ TEST_F(ExploreScenario, ARecordOfAnotherRunIsTold) {
   const Told left = explore(again);
   EXPECT_EQ(left.status, 2);
   EXPECT_NE(left.errors.find("line 6: event 1234567 of task "), std::string::npos) << left.errors;
+  EXPECT_NE(left.errors.find("; no switch of the record was come to before"), std::string::npos) << left.errors;
+  again.seed = 2;
+  again.seed_is_asked = true;
+  const Told contradicted = explore(again);
+  EXPECT_EQ(contradicted.status, 2);
+  EXPECT_NE(contradicted.errors.find("--seed: expected 1, that of "), std::string::npos) << contradicted.errors;
 }
 
 TEST_F(ExploreScenario, WhatTheDefaultOrderFailsIsToldAtOnce) {

@@ -89,7 +89,7 @@ TEST_F(ExploreCommandLine, the_environment_says_what_the_command_line_does_not) 
   EXPECT_EQ(options.iterations, 11u);
   EXPECT_EQ(options.replay, "wx1.0.00000000.=1-1");
   setenv("WAITPOINT_ITERATIONS", "many", 1);
-  EXPECT_EQ(refusal({"a"}), "WAITPOINT_ITERATIONS: expected a whole number, found 'many'");
+  EXPECT_EQ(refusal({"a"}), "WAITPOINT_ITERATIONS: expected a positive whole number, found 'many'");
 }
 
 TEST_F(ExploreCommandLine, a_time_limit_alone_is_the_only_limit) {
@@ -115,7 +115,12 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
               std::string("--shard: expected I/N with 1 <= I <= N, found '") + shard + "'");
   EXPECT_EQ(refusal({"a", "--jobs", "0"}), "--jobs: expected a whole number from 1 to 1024, found '0'");
   EXPECT_EQ(refusal({"a", "--from", "20", "--until", "10"}), "--from: expected a time before --until, found '20'");
-  EXPECT_EQ(refusal({"a", "--iterations", "-1"}), "--iterations: expected a whole number, found '-1'");
+  EXPECT_EQ(refusal({"a", "--iterations", "-1"}), "--iterations: expected a positive whole number, found '-1'");
+  EXPECT_EQ(refusal({"a", "--iterations", "0"}), "--iterations: expected a positive whole number, found '0'");
+  EXPECT_EQ(refusal({"a", "--time-limit", "0"}),
+            "--time-limit: expected a positive number of seconds (where it is not given there is no limit), found '0'");
+  EXPECT_FALSE(refusal({"a", "--strategy", "best"}).find("dpor") != std::string::npos);
+  EXPECT_EQ(refusal({"a", "--strategy", "dpro"}).find("dpor"), std::string::npos);
   EXPECT_EQ(refusal({"a", "--replay", "wx1.0.zz"}),
             "replay: expected eight hexadecimal digits of a digest, not 'zz', in the token 'wx1.0.zz'");
   EXPECT_EQ(refusal({"a", "--replay", "f", "--results", "r"}), "--replay: cannot be used together with --results");

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
@@ -92,7 +93,8 @@ ExploreArguments::ExploreArguments(CLI::App& app)
                  "a schedule fails whose exit status is not 0, that a signal ends, or that is stuck")
       ->disable_flag_override();
   add("--strategy", strategy_, "S",
-      "how schedules are drawn (default: $WAITPOINT_STRATEGY, or portfolio):\n" + exploration::strategy_names());
+      "how schedules are drawn (default: $WAITPOINT_STRATEGY, or portfolio):\n" +
+          exploration::strategy_names(exploration::Kinds::drawing));
   add("--iterations", iterations_, "N",
       "schedules, at most (default: $WAITPOINT_ITERATIONS, or 1000, or no end\nwhere there is a time limit)");
   add("--time-limit", time_limit_, "SECONDS", "no schedule is begun after that (default: $WAITPOINT_TIME_LIMIT)");
@@ -160,11 +162,17 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   std::string where = "--strategy";
   if (const std::string strategy = text_of(strategy_, "WAITPOINT_STRATEGY", where); !strategy.empty())
     options.strategy = strategy;
-  if (exploration::make_strategy(options.strategy)->is_exhaustive()) check_exhaustive(where, options);
-  take("--time-limit", "WAITPOINT_TIME_LIMIT", time_limit_, "a positive number of seconds", 0.0, options.time_limit_s);
+  const exploration::Kinds kinds = is_program_ ? exploration::Kinds::all : exploration::Kinds::drawing;
+  if (exploration::make_strategy(options.strategy, kinds)->is_exhaustive()) check_exhaustive(where, options);
+  take("--time-limit", "WAITPOINT_TIME_LIMIT", time_limit_,
+       "a positive number of seconds (where it is not given there is no limit)", std::numeric_limits<double>::min(),
+       options.time_limit_s);
   if (options.time_limit_s > 0) options.iterations = ~std::uint64_t{0};
-  take<std::uint64_t>("--iterations", "WAITPOINT_ITERATIONS", iterations_, "a whole number", 0, options.iterations);
+  take<std::uint64_t>("--iterations", "WAITPOINT_ITERATIONS", iterations_, "a positive whole number", 1,
+                      options.iterations);
   take<std::uint64_t>("--seed", "WAITPOINT_SEED", seed_, "a whole number from 0 to 2^64 - 1", 0, options.seed);
+  where = "--seed";
+  options.seed_is_asked = !text_of(seed_, "WAITPOINT_SEED", where).empty();
   if (!jobs_.empty() && (!parse_number(jobs_, options.jobs) || options.jobs < 1 || options.jobs > jobs_max))
     refuse("--jobs", "a whole number from 1 to " + std::to_string(jobs_max), jobs_);
   options.until = positive_seconds("--until", until_);

@@ -29,6 +29,7 @@ struct ExploreOptions {
   std::vector<std::string> properties;   ///< of --property: "collisions=0"
   std::string strategy = "portfolio";
   std::uint64_t seed = 1;
+  bool seed_is_asked = false;       ///< and not the default
   std::uint64_t iterations = 1000;  ///< schedules, at most, of all shards
   double time_limit_s = 0;          ///< of the wall clock; 0: none
   std::uint32_t jobs = 1;           ///< processes at once

@@ -31,6 +31,7 @@ int replay(const ExploreOptions& asked, const bridge::Scenario& scenario, std::s
       record.plan, {.words = !record.plan.switches.empty(), .places = true, .events = options.trace.has_value()});
   check_is_run_of(record, {scene.schedule(), scene.switches(), finding}, options.replay);
   bridge::RunResult result = scene.result();
+  result.seed = options.seed;  // not that of the schedule's noise, which follows from it
   result.wall_s = wall_clock_s() - start_s;
   result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
   std::fputs(summary_text(result).c_str(), stdout);

@@ -15,6 +15,14 @@ namespace {
 using exploration::Switch;
 using exploration::Token;
 
+/// The record's seed becomes the options'.
+void take_seed(ExploreOptions& options, std::uint64_t seed) {
+  if (options.seed_is_asked && options.seed != seed)
+    throw BadInput(
+        "--seed", fmt::format("expected {}, that of '{}', or no --seed, found {}", seed, options.replay, options.seed));
+  options.seed = seed;
+}
+
 ReplayRecord of_token(ExploreOptions& options) {
   const Token token = exploration::read_token(options.replay);
   if (token.call != 0)
@@ -29,7 +37,7 @@ ReplayRecord of_token(ExploreOptions& options) {
     if (exploration::make_strategy(token.strategy)->is_exhaustive())
       throw BadInput("--replay", "expected a strategy that draws its schedules in the token '" + options.replay + "'");
     options.strategy = token.strategy;
-    options.seed = token.seed;
+    take_seed(options, token.seed);
     record.plan = {.number = token.number};
   }
   return record;
@@ -45,7 +53,7 @@ ReplayRecord of_file(ExploreOptions& options, std::uint64_t fingerprint) {
                                fingerprint, record.stored.fingerprint));
   if (record.stored.from != Time() + options.from.value_or(Duration()))
     throw BadInput(options.replay, 4, "expected the same time as --from");
-  options.seed = record.stored.seed;
+  take_seed(options, record.stored.seed);
   record.digest = record.stored.digest;
   record.digest_bits = record.digest == 0 ? 0 : 64;
   record.plan = {.number = record.stored.number, .drawn = false, .switches = record.stored.switches};
@@ -62,10 +70,11 @@ std::string parting(const ReplayRecord& record, const Replayed& run) {
     const Switch& change = record.plan.switches[i];
     if (std::binary_search(met.begin(), met.end(), change)) continue;
     const std::vector<exploration::Told>& told = run.told;
-    return fmt::format(
-        "line {}: event {} of task {:016x} did not come to a choice that has this switch; the run left "
-        "the record after event {}",
-        line_of_switch(i), change.usual.sequence, change.usual.task, i == 0 || told.size() < i ? 0 : told[i - 1].event);
+    const std::string known = i == 0 || told.size() < i
+                                  ? "no switch of the record was come to before"
+                                  : fmt::format("the run was the record's up to event {}", told[i - 1].event);
+    return fmt::format("line {}: event {} of task {:016x} did not come to a choice that has this switch; {}",
+                       line_of_switch(i), change.usual.sequence, change.usual.task, known);
   }
   for (const auto& deviation : record.plan.deviations)
     if (deviation.decision >= run.schedule.decisions.size())
@@ -84,9 +93,13 @@ void check_is_run_of(const ReplayRecord& record, const Replayed& run, const std:
   const int shift = 64 - record.digest_bits;
   const std::string where = parting(record, run);
   const bool is_same = record.digest_bits == 0 ? where.empty() : run.finding.digest >> shift == record.digest >> shift;
-  if (!is_same)
-    throw BadInput(exploration::is_token(name) ? "--replay" : name,
-                   "this is not the run of the record" + (where.empty() ? "" : ": " + where));
+  if (is_same) return;
+  const std::string digests =
+      fmt::format("it had {} events and a digest that begins with {}, the record says {}", run.finding.events,
+                  exploration::digest_text(exploration::token_digest(run.finding.digest)),
+                  exploration::digest_text(exploration::token_digest(record.digest)));
+  throw BadInput(exploration::is_token(name) ? "--replay" : name,
+                 "this is not the run of the record: " + (where.empty() ? digests : where));
 }
 
 }  // namespace waitpoint::tools

@@ -171,14 +171,6 @@ TEST(Explore, ATokenOfAnotherProgramIsKnownAsSuch) {
   EXPECT_TRUE(explore([] {}, {.replay = "wx1.5.00000000.random.1.18446744073709551615"}).passed);
 }
 
-TEST(Explore, ATraceThatCannotBeWrittenLosesNoReport) {
-  setenv("WAITPOINT_TRACE", "/no/such/folder/trace", 1);
-  const ExploreReport report = explore(lose_a_wake_up);
-  unsetenv("WAITPOINT_TRACE");
-  EXPECT_TRUE(contains(report.text, "WAITPOINT_TRACE: cannot write to '/no/such/folder/trace'")) << report;
-  EXPECT_TRUE(contains(report.text, "replay: ")) << report;
-}
-
 TEST(Explore, ABodyThatCallsExitEndsTheTestProgramWithAFailure) {
   const auto explore_and_leave = [] {
     explore([] {
@@ -222,6 +214,7 @@ TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
   EXPECT_EQ(message({.strategy = "pso"}),
             "strategy: unknown strategy 'pso', did you mean 'pos'?; there are " + exploration::strategy_names());
   EXPECT_EQ(message({.strategy = "pct:0"}), "strategy: expected pct:D, a whole number from 1 to 1000, found 'pct:0'");
+  EXPECT_EQ(message({.strategy = "bounded:0"}), "no error");  // without any preemption
   EXPECT_EQ(message({.strategy = "pos:3"}), "strategy: expected pos without a parameter, found 'pos:3'");
   EXPECT_EQ(message({.replay = "wx2.1.0"}), "replay: expected the version wx1, not 'wx2', in the token 'wx2.1.0'");
   EXPECT_EQ(message({.replay = "wx1.0.00000000.="}),
@@ -270,16 +263,39 @@ TEST(Explore, TheEnvironmentSaysWhatToDoInAnyProgram) {
 
 // Whoever started the program is at fault, no test of it.
 TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusTwo) {
-  const auto explore_with = [](const char* name, const char* value) {
+  int bodies = 0;
+  const auto explore_with = [&](const char* name, const char* value) {
     setenv(name, value, 1);
-    explore([] {});
+    explore([&] { std::fprintf(stderr, "body %d", ++bodies); });
   };
   const auto status_two = ::testing::ExitedWithCode(2);
   EXPECT_EXIT(explore_with("WAITPOINT_SEED", "nine"), status_two,
               "^waitpoint: WAITPOINT_SEED: expected a whole number from 0 to 2\\^64 - 1, found 'nine'\n$");
   EXPECT_EXIT(explore_with("WAITPOINT_STRATEGY", "pcd"), status_two, "^waitpoint: strategy: unknown strategy 'pcd'");
   EXPECT_EXIT(explore_with("WAITPOINT_REPLAY", "wx1.nonsense"), status_two, "^waitpoint: ");
+  EXPECT_EXIT(explore_with("WAITPOINT_ITERATIONS", "0"), status_two,
+              "^waitpoint: WAITPOINT_ITERATIONS: expected a positive whole number, found '0'\n$");
+  EXPECT_EXIT(explore_with("WAITPOINT_TIME_LIMIT", "0"), status_two,
+              "^waitpoint: WAITPOINT_TIME_LIMIT: expected a pos");
+  EXPECT_EXIT(
+      explore_with("WAITPOINT_TRACE", "/no/such/folder/trace"), status_two,
+      "^waitpoint: WAITPOINT_TRACE: expected a file that can be written, found '/no/such/folder/trace': No such");
   EXPECT_THROW(explore([] {}, {.strategy = "pcd"}), BadInput);  // of the test's own making
+}
+
+TEST(ExploreDeathTest, ATokenThatDoesNotFitEndsTheProgramAndSaysWhereTheRunLeftIt) {
+  const auto replay = [](const char* token) {
+    setenv("WAITPOINT_REPLAY", token, 1);
+    explore(lose_a_wake_up);
+  };
+  const auto status_two = ::testing::ExitedWithCode(2);
+  EXPECT_EXIT(replay("wx1.1.00000000.=99-1"), status_two,
+              "^waitpoint: wx1.*: this is not the run of the token: choice 99 was never come to: it left the record "
+              "before its end, behind event [0-9]+, at 0.000000000 s; the program or the test is another one\n$");
+  EXPECT_EXIT(replay("wx1.1.00000000.=1-7"), status_two,
+              "choice 1 has only 2 alternatives, none of the number 7: it left the record at event [0-9]+, at 0.0");
+  EXPECT_EXIT(replay("wx1.1.00000001.="), status_two,
+              "it had [0-9]+ events, and its digest begins with [0-9a-f]{8}, the token's with 00000001; ");
 }
 
 TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
