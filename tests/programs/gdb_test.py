@@ -99,6 +99,7 @@ class Looking(unittest.TestCase):
                          [("1", "main"), ("2", "master"), ("3", "journeyman"), ("4", "shop.keeper"), ("5", "apprentice")])
         self.assertIn("wait_for_customer", apply_all)
         self.assertEqual(re.findall(r"^Fiber (\d)", apply_one, re.MULTILINE), ["4", "1"])
+        self.assertRegex(apply_one, r"(?s)^Fiber 4[^\n]*\n#\d+ [^\n]*wait_for_customer", "the innermost frame is the user's")
         self.assertEqual(bench, 'mutex #1 "bench" of environment: held by master of environment\n'
                                 "  journeyman of environment waits since 0.000000000 s (lock)")
         self.assertIn("shop.keeper of environment waits since 0.000000000 s (wait)", number)
@@ -138,14 +139,15 @@ class Looking(unittest.TestCase):
     def test_what_is_no_fiber_object_time_or_process_is_said(self):
         told = of_clock_makers("info fibers", "next-event", "back", "break-time soon", "break-time 0.001", "run",
                                "fiber 77", "fiber nobody", "blocked-on nothing", "blocked-on", "next-event-of nobody",
-                               "next-event 0", "break-time 0.0005", "fiber apply all", "back 100")
+                               "next-event 0", "break-time 0.0005", "fiber apply all", "back 100", "fiber app")
         self.assertEqual(told[0], "no program is being run, and no core file is read")
         self.assertEqual(told[1:3], ["no process is being run: run or start it first"] * 2)
         self.assertIn("expected a time such as 12.5", told[3])
         for text, expected in zip(told[6:], ["there is no fiber '77'", "there is no fiber 'nobody'",
                                              "no task waits for, uses or holds an object 'nothing'", "expected: blocked-on",
                                              "there is no fiber 'nobody'", "expected: next-event [N]",
-                                             "it is 0.001000000 s already", "expected: fiber apply", "there is no event"]):
+                                             "it is 0.001000000 s already", "expected: fiber apply", "there is no event",
+                                             "there is no fiber 'app'"]):
             self.assertIn(expected, text)
 
 

@@ -58,13 +58,17 @@ class Fiber(gdb.Command):
     """fiber N|NAME|ROBOT/NAME: shows a task where it is parked, until another is selected or the process goes on.
 
     bt, up, down, info locals and print are about it then. Nothing is written to the process. Frame 0 stays what the
-    processor executes; the innermost frame that is not of a primitive is selected. Without an argument: which one."""
+    processor executes; the innermost frame that is not of a primitive is selected. Without an argument: which one.
 
-    def __init__(self):
-        super().__init__("fiber", gdb.COMMAND_STACK, prefix=True)
+    fiber apply all COMMAND, or fiber apply N|NAME ... COMMAND: the command in each fiber, with a line that names it."""
+
+    def __init__(self):  # no prefix: gdb would take a task's name for what is short for `apply`
+        super().__init__("fiber", gdb.COMMAND_STACK)
 
     def invoke(self, argument, from_tty):
         word = argument.strip()
+        if word.split()[:1] == ["apply"]:
+            return apply(word.split()[1:])
         if word:
             task = fibers.find(word)
             selection.select(task)
@@ -83,34 +87,29 @@ def selected():
     raise gdb.GdbError("no fiber is selected: the process is on its main stack")
 
 
-class FiberApply(gdb.Command):
-    """fiber apply all COMMAND, or fiber apply N|NAME ... COMMAND: the command in each fiber, with a line that names it."""
-
-    def __init__(self):
-        super().__init__("fiber apply", gdb.COMMAND_STACK)
-
-    def invoke(self, argument, from_tty):
-        words = argument.split()
-        if words[:1] == ["all"]:
-            chosen, words = fibers.all_tasks(), words[1:]
-        else:
-            chosen, tasks = [], fibers.all_tasks()
-            while words and (words[0].isdigit() or any(fibers.is_called(task, words[0]) for task in tasks)):
-                chosen.append(fibers.find(words.pop(0)))
-        if not chosen or not words:
-            raise gdb.GdbError("expected: fiber apply all|N ... COMMAND")
-        scheduler, before, level = records.scheduler(), selection.parked.context, gdb.selected_frame().level()
-        try:
-            for task in chosen:
-                selection.select(task)
-                print(f"\n{header(task, scheduler)}")
-                gdb.execute(" ".join(words))
-        finally:
-            selection.parked.select(before) if before else selection.parked.deselect()
-            frame = gdb.newest_frame()
-            while frame.level() < level and frame.older() is not None:
-                frame = frame.older()
-            frame.select()
+def apply(words):
+    if words[:1] == ["all"]:
+        chosen, words = fibers.all_tasks(), words[1:]
+    else:
+        chosen, tasks = [], fibers.all_tasks()
+        while words and (words[0].isdigit() or any(fibers.is_called(task, words[0]) for task in tasks)):
+            chosen.append(fibers.find(words.pop(0)))
+    if not chosen or not words:
+        raise gdb.GdbError("expected: fiber apply all|N ... COMMAND")
+    scheduler, before, level = records.scheduler(), selection.parked.context, gdb.selected_frame().level()
+    try:
+        selection.shown.of_many = True
+        for task in chosen:
+            selection.select(task)
+            print(f"\n{header(task, scheduler)}")
+            gdb.execute(" ".join(words))
+    finally:
+        selection.shown.of_many = False
+        selection.parked.select(before) if before else selection.parked.deselect()
+        frame = gdb.newest_frame()
+        while frame.level() < level and frame.older() is not None:
+            frame = frame.older()
+        frame.select()
 
 
 class VirtualTime(gdb.Command):
@@ -189,5 +188,5 @@ def objects_in(value, depth=5):
 
 
 def register():
-    for command in (Waitpoint, InfoFibers, Fiber, FiberApply, VirtualTime, BlockedOn):
+    for command in (Waitpoint, InfoFibers, Fiber, VirtualTime, BlockedOn):
         command()

@@ -70,23 +70,38 @@ def typed(value, register):
     return gdb.Value(value).cast(kind if kind.sizeof == 8 else kind.pointer())
 
 
-class WithoutTheProcessors:
-    """A frame filter: of a selected fiber, only its own frames."""
+def is_inner(frame):
+    """Of the kernel or a primitive, or what they are made of, which has no source here."""
+    table = frame.find_sal().symtab
+    return table is None or bool(INNER.search(table.fullname()))
+
+
+class FibersFrames:
+    """A frame filter: of a selected fiber, only its own frames; of many fibers, from the innermost frame on that is of no
+    primitive, so that `fiber apply all bt 3` shows where the program is."""
 
     name, priority, enabled = "waitpoint-fiber", 1000, True
+    of_many = False
 
     def filter(self, frames):
         if not parked.context:
             yield from frames
             return
-        begun, first = False, parked.resumes_at()
+        begun, first, inner = False, parked.resumes_at(), []
         for frame in frames:
             begun = begun or (frame.inferior_frame().pc() == first and frame.inferior_frame().level() > 0)
-            if begun:
-                yield frame
+            if not begun:
+                continue
+            if self.of_many and inner is not None and is_inner(frame.inferior_frame()):
+                inner.append(frame)
+                continue
+            inner = None  # no others are left out
+            yield frame
+        yield from inner or []  # where there is nothing else
 
 
 parked = ParkedFiber()
+shown = FibersFrames()
 calling = False  # a function of the process, for an expression: the fiber stays selected
 
 
@@ -107,8 +122,7 @@ def select_users_frame():
     """Selects the innermost frame that belongs to no primitive, or the innermost of all."""
     frame = first = innermost()
     while frame is not None:
-        table = frame.find_sal().symtab
-        if table is not None and not INNER.search(table.fullname()):
+        if not is_inner(frame):
             break
         frame = frame.older()
     (frame or first).select()
@@ -137,6 +151,6 @@ def on_call(event):
 
 def register():
     gdb.unwinder.register_unwinder(None, parked, replace=True)
-    gdb.frame_filters[WithoutTheProcessors.name] = WithoutTheProcessors()
+    gdb.frame_filters[shown.name] = shown
     gdb.events.cont.connect(on_continue)
     gdb.events.inferior_call.connect(on_call)
