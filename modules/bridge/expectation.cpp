@@ -3,11 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace waitpoint::bridge {
 namespace {
 
 std::string goals_text(const RunTotals& sum) {
   return fmt::format("{} of {} goals reached", sum.goals_reached, sum.goals);
+}
+
+// With so many digits, three at least, that it is not the same as `limit`, which it exceeds.
+std::string greater_text(double value, double limit) {
+  for (int digits = 3; digits < std::numeric_limits<double>::max_digits10; ++digits)
+    if (std::string text = fmt::format("{:.{}g}", value, digits); text != fmt::format("{:.{}g}", limit, digits))
+      return text;
+  return fmt::format("{}", value);
 }
 
 }  // namespace
@@ -24,7 +34,8 @@ std::vector<std::string> broken(const Expectation& expect, const RunTotals& figu
   if (expect.collisions && figures.collisions > *expect.collisions)
     lines.push_back(fmt::format("{} collisions, expected {}", figures.collisions, *expect.collisions));
   if (expect.position_error_max_m && !(figures.position_error_max_m <= *expect.position_error_max_m))
-    lines.push_back(fmt::format("position error of {:.3f} m, expected at most {:g} m", figures.position_error_max_m,
+    lines.push_back(fmt::format("position error of {} m, expected at most {:g} m",
+                                greater_text(figures.position_error_max_m, *expect.position_error_max_m),
                                 *expect.position_error_max_m));
   return lines;
 }

@@ -34,6 +34,16 @@ TEST(Expectation, a_number_of_goals_is_exact) {
   EXPECT_EQ(unmet(expect, result_with(3, 3, 5)), Lines{"3 of 3 goals reached, expected 2"});
 }
 
+TEST(Expectation, what_is_greater_by_little_is_told_with_the_digits_that_differ) {
+  const Expectation expect{
+      .all_goals_reached = false, .goals_reached = {}, .collisions = {}, .position_error_max_m = 0.025};
+  RunResult result = result_with(0, 0, 0);
+  for (const auto& [error_m, text] : {std::pair{0.0250004, "0.0250004"}, std::pair{0.5, "0.5"}}) {
+    result.robots[0].position_error_max_m = error_m;
+    EXPECT_EQ(unmet(expect, result), Lines{std::string("position error of ") + text + " m, expected at most 0.025 m"});
+  }
+}
+
 TEST(Expectation, a_run_without_progress_is_never_expected) {
   RunResult result = result_with(0, 0, 0);
   result.outcome = Outcome::no_progress;
