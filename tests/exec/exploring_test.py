@@ -27,7 +27,7 @@ class Exploring(ExecCase):
         done = explore("--", program)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertRegex(done.stdout, r"schedule \d+ of strategy portfolio, seed 1, failed at \S+ s: exit status 1\n"
-                                      r"  an update was lost\n2 switches away from the default order fail")
+                                      r"  an update was lost\n1 switch away from the default order fails")
         self.assertIn("thread 2#2 of lost_update (start) goes first, in place of", done.stdout)
         self.assertIn("the last choice from which it could still have passed: number ", done.stdout)
         self.assertEqual(explore("--", program).stdout.splitlines()[1:], done.stdout.splitlines()[1:])

@@ -94,7 +94,7 @@ ExploreArguments::ExploreArguments(CLI::App& app)
       ->disable_flag_override();
   add("--strategy", strategy_, "S",
       "how schedules are drawn (default: $WAITPOINT_STRATEGY, or portfolio):\n" +
-          exploration::strategy_names(exploration::Kinds::drawing));
+          exploration::strategy_names(exploration::Kinds::drawing) + "\n(of a program dfs and bounded:K too)");
   add("--iterations", iterations_, "N",
       "schedules, at most (default: $WAITPOINT_ITERATIONS, or 1000, or no end\nwhere there is a time limit)");
   add("--time-limit", time_limit_, "SECONDS", "no schedule is begun after that (default: $WAITPOINT_TIME_LIMIT)");
