@@ -65,7 +65,10 @@ void describe_run(const Task& task) {
   SignalSafeText text;
   text.add("  at virtual time ").add(task.local_time).add(" s, in task ").add(task.name).add(" of ");
   text.add(task.robot->name).add(", at its event ").add(task.sequence).add(" (").add(name(task.operation));
-  text.add("), seed ").add(task.scheduler->chooser().seed()).add("\n").write();
+  text.add(")");
+  const Chooser& chooser = task.scheduler->chooser();
+  if (chooser.order() != Order::explored) text.add(", seed ").add(chooser.seed());  // else a strategy decides
+  text.add("\n").write();
   SignalSafeText replay;
   if (task.scheduler->replay()[0] != '\0') replay.add("  replay: ").add(task.scheduler->replay()).add("\n").write();
 }
