@@ -49,10 +49,10 @@ def run(*words):
     return subprocess.run([str(word) for word in words], stdin=subprocess.DEVNULL, capture_output=True, text=True)
 
 
-def explore(specimen, mended=False, seed=1, schedules=SCHEDULES_MAX):
+def explore(specimen, mended=False, seed=1, schedules=SCHEDULES_MAX, strategy="portfolio"):
     twin = ["mended"] if mended else []
-    return run(WAITPOINT, "explore", "--exec", "--seed", seed, "--iterations", schedules, "--no-minimize", "--",
-               specimen.program, specimen.name, *twin)
+    return run(WAITPOINT, "explore", "--exec", "--seed", seed, "--strategy", strategy, "--iterations", schedules,
+               "--no-minimize", "--", specimen.program, specimen.name, *twin)
 
 
 def schedules_until_found(specimen, seed):
@@ -108,7 +108,7 @@ class AsTheyAre(Programs, ExecCase):
         return [specimen for specimen in specimens(self.suffix) if specimen.needs == "synchronization"]
 
     def test_each_passes_in_the_default_order(self):
-        self.check_passes([(specimen, mended, 1, 0) for specimen in specimens("") for mended in (False, True)])
+        self.check_passes([(specimen, mended, 1, 1, "fifo") for specimen in specimens("") for mended in (False, True)])
 
 
 # Data races are failures here: the default order shows them though they do no harm in it.
