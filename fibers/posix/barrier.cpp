@@ -19,21 +19,13 @@ struct Barrier : Waitable {
   explicit Barrier(const void* address) : Waitable(kind_of_all, "barrier", address) {}
 };
 
-struct Bytes {
-  Barrier* known;  // of one that processes do not share
-  std::uint32_t mark;
+struct Bytes : SharedBytes<Barrier> {
   unsigned count, arrived;
   std::uint32_t opened;  // how often all had arrived
-
-  bool is_shared() const { return mark == mark_of_shared; }
 };
 static_assert(sizeof(Bytes) <= sizeof(pthread_barrier_t));
 
 Bytes& bytes_of(pthread_barrier_t* barrier) { return *reinterpret_cast<Bytes*>(barrier); }
-
-Barrier& barrier_of(Bytes& bytes) {
-  return bytes.is_shared() ? waitable_at<Barrier>(&bytes) : waitable_at(bytes.known, &bytes);
-}
 
 // Whether all others have.
 bool arrive(Bytes& bytes, std::uint32_t& opened) {
@@ -78,7 +70,7 @@ WAITPOINT_INTERPOSED int pthread_barrier_destroy(pthread_barrier_t* barrier) noe
 WAITPOINT_INTERPOSED int pthread_barrier_wait(pthread_barrier_t* barrier) noexcept {
   if (!is_simulated()) refuse("a thread waits before main() begins");
   Bytes& bytes = bytes_of(barrier);
-  Barrier& known = barrier_of(bytes);
+  Barrier& known = bytes.waitable();
   pass(kernel::Operation::arrive, &known.object);
   std::uint32_t opened = 0;
   if (arrive(bytes, opened)) {

@@ -23,25 +23,16 @@ struct Condition : Waitable {
   explicit Condition(const void* address) : Waitable(kind_of_all, "condition variable", address) {}
 };
 
-struct Bytes {
-  Condition* known;  // of one that processes do not share
-  clockid_t clock;   // 0: CLOCK_REALTIME
-  // Of one that they share: who waits has a ticket, and those below `released` go on.
-  std::uint32_t mark;
+struct Bytes : SharedBytes<Condition> {
+  clockid_t clock;  // 0: CLOCK_REALTIME
+  // Of one that processes share: who waits has a ticket, and those below `released` go on.
   std::uint64_t next_ticket;
   std::uint64_t released;
   std::uint32_t changes;
-
-  bool is_shared() const { return mark == mark_of_shared; }
 };
 static_assert(sizeof(Bytes) <= sizeof(pthread_cond_t));
 
 Bytes& bytes_of(pthread_cond_t* condition) { return *reinterpret_cast<Bytes*>(condition); }
-
-Condition& condition_of(pthread_cond_t* condition) {
-  Bytes& bytes = bytes_of(condition);
-  return bytes.is_shared() ? waitable_at<Condition>(condition) : waitable_at(bytes.known, condition);
-}
 
 std::uint64_t take_ticket(Bytes& bytes) {
   const family::Section section;
@@ -92,7 +83,7 @@ void release_shared(Condition& known, Bytes& bytes, bool all) {
 int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
   Bytes& words = bytes_of(condition);
-  Condition& known = condition_of(condition);
+  Condition& known = bytes_of(condition).waitable();
   Mutex& mutex = mutex_of(bytes);
   const CancellationPoint point;
   pass(kernel::Operation::wait, &known.object);
@@ -117,7 +108,7 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
 
 int notify(pthread_cond_t* condition, bool all) {
   if (!is_simulated()) return 0;
-  Condition& known = condition_of(condition);
+  Condition& known = bytes_of(condition).waitable();
   pass(all ? kernel::Operation::notify_all : kernel::Operation::notify_one, &known.object);
   if (bytes_of(condition).is_shared())
     release_shared(known, bytes_of(condition), all);

@@ -24,21 +24,13 @@ struct Semaphore : Waitable {
   explicit Semaphore(const void* address) : Waitable(kind_of_all, "semaphore", address) {}
 };
 
-struct Bytes {
-  Semaphore* known;  // of one that is not shared
-  std::uint32_t mark;
+struct Bytes : SharedBytes<Semaphore> {
   std::uint32_t count;
   std::uint32_t changes;
-
-  bool is_shared() const { return mark == mark_of_shared; }
 };
 static_assert(sizeof(Bytes) <= sizeof(sem_t));
 
 Bytes& bytes_of(sem_t* semaphore) { return *reinterpret_cast<Bytes*>(semaphore); }
-
-Semaphore& semaphore_of(Bytes& bytes) {
-  return bytes.is_shared() ? waitable_at<Semaphore>(&bytes) : waitable_at(bytes.known, &bytes);
-}
 
 bool take_one(Bytes& bytes, std::uint32_t& changes) {
   const family::Section section(bytes.is_shared());
@@ -51,7 +43,7 @@ bool take_one(Bytes& bytes, std::uint32_t& changes) {
 int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
   Bytes& bytes = bytes_of(semaphore);
-  Semaphore& known = semaphore_of(bytes);
+  Semaphore& known = bytes.waitable();
   const CancellationPoint point;
   pass(kernel::Operation::acquire, &known.object);
   for (std::uint32_t changes = 0;;) {
@@ -106,7 +98,7 @@ WAITPOINT_INTERPOSED int sem_destroy(sem_t* semaphore) noexcept {
 
 WAITPOINT_INTERPOSED int sem_post(sem_t* semaphore) noexcept {
   Bytes& bytes = bytes_of(semaphore);
-  Semaphore& known = semaphore_of(bytes);
+  Semaphore& known = bytes.waitable();
   if (is_simulated()) pass(kernel::Operation::release, &known.object);
   if (bytes.is_shared()) return give_shared(bytes, known);
   if (is_simulated() && wake_one(known.object) != nullptr) return 0;
@@ -117,7 +109,7 @@ WAITPOINT_INTERPOSED int sem_post(sem_t* semaphore) noexcept {
 
 WAITPOINT_INTERPOSED int sem_trywait(sem_t* semaphore) noexcept {
   Bytes& bytes = bytes_of(semaphore);
-  if (is_simulated()) pass(kernel::Operation::try_acquire, &semaphore_of(bytes).object);
+  if (is_simulated()) pass(kernel::Operation::try_acquire, &bytes.waitable().object);
   std::uint32_t changes = 0;
   return take_one(bytes, changes) ? 0 : fail(EAGAIN);
 }

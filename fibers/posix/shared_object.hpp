@@ -7,12 +7,24 @@
 
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/family.hpp"
+#include "fibers/posix/waitable.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
 
 /// In the bytes of an object that is shared, where zeroes or another value say that it is not.
 inline constexpr std::uint32_t mark_of_shared = 0x53484152;
+
+/// What the bytes of a primitive begin with that processes may share. They are zeroes before it is used.
+template <class Known>
+struct SharedBytes {
+  Known* known;  ///< of one that is not shared
+  std::uint32_t mark;
+
+  bool is_shared() const { return mark == mark_of_shared; }
+  /// What stands for it in this process.
+  Known& waitable() { return is_shared() ? waitable_at<Known>(this) : waitable_at(known, this); }
+};
 
 /// Waits for another change than those that were counted when the caller, within the section, found that it must wait:
 /// of `object`, which stands for it in this process.
