@@ -45,7 +45,7 @@ class Calendar {
   template <class Sink>
   void close(Sink to);
 
-  void insert(EventNode& node, const EventKey& key) {
+  void insert(EventNode& node, EventKey key) {
     std::uint32_t slot = free_;
     if (slot != none)
       free_ = slots_[slot].next;

@@ -54,6 +54,7 @@ std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
   frames_room_ = room;
   const bool interrupted = interrupted_;
   task.describe = interrupted_ = true;
+  ordinary_ = false;  // until the run goes on
   switch_to(task);
   interrupted_ = interrupted;
   task.state = state;

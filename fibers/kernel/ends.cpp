@@ -52,7 +52,7 @@ void Scheduler::end_task(Task& task) {
 void Scheduler::unwind() {
   WAITPOINT_CHECK(running == nullptr, "unwind() is called from within a task");
   unwinding_ = interrupted_ = true;
-  may_stay_ = may_stay_alone_ = false;
+  may_stay_ = may_stay_alone_ = ordinary_ = false;
   paused_ = nullptr;
   // Timers may outlive the run: they must not find themselves in its list. Objects that tasks wait for are not touched:
   // they may be gone with the frames that own them, and read as fresh in the next run.

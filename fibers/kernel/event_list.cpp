@@ -90,7 +90,7 @@ std::uint32_t EventList::find_from(std::uint32_t index, const EventNode& node) c
   return index;
 }
 
-void EventList::put_elsewhere(EventNode& node, const EventKey& key) {
+void EventList::put_elsewhere(EventNode& node, EventKey key) {
   if (key.due_ns() >= calendar_.horizon()) {
     calendar_.insert(node, key);
     if (end_ < head_ + lookahead_) refill();

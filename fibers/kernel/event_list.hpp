@@ -40,14 +40,18 @@ class EventList {
   std::uint32_t size() const { return size_; }
   /// The least entry; its key reads as never due if the list is empty.
   const EventEntry& least() const { return heap_.least().key < head_->key ? heap_.least() : *head_; }
+  /// Whether the least event is due at `time` or before.
+  bool is_due(Time time) const { return head_->key.time <= time || heap_.least().key.time <= time; }
   /// Whether the events are so many that they are in a calendar.
   bool is_large() const { return lookahead_ != 0; }
   /// The node that is `ahead` events behind the least one of the run, if it is known already: to make it ready early.
   const EventNode* coming(std::uint32_t ahead) const { return head_ + ahead < end_ ? head_[ahead].node : nullptr; }
 
   /// `node` must not be in the list.
-  [[gnu::always_inline]] void insert(EventNode& node, const EventKey& key) {
+  [[gnu::always_inline]] void insert(EventNode& node, EventKey key) {
     check_insertion(node);
+    WAITPOINT_CHECK(size_ < capacity_,
+                    "more events than a run may have pending: tasks, timers, and messages under way");
     ++size_;
     put(node, key);
   }
@@ -59,9 +63,11 @@ class EventList {
     return take(least());
   }
   /// As pop() and insert(node, key), where `least` is least().
-  [[gnu::always_inline]] EventNode& exchange(const EventEntry& least, EventNode& node, const EventKey& key) {
+  [[gnu::always_inline]] EventNode& exchange(const EventEntry& least, EventNode& node, EventKey key) {
+    check_insertion(node);
     EventNode& taken = take(least);
-    insert(node, key);
+    ++size_;
+    put(node, key);
     return taken;
   }
   /// As pop(), unless the least event is due at `until` or later, or there is none: null then.
@@ -84,13 +90,11 @@ class EventList {
   static constexpr std::uint32_t run_length_min = 64;   // the run begins anew when so much was passed
   static constexpr std::uint32_t calibration_period_min = 512;
 
-  void check_insertion(const EventNode& node) const {
+  static void check_insertion(const EventNode& node) {
     WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
-    WAITPOINT_CHECK(size_ < capacity_,
-                    "more events than a run may have pending: tasks, timers, and messages under way");
   }
   // Into its place in the run, if that is near its end; else to the others.
-  [[gnu::always_inline]] void put(EventNode& node, const EventKey& key) {
+  [[gnu::always_inline]] void put(EventNode& node, EventKey key) {
     EventEntry* at = end_;
     const bool is_far = at > head_ + reach && key < at[-std::ptrdiff_t{reach}].key;
     if (__builtin_expect(is_far || key.due_ns() >= calendar_.horizon() || at >= bound_, 0))
@@ -108,7 +112,7 @@ class EventList {
       entry.node->place = EventNode::in_run(index_of(entry));
   }
   std::uint32_t index_of(const EventEntry& entry) const { return static_cast<std::uint32_t>(&entry - run_); }
-  [[gnu::noinline]] void put_elsewhere(EventNode& node, const EventKey& key);
+  [[gnu::noinline]] void put_elsewhere(EventNode& node, EventKey key);
   [[gnu::always_inline]] EventNode& take(const EventEntry& least) {
     if (__builtin_expect(&least != head_, 0)) return take_from_heap();
     EventNode* node = least.node;

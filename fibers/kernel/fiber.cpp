@@ -55,7 +55,9 @@ Fiber& note_where_left(const context::transfer_t& transfer) {
 }
 
 // The switch, seen by a sanitizer.
-void jump_seen(Fiber& from, void* target, Fiber& to) {
+[[gnu::noinline]] void jump_seen(Fiber& from, Fiber& to) {
+  void* target = to.context;
+  to.context = nullptr;
   sanitizer::leave(from, to);
   Fiber& left = note_where_left(jump(target, &from));
   sanitizer::arrive(left, from);
@@ -120,9 +122,9 @@ void switch_fiber(Fiber& from, Fiber& to) {
     if (to.thread_pointer == nullptr) restore_thread_state(to);
     set_thread_pointer(to.thread_pointer != nullptr ? to.thread_pointer : own_thread_pointer);
   }
+  if (__builtin_expect(sanitizer::present, 0)) return jump_seen(from, to);
   void* target = to.context;
   to.context = nullptr;
-  if (__builtin_expect(sanitizer::present, 0)) return jump_seen(from, target, to);
   note_where_left(jump(target, &from));
 }
 

@@ -3,8 +3,8 @@
 // first-in-first-out.
 //
 // Such an event goes behind all of its instant and phase that were put in before, so that it needs no search for its
-// place; and most events are such: a task is woken by another, or gives way to those that tie with it. There is a queue
-// for each of the phases in which tasks run, the world's first. In the list there may be earlier ones of this instant,
+// place; and most events are such: a task is woken by another, or gives way to those that tie with it. The queue has
+// those of the world's phase in front, then those of the tasks'. In the list there may be earlier ones of this instant,
 // which its least key tells.
 #pragma once
 
@@ -19,12 +19,12 @@ class PresentQueue {
   /// Whether tasks run in that phase.
   static bool is_for(Phase phase) { return phase == Phase::tasks || phase == Phase::world; }
 
-  bool empty() const { return size_ == 0; }
+  bool empty() const { return first_ == nullptr; }
   std::uint32_t size() const { return size_; }
-  /// The first, and from there on by Task::next_waiter those of its phase; null if there is none.
-  const Task* first() const { return first_of_all().first; }
+  /// The first, and from there on by Task::next_waiter the others; null if there is none.
+  const Task* first() const { return first_; }
   /// The place of the first among the events of its instant; there must be one.
-  std::uint64_t order() const { return first()->queue_order; }
+  std::uint64_t order() const { return first_->queue_order; }
 
   /// `task`, of such a phase, must be neither here nor in the event list, and come behind all of its phase
   /// that are here.
@@ -32,28 +32,28 @@ class PresentQueue {
     WAITPOINT_CHECK(!task.event.in_list(), "a task becomes ready twice");
     task.event.place = EventNode::ready;
     task.queue_order = order;
-    task.next_waiter = nullptr;
-    Queue& queue = queue_of(task);
-    (queue.first == nullptr ? queue.first : queue.last->next_waiter) = &task;
-    queue.last = &task;
     ++size_;
+    if (__builtin_expect(task.phase == Phase::world, 0)) return add_of_world(task);
+    task.next_waiter = nullptr;
+    (first_ == nullptr ? first_ : last_->next_waiter) = &task;
+    last_ = &task;
   }
   /// Takes out the first; there must be one.
   Task& take() {
-    Queue& queue = first_of_all();
-    Task& task = *queue.first;
-    queue.first = task.next_waiter;
+    Task& task = *first_;
+    first_ = task.next_waiter;
+    if (last_of_world_ == &task) last_of_world_ = nullptr;
     task.event.place = EventNode::absent;
     --size_;
     return task;
   }
   /// Takes out `task`, which must be here.
   void remove(Task& task) {
-    Queue& queue = queue_of(task);
     Task* before = nullptr;
-    for (Task* other = queue.first; other != &task; other = other->next_waiter) before = other;
-    (before == nullptr ? queue.first : before->next_waiter) = task.next_waiter;
-    if (queue.last == &task) queue.last = before;
+    for (Task* other = first_; other != &task; other = other->next_waiter) before = other;
+    (before == nullptr ? first_ : before->next_waiter) = task.next_waiter;
+    if (last_ == &task) last_ = before;
+    if (last_of_world_ == &task) last_of_world_ = before;
     task.event.place = EventNode::absent;
     --size_;
   }
@@ -62,15 +62,17 @@ class PresentQueue {
   }
 
  private:
-  struct Queue {
-    Task* first = nullptr;
-    Task* last = nullptr;
-  };
-  Queue& queue_of(const Task& task) { return task.phase == Phase::world ? world_ : tasks_; }
-  Queue& first_of_all() { return world_.first != nullptr ? world_ : tasks_; }
-  const Queue& first_of_all() const { return world_.first != nullptr ? world_ : tasks_; }
+  void add_of_world(Task& task) {
+    Task*& link = last_of_world_ == nullptr ? first_ : last_of_world_->next_waiter;
+    task.next_waiter = link;
+    link = &task;
+    last_of_world_ = &task;
+    if (task.next_waiter == nullptr) last_ = &task;
+  }
 
-  Queue world_, tasks_;
+  Task* first_ = nullptr;
+  Task* last_ = nullptr;  // while there is a first
+  Task* last_of_world_ = nullptr;
   std::uint32_t size_ = 0;
 };
 

@@ -32,8 +32,6 @@ void copy_name(char (&to)[name_size], const char* from) {
 constexpr int stack_lines_fetched = 5;
 // Of a task's record, what waking it touches; of its robot's, where its events are hashed.
 constexpr int record_lines_fetched = 4, robot_lines_fetched = 2;
-// So many that are ready may be out of the cache.
-constexpr std::uint32_t many_ready = 32;
 
 void fetch_lines(const void* from, std::ptrdiff_t count) {
   for (std::ptrdiff_t line = 0; line < count; ++line) fetch(static_cast<const char*>(from) + 64 * line);
@@ -70,6 +68,9 @@ void Scheduler::allow_free_passes() {
   may_stay_ = chooser_.order() == Order::fifo && !sanitizer::present;
   may_stay_alone_ = chooser_.order() == Order::seeded && !sanitizer::present;
 }
+
+// The run goes on, in its usual order: nobody wants it to stop, or the tasks to do anything else than their own.
+void Scheduler::allow_short_ways() { ordinary_ = may_stay_ && !interrupted_; }
 
 Scheduler::~Scheduler() {
   WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
@@ -159,6 +160,7 @@ RunState Scheduler::run_before(Time until) {
   WAITPOINT_CHECK(!unwinding_, "a run that is over is run");
   tell_debugger(*this);
   until_ = until;
+  allow_short_ways();
   if (cause_ != StopCause::none) return RunState::stopped;
   if (paused_ != nullptr) {
     Task& task = *paused_;
@@ -183,7 +185,8 @@ Fiber& Scheduler::next_fiber() {
     if (!present_.empty() && now_ < until_ && !(events_.least().key < EventKey{now_, present_.order()})) {
       Task& task = present_.take();
       if (present_.size() >= many_ready) prepare_ready();
-      return go(task).fiber;
+      resume(task);
+      return task.fiber;
     }
     EventNode* node = events_.pop_before(until_);
     if (node == nullptr) return outside(pending_events() == 0 ? RunState::idle : RunState::reached);
@@ -209,7 +212,7 @@ inline void Scheduler::prepare_coming() const {
   prepare(as_task(events_.coming(0)), as_task(events_.coming(1)), reinterpret_cast<const Task*>(third));
 }
 
-inline void Scheduler::prepare_ready() const {
+[[gnu::noinline]] void Scheduler::prepare_ready() const {
   const Task* const next = present_.first();
   const Task* const second = next->next_waiter;
   prepare(next, second, second != nullptr ? second->next_waiter : nullptr);
@@ -267,6 +270,7 @@ void Scheduler::stop_between_events(StopCause cause, Task& culprit) {
 
 void Scheduler::pause() {
   until_ = Time();  // no event is before it
+  ordinary_ = false;
   if (running != nullptr) end_free_passes();
 }
 

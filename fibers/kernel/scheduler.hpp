@@ -130,18 +130,12 @@ class Scheduler {
   /// The task's event stands at its local time; returns when it is the least. False while unwinding.
   bool waitpoint(Operation operation, Object* object) {
     Task& task = *running;
-    if (__builtin_expect(!passes_freely(task), 0)) return waitpoint_in_the_list(task, operation, object);
-    // The case that must be quick: nothing can come between.
-    ++task.turns;
-    task.operation = operation;
-    task.at = object;
-    if (object != nullptr) enter(*object);
-    execute(task, operation, object);
-    return true;
+    if (object != nullptr && waitpoint_at_once(task, operation, *object)) return true;
+    return waitpoint_in_any_case(task, operation, object);
   }
   /// The same where nothing can come between, and nobody watches; else false, with nothing done.
   [[gnu::always_inline]] bool waitpoint_at_once(Task& task, Operation operation, Object& object) {
-    if (!passes_freely(task) || object.epoch != epoch_ || watched_) return false;
+    if (__builtin_expect(!passes_freely(task) || object.epoch != epoch_ || watched_, 0)) return false;
     ++task.turns;
     task.operation = operation;
     task.at = &object;
@@ -265,6 +259,7 @@ class Scheduler {
   bool refuse();
   void adopt(Object& object);
   void begin(Task& task);
+  bool waitpoint_in_any_case(Task& task, Operation operation, Object* object);
   bool waitpoint_in_the_list(Task& task, Operation operation, Object* object);
   bool look_at_clock_slowly(Task& task, Time& local);
   bool arrive(Task& task);
@@ -274,6 +269,9 @@ class Scheduler {
   void start_waiting(Task& task, Object& object);
   void stop_waiting(Task& task, Object& object);
   bool begin_segment(Task& task, Operation operation, Object* object);
+  bool sleep_in_any_case(Time time);
+  Wake block_in_any_case(Object& object, Time deadline);
+  bool stay_until(Task& task, const Object& object, Time deadline);
   Wake go_on(Task& task, Object& object);
   bool go_on_from_waitpoint(Task& task);
   bool act_for_timer(Task& task, Operation operation, Object* object);
@@ -322,6 +320,9 @@ class Scheduler {
   void allow_free_passes();
   void set_local_time(Task& task, Time time);
   void make_ready(Task& task);
+  Task& make_first_ready(Object& object);
+  Fiber& next_of_present();
+  void allow_short_ways();
   void put(EventNode& node, const EventKey& key);
   void leave(Fiber& from, Fiber& to);
   void enter_run(Fiber& to);
@@ -332,9 +333,12 @@ class Scheduler {
   void reclaim_ended();
   void append_waiter(Object& object, Task& task);
   void remove_waiter(Task& task);
+  static Task& remove_first_waiter(Object& object);
   bool closes_a_cycle(Task& task);
 
   static constexpr Time never = Time::from_ns(-1);
+  // So many that are ready may be out of the cache.
+  static constexpr std::uint32_t many_ready = 32;
 
   EventList events_;
   PresentQueue present_;  // of the events of the present instant: those put in at it, first-in-first-out
@@ -379,6 +383,7 @@ class Scheduler {
   PairDigest unheard_;          // of robots that ended
   bool may_stay_;               // it may have some, by its order
   bool may_stay_alone_;         // it may where no other event is due at its instant
+  bool ordinary_ = false;       // tasks may take the short ways of scheduler_steps.hpp
   bool unwinding_ = false;
   bool interrupted_ =
       false;                 // tasks that get control are not to go on: they are unwound, or asked for their call stack

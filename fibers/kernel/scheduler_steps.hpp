@@ -18,9 +18,7 @@ inline void Scheduler::hash_events_of(Robot& robot) { lane_ = robot.lane; }
 
 // The running task may pass its waitpoints at the present instant without a look at the event list, until something
 // comes between.
-inline void Scheduler::let_pass(const Task& task) {
-  if (task.attention == 0) free_at_ = now_;
-}
+inline void Scheduler::let_pass(const Task& task) { free_at_ = task.attention == 0 ? now_ : never; }
 
 inline void Scheduler::end_free_passes() { free_at_ = never; }
 
@@ -98,6 +96,14 @@ inline void Scheduler::append_waiter(Object& object, Task& task) {
   object.last_waiter = &task;
 }
 
+inline Task& Scheduler::remove_first_waiter(Object& object) {
+  Task& task = *object.first_waiter;
+  object.first_waiter = task.next_waiter;
+  (object.first_waiter == nullptr ? object.last_waiter : object.first_waiter->previous_waiter) = nullptr;
+  task.blocked_on = nullptr;
+  return task;
+}
+
 inline void Scheduler::remove_waiter(Task& task) {
   Object& object = *task.blocked_on;
   (task.previous_waiter == nullptr ? object.first_waiter : task.previous_waiter->next_waiter) = task.next_waiter;
@@ -126,6 +132,20 @@ inline Task& Scheduler::go(Task& task) {
   return task;
 }
 
+// The task, which stands among those that wait for `object`, does so until `deadline`. False if it waits for ever for
+// tasks of which one waits for it.
+inline bool Scheduler::stay_until(Task& task, const Object& object, Time deadline) {
+  task.state = TaskState::blocked;
+  task.finite_wait = deadline != Time::max();
+  if (task.finite_wait) {
+    place_timeout(task, deadline < now_ ? now_ : deadline);
+  } else if ((object.owner != nullptr || object.holder_count != 0) && closes_a_cycle(task)) {
+    cause_ = StopCause::deadlock;
+    return false;
+  }
+  return true;
+}
+
 // Algorithm 2: who was woken takes the global time as its local one.
 inline void Scheduler::make_ready(Task& task) {
   if (__builtin_expect(sanitizer::present, 0)) sanitizer::release(task.blocked_on);
@@ -138,6 +158,29 @@ inline void Scheduler::make_ready(Task& task) {
   set_local_time(task, now_);
   if (!placed) place(task, now_);
   note_present_event(task.phase);
+}
+
+// --- in the ordinary case: first in, first out, and the run goes on ---
+
+// As next_fiber(), mostly by one of the present instant.
+inline Fiber& Scheduler::next_of_present() {
+  if (present_.empty() || events_.is_due(now_)) return next_fiber();
+  Task& task = present_.take();
+  if (__builtin_expect(present_.size() >= many_ready, 0)) prepare_ready();
+  resume(task);
+  return task.fiber;
+}
+
+// As make_ready() of the first that waits for `object`; there must be one.
+inline Task& Scheduler::make_first_ready(Object& object) {
+  Task& task = remove_first_waiter(object);
+  if (task.finite_wait) events_.remove(task.event);
+  task.wake = Wake::woken;
+  task.state = TaskState::ready;
+  set_local_time(task, now_);
+  present_.add(task, key(task, now_).order);
+  note_present_event(task.phase);
+  return task;
 }
 
 }  // namespace waitpoint::kernel

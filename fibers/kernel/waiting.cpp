@@ -29,14 +29,7 @@ Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
   if (sanitizer::present) sanitizer::release(&object);
   append_waiter(object, task);
   if (needs_attention(task)) start_waiting(task, object);
-  task.state = TaskState::blocked;
-  task.finite_wait = deadline != Time::max();
-  if (task.finite_wait) {
-    place_timeout(task, deadline < now_ ? now_ : deadline);
-  } else if ((object.owner != nullptr || object.holder_count != 0) && closes_a_cycle(task)) {
-    cause_ = StopCause::deadlock;
-    return outside(RunState::stopped);
-  }
+  if (!stay_until(task, object, deadline)) return outside(RunState::stopped);
   return next_fiber();
 }
 
@@ -49,6 +42,8 @@ void Scheduler::move_waiter(Task& task, Object& to) {
 
 Task* Scheduler::wake_a_waiter(Object& object) {
   Task* chosen = object.first_waiter;
+  if (__builtin_expect(ordinary_ && object.epoch == epoch_ && PresentQueue::is_for(chosen->phase), 1))
+    return &make_first_ready(object);
   if (unwinding_ || object.epoch != epoch_) return nullptr;
   if (chooser_.order() != Order::fifo) {
     std::uint32_t count = 0;

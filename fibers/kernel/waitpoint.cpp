@@ -54,6 +54,16 @@ inline bool Scheduler::take_place(Task& task, Operation operation, Object* objec
   return arrive(task);
 }
 
+bool Scheduler::waitpoint_in_any_case(Task& task, Operation operation, Object* object) {
+  if (!passes_freely(task)) return waitpoint_in_the_list(task, operation, object);
+  ++task.turns;
+  task.operation = operation;
+  task.at = object;
+  if (object != nullptr) enter(*object);
+  execute(task, operation, object);
+  return true;
+}
+
 bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
   if (unwinding_) return refuse();
   end_free_passes();
@@ -63,10 +73,14 @@ bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* o
   }
   if (!take_place(task, operation, object)) return false;
   // Whoever comes back is running, and where it is stands in its record: it kept no registers for that.
-  return go_on_from_waitpoint(*running);
+  Task& next = *running;
+  if (__builtin_expect(next.attention != 0 || watched_, 0)) return go_on_from_waitpoint(next);
+  count(next, next.operation, next.at);
+  return true;
 }
 
-inline bool Scheduler::go_on_from_waitpoint(Task& task) {
+[[gnu::noinline]] bool Scheduler::go_on_from_waitpoint(Task& task) {
+  if (interrupted_ && !rest()) return false;
   const Operation operation = task.operation;
   Object* const object = task.at;
   if (needs_attention(task) && !begin_segment(task, operation, object)) return false;
@@ -110,6 +124,31 @@ bool Scheduler::yield() {
 }
 
 bool Scheduler::sleep_until(Time time) {
+  Task& task = *running;
+  // A task that only lets time pass, beside others that do, must be quick: what is rare is left to functions that are
+  // called last, since each register that is kept over a call is saved first.
+  const bool is_plain = ordinary_ && task.attention == 0 && time > task.local_time && time < until_ && present_.empty();
+  if (__builtin_expect(!is_plain, 0)) return sleep_in_any_case(time);
+  task.local_time = time;
+  task.operation = Operation::sleep;
+  task.at = nullptr;
+  task.turns = 1;
+  const EventEntry& least = events_.least();
+  if (precedes(task, least.key)) {
+    now_ = time;
+    events_.advance(time);
+    free_at_ = time;
+  } else {
+    end_free_passes();
+    leave(task.fiber, give_way(task, least));
+  }
+  Task& next = *running;
+  if (__builtin_expect(interrupted_ || next.attention != 0 || watched_, 0)) return go_on_from_waitpoint(next);
+  count(next, Operation::sleep, nullptr);
+  return true;
+}
+
+[[gnu::noinline]] bool Scheduler::sleep_in_any_case(Time time) {
   if (unwinding_) return refuse();
   Task& task = *running;
   end_free_passes();
@@ -119,8 +158,7 @@ bool Scheduler::sleep_until(Time time) {
     if (task.seat != nullptr && time > task.local_time) leave_processor(task);
   }
   if (time > task.local_time) task.local_time = time;
-  if (!take_place(task, Operation::sleep, nullptr)) return false;
-  return go_on_from_waitpoint(*running);
+  return take_place(task, Operation::sleep, nullptr) && go_on_from_waitpoint(*running);
 }
 
 // Whatever a timer does, it does in its turn: its event is the one now executing.
@@ -177,6 +215,19 @@ void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
 }
 
 Wake Scheduler::block(Object& object, Time deadline) {
+  Task& task = *running;
+  if (__builtin_expect(!ordinary_ || task.attention != 0, 0)) return block_in_any_case(object, deadline);
+  end_free_passes();
+  append_waiter(object, task);
+  leave(task.fiber, stay_until(task, object, deadline) ? next_of_present() : outside(RunState::stopped));
+  // Whoever comes back is running: it kept no register for that.
+  Task& next = *running;
+  if (__builtin_expect(interrupted_ || next.attention != 0 || watched_, 0)) return go_on(next, object);
+  count(next, next.wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
+  return next.wake;
+}
+
+[[gnu::noinline]] Wake Scheduler::block_in_any_case(Object& object, Time deadline) {
   if (unwinding_) {
     refuse();
     return Wake::unwinding;
@@ -184,11 +235,10 @@ Wake Scheduler::block(Object& object, Time deadline) {
   Task& task = *running;
   WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
   leave(task.fiber, park(task, object, deadline));
-  // Whoever comes back is running: it kept no register for that.
   return go_on(*running, object);
 }
 
-inline Wake Scheduler::go_on(Task& task, Object& object) {
+[[gnu::noinline]] Wake Scheduler::go_on(Task& task, Object& object) {
   if (interrupted_ && !rest()) return Wake::unwinding;
   const Wake wake = task.wake;  // it may wait for its processor too, before it goes on
   const Operation operation = wake == Wake::woken ? Operation::resume : Operation::timeout;

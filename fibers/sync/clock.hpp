@@ -94,7 +94,7 @@ constexpr std::int64_t ns_within_range(const std::chrono::duration<Rep, Ratio>& 
 
 /// The deadline `span` from the caller's local virtual time: now at the earliest.
 template <class Rep, class Ratio>
-Time after(const std::chrono::duration<Rep, Ratio>& span) {
+[[gnu::always_inline]] inline Time after(const std::chrono::duration<Rep, Ratio>& span) {
   const Time from = kernel::local_time(running_task());
   const std::int64_t ns = ns_within_range(span);
   std::int64_t at = 0;

@@ -22,11 +22,23 @@ class MutexCore {
   // --- after the caller's waitpoint ---
 
   /// True once the caller owns the lock; false if the deadline came first. An owner waits for itself.
-  bool acquire(Time deadline);
+  bool acquire(Time deadline) {
+    if (object_.owner != nullptr) return wait_for_owner(deadline);
+    const Unseen unseen;
+    kernel::own(object_, *kernel::running);
+    return true;
+  }
   /// Hands the lock on; it is a bug not to own it.
-  void release();
+  void release() {
+    if (!is_owned_by_caller() || object_.first_waiter != nullptr) return hand_over();
+    const Unseen unseen;
+    kernel::disown(object_);
+  }
 
  private:
+  bool wait_for_owner(Time deadline);
+  void hand_over();
+
   Object object_;
 };
 

@@ -32,7 +32,8 @@ class SemaphoreCore {
 
  private:
   bool take();
-  bool pass(kernel::Operation operation);
+  bool pass(kernel::Task& task, kernel::Operation operation);
+  bool pass_in_the_list(kernel::Operation operation);
 
   Object object_;
   std::ptrdiff_t initial_;
