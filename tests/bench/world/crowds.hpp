@@ -17,6 +17,7 @@ void simple_robots(bool quick, Figures& figures);
 void growing_grounds(bool quick, Figures& figures);
 
 /// Stage's own benchmarks, unchanged: robots that wander by their range finders, with all their threads.
-void stages_worlds(bool quick, Figures& figures);
+void stages_cave(bool quick, Figures& figures);
+void stages_hospital(bool quick, Figures& figures);
 
 }  // namespace waitpoint::bench

@@ -46,20 +46,30 @@ void measure(const bridge::Scenario& scenario, const std::string& name, Duration
   figures.add({fmt::format("{}, {} robots", name, robots), "waitpoint", distance_m / robots, "m each"});
 }
 
+// Where Stage's files are; nothing, and said so, without them.
+std::optional<std::string> stages_files() {
+  std::optional<std::string> data = test::data_folder();
+  if (!data) fmt::print("left out, for there is no data folder (set WAITPOINT_DATA): a world of Stage's\n");
+  return data;
+}
+
+constexpr int repeats(bool quick) { return quick ? 2 : 5; }
+
 }  // namespace
 
-void stages_worlds(bool quick, Figures& figures) {
-  const std::optional<std::string> data = test::data_folder();
-  if (!data) {
-    fmt::print("left out, for there is no data folder (set WAITPOINT_DATA): Stage's worlds\n");
-    return;
-  }
-  using namespace std::chrono_literals;
-  const int repeats = quick ? 2 : 5;
-  measure(scenario_of("cave", *data), "Stage's cave", quick ? 20s : 60s, repeats, {50}, {90}, figures);
+using namespace std::chrono_literals;
+
+void stages_cave(bool quick, Figures& figures) {
+  if (const auto data = stages_files())
+    measure(scenario_of("cave", *data), "Stage's cave", quick ? 20s : 60s, repeats(quick), {50}, {90}, figures);
+}
+
+void stages_hospital(bool quick, Figures& figures) {
+  const auto data = stages_files();
+  if (!data) return;
   bridge::Scenario hospital = scenario_of("hospital", *data);
   add_second_thousand(hospital);
-  measure(hospital, "Stage's hospital", quick ? 5s : 20s, repeats, {20}, {40}, figures);
+  measure(hospital, "Stage's hospital", quick ? 5s : 20s, repeats(quick), {20}, {40}, figures);
 }
 
 }  // namespace waitpoint::bench

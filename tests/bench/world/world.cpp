@@ -233,12 +233,19 @@ class Bench {
   std::vector<Row> rows_;
 };
 
+/// By their names, so that only those are made that are asked for.
+const std::vector<std::pair<const char*, Place (*)()>> places = {
+    {"office", [] { return office(0); }},
+    {"warehouse", [] { return warehouse(0); }},
+    {"office, 100 robots", [] { return office(100); }},
+    {"warehouse, 100 robots", [] { return warehouse(100); }},
+    {"mesh", &mesh_hall},
+};
+
 /// Without peers.
 const std::vector<std::pair<const char*, void (*)(bool quick, Figures&)>> figures_alone = {
-    {"collisions", &collisions_of_a_hundred},
-    {"stage", &stages_worlds},
-    {"simple robots", &simple_robots},
-    {"obstacles", &growing_grounds},
+    {"collisions", &collisions_of_a_hundred}, {"stage's cave", &stages_cave},  {"stage's hospital", &stages_hospital},
+    {"simple robots", &simple_robots},        {"obstacles", &growing_grounds},
 };
 
 int main(int argc, char** argv) {
@@ -248,25 +255,27 @@ int main(int argc, char** argv) {
   bool no_peers = false, quick = false;
   app.add_flag("--no-peers", no_peers, "us and the grid alone");
   app.add_flag("--quick", quick, "few passes");
-  app.add_option("--case", pattern,
-                 "only the places, or 'collisions', 'stage', 'simple robots', 'obstacles', in whose names this is");
+  app.add_option(
+      "--case", pattern,
+      "only the places, or 'collisions', 'stage's cave', 'stage's hospital', 'simple robots', 'obstacles', in "
+      "whose names this is");
   app.add_option("--repeats", repeats, "passes of which the fastest counts")->check(CLI::Range(1, 10000));
   return run_program(app, argc, argv, [&] {
     fmt::print("{}", surroundings({fcl_name, embree_name, box2d_name, bullet_name, ode_name}));
     Bench bench(!no_peers, quick ? 3 : repeats);
-    for (const std::size_t robots : {0, 100}) {
-      for (const auto make : {&office, &warehouse}) {
-        const Place place = make(robots);
-        if (place.name.find(pattern) == std::string::npos) continue;
-        bench.scans(place);
-        if (robots == 0) bench.collisions(place);
-        if (robots > 0) bench.steps(place);
-      }
+    const auto is_wanted = [&](std::string_view name) { return name.find(pattern) != std::string_view::npos; };
+    for (const auto& [name, make] : places) {
+      if (!is_wanted(name)) continue;
+      const Place place = make();
+      bench.scans(place);
+      if (!place.robots.empty())
+        bench.steps(place);
+      else if (place.meshes.empty())
+        bench.collisions(place);
     }
-    if (const Place place = mesh_hall(); place.name.find(pattern) != std::string::npos) bench.scans(place);
     Figures figures;
     for (const auto& [name, measure] : figures_alone)
-      if (std::string_view(name).find(pattern) != std::string_view::npos) measure(quick, figures);
+      if (is_wanted(name)) measure(quick, figures);
     bench.print_sum(figures);
     std::vector<Row> rows = bench.rows();
     rows.insert(rows.end(), figures.rows().begin(), figures.rows().end());
