@@ -53,6 +53,7 @@ void Simulation::restart(std::uint64_t seed) {
   options_.seed = seed;
   failure_ = nullptr;
   trouble_.clear();
+  names_.clear();
   robots_.clear();
   robot_states_.clear();
   scheduler_.restart(seed);
@@ -61,9 +62,9 @@ void Simulation::restart(std::uint64_t seed) {
 
 kernel::Robot& Simulation::add_robot(const std::string& name) {
   WAITPOINT_CHECK(name.size() < kernel::name_size, "a robot's name is too long");
-  for (const kernel::Robot& robot : robots_) WAITPOINT_CHECK(name != robot.name, "two robots of one name");
   kernel::Robot& robot = robots_.emplace_back();
   add(robot, name.c_str());
+  WAITPOINT_CHECK(names_.insert(robot.name).second, "two robots of one name");
   return robot;
 }
 

@@ -11,7 +11,9 @@
 #include <exception>
 #include <functional>
 #include <iosfwd>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/digest.hpp"
@@ -98,6 +100,7 @@ class Simulation {
   kernel::Scheduler scheduler_;
   kernel::Robot environment_;
   std::deque<kernel::Robot> robots_;
+  std::set<std::string_view> names_;            // of those
   std::deque<sync::RobotStates> robot_states_;  // of the environment, then of the robots
   static void terminate_task();
   void add(kernel::Robot& robot, const char* name);
