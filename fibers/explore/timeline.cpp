@@ -33,16 +33,11 @@ std::size_t repeats(const std::vector<std::string>& lines, std::size_t from, std
   return (again - from - count) / count;
 }
 
-// As a poll goes round and round: a line, or some lines, once, and how often they come again.
-std::vector<std::string> with_repeats_told(const std::vector<std::string>& lines) {
+// `count` lines once, and how often they come again.
+std::vector<std::string> with_repeats_told(const std::vector<std::string>& lines, std::size_t count) {
   std::vector<std::string> told;
   for (std::size_t i = 0; i < lines.size();) {
-    std::size_t count = 1, more = 0;
-    for (std::size_t tried = 1; tried <= repeated_max; ++tried)
-      if (const std::size_t found = repeats(lines, i, tried); found * tried > more * count) {
-        count = tried;
-        more = found;
-      }
+    const std::size_t more = repeats(lines, i, count);
     if (more * count <= repeats_shown) {
       told.push_back(lines[i++]);
       continue;
@@ -53,6 +48,16 @@ std::vector<std::string> with_repeats_told(const std::vector<std::string>& lines
     i += count * (more + 1);
   }
   return told;
+}
+
+// As tasks poll in turns, each some times: from within, so that what is repeated is counted as it stands there.
+std::vector<std::string> with_repeats_told(std::vector<std::string> lines) {
+  for (std::size_t count = 1; count <= repeated_max; ++count) {
+    std::vector<std::string> told = with_repeats_told(lines, count);
+    if (told.size() < lines.size()) count = 0;
+    lines = std::move(told);
+  }
+  return lines;
 }
 
 // Microseconds, which is the format's unit; three digits behind the point are its nanoseconds.
@@ -76,7 +81,7 @@ std::string to_text(const Timeline& timeline, std::size_t lines_max) {
   for (const std::string& task : timeline.tasks) width = std::max(width, task.size());
   std::vector<std::string> lines;
   for (const TimelineEvent& event : timeline.events) lines.push_back(line_of(timeline, event, width));
-  lines = with_repeats_told(with_repeats_told(lines));  // tasks that poll in turns, each some times
+  lines = with_repeats_told(std::move(lines));
   const std::size_t from = lines.size() - std::min(lines.size(), lines_max);
   std::string text = from > 0 ? "  ... " + std::to_string(from) + " lines before\n" : "";
   for (std::size_t i = from; i < lines.size(); ++i) text += lines[i] + "\n";

@@ -103,5 +103,24 @@ TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
   EXPECT_EQ(to_text(timeline, 1), "  ... 4 lines before\n  0.000000000   a#1  end\n");
 }
 
+TEST(Timeline, WhatIsRepeatedWithinWhatIsRepeatedStandsThereOnceToo) {
+  using kernel::Operation;
+  exploration::Timeline timeline{{"a#1", "b#2"}, {}};
+  const auto add = [&](std::uint32_t task, Operation operation, int times) {
+    for (int i = 0; i < times; ++i) timeline.events.push_back({Time(), task, operation, "", "", -1, false});
+  };
+  for (int long_turn = 0; long_turn < 5; ++long_turn) {
+    for (int turn = 0; turn < 6; ++turn) {
+      add(0, Operation::load, 6);
+      add(1, Operation::load, 1);
+    }
+    add(1, Operation::yield, 1);
+  }
+  EXPECT_EQ(to_text(timeline, 40),
+            "  0.000000000   a#1  load\n      ... the same 5 times more\n  0.000000000   b#2  load\n"
+            "      ... the same 3 lines 5 times more\n  0.000000000   b#2  yield\n"
+            "      ... the same 5 lines 4 times more\n");
+}
+
 }  // namespace
 }  // namespace waitpoint
