@@ -35,4 +35,15 @@ Timeline take_timeline(Body& body, const Schedule& schedule) {
   return timeline;
 }
 
+std::vector<DoneEvent> take_events(Body& body, std::span<const Decision> decisions, std::size_t from) {
+  std::vector<DoneEvent> events;
+  EventLog log(events, body.explorer(), from);
+  kernel::Scheduler& scheduler = body.simulation().scheduler();
+  Fifo rest;
+  scheduler.set_watch(&log);
+  (void)body.run(rest, {.prefix = decisions});
+  scheduler.set_watch(nullptr);
+  return events;
+}
+
 }  // namespace waitpoint::exploration

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/event_log.hpp"
 #include "fibers/explore/profile.hpp"
 #include "fibers/explore/timeline.hpp"
 
@@ -13,5 +14,8 @@ Outcome take_profile(Body& body, Profile& profile);
 
 /// Runs `body` once more by `schedule`, and looks.
 Timeline take_timeline(Body& body, const Schedule& schedule);
+
+/// Runs `body` by these decisions, and then in the default order: its events behind decision `from`.
+std::vector<DoneEvent> take_events(Body& body, std::span<const Decision> decisions, std::size_t from);
 
 }  // namespace waitpoint::exploration

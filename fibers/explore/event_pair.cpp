@@ -5,26 +5,11 @@
 #include <map>
 
 #include "fibers/explore/dependence.hpp"
-#include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {
 namespace {
 
 using kernel::Operation;
-
-class Events : public kernel::Watch {
- public:
-  explicit Events(std::vector<DoneEvent>& events) : events_(events) { event = &Events::add; }
-
- private:
-  static void add(kernel::Watch& watch, const kernel::EventRecord& record) {
-    EventOf which = event_of(*record.task);
-    --which.sequence;  // it counts this one already
-    static_cast<Events&>(watch).events_.push_back(
-        {which, record.operation, record.object != nullptr ? record.object->identity : 0});
-  }
-  std::vector<DoneEvent>& events_;
-};
 
 bool is_same(const DoneEvent& a, const DoneEvent& b) { return a.event == b.event && a.operation == b.operation; }
 
@@ -49,17 +34,6 @@ Places places_of(std::span<const DoneEvent> events) {
 }
 
 }  // namespace
-
-std::vector<DoneEvent> events_of(Body& body, std::span<const Decision> decisions) {
-  std::vector<DoneEvent> events;
-  Events watch(events);
-  kernel::Scheduler& scheduler = body.simulation().scheduler();
-  Fifo rest;
-  scheduler.set_watch(&watch);
-  (void)body.run(rest, {.prefix = decisions});
-  scheduler.set_watch(nullptr);
-  return events;
-}
 
 std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, std::span<const DoneEvent> passes) {
   const auto common = std::min(fails.size(), passes.size());
@@ -91,6 +65,21 @@ std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, s
                        static_cast<std::size_t>(first != parting) + static_cast<std::size_t>(*found != parting)};
   }
   return std::nullopt;
+}
+
+std::string with_calls(const std::string& event, const std::vector<std::string>& calls) {
+  std::string text = event + "\n";
+  for (const std::string& call : calls) text += "      at " + call + "\n";
+  return text;
+}
+
+std::string pair_in_words(const std::string& failing, const std::string& passing) {
+  return "the two events whose order matters:\n  goes first here:             " + failing +
+         "  goes first where it passes:  " + passing;
+}
+
+std::string no_pair_in_words() {
+  return "no two events at one object are in another order where it passes: what matters is when, or what was chosen\n";
 }
 
 }  // namespace waitpoint::exploration

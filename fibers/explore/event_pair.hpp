@@ -9,23 +9,15 @@
 // order can come to something else (dependence.hpp).
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "fibers/explore/body.hpp"
+#include "fibers/explore/event_log.hpp"
 
 namespace waitpoint::exploration {
-
-struct DoneEvent {
-  EventOf event;
-  kernel::Operation operation;
-  std::uint64_t object;  ///< its identity, which is of use within one run; 0: none
-};
-
-/// The events of a run of `body` by these decisions, and then in the default order.
-std::vector<DoneEvent> events_of(Body& body, std::span<const Decision> decisions);
 
 struct EventPair {
   EventOf failing;          ///< is first where it fails
@@ -33,7 +25,19 @@ struct EventPair {
   std::size_t indirection;  ///< how many of the two are not the very events at which the runs part
 };
 
-/// Nothing if there is no such pair: the runs differ by time, or by what was chosen beside the order of events.
+/// Of the events of both runs, from where they part or from before. Nothing if there is no such pair: they differ by
+/// time, or by what was chosen beside the order of events.
 std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, std::span<const DoneEvent> passes);
+
+/// So many frames of a task's call stack are searched for the user's, and so many of those shown.
+inline constexpr std::size_t frames_searched = 24, frames_shown = 4;
+
+/// An event, in words, and below it the calls that its task was in, a line each.
+std::string with_calls(const std::string& event, const std::vector<std::string>& calls);
+
+/// Of a pair of them, in lines.
+std::string pair_in_words(const std::string& failing, const std::string& passing);
+/// That there is none.
+std::string no_pair_in_words();
 
 }  // namespace waitpoint::exploration

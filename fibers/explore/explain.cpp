@@ -14,8 +14,6 @@
 namespace waitpoint::exploration {
 namespace {
 
-constexpr std::size_t frames_searched = 24;
-constexpr std::size_t frames_shown = 4;
 constexpr std::size_t others_shown = 4;
 constexpr std::size_t events_shown = 40;
 
@@ -50,7 +48,7 @@ std::optional<Crossing> last_crossing(Body& body, const Failure& failure, Effort
       effort.spend(body);
       if (!passed) continue;
       Crossing crossing{i, other, body.explorer().schedule().decisions, {}};
-      crossing.reversed = pair_in_other_order(events_of(body, decisions), events_of(body, crossing.passing));
+      crossing.reversed = pair_in_other_order(take_events(body, decisions, i), take_events(body, crossing.passing, i));
       if (!best || is_plainer(crossing, *best)) best = std::move(crossing);
     }
   }
@@ -81,20 +79,12 @@ ToldEvent tell_event(Body& body, std::span<const Decision> decisions, const Even
 
 // The two events whose order differs, or that there are none.
 std::string describe_pair(Body& body, const Failure& failure, const Crossing& crossing) {
-  if (!crossing.reversed)
-    return "\nno two events at one object are in another order where it passes: what matters is when, or what was "
-           "chosen";
+  if (!crossing.reversed) return "\n" + no_pair_in_words();
   const ToldEvent pair[] = {tell_event(body, failure.schedule.decisions, crossing.reversed->failing),
                             tell_event(body, crossing.passing, crossing.reversed->passing)};
   const sync::ReturnAddresses stacks[] = {pair[0].stack, pair[1].stack};
-  const auto places = sync::user_source_lines(stacks, frames_shown);
-  const char* const words[] = {"\n  goes first here:             ", "\n  goes first where it passes:  "};
-  std::string text = "\nthe two events whose order matters:";
-  for (std::size_t i = 0; i < 2; ++i) {
-    text += words[i] + pair[i].words;
-    for (const std::string& line : places[i]) text += "\n      at " + line;
-  }
-  return text;
+  const auto calls = sync::user_source_lines(stacks, frames_shown);
+  return "\n" + pair_in_words(with_calls(pair[0].words, calls[0]), with_calls(pair[1].words, calls[1]));
 }
 
 const char* description(Choice choice) {
@@ -108,7 +98,7 @@ const char* description(Choice choice) {
   return "";
 }
 
-// In words; empty where there is none.
+// In lines; empty where there is none.
 std::string describe_last_crossing(Body& body, const Failure& failure, Effort effort) {
   const std::optional<Crossing> crossing = last_crossing(body, failure, effort);
   if (!crossing) return "";
@@ -167,8 +157,8 @@ std::string explain(Body& body, const Failure& failure, Effort effort) {
                      : switches == 1 ? "one switch away from the default order fails\n"
                                      : std::to_string(switches) + " switches away from the default order fail\n";
   text += describe_other_switches(body, failure.schedule);
-  if (const std::string why = describe_last_crossing(body, failure, effort); !why.empty()) text += why + "\n";
-  return text + "what the tasks did (*: in place of one that could have gone on):\n" +
+  return text + describe_last_crossing(body, failure, effort) +
+         "what the tasks did (*: in place of one that could have gone on):\n" +
          to_text(take_timeline(body, failure.schedule), events_shown);
 }
 

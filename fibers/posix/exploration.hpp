@@ -8,10 +8,13 @@
 #include <optional>
 #include <span>
 
+#include "fibers/explore/event_log.hpp"
+#include "fibers/explore/event_stop.hpp"
 #include "fibers/explore/explorer.hpp"
 #include "fibers/explore/narrator.hpp"
 #include "fibers/explore/profile.hpp"
 #include "fibers/explore/timeline_recorder.hpp"
+#include "fibers/sync/source_lines.hpp"
 
 namespace waitpoint::posix {
 
@@ -43,6 +46,9 @@ struct Asked {
   bool events = false;
   Time events_from;
   std::size_t decision = none;
+  std::size_t log_from = none;  ///< the events behind this decision are
+  bool stops = false;           ///< it is over before an event: what its task is about to do is written down
+  exploration::EventOf stop_before;
 };
 
 /// All events of a run, as they come. Made by the program, before its first thread.
@@ -66,6 +72,12 @@ struct Explored {
   std::unique_ptr<exploration::Strategy> strategy;
   exploration::Profile profile;
   exploration::Timeline timeline;
+  std::vector<exploration::DoneEvent> log;
+  std::string stopped_before;      ///< an event, in words; empty where the run did not come to it
+  sync::CodePlaces stopped_calls;  ///< of its task, without the layer's own
+
+  /// The run is over, maybe where it was to stop.
+  void note_stop(kernel::Scheduler& scheduler);
 
  private:
   void begin(const Asked& asked);
@@ -73,6 +85,8 @@ struct Explored {
 
   std::optional<exploration::Profiling> profiling_;
   std::optional<exploration::TimelineRecorder> recorder_;
+  std::optional<exploration::EventLog> log_;
+  std::optional<exploration::EventStop> stop_;
 };
 
 }  // namespace waitpoint::posix

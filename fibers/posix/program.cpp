@@ -122,8 +122,9 @@ kernel::Scheduler& begin_run() {
       *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   scheduler.set_delivery(deliver_signals);
   if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
-  names_waitables = record->settings.traced ||
-                    (asked != nullptr && (asked->words || asked->events || asked->decision != Asked::none));
+  names_waitables =
+      record->settings.traced ||
+      (asked != nullptr && (asked->words || asked->events || asked->stops || asked->decision != Asked::none));
   if (record->settings.traced) {
     record->trace = new Trace();
     scheduler.set_watch(&record->trace->recorder);
@@ -153,6 +154,10 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
     }
   }
   if (scheduler.stop_cause() == kernel::StopCause::ended) return record->ending = Ending::own;
+  if (scheduler.stop_cause() == kernel::StopCause::requested) {
+    record->explored->note_stop(scheduler);
+    return record->ending = Ending::cut_off;
+  }
   const bool stuck = scheduler.stop_cause() != kernel::StopCause::no_progress;
   return record->ending = stuck ? Ending::deadlock : Ending::no_progress;
 }

@@ -25,6 +25,13 @@ class LatePom(Installed):
         self.assertIn("expected at most 0.06 m", found.stdout)
         self.assertRegex(found.stdout, r"(?m)^1 switch away from the default order fails")
         self.assertRegex(found.stdout, r"could still have passed: number \d+, at [\d.]+ s: ")
+        here, passing = re.search(r"goes first here: +([^$]*?)\n  goes first where it passes: +([^$]*?)\n\S",
+                                  found.stdout).groups()
+        reads, gives = (here, passing) if "pom.fusing" in here else (passing, here)
+        self.assertRegex(reads, r"s: pom\.fusing#\d+ of rackham, about to lock mutex #\d+ \"poster\"\n")
+        self.assertIn("at Pom<true>::fuse() at ", reads)
+        self.assertRegex(gives, r"s: segloc\.slam#\d+ of rackham, about to lock mutex #\d+ \"poster\"\n")
+        self.assertIn("waitpoint::posters::Localisation const&", gives)
         digest = re.search(r"(?m)^digest: (\S+)", found.stdout).group(1)
         for record in [re.search(r"--replay (wx1\S+)", found.stdout).group(1), schedule]:
             replayed = self.explore("--replay", record)

@@ -10,7 +10,7 @@
 #include "fibers/explore/token.hpp"
 #include "tools/explore/depth_first.hpp"
 #include "tools/explore/fewer_switches.hpp"
-#include "tools/explore/last_choice.hpp"
+#include "tools/explore/reversed_events.hpp"
 #include "tools/shell_words.hpp"
 
 namespace waitpoint::tools {
@@ -106,8 +106,10 @@ FailureReport report(Target& target, SearchProgress& progress, const Search::Fai
       if (fewer.number() == 0 && deviating.size() <= exploration::token_length_max) token = deviating;
     }
     Budget explaining(runs_to_explain, seconds_to_explain);
-    if (const auto choice = last_choice(target, progress, explaining, plan.number, least))
-      report.text += "the last choice from which it could still have passed: " + *choice + "\n";
+    const LeastFailure failure{plan.number, least};
+    if (const auto choice = last_choice(target, progress, explaining, failure))
+      report.text += "the last choice from which it could still have passed: " + choice->words + "\n" +
+                     reversed_events(target, progress, explaining, failure, *choice);
   }
   progress.finish();
   report.schedule = {

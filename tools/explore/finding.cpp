@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "fibers/explore/event_pair.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -88,6 +89,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.told);
   pass(finding.last_events);
   pass(finding.trace);
+  pass(finding.log);
   pass(finding.profile.steps);
   pass(finding.profile.shared);
   pass(finding.profile.code);
@@ -124,6 +126,10 @@ void Finding::tell(const exploration::Timeline& timeline, bool trace_too) {
   std::ostringstream text;
   write_trace(text, timeline);
   trace = text.str();
+}
+
+void Finding::tell(const std::string& event, const std::vector<std::string>& calls) {
+  told = exploration::with_calls("at " + to_string(end) + " s: " + event, calls);
 }
 
 bool is_same_failure(const Finding& a, const Finding& b) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/explore/event_log.hpp"
 #include "fibers/explore/narrator.hpp"
 #include "fibers/explore/profile.hpp"
 #include "fibers/explore/schedule.hpp"
@@ -30,9 +31,10 @@ struct Finding {
   std::vector<exploration::Decision> choices;      ///< where asked for: all
   bool parted = false;                             ///< what was played did not fit the run
   std::string details;                             ///< of a failure, where places are asked for: lines about its kind
-  std::string told;                                ///< where asked for: the switches in words, or a decision
+  std::string told;                                ///< where asked for: the switches in words, a decision or an event
   std::string last_events;                         ///< where asked for, in words
   std::string trace;                               ///< where asked for
+  std::vector<exploration::DoneEvent> log;         ///< where asked for
   exploration::Profile profile;                    ///< where asked for
 
   bool passed() const { return kind == Kind::passed; }
@@ -42,6 +44,8 @@ struct Finding {
   void tell(const exploration::Narrator& narrator, bool decision_asked, bool switches_too);
   /// Takes over what the tasks did.
   void tell(const exploration::Timeline& timeline, bool trace_too);
+  /// Takes over the event before which the run was to end, with the calls that its task was in.
+  void tell(const std::string& event, const std::vector<std::string>& calls);
   /// "2 collisions, expected 0".
   std::string headline() const { return words.substr(0, words.find('\n')); }
 };

@@ -6,47 +6,48 @@
 namespace waitpoint::tools {
 namespace {
 
-using exploration::Deviation;
-
 // Of each choice that is looked at.
 constexpr std::uint64_t continuations = 4;
 // It has passed that long after the time at which the other failed.
 constexpr Duration longer = std::chrono::seconds(5);
 
-std::vector<Deviation> before(const std::vector<Deviation>& all, std::size_t decision) {
-  std::vector<Deviation> some;
-  for (const Deviation& deviation : all)
-    if (deviation.decision < decision) some.push_back(deviation);
-  return some;
-}
-
 }  // namespace
 
-std::optional<std::string> last_choice(Target& target, SearchProgress& progress, Budget& budget, std::uint64_t number,
-                                       const Finding& least) {
-  if (least.deviations.empty()) return std::nullopt;
-  std::size_t passes = least.deviations.back().decision, fails = least.decisions;
+Plan LeastFailure::plan() const { return {.number = number, .drawn = false, .deviations = finding.deviations}; }
+
+Plan LeastFailure::plan_up_to(std::size_t decision, std::optional<std::uint32_t> instead) const {
+  Plan plan{.number = number, .drawn = false, .until = finding.end + longer};
+  for (const exploration::Deviation& deviation : finding.deviations)
+    if (deviation.decision < decision) plan.deviations.push_back(deviation);
+  if (instead) plan.deviations.push_back({static_cast<std::uint32_t>(decision), *instead});
+  return plan;
+}
+
+std::optional<LastChoice> last_choice(Target& target, SearchProgress& progress, Budget& budget,
+                                      const LeastFailure& least) {
+  const Finding& finding = least.finding;
+  if (finding.deviations.empty()) return std::nullopt;
+  std::size_t passes = finding.deviations.back().decision, fails = finding.decisions;
+  Plan passing = least.plan_up_to(passes);
   while (fails - passes > 1) {
     const std::size_t middle = passes + (fails - passes) / 2;
     bool passed = false;
     for (std::uint64_t attempt = 0; attempt < continuations && !passed; ++attempt) {
       if (!budget.take()) return std::nullopt;
       progress.update(fmt::format("explaining: {} choices left, run {}", fails - passes, budget.used()));
-      const std::optional<Finding> tried = run_apart(target, {.number = number,
-                                                              .drawn = false,
-                                                              .deviations = before(least.deviations, middle),
-                                                              .at_random_from = middle,
-                                                              .attempt = attempt,
-                                                              .until = least.end + longer});
+      Plan plan = least.plan_up_to(middle);
+      plan.at_random_from = middle;
+      plan.attempt = attempt;
+      const std::optional<Finding> tried = run_apart(target, plan);
       if (!tried) return std::nullopt;
       passed = tried->passed();
+      if (passed) passing = plan;
     }
     (passed ? passes : fails) = middle;
   }
-  const std::optional<Finding> told =
-      run_apart(target, {.number = number, .drawn = false, .deviations = least.deviations}, {.decision = passes});
+  const std::optional<Finding> told = run_apart(target, least.plan(), {.decision = passes});
   if (!told || told->told.empty()) return std::nullopt;
-  return fmt::format("number {}, {}", passes, told->told);
+  return LastChoice{passes, passing, fmt::format("number {}, {}", passes, told->told)};
 }
 
 }  // namespace waitpoint::tools

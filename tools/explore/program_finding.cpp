@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/explore/event_pair.hpp"
 #include "fibers/posix/exploration.hpp"
 #include "fibers/posix/race_log.hpp"
 #include "tools/exec/race_report.hpp"
@@ -91,6 +92,9 @@ void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& p
   asked.events = request.events;
   asked.events_from = request.events_from;
   asked.decision = request.decision.value_or(Asked::none);
+  asked.log_from = request.log_from.value_or(Asked::none);
+  asked.stops = request.stop_before.has_value();
+  asked.stop_before = request.stop_before.value_or(exploration::EventOf());
   record.settings.asked = &asked;
   record.settings.until = std::min(record.settings.until, plan.until);
 }
@@ -120,6 +124,11 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   if (request.learn && record.race_log != nullptr) finding.profile.code = record.race_log->code;
   finding.tell(explored.narrator, request.decision.has_value(), request.words);
   if (request.events) finding.tell(explored.timeline, trace_too);
+  if (request.log_from) finding.log = explored.log;
+  if (request.stop_before && !explored.stopped_before.empty()) {
+    const sync::CodePlaces stacks[] = {explored.stopped_calls};
+    finding.tell(explored.stopped_before, sync::user_source_lines(stacks, exploration::frames_shown).front());
+  }
   return finding;
 }
 

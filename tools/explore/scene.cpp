@@ -4,15 +4,18 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "fibers/explore/strategies/continuation.hpp"
+#include "fibers/explore/choice_words.hpp"
+#include "fibers/explore/course.hpp"
+#include "fibers/explore/event_pair.hpp"
+#include "fibers/explore/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/explore/timeline_recorder.hpp"
+#include "fibers/sync/source_lines.hpp"
 #include "modules/bridge/expectation.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-using exploration::Draws;
 using exploration::Narrator;
 
 // Between them expectations are looked at that a run cannot meet any more.
@@ -48,6 +51,7 @@ struct Scene::Stage {
   Plan plan;  // whose switches the explorer borrows
   exploration::Explorer explorer;
   Narrator narrator;
+  std::optional<exploration::EventStop> stop;
 };
 
 Scene::Scene(const bridge::Scenario& scenario, std::span<const genom::ModuleType> types, const ExploreOptions& options,
@@ -85,15 +89,14 @@ Finding Scene::run(const Plan& plan, const Request& request) {
   }
   is_left_ = true;
   exploration::Explorer& explorer = stage_->explorer;
-  std::unique_ptr<exploration::Strategy>& strategy = stage_->strategy;
-  if (plan.drawn)
-    strategy = exploration::make_strategy(options_.strategy);
-  else if (plan.at_random_from)
-    strategy = std::make_unique<exploration::Continuation>(explorer, *plan.at_random_from);
-  const std::uint64_t draw = plan.at_random_from ? plan.attempt : plan.number;
-  strategy->begin(draw, Draws(options_.seed, plan.at_random_from ? "continuation" : options_.strategy, draw), profile_);
+  exploration::Course course{plan.drawn ? options_.strategy : "", options_.seed, plan.number, {}};
+  if (!plan.drawn && plan.at_random_from) {
+    course.number = plan.attempt;
+    course.at_random_from = plan.at_random_from;
+  }
+  stage_->strategy = exploration::begin_course(course, explorer, profile_);
   stage_->plan = plan;
-  explorer.begin(*strategy, {.switches = stage_->plan.switches, .deviations = stage_->plan.deviations});
+  explorer.begin(*stage_->strategy, {.switches = stage_->plan.switches, .deviations = stage_->plan.deviations});
   Finding finding;
   watch_and_carry_out(plan, request, finding);
   finding.take(explorer);
@@ -106,11 +109,15 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   Narrator& narrator = stage_->narrator;
   std::optional<exploration::Profiling> profiling;
   std::optional<exploration::TimelineRecorder> recorder;
+  std::optional<exploration::EventLog> log;
   if (request.profile) scheduler.set_watch(&profiling.emplace(finding.profile));
   exploration::Timeline timeline;
   if (request.events) scheduler.set_watch(&recorder.emplace(timeline, &stage_->explorer, request.events_from));
+  if (request.log_from) scheduler.set_watch(&log.emplace(finding.log, stage_->explorer, *request.log_from));
   if (request.words || request.decision) scheduler.set_decisions(narrator);
   if (request.decision) narrator.ask_for(*request.decision);
+  if (request.stop_before)
+    scheduler.set_decisions(stage_->stop.emplace(scheduler, stage_->explorer, *request.stop_before));
   simulation.tell(request.places ? sync::Places::told : sync::Places::left_out);
   carry_out(plan.until, finding);
   scheduler.set_watch(nullptr);
@@ -118,6 +125,18 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   if (profiling) finding.profile.finish(stage_->explorer.steps());
   finding.tell(narrator, request.decision.has_value(), request.words);
   if (request.events) finding.tell(timeline, options_.trace.has_value());
+  if (request.stop_before) tell_stop(finding);
+}
+
+void Scene::tell_stop(Finding& finding) const {
+  kernel::Scheduler& scheduler = stage_->experiment.simulation().scheduler();
+  kernel::Task* const task = stage_->stop->stopped_before();
+  if (task == nullptr) return;
+  sync::ReturnAddresses stack(exploration::frames_searched);
+  stack.resize(scheduler.call_stack(*task, stack.data(), stack.size()));
+  const sync::ReturnAddresses stacks[] = {stack};
+  finding.end = scheduler.global_time();
+  finding.tell(exploration::about_to(*task), sync::user_source_lines(stacks, exploration::frames_shown).front());
 }
 
 void Scene::carry_out(Time until, Finding& finding) {
@@ -127,7 +146,7 @@ void Scene::carry_out(Time until, Finding& finding) {
   Time reached = Time() + options_.from.value_or(Duration());
   RunEnd end = RunEnd::time_reached;
   try {
-    while (end == RunEnd::time_reached && reached < until && finding.passed()) {
+    while (end == RunEnd::time_reached && reached < until && finding.passed() && !is_stopped()) {
       reached = std::min(until, Time() + window * (reached.since_start() / window + 1));
       end = experiment.run_before(reached);
       finding.words = joined(bridge::broken(scenario_.expect, experiment.figures()));
@@ -146,6 +165,8 @@ void Scene::carry_out(Time until, Finding& finding) {
   finding.digest = experiment.simulation().digest().value();
   finding.events = experiment.simulation().scheduler().events();
 }
+
+bool Scene::is_stopped() const { return stage_->stop && stage_->stop->stopped_before() != nullptr; }
 
 void Scene::judge(Finding& finding, bool goals_too) const {
   bridge::Expectation expect = scenario_.expect;

@@ -49,6 +49,8 @@ class Scene final : public Target {
   void watch_and_carry_out(const Plan& plan, const Request& request, Finding& finding);
   void carry_out(Time until, Finding& finding);
   void judge(Finding& finding, bool goals_too) const;
+  bool is_stopped() const;
+  void tell_stop(Finding& finding) const;
 
   const bridge::Scenario& scenario_;
   std::span<const genom::ModuleType> types_;

@@ -25,6 +25,9 @@ class Target {
     bool events = false;   ///< the last of them, and with ExploreOptions::trace the trace
     Time events_from = Time();
     std::optional<std::size_t> decision = {};  ///< what was chosen there
+    std::optional<std::size_t> log_from = {};  ///< the events behind this decision
+    /// It ends before this event: what its task is about to do, and where it stands.
+    std::optional<exploration::EventOf> stop_before = {};
   };
 
   virtual ~Target() = default;
