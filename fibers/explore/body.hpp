@@ -24,6 +24,10 @@ class ForeignChecks {
   virtual std::string option_for(const std::string& name) const = 0;
 };
 
+/// A test framework says so when the tests that were to run have, and before it says that they have passed. Where
+/// WAITPOINT_REPLAY asks for a run that was not come to, the program ends here, with a line and status 2.
+void tests_are_over();
+
 /// What a schedule came to.
 struct Outcome {
   RunEnd end = RunEnd::ended;

@@ -219,11 +219,11 @@ ExploreReport Campaign::replay(const Token& token) {
   const Failure failure{body_.explorer().schedule(), outcome};
   std::string difference = difference_to(token, outcome);
   if (!difference.empty()) {
-    difference = "this is not the run of the token: " + difference + "; the program or the test is another one\n";
-    if (asks_for_replay()) throw BadInput(options_.replay, difference.substr(0, difference.size() - 1));
+    difference = "this is not the run of the token: " + difference + "; the program or the test is another one";
+    if (asks_for_replay()) throw BadInput(options_.replay, difference);
   }
   if (!outcome.passed()) tell({failure, token, "the replayed schedule", false});
-  report_.text = difference + report_.text;
+  report_.text = difference + (difference.empty() || outcome.passed() ? "" : "\n") + report_.text;
   report_.passed = report_.text.empty();
   return report_;
 }

@@ -55,9 +55,9 @@ bool came_to_replay = false;
 }
 
 void check_replayed() {
-  if (came_to_replay) return;
+  if (came_to_replay || variable(replay_name).empty()) return;
   refuse(std::string(replay_name) + ": expected a token of this program, found '" + variable(replay_name) +
-         "': there was no such call");
+         "': the test has no such call");
 }
 
 // As a shell takes it for one.
@@ -70,6 +70,8 @@ std::string as_word(const std::string& word) {
 }
 
 }  // namespace
+
+void tests_are_over() { check_replayed(); }
 
 void replay_was_come_to() { came_to_replay = true; }
 

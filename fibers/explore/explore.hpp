@@ -65,6 +65,7 @@ std::ostream& operator<<(std::ostream& out, const ExploreReport& report);
 
 /// Tries `body` under schedule after schedule until one fails, or `options` say that it is enough. BadInput for options
 /// that cannot be meant; what the environment asks for and cannot be meant ends the program with a line and status 2.
+/// A token in the options whose run is another one now fails the report, as it is the test's own.
 /// To be called from outside any task.
 ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<void()> body,
                            const ExploreOptions& options);

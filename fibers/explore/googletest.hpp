@@ -16,6 +16,10 @@ namespace waitpoint::exploration {
 
 class GoogleTestChecks final : public ForeignChecks {
  public:
+  GoogleTestChecks() {
+    static const bool listens = (testing::UnitTest::GetInstance()->listeners().Append(new Ends), true);
+    (void)listens;
+  }
   void begin() override {
     reporter_.reset();
     results_.emplace();
@@ -46,6 +50,14 @@ class GoogleTestChecks final : public ForeignChecks {
   std::string option_for(const std::string& name) const override { return "--gtest_filter=" + name; }
 
  private:
+  // Comes before the printer of results, of which the last word would else be that all have passed.
+  class Ends final : public testing::EmptyTestEventListener {
+    void OnTestEnd(const testing::TestInfo&) override {
+      if (testing::UnitTest::GetInstance()->test_to_run_count() == 1) tests_are_over();
+    }
+    void OnTestIterationEnd(const testing::UnitTest&, int) override { tests_are_over(); }
+  };
+
   // Told to the test itself, once.
   void skip(const testing::TestPartResult& result) {
     skips_ = true;

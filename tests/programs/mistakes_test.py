@@ -205,6 +205,16 @@ class LostLetter(Installed):
         again = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
         self.assertIn("the replayed schedule failed: deadlock at ", again.stdout)
 
+        # A token of a call that the test does not have is no test that passes.
+        other = re.search(r"wx1\.1\.(\S+)", line)[1]
+        for which in "MendedLetter.*", "*":
+            refused = subprocess.run([program, f"--gtest_filter={which}"], capture_output=True, text=True,
+                                     env={**os.environ, "WAITPOINT_REPLAY": f"wx1.7.{other}"})
+            self.assertEqual((refused.returncode, refused.stderr),
+                             (2, f"waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.7.{other}': "
+                                 "the test has no such call\n"))
+            self.assertNotIn("PASSED", refused.stdout)
+
     def test_a_process_that_dies_says_how_to_repeat_it(self):
         needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
         program = self.compile("sudden_death", *needed)

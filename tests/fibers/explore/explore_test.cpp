@@ -280,7 +280,25 @@ TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusT
   EXPECT_EXIT(
       explore_with("WAITPOINT_TRACE", "/no/such/folder/trace"), status_two,
       "^waitpoint: WAITPOINT_TRACE: expected a file that can be written, found '/no/such/folder/trace': No such");
-  EXPECT_THROW(explore([] {}, {.strategy = "pcd"}), BadInput);  // of the test's own making
+  const auto replay_of_another_call = [] {
+    setenv("WAITPOINT_REPLAY", "wx1.9.00000000.=", 1);
+    explore([] {});
+    exploration::tests_are_over();
+  };
+  EXPECT_EXIT(
+      replay_of_another_call(), status_two,
+      "^waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.9.00000000.=': the test has no "
+      "such call\n$");
+}
+
+// A test that keeps a token in its code has failed where that is wrong or fits no more; the other tests go on.
+TEST(Explore, OptionsInCodeThatAreWrongAreTheTestsOwnFailure) {
+  EXPECT_THROW(explore([] {}, {.strategy = "pcd"}), BadInput);
+  EXPECT_THROW(explore([] {}, {.replay = "wx1.nonsense"}), BadInput);
+  const ExploreReport report = explore([] {}, {.replay = "wx1.3.00000001.="});
+  EXPECT_FALSE(report.passed);
+  EXPECT_TRUE(report.text.starts_with("this is not the run of the token: it had ")) << report;
+  EXPECT_FALSE(contains(report.text, "\n")) << report;
 }
 
 TEST(ExploreDeathTest, ATokenThatDoesNotFitEndsTheProgramAndSaysWhereTheRunLeftIt) {
