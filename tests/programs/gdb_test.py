@@ -183,7 +183,7 @@ class Back(unittest.TestCase):
         told = of_clock_makers("break-time 1", "run", "back", "virtual-time", "back", "back", "back", "info fibers",
                                "fiber apprentice", "back 2", "next-event 5", "next-event", "continue")
         self.assertIn("event 23 at 1.000000000 s: main of environment: sleep", told[1])
-        self.assertIn("event 22 at 0.500000000 s: apprentice of environment: end", told[2])
+        self.assertIn("event 22 at 0.500000000 s: apprentice of environment: end\nits function has returned", told[2])
         self.assertEqual(told[3], "0.500000000 s, event 22; apprentice of environment is at 0.500000000 s")
         self.assertIn("event 19 at 0.002000000 s: journeyman of environment: end", told[6])
         self.assertIn("until 0.500000000 s", told[7])
@@ -218,6 +218,7 @@ class Explored(unittest.TestCase):
         token = re.search(r"replay: WAITPOINT_REPLAY=(\S+)", found.stdout)[1]
         told = session(["break-time 0", "run", "next-event 3", "next-event-of postman", "info fibers", "back",
                         "fiber reader", "delete", "continue"], ["--args", program], WAITPOINT_REPLAY=token)
+        self.assertRegex(told[1], r"event 1 at 0\.0+ s: main of environment: start\nits function has not begun")
         self.assertIn("event 4 at", told[2])
         at = int(re.search(r"event (\d+) at 0\.0+ s: postman of environment: ", told[3])[1])
         self.assertRegex(told[4], r"\n\* +3 +postman +environment")

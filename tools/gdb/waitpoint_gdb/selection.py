@@ -119,13 +119,14 @@ def innermost():
 
 
 def select_users_frame():
-    """Selects the innermost frame that belongs to no primitive, or the innermost of all."""
+    """Selects the innermost frame that belongs to no primitive, or the innermost of all; whether there is such a one."""
     frame = first = innermost()
     while frame is not None:
         if not is_inner(frame):
             break
         frame = frame.older()
     (frame or first).select()
+    return frame is not None
 
 
 def select(task):

@@ -111,7 +111,12 @@ def describe_event():
     task = fibers.Task(address)
     at = task.number("at")
     thing = f" {fibers.Object(at).describe()}" if at and last("object") else ""
-    return f"{where}: {task.describe()}: {records.enumerators('Operation')[last('operation')]}{thing}"
+    return f"{where}: {task.describe()}: {operation()}{thing}"
+
+
+def operation():
+    """Of the event that was executed last."""
+    return records.enumerators("Operation")[last("operation")]
 
 
 def last(member):
@@ -120,8 +125,14 @@ def last(member):
 
 def tell():
     print(describe_event())
-    selection.select_users_frame()
-    gdb.execute("frame")
+    if selection.select_users_frame():
+        gdb.execute("frame")
+    elif operation() == "start":
+        print("its function has not begun: a breakpoint in it, or next-event, goes there")
+    elif operation() == "end":
+        print("its function has returned")
+    else:
+        gdb.execute("frame")
 
 
 def on_stop(event):
