@@ -19,7 +19,7 @@ std::string describe_races(sync::Places places) {
   if (places == sync::Places::left_out) return "a data race";
   std::ostringstream text;
   const std::vector<races::Race> found = races::found();
-  text << (found.size() == 1 ? "a data race" : std::to_string(found.size()) + " data races, a pair of accesses each");
+  text << (found.size() == 1 ? "a data race" : std::to_string(found.size()) + " data races");
   for (const races::Race& race : found) text << "\n" << race;
   return text.str();
 }

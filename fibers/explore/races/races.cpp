@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/races/races.hpp"
 
+#include <algorithm>
 #include <ostream>
+#include <set>
+#include <tuple>
 
 #include "fibers/explore/races/located_race.hpp"
 
@@ -15,6 +18,15 @@ Access access_of(const Side& side, std::vector<std::string> calls) {
   if (side.record != 0) number = side.record - 1;
   return {side.task,        number,          side.access.event, side.access.writes(), side.access.is_atomic(),
           side.access.size, std::move(calls)};
+}
+
+// What a person takes for one race: a variable and two lines. `++n` is a read and a write.
+using Told = std::tuple<std::uint64_t, std::string, std::string>;
+
+// Where an access stands, whatever its function is called; its very place where no line is known.
+std::string line_of(const Side& side, const std::vector<std::string>& calls) {
+  const std::size_t line = calls.empty() ? std::string::npos : calls.front().rfind(" at ");
+  return line != std::string::npos ? calls.front().substr(line) : std::to_string(side.access.place);
 }
 
 void write(std::ostream& out, const char* which, const Access& access) {
@@ -61,10 +73,15 @@ std::vector<Race> in_words(std::span<const LocatedRace> races) {
   }
   std::vector<std::vector<std::string>> calls = sync::user_source_lines(stacks, calls_written);
   std::vector<Race> told;
-  for (std::size_t i = 0; i < races.size(); ++i)
-    told.push_back({access_of(races[i].found.first, std::move(calls[2 * i])),
-                    access_of(races[i].found.second, std::move(calls[2 * i + 1])),
-                    reinterpret_cast<const void*>(races[i].found.address), races[i].memory});
+  std::set<Told> known;
+  for (std::size_t i = 0; i < races.size(); ++i) {
+    const FoundRace& found = races[i].found;
+    const std::string first = line_of(found.first, calls[2 * i]), second = line_of(found.second, calls[2 * i + 1]);
+    if (!known.insert({found.address, std::min(first, second), std::max(first, second)}).second) continue;
+    told.push_back({access_of(found.first, std::move(calls[2 * i])),
+                    access_of(found.second, std::move(calls[2 * i + 1])), reinterpret_cast<const void*>(found.address),
+                    races[i].memory});
+  }
   return told;
 }
 

@@ -51,8 +51,8 @@ void begin_run();
 /// Whether the run found a race; costs nothing.
 bool any_found();
 
-/// The races of the run, each pair of places in the code once, at most 64. Looks for names and source lines: for
-/// reports.
+/// The races of the run, for each variable each pair of source lines once, of at most 64 pairs of accesses. Looks for
+/// names and source lines: for reports.
 std::vector<Race> found();
 
 /// The same of races in a process that may be gone.

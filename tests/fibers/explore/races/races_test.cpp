@@ -65,6 +65,11 @@ TEST(Races, AreReportedAsTwoAccessesWithTheirCalls) {
   EXPECT_NE(text_of(races).find("first: write of 4 bytes by task ada#1"), std::string::npos) << text_of(races);
 }
 
+TEST(Races, OfOneVariableAndTwoLinesAreOne) {
+  (void)simulate(count_twice_without_lock);  // a read and a write on each side
+  EXPECT_EQ(found().size(), 1u) << text_of(found());
+}
+
 TEST(Races, OnAStackNameItsTask) {
   ASSERT_TRUE(simulate(plain_programs().front().body).passed);
   ASSERT_EQ(found().size(), 1u);
