@@ -11,6 +11,15 @@ inline bool is_to_leave(const Thread& thread) { return thread.cancelled && !thre
 
 /// Leaves the running thread, if it was cancelled and does not forbid it.
 void leave_if_cancelled();
+/// The same at the beginning of a call that does not wait; nothing before main().
+inline void pass_cancellation_point() {
+  if (is_simulated() && is_to_leave(this_thread())) leave_if_cancelled();
+}
+template <class Call>
+auto at_cancellation_point(Call call) {
+  pass_cancellation_point();
+  return call();
+}
 
 /// A call that waits and is a cancellation point, while it lasts: pthread_cancel() ends the wait.
 class CancellationPoint {

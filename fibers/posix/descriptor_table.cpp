@@ -4,15 +4,14 @@
 #include <fcntl.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
-#include <sys/file.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdarg>
 
+#include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/descriptors.hpp"
-#include "fibers/posix/error_number.hpp"
+#include "fibers/posix/file_locks.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/signal_descriptors.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
@@ -50,21 +49,10 @@ int replaced(int from, int to, int made) {
 }
 
 int control(int descriptor, int command, void* argument) {
+  if (is_simulated() && (command == F_SETLKW || command == F_OFD_SETLKW))
+    return lock_waiting(descriptor, command, *static_cast<struct flock*>(argument));
   const int result = WAITPOINT_NEXT(fcntl)(descriptor, command, argument);
   return command == F_DUPFD || command == F_DUPFD_CLOEXEC ? copy(descriptor, result) : result;
-}
-
-/// A lock on a file, which another thread may have by another opening of it.
-struct Locking {
-  int descriptor, operation;
-  int result, error;
-};
-bool try_lock(const void* what) {
-  auto& locking = *static_cast<Locking*>(const_cast<void*>(what));
-  const ErrorNumberKept kept;
-  locking.result = WAITPOINT_NEXT(flock)(locking.descriptor, locking.operation);
-  locking.error = errno;
-  return locking.result == 0 || locking.error != EWOULDBLOCK;
 }
 
 }  // namespace
@@ -120,17 +108,9 @@ int waitpoint_fcntl64(int descriptor, int command, ...) {
   return control(descriptor, command, argument);
 }
 
-WAITPOINT_INTERPOSED int flock(int descriptor, int operation) noexcept {
-  if (!is_simulated()) return WAITPOINT_NEXT(flock)(descriptor, operation);
-  pass((operation & LOCK_UN) != 0 ? kernel::Operation::unlock : kernel::Operation::lock, nullptr);
-  if ((operation & (LOCK_NB | LOCK_UN)) != 0) return WAITPOINT_NEXT(flock)(descriptor, operation);
-  Locking locking{descriptor, operation | LOCK_NB, 0, 0};
-  if (wait_outside(try_lock, &locking, Restart::if_asked) <= 0) return -1;
-  return locking.result == 0 ? 0 : fail(locking.error);
-}
-
 WAITPOINT_INTERPOSED int close(int descriptor) {
   if (!is_simulated()) return WAITPOINT_NEXT(close)(descriptor);
+  pass_cancellation_point();
   forget_timer_descriptor(descriptor);
   forget_signal_descriptor(descriptor);
   const int result = WAITPOINT_NEXT(close)(descriptor);

@@ -32,6 +32,7 @@ constexpr pid_t expected = -1;  // a child that is about to be made
 struct Process {
   std::atomic<pid_t> id;  ///< 0: nobody
   std::atomic<bool> waits;
+  std::atomic<pid_t> waits_for;  ///< who holds a lock on a file; 0: nobody
 };
 
 struct Family {
@@ -58,6 +59,7 @@ Process* free_place() {
     if (id == expected || (id != 0 && lives(id))) continue;
     if (process.id.compare_exchange_strong(id, expected)) {
       process.waits = false;
+      process.waits_for = 0;
       return &process;
     }
   }
@@ -165,6 +167,22 @@ Section::~Section() {
 
 void note_waiting(bool waiting) {
   if (own != nullptr) own->waits = waiting;
+}
+
+bool note_waiting_for(pid_t holder) {
+  if (own == nullptr) return true;
+  own->waits_for = holder;
+  for (int steps = 0; holder != 0 && steps < processes_max; ++steps) {
+    pid_t next = 0;
+    for (Process& process : family->processes)
+      if (process.id.load() == holder) next = process.waits_for.load();
+    if (next == this_process()) {
+      own->waits_for = 0;
+      return false;
+    }
+    holder = next;
+  }
+  return true;
 }
 
 void ring() {

@@ -53,6 +53,9 @@ class Section {
 
 /// Threads of this process wait for what others of the family do, or do no longer.
 void note_waiting(bool waiting);
+/// This process waits for what `holder` has, or for nothing, with 0; false if that process waits for this one in turn,
+/// directly or by others.
+bool note_waiting_for(pid_t holder);
 /// After a change: the processes that wait look again.
 void ring();
 /// Whether a signal is that of another process.

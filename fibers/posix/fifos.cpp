@@ -112,6 +112,7 @@ mode_t mode_of(int flags, va_list more) {
 
 int open_at(int folder, const char* path, int flags, va_list more) {
   const mode_t mode = mode_of(flags, more);
+  pass_cancellation_point();
   if (is_fifo_to_wait_for(folder, path, flags)) return open_fifo(folder, path, flags);
   return WAITPOINT_NEXT(openat)(folder, path, flags, mode);
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "fibers/kernel/sanitizer.hpp"
+#include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -40,7 +41,7 @@ auto done(Call call) {
 template <class Call>
 auto receive(int descriptor, bool may_block, Call call) {
   const DescriptorClass of = class_of(descriptor);
-  if (of == DescriptorClass::file) return call();
+  if (of == DescriptorClass::file) return at_cancellation_point(call);
   if (!prepare(descriptor, of, kernel::Operation::receive, POLLIN, may_block)) return static_cast<decltype(call())>(-1);
   return done(call);
 }
@@ -48,7 +49,7 @@ auto receive(int descriptor, bool may_block, Call call) {
 template <class Call>
 auto send_all_at_once(int descriptor, bool may_block, Call call) {
   const DescriptorClass of = class_of(descriptor);
-  if (of == DescriptorClass::file) return call();
+  if (of == DescriptorClass::file) return at_cancellation_point(call);
   if (!prepare(descriptor, of, kernel::Operation::send, POLLOUT, may_block)) return static_cast<decltype(call())>(-1);
   return done(call);
 }

@@ -6,12 +6,16 @@
 #include <mqueue.h>
 
 #include <cerrno>
+#include <cstdlib>
+#include <new>
 
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/notification_threads.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
@@ -84,8 +88,22 @@ WAITPOINT_INTERPOSED int mq_timedsend(mqd_t queue, const char* bytes, std::size_
   return send_before(queue, bytes, size, priority, deadline);
 }
 
-// With a thread to be started, the C library would make one of the system's.
+// The system tells of a message by a signal, also where the program wants a thread to be started.
 WAITPOINT_INTERPOSED int mq_notify(mqd_t queue, const sigevent* event) noexcept {
-  if (is_simulated() && event != nullptr && event->sigev_notify == SIGEV_THREAD) return fail(ENOSYS);
-  return WAITPOINT_NEXT(mq_notify)(queue, event);
+  if (!is_simulated() || event == nullptr || event->sigev_notify != SIGEV_THREAD)
+    return WAITPOINT_NEXT(mq_notify)(queue, event);
+  void* const memory = std::malloc(sizeof(Notice));
+  auto* const notice = memory != nullptr ? new (memory) Notice() : nullptr;
+  if (notice == nullptr || !notice->prepare(*event)) return fail(ENOMEM);
+  sigevent by_signal{};
+  by_signal.sigev_notify = SIGEV_SIGNAL;
+  by_signal.sigev_signo = bell;
+  by_signal.sigev_value.sival_ptr = notice;
+  expect_ring_from_outside(1);
+  if (WAITPOINT_NEXT(mq_notify)(queue, &by_signal) == 0) return 0;
+  const ErrorNumberKept kept;
+  expect_ring_from_outside(-1);
+  notice->~Notice();
+  std::free(memory);
+  return -1;
 }

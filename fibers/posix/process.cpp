@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "fibers/posix/asynchronous.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/children.hpp"
 #include "fibers/posix/descriptors.hpp"
@@ -19,6 +20,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/interval_timers.hpp"
 #include "fibers/posix/named_objects.hpp"
+#include "fibers/posix/notification_threads.hpp"
 #include "fibers/posix/pace.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
@@ -69,6 +71,8 @@ void begin_as_child() {
   kernel::running->scheduler->keep_running_task_only();
   forget_interval_timers();
   forget_timers();
+  forget_notices();
+  forget_asynchronous_requests();
   forget_pending_signals();
   begin_again_as_first(this_thread());
   note_parent();
@@ -180,6 +184,7 @@ WAITPOINT_INTERPOSED pid_t vfork() noexcept {
 WAITPOINT_INTERPOSED pid_t wait4(pid_t pid, int* status, int options, rusage* usage) {
   if (!is_simulated()) return WAITPOINT_NEXT(wait4)(pid, status, options, usage);
   if ((options & WNOHANG) != 0) {
+    pass_cancellation_point();
     spend(cost_of_giving_way);  // a loop that asks without waiting is to end
     const InKernel within;
     kernel::running->scheduler->yield();
@@ -196,7 +201,10 @@ WAITPOINT_INTERPOSED pid_t wait3(int* status, int options, rusage* usage) noexce
 }
 
 WAITPOINT_INTERPOSED int waitid(idtype_t type, id_t id, siginfo_t* information, int options) {
-  if (!is_simulated() || (options & WNOHANG) != 0) return WAITPOINT_NEXT(waitid)(type, id, information, options);
+  if (!is_simulated() || (options & WNOHANG) != 0) {
+    pass_cancellation_point();
+    return WAITPOINT_NEXT(waitid)(type, id, information, options);
+  }
   if (!wait_for_news({type, id, options & ~WNOWAIT})) return -1;
   return WAITPOINT_NEXT(waitid)(type, id, information, options | WNOHANG);
 }

@@ -10,6 +10,7 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/family.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/notification_threads.hpp"
 #include "fibers/posix/processor_counter.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/real_waits.hpp"
@@ -168,7 +169,7 @@ bool take_in_signals_from_outside() {
     const siginfo_t information = place.information;
     place.is_there.store(false);
     next_taken.fetch_add(1);
-    send(information, nullptr);
+    if (!ring_by_signal(information)) send(information, nullptr);
     any = true;
   }
   return any;

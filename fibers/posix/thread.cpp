@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "fibers/posix/asynchronous.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/children.hpp"
 #include "fibers/posix/clocks.hpp"
@@ -196,6 +197,7 @@ void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
     next = task->next;
     if (task == kernel::running || !is_thread(*task) || thread_of(*task).program != &program) continue;
     forget_waiter(*task);
+    forget_worker(*task);
     system_v::forget_waiter(*task);
     scheduler.end_in_place(*task);
     free_thread(thread_of(*task));

@@ -17,6 +17,7 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/interval_timers.hpp"
+#include "fibers/posix/notification_threads.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/signal_timer.hpp"
 #include "fibers/posix/signals.hpp"
@@ -31,21 +32,16 @@ struct Timer : PendingSignal, SignalTimer {
   clockid_t clock = CLOCK_REALTIME;
   const Duration* spent = nullptr;  // by which it goes, on a clock of processor time
   sigevent notification{};
-  pthread_attr_t attributes{};  // of the threads of SIGEV_THREAD
-  Thread* to = nullptr;         // of SIGEV_THREAD_ID
+  Notice notice;         // of SIGEV_THREAD
+  Thread* to = nullptr;  // of SIGEV_THREAD_ID
   bool pends = false;
   std::uint64_t overrun = 0;  // since it pends
   int told = 0;               // of the signal that was taken last
-  unsigned to_start = 0;      // threads, of SIGEV_THREAD
 };
 
 // By their numbers; grown as needed.
 Timer** timers = nullptr;
 std::size_t timers_end = 0;
-
-// A thread of the layer's own that makes those of SIGEV_THREAD, as in the C library.
-kernel::Object starter_object{"timer"};
-bool has_starter = false;
 
 int capped(std::uint64_t count) { return count > INT_MAX ? INT_MAX : static_cast<int>(count); }
 
@@ -59,10 +55,7 @@ void ring(SignalTimer& expired, std::uint64_t count) {
   auto& timer = static_cast<Timer&>(expired);
   switch (timer.notification.sigev_notify) {
     case SIGEV_NONE: return;
-    case SIGEV_THREAD:
-      ++timer.to_start;
-      starter_object.robot->scheduler->wake_all(starter_object);
-      return;
+    case SIGEV_THREAD: timer.notice.ring(); return;
     default: break;
   }
   if (timer.pends) {
@@ -82,53 +75,6 @@ Timer* find_timer(timer_t id) {
   return number < timers_end ? timers[number] : nullptr;
 }
 
-// What a thread of SIGEV_THREAD calls.
-struct Notice {
-  void (*function)(sigval);
-  sigval value;
-};
-void* notify(void* argument) {
-  const Notice notice = *static_cast<Notice*>(argument);
-  std::free(argument);
-  notice.function(notice.value);
-  return nullptr;
-}
-
-void start_one(const Timer& timer) {
-  auto* const notice = static_cast<Notice*>(std::malloc(sizeof(Notice)));
-  if (notice == nullptr) return;
-  *notice = {timer.notification.sigev_notify_function, timer.notification.sigev_value};
-  pthread_t id = 0;
-  if (create(&id, &timer.attributes, {.posix = notify}, false, notice) == 0) return;
-  std::free(notice);
-}
-
-void* start_threads(void*) {
-  for (;;) {
-    bool any = false;
-    for (std::size_t i = 0; i < timers_end; ++i)
-      while (timers[i] != nullptr && timers[i]->to_start > 0) {
-        --timers[i]->to_start;
-        start_one(*timers[i]);
-        any = true;
-      }
-    if (!any) block(starter_object, Time::max());
-  }
-  return nullptr;
-}
-
-// Its threads, and it itself, block all signals at first.
-bool make_starter() {
-  if (has_starter) return true;
-  kernel::running->scheduler->enter(starter_object);
-  const SignalSet before = this_thread().blocked;
-  this_thread().blocked = ~unblockable;
-  pthread_t id = 0;
-  has_starter = create(&id, nullptr, {.posix = start_threads}, false, nullptr) == 0;
-  this_thread().blocked = before;
-  return has_starter;
-}
-
 // An error, or 0.
 int prepare(Timer& timer, sigevent* event) {
   if (event == nullptr) {
@@ -140,10 +86,7 @@ int prepare(Timer& timer, sigevent* event) {
   switch (event->sigev_notify) {
     case SIGEV_NONE: return 0;
     case SIGEV_SIGNAL: break;
-    case SIGEV_THREAD:
-      pthread_attr_init(&timer.attributes);
-      pthread_attr_setdetachstate(&timer.attributes, PTHREAD_CREATE_DETACHED);
-      return make_starter() ? 0 : EAGAIN;
+    case SIGEV_THREAD: return timer.notice.prepare(*event) ? 0 : EAGAIN;
     case SIGEV_THREAD_ID:
       for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
         if (is_thread(*task) && thread_of(*task).id == event->_sigev_un._tid) timer.to = &thread_of(*task);
@@ -186,7 +129,6 @@ void free_timer(std::size_t number) {
 void forget_timers() {
   for (std::size_t i = 0; i < timers_end; ++i)
     if (timers[i] != nullptr) free_timer(i);
-  has_starter = false;
 }
 
 }  // namespace waitpoint::posix

@@ -145,3 +145,27 @@ CASE(receiving_is_a_cancellation_point) {
   EXPECT_IS(pthread_cancel(id), 0);
   EXPECT(join(id) == PTHREAD_CANCELED);
 }
+
+static pthread_t told_by;
+static volatile int told;
+static void tell(union sigval value) {
+  told_by = pthread_self();
+  told = value.sival_int;
+}
+CASE(a_message_may_be_notified_by_a_thread) {
+  make(1, 0);
+  struct sigevent event = {
+      .sigev_notify = SIGEV_THREAD, .sigev_notify_function = tell, .sigev_value = {.sival_int = 7}};
+  EXPECT_IS(mq_notify(queue, &event), 0);
+  EXPECT_FAILS(mq_notify(queue, &event), EBUSY);
+  EXPECT_IS(mq_send(queue, "a", 1, 0), 0);
+  while (told == 0) sleep_ms(1);
+  EXPECT_IS(told, 7);
+  EXPECT(!pthread_equal(told_by, pthread_self()));
+  EXPECT_LETTER("a", 0);
+  // Once, until it is asked for again.
+  told = 0;
+  EXPECT_IS(mq_send(queue, "a", 1, 0), 0);
+  sleep_ms(5);
+  EXPECT_IS(told, 0);
+}
