@@ -4,12 +4,71 @@
 // processors change nothing: every thread has a processor of its own.
 #include <pthread.h>
 #include <sched.h>
+#include <sys/prctl.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstdarg>
 #include <cstring>
 
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/signals.hpp"
 #include "fibers/posix/thread.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+// Of those that the process may use; none of a set that is without any of them.
+cpu_set_t usable_of(const cpu_set_t& set) {
+  cpu_set_t usable{};
+  WAITPOINT_NEXT(sched_getaffinity)(0, sizeof usable, &usable);
+  CPU_AND(&usable, &usable, &set);
+  return usable;
+}
+
+int take_processors(Thread& thread, const cpu_set_t& set) {
+  const cpu_set_t usable = usable_of(set);
+  if (CPU_COUNT(&usable) == 0) return EINVAL;
+  thread.processors = usable;
+  thread.has_processors = true;
+  return 0;
+}
+
+int take_scheduling(Thread& thread, const pthread_attr_t& attributes) {
+  int inherits = PTHREAD_INHERIT_SCHED;
+  pthread_attr_getinheritsched(&attributes, &inherits);
+  if (inherits == PTHREAD_INHERIT_SCHED) return 0;
+  sched_param parameters{};
+  pthread_attr_getschedpolicy(&attributes, &thread.policy);
+  pthread_attr_getschedparam(&attributes, &parameters);
+  thread.priority = parameters.sched_priority;
+  const bool is_of_policy = thread.priority >= sched_get_priority_min(thread.policy) &&
+                            thread.priority <= sched_get_priority_max(thread.policy);
+  if (!is_of_policy) return EINVAL;
+  return thread.priority > 0 && geteuid() != 0 ? EPERM : 0;
+}
+
+}  // namespace
+
+int take_attributes(Thread& thread, const pthread_attr_t* attributes) {
+  const Thread& maker = this_thread();
+  thread.blocked = maker.blocked;
+  thread.policy = maker.policy;
+  thread.priority = maker.priority;
+  thread.processors = maker.processors;
+  thread.has_processors = maker.has_processors;
+  if (attributes == nullptr) return 0;
+  pthread_attr_getguardsize(attributes, &thread.guard_size);
+  sigset_t blocked;
+  if (pthread_attr_getsigmask_np(attributes, &blocked) == 0) thread.blocked = to_set(blocked) & ~unblockable;
+  cpu_set_t processors;
+  if (pthread_attr_getaffinity_np(attributes, sizeof processors, &processors) == 0 &&
+      CPU_COUNT(&processors) < CPU_SETSIZE)
+    if (const int error = take_processors(thread, processors); error != 0) return error;
+  return take_scheduling(thread, *attributes);
+}
+
+}  // namespace waitpoint::posix
 
 using namespace waitpoint;
 using namespace waitpoint::posix;
@@ -38,9 +97,13 @@ WAITPOINT_INTERPOSED int pthread_getattr_np(pthread_t id, pthread_attr_t* attrib
   const kernel::Stack& stack = thread->task->fiber.stack;
   pthread_attr_init(attributes);
   pthread_attr_setdetachstate(attributes, thread->detached ? PTHREAD_CREATE_DETACHED : PTHREAD_CREATE_JOINABLE);
-  pthread_attr_setguardsize(attributes, 4096);
+  pthread_attr_setguardsize(attributes, thread->guard_size);
+  pthread_attr_setschedpolicy(attributes, thread->policy);
+  const sched_param parameters{thread->priority};
+  pthread_attr_setschedparam(attributes, &parameters);
   if (thread->stack != nullptr) return pthread_attr_setstack(attributes, thread->stack, thread->stack_size);
-  return pthread_attr_setstack(attributes, stack.low, static_cast<std::size_t>(stack.high - stack.low));
+  const std::size_t size = thread->told_stack_size != 0 ? thread->told_stack_size : kernel::bytes(stack.size);
+  return pthread_attr_setstack(attributes, stack.high - size, size);
 }
 
 WAITPOINT_INTERPOSED int pthread_setaffinity_np(pthread_t id, std::size_t size, const cpu_set_t* set) noexcept {
@@ -48,10 +111,9 @@ WAITPOINT_INTERPOSED int pthread_setaffinity_np(pthread_t id, std::size_t size, 
   if (thread == nullptr) return ESRCH;
   if (size > sizeof *set) size = sizeof *set;
   if (CPU_COUNT_S(size, set) == 0) return EINVAL;
-  thread->processors = {};
-  std::memcpy(&thread->processors, set, size);
-  thread->has_processors = true;
-  return 0;
+  cpu_set_t whole{};
+  std::memcpy(&whole, set, size);
+  return take_processors(*thread, whole);
 }
 
 WAITPOINT_INTERPOSED int pthread_getaffinity_np(pthread_t id, std::size_t size, cpu_set_t* set) noexcept {
@@ -93,4 +155,25 @@ WAITPOINT_INTERPOSED int pthread_getcpuclockid(pthread_t id, clockid_t* clock) n
   if (thread == nullptr) return ESRCH;
   *clock = static_cast<clockid_t>(~static_cast<unsigned>(thread->id) << 3 | 6);  // the kernel's number of it
   return 0;
+}
+
+// The system's name of a thread: the system itself knows one thread.
+WAITPOINT_INTERPOSED int prctl(int option, ...) noexcept {
+  va_list more;
+  va_start(more, option);
+  unsigned long words[4];
+  for (unsigned long& word : words) word = va_arg(more, unsigned long);
+  va_end(more);
+  if (is_simulated() && (option == PR_SET_NAME || option == PR_GET_NAME)) {
+    Thread& thread = this_thread();
+    char* const name = reinterpret_cast<char*>(words[0]);
+    if (option == PR_GET_NAME) {
+      std::memcpy(name, thread.name, sizeof thread.name);
+      return 0;
+    }
+    char cut[sizeof thread.name] = {};
+    std::memcpy(cut, name, strnlen(name, sizeof cut - 1));
+    return pthread_setname_np(reinterpret_cast<pthread_t>(thread.area), cut);
+  }
+  return WAITPOINT_NEXT(prctl)(option, words[0], words[1], words[2], words[3]);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // pthread_barrier_t: its counts are in its own bytes.
+#include <limits.h>
 #include <pthread.h>
 
 #include <cerrno>
@@ -45,7 +46,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int pthread_barrier_init(pthread_barrier_t* barrier, const pthread_barrierattr_t* attributes,
                                               unsigned count) noexcept {
-  if (count == 0) return EINVAL;
+  if (count == 0 || count > INT_MAX) return EINVAL;
   int sharing = PTHREAD_PROCESS_PRIVATE;
   if (attributes != nullptr) pthread_barrierattr_getpshared(attributes, &sharing);
   std::memset(barrier, 0, sizeof *barrier);

@@ -42,15 +42,20 @@ Time now() { return is_simulated() ? read_clock() : Time(); }
 
 }  // namespace
 
+// Of processor time: as glibc and the kernel number those of others, the complement of a process, or of a thread, above
+// three bits.
 bool is_clock(clockid_t clock) {
-  // Processor-time clocks of threads are negative numbers (pthread_getcpuclockid).
-  return (clock >= CLOCK_REALTIME && clock <= CLOCK_TAI && clock != 10) || clock < 0;
+  if (clock >= 0) return clock <= CLOCK_TAI && clock != 10;
+  const int of = ~(clock >> 3);
+  if (of == 0 || of == getpid()) return true;
+  for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id == of) return true;
+  return WAITPOINT_NEXT(clock_getres)(clock, nullptr) == 0;
 }
 
 std::int64_t reading_ns(clockid_t clock, Time time) {
   if (clock == CLOCK_PROCESS_CPUTIME_ID) return spent_by_program().ns();
   if (clock == CLOCK_THREAD_CPUTIME_ID) return is_simulated() ? this_thread().spent.ns() : 0;
-  // As glibc and the kernel number those of others: the complement of a process, or of a thread, above three bits.
   if (clock < 0) return (clock & 4) == 0 ? spent_by_program().ns() : spent_by(~(clock >> 3)).ns();
   return begin_ns(clock) + time.ns();
 }
@@ -73,6 +78,11 @@ Time when(clockid_t clock, const timespec& reading) {
   if (since_its_zero == Duration::max()) return Time::max();
   const std::int64_t ns = since_its_zero.ns() - begin_ns(clock);
   return ns < 0 ? Time() : Time::from_ns(ns);
+}
+
+Duration passed_since(clockid_t clock, const timespec& reading) {
+  const std::int64_t at = span(reading).ns(), now = reading_ns(clock, kernel::local_time(*kernel::running));
+  return Duration::from_ns(now > at ? now - at : 0);
 }
 
 timespec to_timespec(std::int64_t ns) { return {ns / second_ns, ns % second_ns}; }

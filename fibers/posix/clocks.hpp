@@ -21,6 +21,8 @@ std::int64_t reading_ns(clockid_t clock, Time time);
 /// The virtual time at which `clock` shows `reading`; never the past of the run's start, Time::max() beyond what can be
 /// told.
 Time when(clockid_t clock, const timespec& reading);
+/// How long ago `clock` showed `reading`; zero if it has not yet.
+Duration passed_since(clockid_t clock, const timespec& reading);
 /// A span; Duration::max() beyond what can be told.
 Duration span(const timespec& time);
 

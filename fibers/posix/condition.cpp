@@ -101,7 +101,7 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   if (ended == Wait::interrupted && !point.was_cancelled()) handle_signals();
   pass(kernel::Operation::lock, &mutex.object);
   const int error = lock(*bytes, Time::max());
-  set_depth(*bytes, depth);
+  if (is_mine(*bytes)) set_depth(*bytes, depth);
   if (point.was_cancelled()) leave_if_cancelled();
   return error != 0 ? error : ended == Wait::timed_out ? ETIMEDOUT : 0;
 }

@@ -49,8 +49,10 @@ kernel::Object descriptors_object{"descriptor"};
 kernel::Object outside_object{"something outside"};
 
 int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
-  const ErrorNumberKept kept;
-  return WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
+  const int error = errno;
+  const int ready = WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
+  if (ready >= 0) errno = error;
+  return ready;
 }
 
 void count_outside(const Waiter& waiter, int by) {

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// syscall(): futexes are simulated, on which std::atomic::wait, latches, futures, guards of static variables and many
-// libraries stand; a few other calls have simulated answers; the rest go to the kernel.
+#include "fibers/posix/futex.hpp"
+
 #include <linux/futex.h>
-#include <sched.h>
-#include <signal.h>
-#include <sys/random.h>
-#include <sys/syscall.h>
-#include <sys/time.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <cstdarg>
-#include <cstdint>
 
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
@@ -134,6 +125,8 @@ long operate_and_wake(std::uint32_t* first, std::uint32_t most, std::uint32_t mo
   return holds[comparison] ? woken + wake(second, most_second, FUTEX_BITSET_MATCH_ANY, of) : woken;
 }
 
+}  // namespace
+
 long futex(std::uint32_t* address, int operation, std::uint32_t value, const timespec* timeout, std::uint32_t* second,
            std::uint32_t third) {
   const clockid_t clock = (operation & FUTEX_CLOCK_REALTIME) != 0 ? CLOCK_REALTIME : CLOCK_MONOTONIC;
@@ -144,6 +137,7 @@ long futex(std::uint32_t* address, int operation, std::uint32_t value, const tim
       (!is_valid(*timeout) || timeout->tv_sec < 0))
     return fail(EINVAL);
   if (reinterpret_cast<std::uintptr_t>(address) % sizeof *address != 0) return fail(EINVAL);
+  if (address == nullptr) return fail(what <= FUTEX_WAKE_BITSET ? EFAULT : ENOSYS);
   switch (what) {
     case FUTEX_WAIT:
       return wait(address, value,
@@ -162,44 +156,4 @@ long futex(std::uint32_t* address, int operation, std::uint32_t value, const tim
   }
 }
 
-}  // namespace
 }  // namespace waitpoint::posix
-
-using namespace waitpoint::posix;
-
-WAITPOINT_INTERPOSED long syscall(long number, ...) noexcept {
-  va_list more;
-  va_start(more, number);
-  long a[6];
-  for (long& word : a) word = va_arg(more, long);
-  va_end(more);
-  switch (number) {
-    case SYS_futex:
-      return futex(reinterpret_cast<std::uint32_t*>(a[0]), static_cast<int>(a[1]), static_cast<std::uint32_t>(a[2]),
-                   reinterpret_cast<const timespec*>(a[3]), reinterpret_cast<std::uint32_t*>(a[4]),
-                   static_cast<std::uint32_t>(a[5]));
-    case SYS_gettid: return gettid();
-    case SYS_kill: return kill(static_cast<pid_t>(a[0]), static_cast<int>(a[1]));
-    case SYS_tgkill: return tgkill(static_cast<pid_t>(a[0]), static_cast<pid_t>(a[1]), static_cast<int>(a[2]));
-    case SYS_tkill: return tgkill(getpid(), static_cast<pid_t>(a[0]), static_cast<int>(a[1]));
-    case SYS_sched_yield: return sched_yield();
-    case SYS_getrandom:
-      return static_cast<long>(
-          getrandom(reinterpret_cast<void*>(a[0]), static_cast<std::size_t>(a[1]), static_cast<unsigned>(a[2])));
-    case SYS_nanosleep: return nanosleep(reinterpret_cast<timespec*>(a[0]), reinterpret_cast<timespec*>(a[1]));
-    case SYS_clock_nanosleep: {
-      const int error = clock_nanosleep(static_cast<clockid_t>(a[0]), static_cast<int>(a[1]),
-                                        reinterpret_cast<timespec*>(a[2]), reinterpret_cast<timespec*>(a[3]));
-      return error == 0 ? 0 : fail(error);
-    }
-    case SYS_clock_getres: return clock_getres(static_cast<clockid_t>(a[0]), reinterpret_cast<timespec*>(a[1]));
-    case SYS_gettimeofday: return gettimeofday(reinterpret_cast<timeval*>(a[0]), reinterpret_cast<void*>(a[1]));
-    case SYS_time: return time(reinterpret_cast<time_t*>(a[0]));
-    case SYS_clock_gettime: return read_clock(static_cast<clockid_t>(a[0]), *reinterpret_cast<timespec*>(a[1]));
-    default: return WAITPOINT_NEXT(syscall)(number, a[0], a[1], a[2], a[3], a[4], a[5]);
-  }
-}
-
-WAITPOINT_INTERPOSED pid_t gettid() noexcept {
-  return is_simulated() ? this_thread().id : static_cast<pid_t>(WAITPOINT_NEXT(syscall)(SYS_gettid));
-}

@@ -23,6 +23,14 @@ void hand_on(Mutex& mutex) {
   }
 }
 
+// Its owner gives it up; one that was not put right is lost.
+void give_up(Mutex& mutex) {
+  if (mutex.sound != Mutex::Sound::not_yet) return hand_on(mutex);
+  mutex.sound = Mutex::Sound::never;
+  kernel::disown(mutex.object);
+  kernel::running->scheduler->wake_all(mutex.object);
+}
+
 // What the new owner is told.
 int enter(Mutex& mutex) {
   if (mutex.sound != Mutex::Sound::owner_died) return 0;
@@ -97,6 +105,10 @@ int try_lock(pthread_mutex_t* bytes) {
   if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP)
     return lock_again(mutex, PTHREAD_MUTEX_RECURSIVE_NP);
+  // As glibc, which asks the system for these.
+  const bool is_told = mutex.is_robust || inherits_priority(*bytes);
+  if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_ERRORCHECK_NP && is_told)
+    return EDEADLK;
   if (mutex.object.owner != nullptr) return EBUSY;
   return wait_and_lock(mutex, type_of(*bytes), Time::max());
 }
@@ -107,7 +119,7 @@ int try_lock(pthread_mutex_t* bytes) {
   if (mutex.is_shared) return shared_mutex::unlock(*bytes);
   const bool is_mine = mutex.object.owner == kernel::running;
   if (!is_mine && (type_of(*bytes) == PTHREAD_MUTEX_ERRORCHECK_NP || type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP ||
-                   mutex.is_robust))
+                   mutex.is_robust || inherits_priority(*bytes)))
     return EPERM;
   // Of the plain kind: glibc lets any thread unlock it, locked or not.
   if (mutex.object.owner == nullptr) return 0;
@@ -115,13 +127,7 @@ int try_lock(pthread_mutex_t* bytes) {
     --mutex.depth;
     return 0;
   }
-  if (mutex.sound == Mutex::Sound::not_yet) {
-    mutex.sound = Mutex::Sound::never;
-    kernel::disown(mutex.object);
-    kernel::running->scheduler->wake_all(mutex.object);
-    return 0;
-  }
-  hand_on(mutex);
+  give_up(mutex);
   return 0;
 }
 
@@ -136,7 +142,7 @@ std::uint32_t release(pthread_mutex_t& bytes) {
   if (is_shared(bytes)) return shared_mutex::release(bytes);
   Mutex& mutex = mutex_of(&bytes);
   const std::uint32_t depth = mutex.depth;
-  if (mutex.object.owner != nullptr) hand_on(mutex);
+  if (mutex.object.owner != nullptr) give_up(mutex);
   return depth;
 }
 

@@ -48,6 +48,7 @@ std::uint32_t release(pthread_mutex_t& mutex);
 void set_depth(pthread_mutex_t& mutex, std::uint32_t depth);
 /// Whether the running thread holds it.
 bool is_mine(pthread_mutex_t& mutex);
+inline bool inherits_priority(const pthread_mutex_t& mutex) { return (mutex.__data.__kind & 32) != 0; }
 inline int type_of(const pthread_mutex_t& mutex) { return mutex.__data.__kind & 3; }
 
 }  // namespace waitpoint::posix

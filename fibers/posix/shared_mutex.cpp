@@ -64,6 +64,11 @@ int take_or_tell(Bytes& words, Mutex& mutex, std::uint32_t& changes) {
 }
 
 // For whoever waits.
+// One that its owner has not put right is lost.
+Mutex::Sound sound_after(const Bytes& words) {
+  return words.sound == Mutex::Sound::not_yet ? Mutex::Sound::never : words.sound;
+}
+
 void give_up(Bytes& words, Mutex& mutex, Mutex::Sound sound) {
   {
     const family::Section section;
@@ -119,14 +124,14 @@ int unlock(pthread_mutex_t& bytes) {
     --words.depth;
     return 0;
   }
-  give_up(words, mutex, words.sound == Mutex::Sound::not_yet ? Mutex::Sound::never : words.sound);
+  give_up(words, mutex, sound_after(words));
   return 0;
 }
 
 std::uint32_t release(pthread_mutex_t& bytes) {
   Bytes& words = words_of(bytes);
   const std::uint32_t depth = words.depth;
-  if (words.process != 0) give_up(words, mutex_of(&bytes), words.sound);
+  if (words.process != 0) give_up(words, mutex_of(&bytes), sound_after(words));
   return depth;
 }
 

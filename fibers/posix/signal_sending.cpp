@@ -73,10 +73,19 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int kill(pid_t process, int signal) noexcept {
-  if (!is_simulated() || process != getpid() || !is_signal(signal)) return WAITPOINT_NEXT(kill)(process, signal);
+  if (!is_simulated() || process != getpid() || !is_signal(signal)) {
+    const int result = WAITPOINT_NEXT(kill)(process, signal);
+    // This process may be one of several that it was sent to.
+    if (is_simulated() && process <= 0 && take_in_signals_from_outside()) handle_signals();
+    return result;
+  }
   pass(kernel::Operation::signal, nullptr);
   const int error = send_here(from_here(signal, SI_USER), nullptr);
   return error == 0 ? 0 : fail(error);
+}
+
+WAITPOINT_INTERPOSED int killpg(pid_t group, int signal) noexcept {
+  return group < 0 ? fail(EINVAL) : kill(-group, signal);
 }
 
 WAITPOINT_INTERPOSED int raise(int signal) noexcept {

@@ -14,10 +14,16 @@ void SignalTimer::await() {
   scheduler.schedule(node_.event, due_ > now ? due_ : now, object_);
 }
 
-void SignalTimer::start(Time due, Duration interval) {
+void SignalTimer::start(Time due, Duration interval, Duration late) {
   stop();
   due_ = due;
   interval_ = interval;
+  if (late > Duration() && interval > Duration()) {
+    missed_ = static_cast<std::uint64_t>(late.ns() / interval.ns());
+    const Time now = kernel::local_time(*kernel::running);
+    // Its last turn was not longer ago than the interval.
+    due_ = Time::from_ns(now.ns() - late.ns() % interval.ns());
+  }
   await();
 }
 
@@ -32,6 +38,7 @@ void SignalTimer::stop() {
   if (processor_.spent != nullptr) unset_processor_timer(processor_);
   due_ = Time::max();
   interval_ = Duration();
+  missed_ = 0;
 }
 
 Duration SignalTimer::left() const {
@@ -45,11 +52,13 @@ void SignalTimer::expire(kernel::EventNode& node) {
   SignalTimer& timer = *reinterpret_cast<Node&>(node).timer;
   kernel::Scheduler& scheduler = *timer.object_.robot->scheduler;
   const Time now = scheduler.global_time();
-  std::uint64_t count = 1;
+  std::uint64_t count = 1 + timer.missed_;
+  timer.missed_ = 0;
   if (timer.interval_ > Duration()) {
     // All that should have been: a thread may have started it late.
-    count += static_cast<std::uint64_t>((now - timer.due_).ns() / timer.interval_.ns());
-    timer.due_ = later(timer.due_, Duration::from_ns(static_cast<std::int64_t>(count) * timer.interval_.ns()));
+    const std::int64_t more = (now - timer.due_).ns() / timer.interval_.ns();
+    count += static_cast<std::uint64_t>(more);
+    timer.due_ = later(timer.due_, Duration::from_ns((more + 1) * timer.interval_.ns()));
     scheduler.schedule(timer.node_.event, timer.due_, timer.object_);
   } else {
     timer.due_ = Time::max();

@@ -22,7 +22,8 @@ class SignalTimer {
   SignalTimer& operator=(const SignalTimer&) = delete;
 
   /// Runs out at `due` first, then at each interval; an interval of zero: once.
-  void start(Time due, Duration interval);
+  /// Before now by `late`, it has run out for each interval since.
+  void start(Time due, Duration interval, Duration late = Duration());
   /// The same when `spent` has come to `due`.
   void start(const Duration& spent, Duration due, Duration interval);
   void stop();
@@ -48,6 +49,7 @@ class SignalTimer {
   Ring ring_;
   Time due_ = Time::max();
   Duration interval_;
+  std::uint64_t missed_ = 0;  ///< how often it had run out before it was started
 };
 
 }  // namespace waitpoint::posix

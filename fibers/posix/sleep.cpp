@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
@@ -39,10 +40,12 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED int clock_nanosleep(clockid_t clock, int flags, const timespec* time, timespec* remaining) {
   if (!is_simulated()) return WAITPOINT_NEXT(clock_nanosleep)(clock, flags, time, remaining);
   if (clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME_COARSE || clock == CLOCK_MONOTONIC_COARSE) return ENOTSUP;
+  if (is_clock(clock) && !can_be_read(time)) return EFAULT;
   if (!is_clock(clock) || clock == CLOCK_THREAD_CPUTIME_ID || !is_valid(*time) || time->tv_sec < 0) return EINVAL;
   if ((flags & TIMER_ABSTIME) != 0) return sleep_until(when(clock, *time)) ? 0 : EINTR;
   const timespec left = posix::sleep_for(span(*time));
   if (is_nothing(left)) return 0;
+  if (remaining != nullptr && !can_be_written(remaining)) return EFAULT;
   if (remaining != nullptr) *remaining = left;
   return EINTR;
 }

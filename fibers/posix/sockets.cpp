@@ -71,9 +71,9 @@ ssize_t receive_all(int descriptor, char* bytes, std::size_t size, int flags) {
   return received > 0 || size == 0 ? static_cast<ssize_t>(received) : -1;
 }
 
-// What is no socket is refused at once.
+// What is no socket is refused at once, and for what is beside the stream nobody waits.
 bool may_block(int descriptor, int flags) {
-  return (flags & MSG_DONTWAIT) == 0 && class_of(descriptor) == DescriptorClass::socket;
+  return (flags & (MSG_DONTWAIT | MSG_OOB | MSG_ERRQUEUE)) == 0 && class_of(descriptor) == DescriptorClass::socket;
 }
 
 bool waits_for_all(int descriptor, int flags) {

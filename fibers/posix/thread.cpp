@@ -77,15 +77,24 @@ bool is_detached(const pthread_attr_t* attributes) {
 
 // The stack that the attributes give, or one of their size where that of a task is too small; false without memory.
 bool take_stack(Thread& thread, const pthread_attr_t* attributes) {
-  if (attributes == nullptr) return true;
   void* low = nullptr;
   std::size_t size = 0;
+  if (attributes == nullptr) {
+    pthread_attr_t usual;
+    if (pthread_getattr_default_np(&usual) != 0) return false;
+    pthread_attr_getstacksize(&usual, &thread.told_stack_size);
+    pthread_attr_destroy(&usual);
+    if (thread.told_stack_size <= kernel::bytes(kernel::StackSize::program)) return true;
+    size = thread.told_stack_size;
+  }
   // glibc keeps the high end: null unless a stack was given.
-  if (pthread_attr_getstack(attributes, &low, &size) == 0 && reinterpret_cast<std::uintptr_t>(low) + size != 0) {
+  if (attributes != nullptr && pthread_attr_getstack(attributes, &low, &size) == 0 &&
+      reinterpret_cast<std::uintptr_t>(low) + size != 0) {
     thread.stack = static_cast<char*>(low);
     thread.stack_size = size;
     return true;
   }
+  thread.told_stack_size = size;
   if (size <= kernel::bytes(kernel::StackSize::program)) return true;
   low = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
   if (low == MAP_FAILED) return false;
@@ -213,10 +222,13 @@ int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, 
   thread->start = start;
   thread->is_c11 = is_c11;
   thread->argument = argument;
-  thread->blocked = this_thread().blocked;
   thread->detached = is_detached(attributes);
   std::memcpy(thread->name, this_thread().name, sizeof thread->name);
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  if (const int error = take_attributes(*thread, attributes); error != 0) {
+    free_thread(*thread);
+    return error;
+  }
   char name[kernel::name_size];
   std::snprintf(name, sizeof name, "thread %u", this_program().threads_made);
   if (!take_stack(*thread, attributes) || !begin(*thread, scheduler, name)) {

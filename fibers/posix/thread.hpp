@@ -40,6 +40,8 @@ struct Thread {
   char* stack = nullptr;
   std::size_t stack_size = 0;
   bool owns_stack = false;  ///< the program gave only its size
+  /// What is told of it: less than that of its task, if that was asked for.
+  std::size_t told_stack_size = 0, guard_size = 4096;
   int id = 0;               ///< what gettid() says
   kernel::Object end{"thread"};
 
@@ -85,6 +87,10 @@ struct Thread {
   std::uint32_t futex_mask = 0;
   SharedFutex* shared_futex = nullptr;  ///< and where it waits, if other processes may wake it
 };
+
+/// What a thread that the running one makes begins with: what `attributes` (null: the default ones) ask for, and what it
+/// inherits. An error number, or 0.
+int take_attributes(Thread& thread, const pthread_attr_t* attributes);
 
 /// What a task of a thread executes: the function, as the C library would call it.
 void run_thread(void* thread);

@@ -13,6 +13,7 @@
 #include <ctime>
 #include <new>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -138,6 +139,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t* id) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timer_create)(clock, event, id);
+  if ((event != nullptr && !can_be_read(event)) || !can_be_written(id)) return fail(EFAULT);
   if (!can_count(clock)) return fail(is_clock(clock) ? ENOTSUP : EINVAL);
   const int number = number_for_new();
   void* const memory = number >= 0 ? std::malloc(sizeof(Timer)) : nullptr;
@@ -165,8 +167,9 @@ WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t*
 
 WAITPOINT_INTERPOSED int timer_settime(timer_t id, int flags, const itimerspec* to, itimerspec* old) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timer_settime)(id, flags, to, old);
-  if (to == nullptr || !is_valid(to->it_value) || to->it_value.tv_sec < 0 || !is_valid(to->it_interval) ||
-      to->it_interval.tv_sec < 0)
+  if (to == nullptr) return fail(EINVAL);
+  if (!can_be_read(to) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);
+  if (!is_valid(to->it_value) || to->it_value.tv_sec < 0 || !is_valid(to->it_interval) || to->it_interval.tv_sec < 0)
     return fail(EINVAL);
   Timer* const timer = find_timer(id);
   if (timer == nullptr) return fail(EINVAL);
@@ -182,7 +185,7 @@ WAITPOINT_INTERPOSED int timer_settime(timer_t id, int flags, const itimerspec* 
     timer->start(*timer->spent, is_date ? first : *timer->spent + first, interval);
   else
     timer->start(is_date ? when(timer->clock, to->it_value) : later(kernel::local_time(*kernel::running), first),
-                 interval);
+                 interval, is_date ? passed_since(timer->clock, to->it_value) : Duration());
   if (old != nullptr) *old = before;
   return 0;
 }
@@ -191,6 +194,7 @@ WAITPOINT_INTERPOSED int timer_gettime(timer_t id, itimerspec* state) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timer_gettime)(id, state);
   const Timer* const timer = find_timer(id);
   if (timer == nullptr) return fail(EINVAL);
+  if (!can_be_written(state)) return fail(EFAULT);
   read_clock();
   *state = state_of(*timer);
   return 0;

@@ -163,3 +163,8 @@ CASE(one_thread_at_a_time_holds_a_spin_lock) {
   for (int i = 0; i < 4; ++i) join(ids[i]);
   EXPECT_IS(counted, 400);
 }
+
+CASE(a_barrier_of_too_many_threads_is_refused) {
+  pthread_barrier_t barrier;
+  EXPECT_IS(pthread_barrier_init(&barrier, NULL, 0x80000001u), EINVAL);
+}

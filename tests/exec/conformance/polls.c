@@ -7,6 +7,7 @@
 #include <stdatomic.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
+#include <sys/resource.h>
 #include <sys/select.h>
 
 static int one[2], other[2];
@@ -274,4 +275,12 @@ CASE(epoll_refuses_what_it_is_not) {
   EXPECT_IS(epoll_create(1) >= 0, 1);
   EXPECT_FAILS(epoll_create(0), EINVAL);
   EXPECT_FAILS(epoll_create1(0x1234), EINVAL);
+}
+
+CASE(poll_refuses_more_than_may_be_open) {
+  const struct rlimit few = {16, 16};
+  EXPECT_IS(setrlimit(RLIMIT_NOFILE, &few), 0);
+  struct pollfd many[20];
+  memset(many, 0, sizeof many);
+  EXPECT_FAILS(poll(many, 20, 0), EINVAL);
 }

@@ -871,3 +871,20 @@ CASE(jumps_have_other_names) {
   }
   EXPECT_IS(handled, 2);
 }
+
+static volatile int counted;
+static void count(int signal) {
+  (void)signal;
+  ++counted;
+}
+CASE(a_signal_to_the_group_is_handled_before_it_returns) {
+  setpgid(0, 0);
+  signal(SIGUSR1, count);
+  EXPECT_IS(killpg(0, SIGUSR1), 0);
+  EXPECT_IS(counted, 1);
+  EXPECT_IS(kill(0, SIGUSR1), 0);
+  EXPECT_IS(counted, 2);
+  EXPECT_IS(kill(-getpgrp(), SIGUSR1), 0);
+  EXPECT_IS(counted, 3);
+  EXPECT_FAILS(killpg(-1, 0), EINVAL);
+}

@@ -418,8 +418,7 @@ CASE(connecting_waits_for_room) {
 
 static void* send_many_to(void* address) {
   const int sender = socket(AF_UNIX, SOCK_DGRAM, 0);
-  for (int i = 0; i < 600; ++i)
-    EXPECT_IS(sendto(sender, big, 4096, 0, address, sizeof(struct sockaddr_un)), 4096);
+  for (int i = 0; i < 600; ++i) EXPECT_IS(sendto(sender, big, 4096, 0, address, sizeof(struct sockaddr_un)), 4096);
   EXPECT_IS(close(sender), 0);
   return NULL;
 }
@@ -454,4 +453,13 @@ CASE(shutdown_wakes_who_receives) {
   sleep_ms(200);
   join(id);
   EXPECT(told_at_ns - begin_ns < 150000000);
+}
+
+CASE(nobody_waits_for_what_is_beside_a_stream) {
+  int both[2];
+  char bytes[4];
+  EXPECT_IS(socketpair(AF_UNIX, SOCK_STREAM, 0, both), 0);
+  EXPECT_FAILS(recv(both[0], bytes, 4, MSG_OOB), EINVAL);
+  int other = socket(AF_INET, SOCK_STREAM, 0);
+  EXPECT_FAILS(recv(other, bytes, 4, MSG_ERRQUEUE), EAGAIN);
 }
