@@ -42,7 +42,7 @@ struct Thread {
   bool owns_stack = false;  ///< the program gave only its size
   /// What is told of it: less than that of its task, if that was asked for.
   std::size_t told_stack_size = 0, guard_size = 4096;
-  int id = 0;               ///< what gettid() says
+  int id = 0;  ///< what gettid() says
   kernel::Object end{"thread"};
 
   // What programs may write and read again; it changes nothing.
@@ -88,8 +88,8 @@ struct Thread {
   SharedFutex* shared_futex = nullptr;  ///< and where it waits, if other processes may wake it
 };
 
-/// What a thread that the running one makes begins with: what `attributes` (null: the default ones) ask for, and what it
-/// inherits. An error number, or 0.
+/// What a thread that the running one makes begins with: what `attributes` (null: the default ones) ask for, and what
+/// it inherits. An error number, or 0.
 int take_attributes(Thread& thread, const pthread_attr_t* attributes);
 
 /// What a task of a thread executes: the function, as the C library would call it.
