@@ -29,8 +29,11 @@ Campaign::Campaign(ForeignChecks* checks, std::function<void()> body, const Expl
       options_(options),
       call_(call),
       body_(std::move(body), checks, options.until, options.steps_max),
-      supervisor_({call, 0, options.strategy, options.seed, 0, {}},
-                  "replay: WAITPOINT_REPLAY=", " " + command_line(checks)) {
+      supervisor_({.explored = -1,
+                   .token = {call, 0, options.strategy, options.seed, 0, {}},
+                   .replay = "replay: WAITPOINT_REPLAY=",
+                   .after = " " + command_line(checks),
+                   .limit_s = options.schedule_limit_s}) {
   if (!options.races) body_.ignore_races();
 }
 
@@ -69,7 +72,10 @@ void Campaign::look_for_leaks() {
   if (profile_.steps > short_body) return;
   Fifo usual;
   const auto in_use_after_some = [&] {
-    for (std::size_t i = 0; i < repeats; ++i) (void)body_.run(usual);
+    for (std::size_t i = 0; i < repeats; ++i) {
+      supervisor_.begin_default();
+      (void)body_.run(usual);
+    }
     return mallinfo2().uordblks;
   };
   const std::size_t before = in_use_after_some();

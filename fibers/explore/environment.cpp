@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char *strategy_name = "WAITPOINT_STRATEGY", *seed_name = "WAITPOINT_SEED",
                      *iterations_name = "WAITPOINT_ITERATIONS", *time_limit_name = "WAITPOINT_TIME_LIMIT",
-                     *replay_name = "WAITPOINT_REPLAY", *trace_name = "WAITPOINT_TRACE";
+                     *schedule_limit_name = "WAITPOINT_SCHEDULE_LIMIT", *replay_name = "WAITPOINT_REPLAY",
+                     *trace_name = "WAITPOINT_TRACE";
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -80,6 +81,7 @@ ExploreOptions with_environment(ExploreOptions options) {
   take(seed_name, options.seed, Zero::allowed, "a whole number from 0 to 2^64 - 1");
   take(iterations_name, options.iterations, Zero::refused, "a positive whole number");
   take(time_limit_name, options.time_limit_s, Zero::refused, "a positive number of seconds, or no such variable");
+  take(schedule_limit_name, options.schedule_limit_s, Zero::allowed, "a whole number of seconds, 0 for none");
   check_can_be_written(trace_name);
   if (const std::string replay = variable(replay_name); !replay.empty()) {
     options.replay = replay;
@@ -89,7 +91,8 @@ ExploreOptions with_environment(ExploreOptions options) {
 }
 
 void refuse_environment(const BadInput& input) {
-  for (const char* name : {strategy_name, seed_name, iterations_name, time_limit_name, replay_name, trace_name})
+  for (const char* name :
+       {strategy_name, seed_name, iterations_name, time_limit_name, schedule_limit_name, replay_name, trace_name})
     if (!variable(name).empty()) refuse(input.what());
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a person asks of a test that explores, without editing it: WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT,
-// _REPLAY and _TRACE.
+// _SCHEDULE_LIMIT, _REPLAY and _TRACE.
 #pragma once
 
 #include "core/error.hpp"

@@ -12,7 +12,7 @@
 // The body is run from its beginning again and again, within the same process: what it captures or finds in static
 // variables must be as it was before. A schedule fails by a deadlock, by a lack of progress, by check(), by an
 // exception that escapes from a task, by a GoogleTest expectation; a crash or an abort ends the process, and still says
-// how to repeat it.
+// how to repeat it, and so does what blocks for real or loops for ever.
 //
 // Computing takes no virtual time unless the body says so: then all schedules are tried that the order of primitives
 // allows. With compute(least, greatest) between them, only those that the times allow.
@@ -33,16 +33,17 @@
 
 namespace waitpoint {
 
-/// Each is replaced by the environment's WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT (seconds), _REPLAY where
-/// that is set.
+/// Each is replaced by the environment's WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT and _SCHEDULE_LIMIT
+/// (seconds), _REPLAY where that is set.
 struct ExploreOptions {
   std::string strategy = "portfolio";
   std::uint64_t seed = 1;
-  std::uint64_t iterations = 10'000;  ///< schedules, at most
-  double time_limit_s = 0;            ///< of the wall clock; 0: none
-  std::string replay = {};            ///< a token: that schedule alone
-  bool races = true;                  ///< a data race is a failure, though it did no harm; see races/races.hpp
-  bool minimize = true;               ///< what failed, to the fewest switches that still fail
+  std::uint64_t iterations = 10'000;    ///< schedules, at most
+  double time_limit_s = 0;              ///< of the wall clock; 0: none
+  std::uint32_t schedule_limit_s = 60;  ///< of one: what takes longer ends the program; 0: none does
+  std::string replay = {};              ///< a token: that schedule alone
+  bool races = true;                    ///< a data race is a failure, though it did no harm; see races/races.hpp
+  bool minimize = true;                 ///< what failed, to the fewest switches that still fail
   Time until = Time() + std::chrono::hours(1);  ///< a schedule that has not ended then fails
   std::uint32_t steps_max = 100'000;            ///< switch points at one instant, after which there is no progress
 };

@@ -4,8 +4,9 @@
 // group does not find it. What it would have to say lies in memory that both share, and is written there before each
 // schedule.
 //
-// It also tells of a schedule that goes on for long, and a body that calls exit() does not end the process as if all
-// were well.
+// It also tells of a schedule that goes on for long, and ends the process, with status 1, where that is too long or the
+// schedule waits for something that is not simulated. A body that calls exit() does not end the process as if all were
+// well.
 //
 //   explored process   ===|schedule 1|===|schedule 2|== killed
 //   supervisor             ............................ waits ... prints the line that repeats schedule 2
@@ -13,24 +14,25 @@
 
 #include <sys/types.h>
 
+#include <csignal>
 #include <cstdint>
 #include <string>
 
-#include "fibers/explore/token.hpp"
+#include "fibers/explore/supervised.hpp"
 
 namespace waitpoint::exploration {
 
 class Supervisor {
  public:
-  /// `replay` begins and `after` ends the line that is printed; between them comes the token. Where no process can be
-  /// had there is no supervision, and none under a debugger, which sees the end itself and often is the cause of it.
-  Supervisor(const Token& token, const std::string& replay, const std::string& after);
+  /// Of this process, whatever `supervision` says. Where no process can be had there is no supervision, and none under
+  /// a debugger, which sees the end itself and often is the cause of it.
+  explicit Supervisor(Supervision supervision);
   /// The explored process goes on: nothing is printed.
   ~Supervisor();
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// The default schedule begins.
+  /// The default schedule begins, maybe again.
   void begin_default();
   /// Schedule `number` begins.
   void begin(std::uint64_t number);
@@ -40,17 +42,16 @@ class Supervisor {
   void pause();
 
  private:
-  struct Shared;
-  [[noreturn]] void wait_for_the_end(int pipe, const Token& token, const std::string& replay, const std::string& after);
-  void tell_of_long_schedules(int pipe, const Token& token, const std::string& replay, const std::string& after);
+  void begin(Doing doing);
   static void refuse_exit();
   static Supervisor* latest_;  // for the handler of exit(), which is told nothing
 
-  Shared* shared_ = nullptr;
+  Supervised* shared_ = nullptr;
   int pipe_ = -1;
   pid_t explored_ = -1;
   pid_t process_ = -1;
   Supervisor* outer_ = nullptr;  // whose body explores in its turn
+  struct sigaction before_ {};   // of end_signal
 };
 
 }  // namespace waitpoint::exploration

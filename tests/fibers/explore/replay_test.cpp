@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a person asks of explore() from outside or in its options: a run once more by its token, strategies, seeds,
+// limits. And that what cannot be meant is one clear line.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "core/error.hpp"
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/thread.hpp"
+#include "tests/fibers/explore/faulty_bodies.hpp"
+
+namespace waitpoint {
+namespace {
+
+using faulty::count_to_three;
+using faulty::lose_a_wake_up;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Explore, TheTokenRepeatsTheFailure) {
+  const auto body = [] { count_to_three(2); };
+  const ExploreReport found = explore(body, {.minimize = false});
+  ASSERT_FALSE(found.passed);
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    std::string token = found.replay;
+    token[4] = static_cast<char>('2' + repeat);  // it counts the calls in this test
+    const ExploreReport again = explore(body, {.replay = token});
+    EXPECT_FALSE(again.passed);
+    EXPECT_EQ(again.schedules, 1U);
+    EXPECT_TRUE(contains(again.text, "the replayed schedule failed: a check failed in task main")) << again;
+    EXPECT_EQ(again.schedule.deviations(), found.schedule.deviations());
+  }
+}
+
+TEST(Explore, ATokenOfAnotherProgramIsKnownAsSuch) {
+  const ExploreReport found = explore([] { count_to_three(2); });
+  std::string token = found.replay;
+  token[4] = '2';
+  const ExploreReport other = explore(lose_a_wake_up, {.replay = token});
+  EXPECT_TRUE(contains(other.text, "this is not the run of the token")) << other;
+  // Choices that the run does not have, and a number that no loop may count up to.
+  for (const char* unfit : {"wx1.3.00000000.=9999-1", "wx1.4.00000000.=0-99"})
+    EXPECT_TRUE(contains(explore(lose_a_wake_up, {.replay = unfit}).text, "this is not the run of the token")) << unfit;
+  EXPECT_TRUE(explore([] {}, {.replay = "wx1.5.00000000.random.1.18446744073709551615"}).passed);
+}
+
+TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
+  const auto message = [](const ExploreOptions& options) {
+    try {
+      explore([] {}, options);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(message({.strategy = "pso"}),
+            "strategy: unknown strategy 'pso', did you mean 'pos'?; there are " + exploration::strategy_names());
+  EXPECT_EQ(message({.strategy = "pct:0"}), "strategy: expected pct:D, a whole number from 1 to 1000, found 'pct:0'");
+  EXPECT_EQ(message({.strategy = "bounded:0"}), "no error");  // without any preemption
+  EXPECT_EQ(message({.strategy = "pos:3"}), "strategy: expected pos without a parameter, found 'pos:3'");
+  EXPECT_EQ(message({.replay = "wx2.1.0"}), "replay: expected the version wx1, not 'wx2', in the token 'wx2.1.0'");
+  EXPECT_EQ(message({.replay = "wx1.0.00000000.="}),
+            "replay: expected a test's token, found a scenario's: 'wx1.0.00000000.='");
+  EXPECT_EQ(message({.replay = "wx1.1.00000000.=5-0,2-1"}),
+            "replay: expected numbers of choices that ascend in the token 'wx1.1.00000000.=5-0,2-1'");
+  EXPECT_EQ(message({.replay = "wx1.1.12"}),
+            "replay: expected eight hexadecimal digits of a digest, not '12', in the token 'wx1.1.12'");
+  EXPECT_EQ(message({.replay = "wx1.1.00000000.random.7.x"}),
+            "replay: expected the number of a schedule, a whole number, not 'x', in the token "
+            "'wx1.1.00000000.random.7.x'");
+}
+
+TEST(Explore, TheEnvironmentSaysWhatToDoInAnyProgram) {
+  const auto with = [](const char* name, const char* value, std::function<void()> then) {
+    setenv(name, value, 1);
+    then();
+    unsetenv(name);
+  };
+  with("WAITPOINT_ITERATIONS", "7", [] { EXPECT_EQ(explore([] {}).schedules, 8U); });
+  with("WAITPOINT_STRATEGY", "dfs", [] { EXPECT_TRUE(explore([] {}).complete); });
+  with("WAITPOINT_TIME_LIMIT", "0.000001", [] { EXPECT_LT(explore([] {}).schedules, 9U); });
+}
+
+// Whoever started the program is at fault, no test of it.
+TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusTwo) {
+  int bodies = 0;
+  const auto explore_with = [&](const char* name, const char* value) {
+    setenv(name, value, 1);
+    explore([&] { std::fprintf(stderr, "body %d", ++bodies); });
+  };
+  const auto status_two = ::testing::ExitedWithCode(2);
+  EXPECT_EXIT(explore_with("WAITPOINT_SEED", "nine"), status_two,
+              "^waitpoint: WAITPOINT_SEED: expected a whole number from 0 to 2\\^64 - 1, found 'nine'\n$");
+  EXPECT_EXIT(explore_with("WAITPOINT_STRATEGY", "pcd"), status_two, "^waitpoint: strategy: unknown strategy 'pcd'");
+  EXPECT_EXIT(explore_with("WAITPOINT_REPLAY", "wx1.nonsense"), status_two, "^waitpoint: ");
+  EXPECT_EXIT(explore_with("WAITPOINT_ITERATIONS", "0"), status_two,
+              "^waitpoint: WAITPOINT_ITERATIONS: expected a positive whole number, found '0'\n$");
+  EXPECT_EXIT(explore_with("WAITPOINT_TIME_LIMIT", "0"), status_two,
+              "^waitpoint: WAITPOINT_TIME_LIMIT: expected a pos");
+  EXPECT_EXIT(
+      explore_with("WAITPOINT_TRACE", "/no/such/folder/trace"), status_two,
+      "^waitpoint: WAITPOINT_TRACE: expected a file that can be written, found '/no/such/folder/trace': No such");
+  const auto replay_of_another_call = [] {
+    setenv("WAITPOINT_REPLAY", "wx1.9.00000000.=", 1);
+    explore([] {});
+    exploration::tests_are_over();
+  };
+  EXPECT_EXIT(
+      replay_of_another_call(), status_two,
+      "^waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.9.00000000.=': the test has no "
+      "such call\n$");
+}
+
+// A test that keeps a token in its code has failed where that is wrong or fits no more; the other tests go on.
+TEST(Explore, OptionsInCodeThatAreWrongAreTheTestsOwnFailure) {
+  EXPECT_THROW(explore([] {}, {.strategy = "pcd"}), BadInput);
+  EXPECT_THROW(explore([] {}, {.replay = "wx1.nonsense"}), BadInput);
+  const ExploreReport report = explore([] {}, {.replay = "wx1.3.00000001.="});
+  EXPECT_FALSE(report.passed);
+  EXPECT_TRUE(report.text.starts_with("this is not the run of the token: it had ")) << report;
+  EXPECT_FALSE(contains(report.text, "\n")) << report;
+}
+
+TEST(ExploreDeathTest, ATokenThatDoesNotFitEndsTheProgramAndSaysWhereTheRunLeftIt) {
+  const auto replay = [](const char* token) {
+    setenv("WAITPOINT_REPLAY", token, 1);
+    explore(lose_a_wake_up);
+  };
+  const auto status_two = ::testing::ExitedWithCode(2);
+  EXPECT_EXIT(replay("wx1.1.00000000.=99-1"), status_two,
+              "^waitpoint: wx1.*: this is not the run of the token: choice 99 was never come to: it left the record "
+              "before its end, behind event [0-9]+, at 0.000000000 s; the program or the test is another one\n$");
+  EXPECT_EXIT(replay("wx1.1.00000000.=1-7"), status_two,
+              "choice 1 has only 2 alternatives, none of the number 7: it left the record at event [0-9]+, at 0.0");
+  EXPECT_EXIT(replay("wx1.1.00000001.="), status_two,
+              "it had [0-9]+ events, and its digest begins with [0-9a-f]{8}, the token's with 00000001; ");
+}
+
+}  // namespace
+}  // namespace waitpoint

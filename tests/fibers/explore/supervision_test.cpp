@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies that end the process, or would never end: what the supervising process says and does.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <mutex>
+
+#include "fibers/explore/explore.hpp"
+#include "fibers/sync/atomic.hpp"
+#include "fibers/sync/thread.hpp"
+
+namespace waitpoint {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Explore, ABodyThatCallsExitEndsTheTestProgramWithAFailure) {
+  const auto explore_and_leave = [] {
+    explore([] {
+      atomic<bool> first{false};
+      thread other([&] { first.store(true); });
+      if (first.load()) std::exit(0);
+      other.join();
+    });
+    std::exit(0);
+  };
+  EXPECT_EXIT(explore_and_leave(), testing::ExitedWithCode(1), "the process ended within schedule [0-9]+\nreplay: ");
+}
+
+TEST(Explore, AScheduleThatGoesOnForLongIsToldAndAtItsLimitEndedWithItsToken) {
+  const auto compute_for_ever = [] {
+    explore(
+        [] {
+          for (;;) asm volatile("");
+        },
+        {.schedule_limit_s = 12});
+    std::exit(0);
+  };
+  EXPECT_EXIT(compute_for_ever(), testing::ExitedWithCode(1),
+              "the default schedule has gone on for 10 s;.*\nreplay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n"
+              "waitpoint: the default schedule has gone on for 12 s, the most that one may: the process is ended\n"
+              "replay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n$");
+}
+
+TEST(Explore, AScheduleThatWaitsForWhatIsNotSimulatedIsEndedWithItsToken) {
+  const auto lock_a_real_lock_twice = [] {
+    explore([] {
+      atomic<bool> first{false};
+      thread other([&] { first.store(true); });
+      std::timed_mutex real;
+      real.lock();
+      if (first.load()) (void)real.try_lock_for(1h);
+      other.join();
+    });
+    std::exit(0);
+  };
+  EXPECT_EXIT(
+      lock_a_real_lock_twice(), testing::ExitedWithCode(1),
+      "^waitpoint: schedule [0-9]+ has waited for 10 s for something that is not simulated, a real lock or input: the "
+      "process is ended\nreplay: WAITPOINT_REPLAY=wx1.1.0+.portfolio.1.[0-9]+ .*\n$");
+}
+
+}  // namespace
+}  // namespace waitpoint
