@@ -102,7 +102,8 @@ bool wake_ready(bool outside_too) {
     const bool is_ready = waiter->is_ready != nullptr ? waiter->is_ready(waiter->what)
                                                       : poll_now(waiter->descriptors, waiter->count) != 0;
     if (!is_ready) continue;
-    waiter->task->scheduler->wake(*waiter->task);
+    // To find out may have woken it already.
+    if (waiter->task->state == kernel::TaskState::blocked) waiter->task->scheduler->wake(*waiter->task);
     any = true;
   }
   return any;

@@ -25,7 +25,8 @@ namespace {
 
 constexpr int processes_max = 1024;
 constexpr std::uintptr_t address = record_address + record_bytes;
-constexpr std::size_t bytes_max = std::size_t{1} << 30;
+constexpr std::size_t bytes_max = std::size_t{1} << 34;  // taken as they are used
+constexpr std::size_t page = 4096;
 
 constexpr pid_t expected = -1;  // a child that is about to be made
 
@@ -144,6 +145,21 @@ void* common(Part part, std::size_t bytes) {
 }
 
 void give(void* memory) { family->arena.give(memory); }
+
+// In front of the first page is, in the page before it, where the piece of the arena begins.
+void* take_pages(std::size_t bytes) {
+  auto* const piece = static_cast<char*>(joined().arena.take(bytes + 2 * page));
+  if (piece == nullptr) return nullptr;
+  char* const pages = reinterpret_cast<char*>((reinterpret_cast<std::uintptr_t>(piece) / page + 2) * page);
+  reinterpret_cast<void**>(pages)[-1] = piece;
+  madvise(pages, bytes, MADV_REMOVE);
+  return pages;
+}
+
+void give_pages(void* pages, std::size_t bytes) {
+  madvise(pages, bytes, MADV_REMOVE);
+  give(static_cast<void**>(pages)[-1]);
+}
 
 Section::Section(bool needed) : entered_(needed) {
   if (!entered_) return;

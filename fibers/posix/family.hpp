@@ -32,10 +32,14 @@ pid_t this_process();
 /// Memory at one address in all of them, zeroed; null without any. Within a Section.
 void* take(std::size_t bytes);
 void give(void* memory);
+/// The same of whole pages, which nobody has touched: for as many as it was asked for, to be given back with their
+/// count.
+void* take_pages(std::size_t bytes);
+void give_pages(void* pages, std::size_t bytes);
 
 /// What parts of the layer keep there, zeroed when it is first asked for with a size; null without it. Within a
 /// Section.
-enum class Part { names, futexes, count };
+enum class Part { names, futexes, semaphores, memory, messages, count };
 void* common(Part part, std::size_t bytes);
 
 /// While it lives, no other process of the family is in one. Not to be nested, and nothing in it waits.

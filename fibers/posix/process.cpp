@@ -25,6 +25,7 @@
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
 #include "fibers/posix/signals.hpp"
+#include "fibers/posix/system_v_ends.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
@@ -66,6 +67,7 @@ void begin_as_child() {
   is_child = true;
   take_own_record();
   family::begin_as_child();
+  system_v::inherit_memory(getppid());
   forget_waiters();
   leave_shared_mutexes();
   kernel::running->scheduler->keep_running_task_only();

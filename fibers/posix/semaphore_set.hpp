@@ -5,8 +5,6 @@
 
 #include <sys/sem.h>
 
-#include <cstdlib>
-
 #include "fibers/posix/program_state.hpp"
 #include "fibers/posix/system_v.hpp"
 
@@ -20,20 +18,29 @@ struct Value {
   pid_t last;  ///< who changed it last
 };
 
-/// A call that waits for its operations to be possible: on its thread's stack.
+/// Whose call it is.
+struct Caller {
+  pid_t process;
+  const Program* program;
+  bool operator==(const Caller&) const = default;
+};
+
+/// A call that waits for its operations to be possible, of any process of the family.
 struct Waiting {
-  kernel::Task* task;
-  const sembuf* operations;
+  Caller caller;
+  kernel::Task* task;  ///< in its process
   std::size_t count;
-  const sembuf* hindered_by;  ///< the first that cannot be done
-  int result;                 ///< an error, or 0
+  std::size_t hindered_by;  ///< the first that cannot be done
+  int result;               ///< an error, or 0
   bool done;
   Waiting* next;
+  sembuf* operations() { return reinterpret_cast<sembuf*>(this + 1); }
+  const sembuf& hindering() { return operations()[hindered_by]; }
 };
 
 /// What a program has done with SEM_UNDO to a set, negated.
 struct Adjustments {
-  const Program* program;
+  Caller of;
   Adjustments* next;
   int* by;  ///< behind it
 };
@@ -43,7 +50,7 @@ struct Set : Common {
   ~Set() {
     while (Adjustments* first = adjustments) {
       adjustments = first->next;
-      std::free(first);
+      family::give(first);
     }
   }
 
@@ -54,13 +61,18 @@ struct Set : Common {
   Adjustments* adjustments = nullptr;
 };
 
-extern Table<Set, sets_max> sets;
+using Sets = Table<Set, sets_max>;
+/// Within the family's section, as all that follows.
+inline Sets& sets() { return table_of<Sets>(family::Part::semaphores); }
 
-/// As semop(), until a deadline of virtual time.
-int operate(int id, const sembuf* operations, std::size_t count, Time deadline);
 /// After a change: calls that can go on now do, one after the other.
 void let_go_on(Set& set);
 /// All calls that wait end with this error.
 void end_all(Set& set, int error);
+/// What processes that have ended had done with SEM_UNDO is taken back; whether there was any.
+bool undo_of_ended(Set& set);
+
+/// As semop(), until a deadline of virtual time. Outside the section.
+int operate(int id, const sembuf* operations, std::size_t count, Time deadline);
 
 }  // namespace waitpoint::posix::system_v

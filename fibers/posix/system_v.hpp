@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What System V's semaphores, shared memory and message queues have in common: keys, identifiers and permissions.
 //
-// The objects are the simulation's own: all programs of one simulation share them, no other process sees them, and they
-// are gone when it ends. They keep to the limits that Linux begins with.
+// The objects are the simulation's own: all programs of one simulation and all processes of their family share them, no
+// other process sees them, and they are gone when it ends. They lie in the family's memory, are changed within its
+// section alone, and keep to the limits that Linux begins with.
 #pragma once
 
 #include <sys/ipc.h>
 #include <sys/types.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <new>
 
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/error_number.hpp"
+#include "fibers/posix/family.hpp"
+#include "fibers/posix/program.hpp"
+#include "fibers/posix/waitable.hpp"
 
 namespace waitpoint::posix::system_v {
 
@@ -22,14 +25,21 @@ inline constexpr unsigned identifiers_a_slot = 32768;
 
 /// What each of them begins with.
 struct Common {
-  explicit Common(const char* kind) : object(kind) {}
+  explicit Common(const char* kind_of) : kind(kind_of) {}
 
-  kernel::Object object;
+  const char* kind;
   ipc_perm permissions{};
   int id = -1;
   unsigned users = 0;    ///< calls that are within it
   bool removed = false;  ///< by IPC_RMID: it has no identifier any more
 };
+
+/// What stands for it in this process.
+struct Known : Waitable {
+  static constexpr Kind kind_of_all = Kind::system_v;
+  explicit Known(const void* address) : Waitable(kind_of_all, static_cast<const Common*>(address)->kind, address) {}
+};
+inline kernel::Object& object_of(const Common& common) { return waitable_at<Known>(&common).object; }
 
 /// Who makes an object is its creator and owner, for the first time.
 void set_creator(Common& common, key_t key, int flags);
@@ -45,7 +55,15 @@ time_t date();
 /// What counts for an event; nothing before main().
 void pass_if_simulated(kernel::Operation operation, kernel::Object* object);
 
-/// All objects of a kind: an identifier is a slot and how often the slot was used before.
+/// Back to the family's memory, within its section.
+template <class T>
+void free_object(T& object) {
+  if (Waitable* const known = find_waitable(&object, Known::kind_of_all); known != nullptr) forget(*known);
+  object.~T();
+  family::give(&object);
+}
+
+/// All objects of a kind, within the family's section: an identifier is a slot and how often the slot was used before.
 template <class T, int most>
 class Table {
  public:
@@ -94,10 +112,7 @@ class Table {
   /// None are there any more, and identifiers begin anew.
   void clear() {
     for (int slot = 0; slot < end_; ++slot) {
-      if (slots_[slot] != nullptr) {
-        slots_[slot]->~T();
-        std::free(slots_[slot]);
-      }
+      if (slots_[slot] != nullptr) free_object(*slots_[slot]);
       slots_[slot] = nullptr;
       used_[slot] = 0;
     }
@@ -117,17 +132,21 @@ class Table {
   int end_, count_;
 };
 
-/// A call that is within an object, which stays until the call is done.
+/// A call that is within an object, which stays until the call is done. Outside the section.
 template <class T>
 class Use {
  public:
-  explicit Use(T* object) : object_(object) {
+  /// Of what `find` finds, within the section.
+  template <class Find>
+  explicit Use(Find find) {
+    const family::Section section;
+    object_ = find();
     if (object_ != nullptr) ++object_->users;
   }
   ~Use() {
-    if (object_ == nullptr || --object_->users > 0 || !object_->removed) return;
-    object_->~T();
-    std::free(object_);
+    if (object_ == nullptr) return;
+    const family::Section section;
+    if (--object_->users == 0 && object_->removed) free_object(*object_);
   }
   Use(const Use&) = delete;
   Use& operator=(const Use&) = delete;
@@ -140,11 +159,19 @@ class Use {
   T* object_;
 };
 
-/// A new one, of this size at least; null if there is no memory.
+/// A new one, of this size at least, within the section; null if there is no memory.
 template <class T>
 T* make_object(std::size_t size = sizeof(T)) {
-  void* const memory = std::calloc(1, size);
+  void* const memory = family::take(size);
   return memory == nullptr ? nullptr : new (memory) T();
+}
+
+/// The table of a kind, within the section.
+template <class T>
+T& table_of(family::Part part) {
+  void* const memory = family::common(part, sizeof(T));
+  if (memory == nullptr) refuse("there is no memory for System V's objects");
+  return *static_cast<T*>(memory);
 }
 
 }  // namespace waitpoint::posix::system_v

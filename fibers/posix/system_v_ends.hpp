@@ -2,6 +2,8 @@
 // What becomes of System V's objects when threads, programs and runs end.
 #pragma once
 
+#include <sys/types.h>
+
 #include "fibers/posix/program_state.hpp"
 
 namespace waitpoint::posix::system_v {
@@ -13,6 +15,9 @@ void forget_message_waiter(const kernel::Task& task);
 
 /// Takes back what the program did to semaphores with SEM_UNDO.
 void undo_semaphores_of(const Program& program);
+
+/// In a child: what its parent had attached, it has too.
+void inherit_memory(pid_t parent);
 
 /// There are none any more, and identifiers begin anew: nobody is left who uses any.
 void forget_memory();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// System V message queues. A message goes to a call that waits for it at once; calls that wait for room are woken, and
-// look for themselves.
+// System V message queues(). A message goes to a call that waits for it at once; calls that wait for room are woken,
+// and look for themselves.
 #include <sys/msg.h>
 #include <unistd.h>
 
@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/signals.hpp"
@@ -37,13 +38,21 @@ struct Wanted {
   int flags;
 };
 
-/// A call that waits to receive: on its thread's stack.
+/// A call that waits to receive, of any process of the family.
 struct Receiving {
-  kernel::Task* task;
+  pid_t process;
+  kernel::Task* task;  // in its process
   Wanted wanted;
   Message* message;  // given to it
   int error;         // with which it ends
   Receiving* next;
+};
+
+/// What senders wait for: known in each process, by its address.
+struct Room {};
+struct KnownRoom : Waitable {
+  static constexpr Kind kind_of_all = Kind::system_v;
+  explicit KnownRoom(const void* address) : Waitable(kind_of_all, "room in a System V message queue", address) {}
 };
 
 struct Queue : Common {
@@ -51,11 +60,11 @@ struct Queue : Common {
   ~Queue() {
     while (Message* message = first) {
       first = message->next;
-      std::free(message);
+      family::give(message);
     }
   }
 
-  kernel::Object room{"room in a System V message queue"};
+  Room room;
   std::size_t bytes = 0, bytes_max = bytes_a_queue_max;
   unsigned long count = 0;
   time_t sent = 0, received = 0, changed = 0;
@@ -64,7 +73,10 @@ struct Queue : Common {
   Receiving* first_receiving = nullptr;
 };
 
-Table<Queue, queues_max> queues;
+kernel::Object& object_of_room(const Queue& queue) { return waitable_at<KnownRoom>(&queue.room).object; }
+
+using Queues = Table<Queue, queues_max>;
+Queues& queues() { return table_of<Queues>(family::Part::messages); }
 
 bool is_wanted(const Wanted& wanted, long type) {
   if (wanted.type == 0) return true;
@@ -116,12 +128,29 @@ void remove(Queue& queue, Receiving& receiving) {
 void end_receiving(Queue& queue, Receiving& receiving, Message* message, int error) {
   remove(queue, receiving);
   receiving.message = message;
-  receiving.error = error;
-  receiving.task->scheduler->wake(*receiving.task);
+  __atomic_store_n(&receiving.error, error, __ATOMIC_SEQ_CST);
+  if (receiving.process == family::this_process())
+    receiving.task->scheduler->wake(*receiving.task);
+  else
+    family::ring();
+}
+
+// Calls of processes that were killed wait no longer.
+void drop_dead(Queue& queue) {
+  for (Receiving** link = &queue.first_receiving; *link != nullptr;) {
+    Receiving* const each = *link;
+    if (each->process == family::this_process() || family::lives(each->process)) {
+      link = &each->next;
+      continue;
+    }
+    *link = each->next;
+    family::give(each);
+  }
 }
 
 // To one of those that wait for such a message, of the chooser's choice. Whose room is too small ends with an error.
 bool give(Queue& queue, Message& message) {
+  drop_dead(queue);
   for (;;) {
     std::uint32_t count = 0;
     for (const Receiving* each = queue.first_receiving; each != nullptr; each = each->next)
@@ -134,7 +163,7 @@ bool give(Queue& queue, Message& message) {
       end_receiving(queue, *each, nullptr, E2BIG);
       continue;
     }
-    queue.last_receiver = getpid();
+    queue.last_receiver = each->process;
     queue.received = date();
     end_receiving(queue, *each, &message, 0);
     return true;
@@ -145,67 +174,128 @@ bool has_room(const Queue& queue, std::size_t size) {
   return queue.bytes + size <= queue.bytes_max && queue.count + 1 <= queue.bytes_max;
 }
 
-void wake_senders(Queue& queue) {
-  if (is_simulated()) kernel::running->scheduler->wake_all(queue.room);
+void wake_senders(const Queue& queue) {
+  if (is_simulated()) kernel::running->scheduler->wake_all(object_of_room(queue));
+  family::ring();
 }
 
-int send_message(Queue& queue, long type, const char* bytes, std::size_t size, int flags) {
-  const CancellationPoint point;
-  pass_if_simulated(kernel::Operation::send, &queue.object);
-  while (!queue.removed && !has_room(queue, size)) {
-    if ((flags & IPC_NOWAIT) != 0) return fail(EAGAIN);
-    if (!is_simulated()) refuse("a thread waits before main() begins");
-    kernel::running->scheduler->enter(queue.room);
-    const Wait ended = point.block(queue.room, Time::max());
-    if (point.was_cancelled()) return fail(ECANCELED);
-    if (ended == Wait::interrupted && is_interrupted(Restart::never)) return fail(EINTR);
-  }
-  if (queue.removed) return fail(EIDRM);
-  auto* const message = static_cast<Message*>(std::malloc(sizeof(Message) + size));
-  if (message == nullptr) return fail(ENOMEM);
+// What a sender waits for.
+struct Sending {
+  const Queue& queue;
+  std::size_t size;
+};
+bool may_send(const void* what) {
+  const auto& sending = *static_cast<const Sending*>(what);
+  return sending.queue.removed || has_room(sending.queue, sending.size);
+}
+
+// An error, or 0.
+int put(Queue& queue, long type, const char* bytes, std::size_t size) {
+  auto* const message = static_cast<Message*>(family::take(sizeof(Message) + size));
+  if (message == nullptr) return ENOMEM;
   message->type = type;
   message->size = size;
   std::memcpy(message->bytes(), bytes, size);
-  queue.last_sender = getpid();
+  queue.last_sender = family::this_process();
   queue.sent = date();
   if (!give(queue, *message)) append(queue, *message);
   return 0;
 }
 
-// Null with errno set; a message that the caller frees, unless it is a copy that stays in the queue.
-Message* take_message(Queue& queue, const Wanted& wanted) {
+int send_message(Queue& queue, long type, const char* bytes, std::size_t size, int flags) {
   const CancellationPoint point;
-  pass_if_simulated(kernel::Operation::receive, &queue.object);
-  const auto failed = [](int error) {
-    fail(error);
-    return static_cast<Message*>(nullptr);
-  };
-  if (queue.removed) return failed(EIDRM);
-  Message** const link = find_message(queue, wanted);
-  if (Message* const message = *link; message != nullptr) {
-    if (message->size > wanted.size && (wanted.flags & MSG_NOERROR) == 0) return failed(E2BIG);
-    if ((wanted.flags & MSG_COPY) != 0) return message;
-    *link = message->next;
-    queue.bytes -= message->size;
-    --queue.count;
-    queue.last_receiver = getpid();
-    queue.received = date();
-    wake_senders(queue);
-    return message;
+  pass_if_simulated(kernel::Operation::send, &object_of(queue));
+  const Sending sending{queue, size};
+  for (;;) {
+    {
+      const family::Section section;
+      if (queue.removed) return fail(EIDRM);
+      if (has_room(queue, size)) {
+        const int error = put(queue, type, bytes, size);
+        return error == 0 ? 0 : fail(error);
+      }
+    }
+    if ((flags & IPC_NOWAIT) != 0) return fail(EAGAIN);
+    if (!is_simulated()) refuse("a thread waits before main() begins");
+    kernel::running->scheduler->enter(object_of_room(queue));
+    Wait ended = Wait::interrupted;
+    if (!point.was_cancelled()) ended = wait_on_shared(object_of_room(queue), Time::max(), may_send, &sending);
+    if (point.was_cancelled()) return fail(ECANCELED);
+    if (ended == Wait::interrupted && is_interrupted(Restart::never)) return fail(EINTR);
   }
-  if ((wanted.flags & IPC_NOWAIT) != 0) return failed(ENOMSG);
-  if (!is_simulated()) refuse("a thread waits before main() begins");
-  Receiving receiving{kernel::running, wanted, nullptr, -1, nullptr};
-  while (receiving.error < 0) {
+}
+
+// Out of the queue, but for a copy.
+void take_out(Queue& queue, Message** link) {
+  Message* const message = *link;
+  *link = message->next;
+  queue.bytes -= message->size;
+  --queue.count;
+  queue.last_receiver = family::this_process();
+  queue.received = date();
+  wake_senders(queue);
+}
+
+// What is written to the program, and given back to the family unless it stays in the queue.
+ssize_t hand_over(Message& message, const Wanted& wanted, void* to) {
+  const std::size_t taken = message.size < wanted.size ? message.size : wanted.size;
+  std::memcpy(to, &message.type, sizeof message.type);
+  std::memcpy(static_cast<char*>(to) + sizeof message.type, message.bytes(), taken);
+  if ((wanted.flags & MSG_COPY) == 0) family::give(&message);
+  return static_cast<ssize_t>(taken);
+}
+
+bool is_done(const void* receiving) {
+  return __atomic_load_n(&static_cast<const Receiving*>(receiving)->error, __ATOMIC_SEQ_CST) >= 0;
+}
+
+// Until a message was given to it. An error, or 0.
+int wait_for_message(Queue& queue, Receiving& receiving, const CancellationPoint& point) {
+  while (!is_done(&receiving)) {
+    Wait ended = Wait::interrupted;
+    if (!point.was_cancelled()) ended = wait_on_shared(object_of(queue), Time::max(), is_done, &receiving);
+    if (is_done(&receiving)) break;
+    if (ended != Wait::interrupted) continue;  // to look again
+    {
+      const family::Section section;
+      if (is_done(&receiving)) break;
+      remove(queue, receiving);
+    }
+    if (point.was_cancelled()) return ECANCELED;
+    if (is_interrupted(Restart::never)) return EINTR;
+    const family::Section section;
+    if (queue.removed) return EIDRM;
     append(queue, receiving);
-    const Wait ended = point.block(queue.object, Time::max());
-    if (receiving.error >= 0) break;
-    remove(queue, receiving);
-    if (point.was_cancelled()) return failed(ECANCELED);
-    if (ended == Wait::interrupted && is_interrupted(Restart::never)) return failed(EINTR);
-    if (queue.removed) return failed(EIDRM);
   }
-  return receiving.error == 0 ? receiving.message : failed(receiving.error);
+  return receiving.error;
+}
+
+// As msgrcv(). Who is cancelled gives ECANCELED.
+ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
+  const CancellationPoint point;
+  pass_if_simulated(kernel::Operation::receive, &object_of(queue));
+  Receiving* receiving = nullptr;
+  {
+    const family::Section section;
+    if (queue.removed) return fail(EIDRM);
+    if (Message** const link = find_message(queue, wanted); *link != nullptr) {
+      Message& message = **link;
+      if (message.size > wanted.size && (wanted.flags & MSG_NOERROR) == 0) return fail(E2BIG);
+      if ((wanted.flags & MSG_COPY) == 0) take_out(queue, link);
+      return hand_over(message, wanted, to);
+    }
+    if ((wanted.flags & IPC_NOWAIT) != 0) return fail(ENOMSG);
+    if (!is_simulated()) refuse("a thread waits before main() begins");
+    receiving = static_cast<Receiving*>(family::take(sizeof(Receiving)));
+    if (receiving == nullptr) return fail(ENOMEM);
+    *receiving = {family::this_process(), kernel::running, wanted, nullptr, -1, nullptr};
+    append(queue, *receiving);
+  }
+  const int error = wait_for_message(queue, *receiving, point);
+  const family::Section section;
+  Message* const message = receiving->message;
+  family::give(receiving);
+  return error == 0 ? hand_over(*message, wanted, to) : fail(error);
 }
 
 int tell_status(const Queue& queue, msqid_ds* to) {
@@ -233,14 +323,14 @@ int tell_limits(void* to, bool used) {
   limits.msgpool = queues_max * limits.msgmnb / 1024;
   limits.msgtql = limits.msgmnb;
   if (used) limits.msgpool = limits.msgmap = limits.msgtql = 0;
-  for (int slot = 0; used && slot < queues.end(); ++slot)
-    if (const Queue* queue = queues.in_slot(slot); queue != nullptr) {
+  for (int slot = 0; used && slot < queues().end(); ++slot)
+    if (const Queue* queue = queues().in_slot(slot); queue != nullptr) {
       ++limits.msgpool;
       limits.msgmap += static_cast<int>(queue->count);
       limits.msgtql += static_cast<int>(queue->bytes);
     }
   std::memcpy(to, &limits, sizeof limits);
-  return queues.greatest_slot();
+  return queues().greatest_slot();
 }
 
 void end_all(Queue& queue, int error) {
@@ -261,7 +351,7 @@ int control(Queue& queue, int command, msqid_ds* status) {
       return 0;
     case IPC_RMID:
       if (!is_owner(queue)) return fail(EPERM);
-      queues.remove(queue);
+      queues().remove(queue);
       end_all(queue, EIDRM);
       return 0;
     default: return fail(EINVAL);
@@ -271,19 +361,25 @@ int control(Queue& queue, int command, msqid_ds* status) {
 }  // namespace
 
 void forget_message_waiter(const kernel::Task& task) {
-  for (int slot = 0; slot < queues.end(); ++slot) {
-    Queue* const queue = queues.in_slot(slot);
+  const family::Section section;
+  for (int slot = 0; slot < queues().end(); ++slot) {
+    Queue* const queue = queues().in_slot(slot);
     for (Receiving** link = queue == nullptr ? nullptr : &queue->first_receiving; link != nullptr && *link != nullptr;
-         link = &(*link)->next)
-      if ((*link)->task == &task) {
-        *link = (*link)->next;
-        --queue->users;
-        return;
-      }
+         link = &(*link)->next) {
+      Receiving* const each = *link;
+      if (each->task != &task || each->process != family::this_process()) continue;
+      *link = each->next;
+      family::give(each);
+      --queue->users;
+      return;
+    }
   }
 }
 
-void forget_messages() { queues.clear(); }
+void forget_messages() {
+  const family::Section section;
+  queues().clear();
+}
 
 }  // namespace waitpoint::posix::system_v
 
@@ -293,7 +389,8 @@ using namespace waitpoint::posix::system_v;
 
 WAITPOINT_INTERPOSED int msgget(key_t key, int flags) noexcept {
   pass_if_simulated(kernel::Operation::open, nullptr);
-  return queues.get(
+  const family::Section section;
+  return queues().get(
       key, flags, [](const Queue&) { return 0; },
       [](Queue*& made) {
         made = make_object<Queue>();
@@ -309,7 +406,7 @@ WAITPOINT_INTERPOSED int msgsnd(int id, const void* message, std::size_t size, i
   if (size > bytes_a_message_max || type < 1) return fail(EINVAL);
   int result = 0;
   {
-    const Use<Queue> queue(queues.find(id));
+    const Use<Queue> queue([&] { return queues().find(id); });
     if (!queue) return fail(EINVAL);
     if (!is_allowed(*queue, 2)) return fail(EACCES);
     result = send_message(*queue, type, static_cast<const char*>(message) + sizeof type, size, flags);
@@ -324,16 +421,10 @@ WAITPOINT_INTERPOSED ssize_t msgrcv(int id, void* to, std::size_t size, long typ
   if (is_copy && ((flags & MSG_EXCEPT) != 0 || (flags & IPC_NOWAIT) == 0)) return fail(EINVAL);
   ssize_t result = -1;
   {
-    const Use<Queue> queue(queues.find(id));
+    const Use<Queue> queue([&] { return queues().find(id); });
     if (!queue) return fail(EINVAL);
     if (!is_allowed(*queue, 4)) return fail(EACCES);
-    if (Message* const message = take_message(*queue, {type, size, flags}); message != nullptr) {
-      const std::size_t taken = message->size < size ? message->size : size;
-      std::memcpy(to, &message->type, sizeof message->type);
-      std::memcpy(static_cast<char*>(to) + sizeof message->type, message->bytes(), taken);
-      result = static_cast<ssize_t>(taken);
-      if (!is_copy) std::free(message);
-    }
+    result = take_message(*queue, {type, size, flags}, to);
   }
   if (result < 0 && is_simulated()) leave_if_cancelled();
   return result;
@@ -341,15 +432,19 @@ WAITPOINT_INTERPOSED ssize_t msgrcv(int id, void* to, std::size_t size, long typ
 
 WAITPOINT_INTERPOSED int msgctl(int id, int command, msqid_ds* status) noexcept {
   if (id < 0 || command < 0) return fail(EINVAL);
-  if (command == IPC_INFO || command == MSG_INFO) return tell_limits(status, command == MSG_INFO);
+  if (command == IPC_INFO || command == MSG_INFO) {
+    const family::Section section;
+    return tell_limits(status, command == MSG_INFO);
+  }
   const bool by_slot = command == MSG_STAT || command == MSG_STAT_ANY;
-  const Use<Queue> queue(by_slot ? queues.in_slot(id) : queues.find(id));
+  const Use<Queue> queue([&] { return by_slot ? queues().in_slot(id) : queues().find(id); });
   if (!queue) return fail(EINVAL);
   if (by_slot) {
     if (command == MSG_STAT && !is_allowed(*queue, 4)) return fail(EACCES);
     tell_status(*queue, status);
     return queue->id;
   }
-  pass_if_simulated(kernel::Operation::modify, &queue->object);
+  pass_if_simulated(kernel::Operation::modify, &object_of(*queue));
+  const family::Section section;
   return queue->removed ? fail(EIDRM) : control(*queue, command, status);
 }

@@ -17,8 +17,8 @@ namespace {
 // Of a semaphore: how many calls wait for it to rise, or to be zero.
 int count_waiting(const Set& set, int number, bool for_zero) {
   int count = 0;
-  for (const Waiting* each = set.first; each != nullptr; each = each->next)
-    if (each->hindered_by->sem_num == number && (each->hindered_by->sem_op == 0) == for_zero) ++count;
+  for (Waiting* each = set.first; each != nullptr; each = each->next)
+    if (each->hindering().sem_num == number && (each->hindering().sem_op == 0) == for_zero) ++count;
   return count;
 }
 
@@ -29,7 +29,7 @@ void forget_adjustments(Set& set, int number) {
 int set_value(Set& set, int number, int to) {
   if (to < 0 || to > value_max) return fail(ERANGE);
   set.values[number].value = static_cast<unsigned short>(to);
-  set.values[number].last = getpid();
+  set.values[number].last = family::this_process();
   forget_adjustments(set, number);
   set.changed = date();
   let_go_on(set);
@@ -41,7 +41,7 @@ int set_all(Set& set, const unsigned short* to) {
     if (to[i] > value_max) return fail(ERANGE);
   for (int i = 0; i < set.size; ++i) {
     set.values[i].value = to[i];
-    set.values[i].last = getpid();
+    set.values[i].last = family::this_process();
     forget_adjustments(set, i);
   }
   set.changed = date();
@@ -66,11 +66,11 @@ int tell_limits(seminfo* to, bool used) {
   to->semaem = value_max;
   to->semmap = to->semmnu = to->semmns;
   to->semume = operations_a_call_max;
-  to->semusz = used ? sets.count() : 20;
-  for (int slot = 0; used && slot < sets.end(); ++slot)
-    if (const Set* set = sets.in_slot(slot); set != nullptr) to->semaem += set->size;
+  to->semusz = used ? sets().count() : 20;
+  for (int slot = 0; used && slot < sets().end(); ++slot)
+    if (const Set* set = sets().in_slot(slot); set != nullptr) to->semaem += set->size;
   if (used) to->semaem -= value_max;
-  return sets.greatest_slot();
+  return sets().greatest_slot();
 }
 
 int tell_status(const Set& set, semid_ds* to) {
@@ -109,7 +109,7 @@ int control_all(Set& set, int command, Argument argument) {
       return 0;
     case IPC_RMID:
       if (!is_owner(set)) return fail(EPERM);
-      sets.remove(set);
+      sets().remove(set);
       end_all(set, EIDRM);
       return 0;
     default: return fail(EINVAL);
@@ -126,7 +126,8 @@ using namespace waitpoint::posix::system_v;
 WAITPOINT_INTERPOSED int semget(key_t key, int size, int flags) noexcept {
   if (size < 0 || size > semaphores_a_set_max) return fail(EINVAL);
   pass_if_simulated(kernel::Operation::open, nullptr);
-  return sets.get(
+  const family::Section section;
+  return sets().get(
       key, flags, [&](const Set& set) { return size > set.size ? EINVAL : 0; },
       [&](Set*& made) {
         if (size == 0) return EINVAL;
@@ -155,16 +156,21 @@ WAITPOINT_INTERPOSED int semctl(int id, int number, int command, ...) noexcept {
   const Argument argument = va_arg(more, Argument);
   va_end(more);
   if (id < 0) return fail(EINVAL);
-  if (command == IPC_INFO || command == SEM_INFO) return tell_limits(argument.information, command == SEM_INFO);
+  if (command == IPC_INFO || command == SEM_INFO) {
+    const family::Section section;
+    return tell_limits(argument.information, command == SEM_INFO);
+  }
   const bool by_slot = command == SEM_STAT || command == SEM_STAT_ANY;
-  const Use<Set> set(by_slot ? sets.in_slot(id) : sets.find(id));
+  const Use<Set> set([&] { return by_slot ? sets().in_slot(id) : sets().find(id); });
   if (!set) return fail(EINVAL);
   if (by_slot) {
     if (command == SEM_STAT && !is_allowed(*set, 4)) return fail(EACCES);
     tell_status(*set, argument.status);
     return set->id;
   }
-  pass_if_simulated(kernel::Operation::modify, &set->object);
+  pass_if_simulated(kernel::Operation::modify, &object_of(*set));
+  const family::Section section;
+  if (set->adjustments != nullptr) undo_of_ended(*set);
   if (set->removed) return fail(EIDRM);
   switch (command) {
     case GETVAL:

@@ -26,8 +26,13 @@ Waitable** buckets = nullptr;
 std::size_t bucket_count = 0;
 std::size_t kept = 0;
 
+// Where in no program anything else is: not in holes that a program has made for something of its own.
+std::uintptr_t next_pages = 0x2b00'0000'0000;
+
 void* pages(std::size_t bytes) {
-  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* memory =
+      mmap(reinterpret_cast<void*>(next_pages), bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  next_pages += (bytes + 4095) / 4096 * 4096;
   WAITPOINT_CHECK(memory != MAP_FAILED, "no memory for the program's primitives");
   return memory;
 }

@@ -16,7 +16,7 @@
 namespace waitpoint::posix {
 
 struct Waitable {
-  enum class Kind : std::uint8_t { mutex, condition, rwlock, semaphore, barrier, word };
+  enum class Kind : std::uint8_t { mutex, condition, rwlock, semaphore, barrier, word, system_v };
 
   Waitable(Kind kind_of, const char* name, const void* at) : object(name), kind(kind_of), address(at) {}
   bool idle() const { return object.owner == nullptr && object.first_waiter == nullptr; }
