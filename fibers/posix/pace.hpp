@@ -14,7 +14,7 @@ namespace waitpoint::posix {
 
 /// The running thread has made a child.
 void note_child(pid_t child);
-/// This is a new child.
+/// This is a new child, or a program that another simulation has started.
 void note_parent();
 
 /// Whether virtual time has to wait.

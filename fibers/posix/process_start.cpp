@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Programs that this one starts. They are not simulated, but have the mask of signals that their maker's thread had: to
-// the system, nothing is blocked here.
+// Programs that this one starts. They have the mask of signals that their maker's thread had: to the system, nothing is
+// blocked here.
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +16,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/pace.hpp"
 #include "fibers/posix/signals.hpp"
+#include "fibers/posix/started_programs.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
@@ -119,18 +120,21 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int execve(const char* path, char* const* words, char* const* environment) noexcept {
+  const StartEnvironment started(environment);
   const RealMask mask;
-  return WAITPOINT_NEXT(execve)(path, words, environment);
+  return WAITPOINT_NEXT(execve)(path, words, started.get());
 }
 WAITPOINT_INTERPOSED int execv(const char* path, char* const* words) noexcept { return execve(path, words, environ); }
 WAITPOINT_INTERPOSED int execvpe(const char* file, char* const* words, char* const* environment) noexcept {
+  const StartEnvironment started(environment);
   const RealMask mask;
-  return WAITPOINT_NEXT(execvpe)(file, words, environment);
+  return WAITPOINT_NEXT(execvpe)(file, words, started.get());
 }
 WAITPOINT_INTERPOSED int execvp(const char* file, char* const* words) noexcept { return execvpe(file, words, environ); }
 WAITPOINT_INTERPOSED int fexecve(int descriptor, char* const* words, char* const* environment) noexcept {
+  const StartEnvironment started(environment);
   const RealMask mask;
-  return WAITPOINT_NEXT(fexecve)(descriptor, words, environment);
+  return WAITPOINT_NEXT(fexecve)(descriptor, words, started.get());
 }
 
 WAITPOINT_INTERPOSED int execl(const char* path, const char* first, ...) noexcept {
@@ -161,9 +165,10 @@ WAITPOINT_INTERPOSED int posix_spawn(pid_t* child, const char* path, const posix
                                      char* const* environment) noexcept {
   pid_t made = 0;
   before_start(actions);
+  const StartEnvironment started(environment);
   const RealMask mask;
   const int error =
-      note_started(WAITPOINT_NEXT(posix_spawn)(&made, path, actions, attributes, words, environment), &made);
+      note_started(WAITPOINT_NEXT(posix_spawn)(&made, path, actions, attributes, words, started.get()), &made);
   if (error == 0 && child != nullptr) *child = made;
   return error;
 }
@@ -172,17 +177,24 @@ WAITPOINT_INTERPOSED int posix_spawnp(pid_t* child, const char* file, const posi
                                       char* const* environment) noexcept {
   pid_t made = 0;
   before_start(actions);
+  const StartEnvironment started(environment);
   const RealMask mask;
   const int error =
-      note_started(WAITPOINT_NEXT(posix_spawnp)(&made, file, actions, attributes, words, environment), &made);
+      note_started(WAITPOINT_NEXT(posix_spawnp)(&made, file, actions, attributes, words, started.get()), &made);
   if (error == 0 && child != nullptr) *child = made;
   return error;
 }
 
 WAITPOINT_INTERPOSED FILE* popen(const char* command, const char* type) {
   before_start(nullptr);
+  const StartEnvironment started(environ);
   const RealMask mask;
-  return WAITPOINT_NEXT(popen)(command, type);
+  // The C library starts the shell with this.
+  char** const own = environ;
+  environ = const_cast<char**>(started.get());
+  FILE* const stream = WAITPOINT_NEXT(popen)(command, type);
+  environ = own;
+  return stream;
 }
 
 WAITPOINT_INTERPOSED int system(const char* command) {

@@ -36,7 +36,10 @@ constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
 int (*program_body)() = nullptr;
 
 // main() returns into exit(), as in the C library; but it may leave by pthread_exit() too.
-void* run_body(void*) { std::exit(program_body()); }
+void* run_body(void*) {
+  if (record->settings.is_started) note_parent();
+  std::exit(program_body());
+}
 
 [[noreturn]] void end_process(int status) {
   WAITPOINT_NEXT(_exit)(status);

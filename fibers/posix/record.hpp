@@ -43,6 +43,8 @@ struct Settings {
   const Asked* asked = nullptr;     ///< how the schedule is explored, in Order::explored
   std::uint32_t looks_at_once = 1;  ///< so many uses of clocks and of giving way are paid for together
   bool instrumented = false;        ///< the program is compiled with -fsanitize=thread
+  bool simulates_started = false;   ///< programs that are started are simulations too
+  bool is_started = false;          ///< this is one of those
   int server = -1;                  ///< a socket: runs are asked for there, see fork_server.hpp
 };
 
@@ -61,7 +63,7 @@ struct ProgramRecord {
 };
 
 struct Record {
-  static constexpr std::uint64_t mark_of_version = 0x7770657865633032;  // "wpexec02"
+  static constexpr std::uint64_t mark_of_version = 0x7770657865633033;  // "wpexec03"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
@@ -92,7 +94,10 @@ struct Record {
   }
   std::span<ProgramRecord> several() const { return {programs, program_count}; }
 
-  Record() { arena.start(this + 1, reinterpret_cast<char*>(record_address + record_bytes)); }
+  /// Wherever it is made, it is to be used at the record's address.
+  Record() {
+    arena.start(reinterpret_cast<Record*>(record_address) + 1, reinterpret_cast<char*>(record_address + record_bytes));
+  }
   ~Record() {}  // the scheduler is never taken down: the process ends around it
 };
 

@@ -201,6 +201,25 @@ class Processes(Exec):
             self.assertEqual((0, hashlib.sha256(b"400 4950 2646700 0\n").hexdigest()), (status, output), text)
 
 
+    def test_that_are_started_are_native_or_simulated(self):
+        program = self.compile("starts.c")
+        ways = "system", "popen", "posix_spawn", "fork"
+
+        def run(*options):
+            words = [WAITPOINT, "exec", "--quiet", *options, "--", program]
+            done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 7, done.stderr)
+            return done.stdout.splitlines()
+
+        # The simulation's year is 2024.
+        simulated = [line for way in ways for line in ("2024", f"{way} 7")] + ["2024"]
+        self.assertEqual(run("--children", "simulated"), simulated)
+        for options in (), ("--children", "native"):
+            years = {line for line in run(*options) if " " not in line}
+            self.assertEqual(len(years), 1)
+            self.assertNotIn("2024", years)
+
+
 class Ends(Exec):
     """However a program ends, its exit status is its own, and what it came to is told."""
 

@@ -74,6 +74,7 @@ void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.clock = clock.value_or(kernel::ClockOptions());
   settings.isolate = isolate;
   settings.trap_rdtsc = trap_rdtsc;
+  settings.simulates_started = children;
 }
 
 void ProgramConditions::check(const std::vector<std::string>& programs) const {
@@ -89,6 +90,7 @@ std::string ProgramConditions::words() const {
   if (clock) all += " --clock " + clock_text;
   if (isolate) all += " --isolate";
   if (trap_rdtsc) all += " --trap-rdtsc";
+  if (children) all += " --children simulated";
   return all;
 }
 
@@ -101,6 +103,11 @@ void ConditionArguments::add_to(CLI::App& command) {
                   "proportional,\n"
                   "with :xFACTOR of that (default: nothing)")
       ->type_name("CLOCK");
+  command
+      .add_option("--children", children_,
+                  "programs that it starts (exec, posix_spawn, system, popen): native, the default, or\n"
+                  "simulated, each on its own; those that it forks are simulated in any case")
+      ->type_name("KIND");
   command.add_flag("--isolate", isolate_, "what would leave this machine fails (EACCES)")->disable_flag_override();
   command
       .add_flag("--trap-rdtsc", trap_rdtsc_,
@@ -115,6 +122,8 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   conditions.clock_text = clock_;
   conditions.isolate = isolate_;
   conditions.trap_rdtsc = trap_rdtsc_;
+  conditions.children = children_ == "simulated";
+  if (!conditions.children && children_ != "native") refuse("--children", "native or simulated", children_);
   const bool is_measured = conditions.clock && (conditions.clock->kind == kernel::ClockKind::cpu ||
                                                 conditions.clock->kind == kernel::ClockKind::proportional);
   if (is_measured && is_repeated)
@@ -123,7 +132,11 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
 }
 
 std::string ConditionArguments::first_given() const {
-  return !clock_.empty() ? "--clock" : isolate_ ? "--isolate" : trap_rdtsc_ ? "--trap-rdtsc" : "";
+  return !clock_.empty()         ? "--clock"
+         : isolate_              ? "--isolate"
+         : trap_rdtsc_           ? "--trap-rdtsc"
+         : children_ != "native" ? "--children"
+                                 : "";
 }
 
 }  // namespace waitpoint::tools

@@ -20,6 +20,7 @@ struct ProgramConditions {
   std::string clock_text;                     ///< as it was written
   bool isolate = false;                       ///< what would leave the machine fails
   bool trap_rdtsc = false;                    ///< the processor's counter shows virtual time
+  bool children = false;                      ///< programs that it starts are simulated too
 
   void apply_to(posix::Settings& settings) const;
   /// BadInput for programs that they cannot be had for: these files.
@@ -39,6 +40,7 @@ class ConditionArguments {
 
  private:
   std::string clock_;
+  std::string children_ = "native";
   bool isolate_ = false, trap_rdtsc_ = false;
 };
 
