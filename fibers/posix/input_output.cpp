@@ -60,15 +60,10 @@ DescriptorClass class_of(int descriptor) {
 
 bool blocks(int descriptor) { return (WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL) & O_NONBLOCK) == 0; }
 
-namespace {
-
-// Not if it fails at once, as the end of a pipe that is for the other direction.
 bool may_wait_for(int descriptor, short events) {
   const int flags = WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL);
   return (flags & O_NONBLOCK) == 0 && (flags & O_ACCMODE) != (events == POLLIN ? O_WRONLY : O_RDONLY);
 }
-
-}  // namespace
 
 bool prepare(int descriptor, DescriptorClass of, kernel::Operation operation, short events, bool may_block) {
   const CancellationPoint point;

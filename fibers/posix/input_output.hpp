@@ -19,6 +19,8 @@ enum class DescriptorClass : std::uint8_t { file, pipe, socket, other };
 DescriptorClass class_of(int descriptor);
 /// Whether calls on it wait: without O_NONBLOCK.
 bool blocks(int descriptor);
+/// The same of a direction: not if it fails at once, as the end of a pipe that is for the other one.
+bool may_wait_for(int descriptor, short events);
 
 /// Before a call that may block on `descriptor`: its event, and the wait. False, with errno set, if the call has
 /// failed.

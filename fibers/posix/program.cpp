@@ -16,6 +16,7 @@
 #include "fibers/posix/family.hpp"
 #include "fibers/posix/fork_server.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/library_calls.hpp"
 #include "fibers/posix/pace.hpp"
 #include "fibers/posix/preload.hpp"
 #include "fibers/posix/processor_counter.hpp"
@@ -82,6 +83,7 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   register_fork();
   draw_random_bytes_of_the_process();
   if (record->settings.trap_rdtsc) trap_processor_counter();
+  if (record->settings.trap_library) trap_library_calls();
 }
 
 // A debugger runs the program once more on the same record.

@@ -43,6 +43,7 @@ struct Settings {
   const Asked* asked = nullptr;     ///< how the schedule is explored, in Order::explored
   std::uint32_t looks_at_once = 1;  ///< so many uses of clocks and of giving way are paid for together
   bool instrumented = false;        ///< the program is compiled with -fsanitize=thread
+  bool trap_library = false;        ///< what the C library waits for within itself is simulated
   bool simulates_started = false;   ///< programs that are started are simulations too
   bool is_started = false;          ///< this is one of those
   int server = -1;                  ///< a socket: runs are asked for there, see fork_server.hpp

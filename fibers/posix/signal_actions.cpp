@@ -2,7 +2,6 @@
 //
 // What is done with signals: sigaction() and its kin, and what the system is told of it. Handlers are never the
 // system's: it knows one of ours, which keeps what comes from outside until a thread can handle it.
-#include <link.h>
 #include <sys/syscall.h>
 #include <ucontext.h>
 #include <unistd.h>
@@ -10,6 +9,8 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/family.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/library_calls.hpp"
+#include "fibers/posix/library_range.hpp"
 #include "fibers/posix/notification_threads.hpp"
 #include "fibers/posix/processor_counter.hpp"
 #include "fibers/posix/program.hpp"
@@ -24,36 +25,8 @@ std::atomic<bool> waits_really = false;
 
 namespace {
 
-struct Range {
-  std::uintptr_t begin, end;
-  bool contains(std::uintptr_t address) const { return address >= begin && address < end; }
-};
-
 // Where a handler must not be run on the spot: in here, in the C library, in the dynamic linker.
-Range guarded[3];
-
-Range range_of_library_with(const void* address) {
-  struct Search {
-    std::uintptr_t address;
-    Range found;
-  } search{reinterpret_cast<std::uintptr_t>(address), {}};
-  const auto look = [](dl_phdr_info* library, std::size_t, void* to) {
-    auto& sought = *static_cast<Search*>(to);
-    Range range{UINTPTR_MAX, 0};
-    for (int i = 0; i < library->dlpi_phnum; ++i) {
-      const auto& part = library->dlpi_phdr[i];
-      if (part.p_type != PT_LOAD) continue;
-      const std::uintptr_t begin = library->dlpi_addr + part.p_vaddr;
-      if (begin < range.begin) range.begin = begin;
-      if (begin + part.p_memsz > range.end) range.end = begin + part.p_memsz;
-    }
-    if (!range.contains(sought.address)) return 0;
-    sought.found = range;
-    return 1;
-  };
-  dl_iterate_phdr(look, &search);
-  return search.found;
-}
+LibraryRange guarded[3];
 
 std::atomic<bool> has_rung = false;
 bool has_bell = false;
@@ -86,7 +59,7 @@ bool may_handle_here(const ucontext_t& context) {
   if (!is_simulated() || waits_really.load()) return false;
   const auto at = static_cast<std::uintptr_t>(context.uc_mcontext.gregs[REG_RIP]);
   bool is_guarded = false;
-  for (const Range& range : guarded) is_guarded = is_guarded || range.contains(at);
+  for (const LibraryRange& range : guarded) is_guarded = is_guarded || range.contains(at);
   if (!is_guarded) return true;
   constexpr unsigned char system_call[2] = {0x0F, 0x05};
   const auto* const code = reinterpret_cast<const unsigned char*>(at);
@@ -117,6 +90,7 @@ void handle_fault(int signal, siginfo_t* information, void* context) {
 
 void catch_signal(int signal, siginfo_t* information, void* context) {
   if (signal == bell && family::is_ring(*information)) return has_rung.store(true);
+  if (signal == SIGSYS && answer_library_call(*information, context)) return;
   const int error = errno;
   // So does the system when this thread writes what nobody can read.
   const bool from_itself =
@@ -181,8 +155,9 @@ void install(int signal) {
   real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
   real.sa_sigaction = catch_signal;
   const bool is_default = !is_handled(signal);
-  const bool is_looked_for_always =
-      (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) || (signal == bell && has_bell);
+  const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) ||
+                                    (signal == SIGSYS && record != nullptr && record->settings.trap_library) ||
+                                    (signal == bell && has_bell);
   const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
   if (is_default && action.sa_handler == SIG_IGN && !is_looked_for_always) {
     real.sa_flags &= ~SA_SIGINFO;

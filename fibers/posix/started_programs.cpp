@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/personality.h>
 #include <unistd.h>
 
 #include <climits>
@@ -55,7 +56,9 @@ bool begins_with(const char* text, const char* with) { return std::strncmp(text,
 }  // namespace
 
 StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
-  if (!is_simulated() || !record->settings.simulates_started || given == nullptr) return;
+  if (!is_simulated() || given == nullptr) return;
+  if (!record->settings.simulates_started) place_at_random();
+  if (!record->settings.simulates_started) return;
   const ErrorNumberKept kept;
   if ((record_ = make_record()) < 0) return;
   std::size_t count = 0;
@@ -78,8 +81,17 @@ StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
   made_[at] = nullptr;
 }
 
+// Traps of system calls, which go by where the C library is, come to programs that are started too, but nobody there
+// answers them: their C library is to be elsewhere.
+void StartEnvironment::place_at_random() {
+  if (!record->settings.trap_library) return;
+  persona_ = personality(0xFFFFFFFF);
+  if (persona_ >= 0) personality(static_cast<unsigned long>(persona_) & ~static_cast<unsigned long>(ADDR_NO_RANDOMIZE));
+}
+
 StartEnvironment::~StartEnvironment() {
   const ErrorNumberKept kept;
+  if (persona_ >= 0) personality(static_cast<unsigned long>(persona_));
   if (record_ >= 0) WAITPOINT_NEXT(close)(record_);
   std::free(made_);
 }

@@ -17,9 +17,12 @@ class StartEnvironment {
   char* const* get() const { return made_ != nullptr ? made_ : given_; }
 
  private:
+  void place_at_random();
+
   char* const* given_;
   char** made_ = nullptr;
   int record_ = -1;
+  int persona_ = -1;  ///< of this process, if it is to be as it was
 };
 
 }  // namespace waitpoint::posix

@@ -331,6 +331,28 @@ class Options(Exec):
         self.assertLess(abs(time.time() - os.stat("/proc/self").st_ctime), 100)
 
 
+class WithinTheCLibrary(Exec):
+    """What the C library waits for within itself, which no name of ours is in front of."""
+
+    def run_by(self, what, *options, timeout=60):
+        words = [WAITPOINT, "exec", "--quiet", *options, "--", self.compile("within_libc.c"), what]
+        return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=timeout)
+
+    def test_locks_and_streams_are_simulated_by_traps(self):
+        for what in "lock", "character", "pipe", "much":
+            done = self.run_by(what, "--trap-libc")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), what)
+            natively = subprocess.run([str(self.compile("within_libc.c")), what], capture_output=True, text=True)
+            self.assertEqual(done.stdout, natively.stdout, what)
+
+    def test_such_a_lock_is_waited_for_for_ever_without_them(self):
+        with self.assertRaises(subprocess.TimeoutExpired):
+            self.run_by("lock", timeout=2)
+
+    def test_a_program_that_is_started_has_no_traps(self):
+        self.assertEqual(self.run_by("start", "--trap-libc").stdout, "5\n3\n")
+
+
 class Deadlocks(Exec):
     """Waiting for a descriptor whose ends only the program has, and whom nobody else can do anything to."""
 

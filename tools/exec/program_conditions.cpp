@@ -74,6 +74,7 @@ void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.clock = clock.value_or(kernel::ClockOptions());
   settings.isolate = isolate;
   settings.trap_rdtsc = trap_rdtsc;
+  settings.trap_library = trap_library;
   settings.simulates_started = children;
 }
 
@@ -90,6 +91,7 @@ std::string ProgramConditions::words() const {
   if (clock) all += " --clock " + clock_text;
   if (isolate) all += " --isolate";
   if (trap_rdtsc) all += " --trap-rdtsc";
+  if (trap_library) all += " --trap-libc";
   if (children) all += " --children simulated";
   return all;
 }
@@ -114,6 +116,11 @@ void ConditionArguments::add_to(CLI::App& command) {
                 "the processor's counter shows virtual time, a nanosecond a tick, where the\n"
                 "program reads it by an instruction (some microseconds each)")
       ->disable_flag_override();
+  command
+      .add_flag("--trap-libc", trap_library_,
+                "what the C library waits for within itself (its own locks, a FILE* on a pipe) is\n"
+                "simulated too, by traps of its system calls (some microseconds each)")
+      ->disable_flag_override();
 }
 
 ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
@@ -122,6 +129,7 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   conditions.clock_text = clock_;
   conditions.isolate = isolate_;
   conditions.trap_rdtsc = trap_rdtsc_;
+  conditions.trap_library = trap_library_;
   conditions.children = children_ == "simulated";
   if (!conditions.children && children_ != "native") refuse("--children", "native or simulated", children_);
   const bool is_measured = conditions.clock && (conditions.clock->kind == kernel::ClockKind::cpu ||

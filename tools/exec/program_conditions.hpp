@@ -20,6 +20,7 @@ struct ProgramConditions {
   std::string clock_text;                     ///< as it was written
   bool isolate = false;                       ///< what would leave the machine fails
   bool trap_rdtsc = false;                    ///< the processor's counter shows virtual time
+  bool trap_library = false;                  ///< what the C library waits for within itself is simulated
   bool children = false;                      ///< programs that it starts are simulated too
 
   void apply_to(posix::Settings& settings) const;
@@ -41,7 +42,7 @@ class ConditionArguments {
  private:
   std::string clock_;
   std::string children_ = "native";
-  bool isolate_ = false, trap_rdtsc_ = false;
+  bool isolate_ = false, trap_rdtsc_ = false, trap_library_ = false;
 };
 
 }  // namespace waitpoint::tools
