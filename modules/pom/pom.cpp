@@ -8,18 +8,21 @@ using genom::PosterStatus;
 using genom::Report;
 using namespace std::chrono_literals;
 
-FusionParameters Pom::read(genom::Settings& settings) {
-  FusionParameters parameters;
+template <class Parameters>
+Parameters Pom::read(genom::Settings& settings) {
+  Parameters parameters;
   settings.read(parameters);
   return parameters;
 }
 
 Pom::Pom(genom::ModuleSetup& setup)
     : Module(setup, 24),
-      parameters_(read(setup.settings)),
+      parameters_(read<FusionParameters>(setup.settings)),
+      fix_parameters_(read<FixParameters>(setup.settings)),
       fusing_(add_task("fusing", {.period_ms = 40ms, .delay_ms = 10ms, .cost_us = 200us})),
       odometry_(read_poster<posters::Odometry>("rflex.odometry")),
       localisation_(read_poster<posters::Localisation>("segloc.localisation", false)),
+      gps_(fix_parameters_.gps ? &read_poster<posters::PositionFix>("rflex.gps") : nullptr),
       position_(add_poster<posters::FusedPosition>("position", fusing_)) {
   fusing_.set_permanent([this] { fuse(); });
   add_control<posters::KnownPose>("SetPos",
@@ -57,6 +60,11 @@ void Pom::fuse() {
   if (localisation_.read(localisation) == PosterStatus::ok && localisation.position.date != localised_) {
     localised_ = localisation.position.date;
     fusion_->add_absolute(segloc, localisation.position);
+  }
+  posters::PositionFix fix;
+  if (gps_ != nullptr && gps_->read(fix) == PosterStatus::ok && fix.number != fix_number_) {
+    fix_number_ = fix.number;
+    fusion_->add_fix(receiver, fix.date, fix_at(fix.position, fix_parameters_), fix_parameters_.gps_gate);
   }
   position_.write(fusion_->at(threads::now()));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The module of position management: one reference position out of several of different rates and delays.
 //
-//   reads    rflex.odometry; segloc.localisation, which may be absent
+//   reads    rflex.odometry; segloc.localisation, which may be absent; rflex.gps, if its settings say that there is a
+//            receiver
 //   writes   pom.position
 //   requests SetPos: the robot is known to be somewhere, now. SourceOn, SourceOff: a source joins or leaves the fusion
 #pragma once
@@ -10,12 +11,13 @@
 
 #include "modules/genom/module.hpp"
 #include "modules/pom/position_fusion.hpp"
+#include "modules/posters/inertial.hpp"
 #include "modules/posters/navigation.hpp"
 #include "modules/posters/position.hpp"
 
 namespace waitpoint::pom {
 
-/// Input of SourceOn and SourceOff: 0 is `segloc`.
+/// Input of SourceOn and SourceOff: 0 is `segloc`, 1 the receiver.
 struct SourceInput {
   std::uint32_t source = 0;
 
@@ -27,19 +29,23 @@ class Pom : public genom::Module {
   explicit Pom(genom::ModuleSetup& setup);
 
  private:
-  static FusionParameters read(genom::Settings& settings);
+  template <class Parameters>
+  static Parameters read(genom::Settings& settings);
   genom::Report set_position(const posters::KnownPose& known);
   void fuse();
 
-  static constexpr std::uint32_t segloc = 0;
+  static constexpr std::uint32_t segloc = 0, receiver = 1;
 
   FusionParameters parameters_;
+  FixParameters fix_parameters_;
   genom::ExecutionTask& fusing_;
   genom::PosterLink<posters::Odometry>& odometry_;
   genom::PosterLink<posters::Localisation>& localisation_;
+  genom::PosterLink<posters::PositionFix>* gps_;  // null without a receiver
   genom::OutputPoster<posters::FusedPosition>& position_;
   std::optional<PositionFusion> fusion_;  // from the first SetPos on
   Time localised_;                        // date of the last localisation taken in
+  std::uint64_t fix_number_ = 0;          // of the last fix taken in
 };
 
 }  // namespace waitpoint::pom

@@ -25,19 +25,39 @@ void PositionFusion::add_odometry(const posters::PositionEstimate& odometry) {
 }
 
 void PositionFusion::add_absolute(std::uint32_t source, const posters::PositionEstimate& position) {
-  WAITPOINT_CHECK(source < source_count_max, "no such source of positions");
-  if (!on_[source]) return;
-  if (position.date < base_.date) {
+  const UncertainPose measured = {position.pose, position.covariance};
+  add({position.date, source, measured, parameters_.gate, false, false, {}});
+}
+
+void PositionFusion::add_fix(std::uint32_t source, Time date, const PositionFix& fix, double gate) {
+  add({date, source, fix, gate, false, false, {}});
+}
+
+void PositionFusion::add(const Correction& added) {
+  WAITPOINT_CHECK(added.source < source_count_max, "no such source of positions");
+  if (!on_[added.source]) return;
+  if (added.date < base_.date) {
     ++late_;
     return;
   }
   const auto key = [](const Correction& c) { return std::tuple(c.date, c.source); };
-  const Correction added = {position.date, source, {position.pose, position.covariance}, false, false, {}};
   const auto place = std::upper_bound(corrections_.begin(), corrections_.end(), added,
                                       [&](const Correction& a, const Correction& b) { return key(a) < key(b); });
   const auto first = corrections_.insert(place, added) - corrections_.begin();
   apply_from(static_cast<std::size_t>(first));
   if (corrections_.size() > correction_count_max) forget_before(corrections_.front().date);
+}
+
+UncertainPose PositionFusion::corrected(const UncertainPose& predicted, const UncertainPose& measured) const {
+  if (parameters_.kalman)
+    return parameters_.shared_errors ? fuse_correlated(predicted, measured) : fuse(predicted, measured);
+  return greatest_deviation_m(measured.covariance) <= greatest_deviation_m(predicted.covariance) ? measured : predicted;
+}
+
+UncertainPose PositionFusion::corrected(const UncertainPose& predicted, const PositionFix& measured) const {
+  if (parameters_.kalman) return fuse(predicted, measured);
+  const UncertainPose moved = moved_to(predicted, measured);
+  return greatest_deviation_m(moved.covariance) <= greatest_deviation_m(predicted.covariance) ? moved : predicted;
 }
 
 void PositionFusion::apply_from(std::size_t first) {
@@ -47,15 +67,12 @@ void PositionFusion::apply_from(std::size_t first) {
     if (!c.applied) continue;
     const State& before = i > 0 ? corrections_[i - 1].after : base_;
     const UncertainPose predicted = carry(before, c.date);
-    c.accepted = disagreement(predicted, c.measured) <= parameters_.gate;
-    UncertainPose result = predicted;
-    if (c.accepted && parameters_.kalman) {
-      result = parameters_.shared_errors ? fuse_correlated(predicted, c.measured) : fuse(predicted, c.measured);
-    } else if (c.accepted &&
-               greatest_deviation_m(c.measured.covariance) <= greatest_deviation_m(predicted.covariance)) {
-      result = c.measured;
-    }
-    c.after = {c.date, result};
+    c.after = {c.date, std::visit(
+                           [&](const auto& measured) {
+                             c.accepted = disagreement(predicted, measured) <= c.gate;
+                             return c.accepted ? corrected(predicted, measured) : predicted;
+                           },
+                           c.measured)};
   }
 }
 

@@ -11,16 +11,19 @@
 // depends on what has arrived, not on the order in which it did, bit for bit. Each one is fused by a Kalman update with
 // the state carried there by odometry, unless it contradicts that state (chi square, 3 degrees of freedom): then it is
 // left out, and the fusion says `disagree` until its source agrees again. What falls out of the odometry buffer moves
-// into the base.
+// into the base. A receiver's fix, which is a position without a heading, is a correction like the others
+// (position_fix.hpp).
 //
 // The design is that of LAAS's `pom`: sources come and go while it runs, readers see one position.
 #pragma once
 
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "core/fields.hpp"
 #include "modules/pom/odometry_buffer.hpp"
+#include "modules/pom/position_fix.hpp"
 #include "modules/posters/position.hpp"
 
 namespace waitpoint::pom {
@@ -60,6 +63,10 @@ class PositionFusion {
   /// One newer than the odometry is kept until odometry has caught up; one older than the base is too late to count.
   void add_absolute(std::uint32_t source, const posters::PositionEstimate& position);
 
+  /// The same of a position without a heading, which errs independently of odometry; `gate` is that of 2 degrees of
+  /// freedom.
+  void add_fix(std::uint32_t source, Time date, const PositionFix& fix, double gate);
+
   /// Sources are on at first. One switched off is out of the fusion from its next correction on, and disagrees no more.
   void set_source(std::uint32_t source, bool on);
 
@@ -80,10 +87,14 @@ class PositionFusion {
   struct Correction {
     Time date;
     std::uint32_t source;
-    UncertainPose measured;
+    std::variant<UncertainPose, PositionFix> measured;
+    double gate;
     bool applied, accepted;
     State after;
   };
+  void add(const Correction& added);
+  UncertainPose corrected(const UncertainPose& predicted, const UncertainPose& measured) const;
+  UncertainPose corrected(const UncertainPose& predicted, const PositionFix& measured) const;
   void apply_from(std::size_t first);
   void forget_before(Time date);
   UncertainPose carry(const State& from, Time to, Duration horizon = Duration()) const;

@@ -93,6 +93,19 @@ TEST(MotionSensors, AreDescriptionsAndLinesOfTheTable) {
   EXPECT_NEAR(length(fix.position - Point{1.5, 0} - run.truth().pose.position()), 0.1, since_s * speed_m_s + 0.02);
 }
 
+// 80 s of the yard: by its wheels alone the robot is metres beside itself by then.
+TEST(MotionSensors, PomIsRightByAReceiverWhereWheelsErrAndNoWallsAreKnown) {
+  const auto yard = [](const std::vector<std::string>& more) {
+    return run(shipped("yard.yaml", more), std::chrono::seconds(80)).robots[0];
+  };
+  const bridge::RobotResult by_wheels = yard({"robot_types.rackham.modules.pom.gps=false"});
+  EXPECT_GT(by_wheels.position_error_max_m, 5);
+  const bridge::RobotResult by_fixes = yard({});
+  EXPECT_LT(by_fixes.position_error_max_m, 1.5);
+  EXPECT_GT(by_fixes.odometry_error_max_m, 5);
+  EXPECT_EQ(by_fixes.collisions, 0u);
+}
+
 double heading_error(const CirclingRun& run) {
   const double shown = run.shown<posters::Odometry>("rflex.odometry").position.pose.heading;
   return std::fabs(exact::wrap_angle(shown - run.truth().pose.heading));
