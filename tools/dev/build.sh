@@ -29,7 +29,7 @@ configure() {
 look_for_peers() {
   local peer
   for peer in kernel-boost-fiber: kernel-simgrid: kernel-systemc: world.p/world_of_embree world.p/world_of_box2d \
-    world.p/world_of_bullet world.p/world_of_ode; do
+    world.p/world_of_bullet world.p/world_of_ode libworld-of-cgal; do
     if ! grep -qF "tests/bench/$peer" "$build/build.ninja"; then
       meson setup --reconfigure "$build" "$root" >&2
       return

@@ -14,7 +14,7 @@ declare -A debian=(
   [valgrind]='valgrind'
   [bench]='libbenchmark-dev'
   [peers]='libsystemc-dev libsimgrid-dev libboost-fiber-dev libembree-dev libbox2d-dev
-           libode-dev'
+           libode-dev libcgal-dev'
   [check]='clang-format clang-tidy'
   [format]='clang-format'
 )
@@ -29,7 +29,7 @@ declare -A upstream=(
   [valgrind]='valgrind'
   [bench]='Google Benchmark'
   [peers]='SystemC 2.3.4, SimGrid 3.32, Boost.Fiber 1.74, Embree 3.13, Box2D 2.4,
-           ODE 0.16 (each is left out where it is missing)'
+           ODE 0.16, CGAL 5.5 (each is left out where it is missing)'
   [check]='clang-format and clang-tidy 14'
   [format]='clang-format 14'
 )

@@ -48,5 +48,6 @@ std::unique_ptr<Contender> embree(const Place& place);
 std::unique_ptr<Contender> box2d(const Place& place);
 std::unique_ptr<Contender> bullet(const Place& place);
 std::unique_ptr<Contender> ode(const Place& place);
+std::unique_ptr<Contender> cgal(const Place& place);
 
 }  // namespace waitpoint::bench

@@ -24,34 +24,40 @@ namespace {
 
 constexpr const char *us = "waitpoint", *fcl_trees = "waitpoint, fcl", *grid = "grid", *fcl_name = "libfcl-dev",
                      *embree_name = "libembree-dev", *box2d_name = "libbox2d-dev", *bullet_name = "libbullet-dev",
-                     *ode_name = "libode-dev";
+                     *ode_name = "libode-dev", *cgal_name = "libcgal-dev";
 
 struct Subject {
   std::string name;
-  bool peer, knows_meshes;
+  bool peer, knows_meshes, knows_robots;
   std::unique_ptr<Contender> (*make)(const Place&);  // null: not installed
 };
 const std::vector<Subject> subjects = {
-    {us, false, true, &our_slice},       {fcl_trees, false, true, &our_fcl_trees}, {grid, false, false, &grid_of_5_cm},
+    {us, false, true, true, &our_slice},       {fcl_trees, false, true, true, &our_fcl_trees},
+    {grid, false, false, true, &grid_of_5_cm},
 #ifdef WAITPOINT_BENCH_EMBREE
-    {embree_name, true, true, &embree},
+    {embree_name, true, true, true, &embree},
 #else
-    {embree_name, true, true, nullptr},
+    {embree_name, true, true, true, nullptr},
 #endif
 #ifdef WAITPOINT_BENCH_BOX2D
-    {box2d_name, true, false, &box2d},
+    {box2d_name, true, false, true, &box2d},
 #else
-    {box2d_name, true, false, nullptr},
+    {box2d_name, true, false, true, nullptr},
 #endif
 #ifdef WAITPOINT_BENCH_BULLET
-    {bullet_name, true, false, &bullet},
+    {bullet_name, true, false, true, &bullet},
 #else
-    {bullet_name, true, false, nullptr},
+    {bullet_name, true, false, true, nullptr},
 #endif
 #ifdef WAITPOINT_BENCH_ODE
-    {ode_name, true, false, &ode},
+    {ode_name, true, false, true, &ode},
 #else
-    {ode_name, true, false, nullptr},
+    {ode_name, true, false, true, nullptr},
+#endif
+#ifdef WAITPOINT_BENCH_CGAL
+    {cgal_name, true, false, false, &cgal},
+#else
+    {cgal_name, true, false, false, nullptr},
 #endif
 };
 
@@ -166,6 +172,7 @@ class Bench {
     for (const Subject& subject : subjects) {
       if (subject.make == nullptr || (subject.peer && !peers_)) continue;
       if (!subject.knows_meshes && !place.meshes.empty()) continue;
+      if (!subject.knows_robots && !place.robots.empty()) continue;
       entries.push_back({subject.name, subject.make(place)});
     }
     for (std::size_t i = 0; i < place.stations.size(); ++i) {
@@ -261,7 +268,7 @@ int main(int argc, char** argv) {
       "whose names this is");
   app.add_option("--repeats", repeats, "passes of which the fastest counts")->check(CLI::Range(1, 10000));
   return run_program(app, argc, argv, [&] {
-    fmt::print("{}", surroundings({fcl_name, embree_name, box2d_name, bullet_name, ode_name}));
+    fmt::print("{}", surroundings({fcl_name, embree_name, box2d_name, bullet_name, ode_name, cgal_name}));
     Bench bench(!no_peers, quick ? 3 : repeats);
     const auto is_wanted = [&](std::string_view name) { return name.find(pattern) != std::string_view::npos; };
     for (const auto& [name, make] : places) {
