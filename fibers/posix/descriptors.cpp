@@ -26,6 +26,7 @@ constexpr int known_max = 65536;  // descriptors beyond are taken for outside on
 std::uint64_t inside[known_max / 64];
 std::uint64_t waited_in_vain[known_max / 64];  // for a reader
 const Program* owners[known_max];              // of those that share a process
+int owned_end = 0;                             // behind the greatest that was
 
 /// A thread that waits: on its own stack.
 struct Waiter {
@@ -156,6 +157,13 @@ void note_inside(int descriptor, bool is) {
 void note_owner(int descriptor) {
   if (descriptor < 0 || descriptor >= known_max || !is_simulated() || !this_program().is_member) return;
   owners[descriptor] = &this_program();
+  if (descriptor >= owned_end) owned_end = descriptor + 1;
+}
+
+int next_owned(int from, const Program*& owner) {
+  for (int descriptor = from; descriptor < owned_end; ++descriptor)
+    if ((owner = owners[descriptor]) != nullptr) return descriptor;
+  return -1;
 }
 
 void close_descriptors_of(const Program& program) {

@@ -28,6 +28,9 @@ void note_inside(int descriptor, bool inside);
 bool is_inside(int descriptor);
 /// The running program has it from now on.
 void note_owner(int descriptor);
+/// The first descriptor from `from` on that a program shares with the process's others, and whose it is; -1 without
+/// one.
+int next_owned(int from, const Program*& owner);
 /// Closes what a program has left open that has ended before its process does: who is at the other end waits no longer.
 void close_descriptors_of(const Program& program);
 /// A child has copies of all of them: nothing is inside any more. Nor is what threads wait for on shared objects.

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <new>
 
+#include "fibers/posix/datagram_links.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/members.hpp"
 #include "fibers/posix/named_objects.hpp"
@@ -83,5 +84,5 @@ void refuse(const char* reason) {
 using namespace waitpoint::posix;
 
 extern "C" [[gnu::visibility("default")]] constinit const Guests waitpoint_guests{
-    load_guest, start_guest, guest_has_ended, take_away, forget_named_objects, is_thread, deliver_signals,
+    load_guest, start_guest, guest_has_ended, take_away, forget_named_objects, is_thread, deliver_signals, set_carrier,
 };

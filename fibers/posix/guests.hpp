@@ -7,12 +7,23 @@
 // nobody has preloaded it.
 #pragma once
 
+#include <cstddef>
+
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::posix {
 
 /// A program in the host's process.
 struct Guest;
+
+/// What carries datagrams between guests of two robots: the host's network.
+struct Carrier {
+  void* network;
+  /// Sends a message of so many bytes: `arrive` is called when it arrives, by no task, if it does, and `drop` after
+  /// that or when it is lost. False, with neither called, if there is no link between the two.
+  bool (*carry)(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes,
+                void (*arrive)(void*), void (*drop)(void*), void* message);
+};
 
 struct Guests {
   /// The table's name.
@@ -33,6 +44,8 @@ struct Guests {
   /// Whether a task is a guest's, and what delivers its signals.
   bool (*is_guest)(const kernel::Task& task);
   void (*deliver_signals)(kernel::Task& task);
+  /// By which guests of different robots send datagrams to each other's sockets; null: they arrive at once.
+  void (*set_carrier)(const Carrier* carrier);
 };
 
 }  // namespace waitpoint::posix

@@ -13,6 +13,7 @@
 
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
+#include "fibers/posix/datagram_links.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/input_output.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -199,6 +200,7 @@ WAITPOINT_INTERPOSED ssize_t recvmsg(int descriptor, msghdr* message, int flags)
 WAITPOINT_INTERPOSED ssize_t send(int descriptor, const void* bytes, std::size_t size, int flags) {
   if (class_of(descriptor) == DescriptorClass::socket && is_stream(descriptor) && size > 0)
     return send_to_stream(descriptor, bytes, size, flags);
+  if (send_over_link(descriptor, bytes, size, nullptr, 0)) return static_cast<ssize_t>(size);
   return send_message(descriptor, flags, [&](int with) { return WAITPOINT_NEXT(send)(descriptor, bytes, size, with); });
 }
 
@@ -206,6 +208,7 @@ WAITPOINT_INTERPOSED ssize_t sendto(int descriptor, const void* bytes, std::size
                                     const sockaddr* address, socklen_t length) {
   if (is_forbidden(address)) return -1;
   if (address == nullptr) return send(descriptor, bytes, size, flags);
+  if (send_over_link(descriptor, bytes, size, address, length)) return static_cast<ssize_t>(size);
   return send_message(descriptor, flags,
                       [&](int with) { return WAITPOINT_NEXT(sendto)(descriptor, bytes, size, with, address, length); });
 }

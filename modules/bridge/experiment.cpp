@@ -80,6 +80,7 @@ Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleTy
       {.name = "world", .stack = kernel::StackSize::large, .phase = kernel::Phase::world, .service = true},
       [this] { run_world(); });
   for (const auto& robot : robots()) spawn(*robot);
+  if (scenario.medium) programs_.set_network(*network_);
   for (std::size_t i = 0; i < lanes_.size(); ++i)
     for (const ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
 }

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "fibers/sync/signals.hpp"
 
@@ -16,6 +17,15 @@ void deliver_signals(kernel::Task& task) {
   guests()->is_guest(task) ? guests()->deliver_signals(task) : sync::deliver_signals(task);
 }
 
+bool carry(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes, void (*arrive)(void*),
+           void (*drop)(void*), void* message) {
+  const std::shared_ptr<io::Node> node = static_cast<io::Network*>(network)->node(from.name);
+  io::Link* const link = node != nullptr ? node->link_to(to.name) : nullptr;
+  if (link == nullptr) return false;
+  link->send_datagram(bytes, [arrive, kept = std::shared_ptr<void>(message, drop)] { arrive(kept.get()); });
+  return true;
+}
+
 }  // namespace
 
 bool has_programs(const Scenario& scenario) {
@@ -24,6 +34,11 @@ bool has_programs(const Scenario& scenario) {
 }
 
 bool can_load_programs() { return guests() != nullptr; }
+
+void RobotPrograms::set_network(io::Network& network) {
+  carrier_ = {&network, carry};
+  if (can_load_programs()) guests()->set_carrier(&carrier_);
+}
 
 void RobotPrograms::add(const ProgramScenario& program, kernel::Robot& robot) {
   if (!can_load_programs()) throw program.written.bad("programs can be loaded by the program `waitpoint` alone");
@@ -39,6 +54,8 @@ void RobotPrograms::add(const ProgramScenario& program, kernel::Robot& robot) {
 }
 
 void RobotPrograms::take_away() {
+  if (carrier_.network != nullptr && can_load_programs()) guests()->set_carrier(nullptr);
+  carrier_ = {};
   if (programs_.empty()) return;
   for (const Loaded& program : programs_) guests()->take_away(program.guest, scheduler_);
   programs_.clear();

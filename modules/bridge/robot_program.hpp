@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "fibers/io/network.hpp"
 #include "fibers/posix/guests.hpp"
 #include "modules/bridge/scenario.hpp"
 
@@ -22,6 +23,9 @@ bool can_load_programs();
 class RobotPrograms {
  public:
   explicit RobotPrograms(kernel::Scheduler& scheduler) : scheduler_(scheduler) {}
+  /// By which programs of different robots send datagrams to each other, in place of at once. It stays until they are
+  /// taken away.
+  void set_network(io::Network& network);
   ~RobotPrograms() { take_away(); }
   RobotPrograms(const RobotPrograms&) = delete;
   RobotPrograms& operator=(const RobotPrograms&) = delete;
@@ -41,6 +45,7 @@ class RobotPrograms {
 
   kernel::Scheduler& scheduler_;
   std::vector<Loaded> programs_;
+  posix::Carrier carrier_{};
 };
 
 }  // namespace waitpoint::bridge

@@ -58,6 +58,23 @@ NOT_MISSED = (
         "dup dup2 dup3 epoll_create epoll_create1 epoll_ctl eventfd fcntl fcntl64 pipe pipe2 socketpair popen".split(),
         "says that only this program has a descriptor: deadlocks are told by it (debian_test.py, Deadlocks)",
     )
+    | dict.fromkeys(
+        """__close __connect __dup2 __fork __pipe __pthread_mutex_destroy __pthread_mutex_init __pthread_rwlock_destroy
+        __pthread_rwlock_init __pthread_rwlock_trywrlock __pthread_rwlock_unlock __send __wait __waitpid
+        __write""".split(),
+        "as its first name, whose cases show it",
+    )
+    | dict.fromkeys(
+        "aio_cancel aio_error aio_fsync aio_read aio_return aio_write lio_listio sendfile".split(),
+        "the same function as with 64 behind it",
+    )
+    | dict.fromkeys(
+        "aio_error64 aio_return64 lio_listio64 mq_notify".split(),
+        "the C library's comes to the same, in real time",
+    )
+    | dict.fromkeys(
+        "_Exit __cxa_atexit _exit exit".split(), "as the C library's, but among several programs (several_test.py)"
+    )
     | {
         "__assert_fail": "as the C library's, but among several programs ends its own alone (several_test.py)",
         "__pthread_once": "only what was linked with an older C library can call it so",

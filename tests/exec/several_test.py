@@ -90,6 +90,45 @@ class Sockets(unittest.TestCase):
         self.assertIn(" 4.0", run.stderr)
 
 
+TWO_ROBOTS = """
+format: 1
+name: two
+until_s: 2
+world: {{shapes: [{{corners_m: [0, 0, 1, 1]}}]}}
+robot_types: {{include: {types}}}
+{medium}
+robots:
+  - {{name: ada, type: rackham, start: [5, 5, 0], programs: [{{name: sender, file: {file}, arguments: [send, {port}]}}]}}
+  - {{name: bea, type: rackham, start: [9, 5, 0], programs: [{{name: receiver, file: {file}, arguments: [receive, {port}]}}]}}
+"""
+
+
+class Links(unittest.TestCase):
+    """Datagrams between programs of two robots."""
+
+    def heard(self, medium, *options):
+        port = random.randrange(20000, 60000)
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = pathlib.Path(folder) / "two.yaml"
+            scenario.write_text(TWO_ROBOTS.format(types=SCENARIO.parent / "rackham.yaml", medium=medium, port=port,
+                                                  file=PROGRAMS / "datagrams.so"))
+            run = subprocess.run([WAITPOINT, "run", scenario, *options], capture_output=True, text=True, timeout=60)
+            self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+            return [line for line in run.stdout.splitlines() if line.startswith("number ")]
+
+    def test_take_the_time_of_the_medium(self):
+        at_once = self.heard("")
+        self.assertEqual(at_once, [f"number {i} after 0 ms" for i in range(10)])
+        self.assertEqual(self.heard("medium: {latency_ms: 7}"), [f"number {i} after 7 ms" for i in range(10)])
+
+    def test_are_lost_as_the_medium_says_and_the_seed_draws(self):
+        medium = "medium: {latency_ms: [2, 6], loss: 0.5}"
+        runs = [self.heard(medium, "--seed", seed) for seed in ("1", "1", "2")]
+        self.assertTrue(0 < len(runs[0]) < 10, runs[0])
+        self.assertEqual(runs[0], runs[1])
+        self.assertNotEqual(runs[0], runs[2])
+
+
 class Instances(unittest.TestCase):
     """One program, again and again."""
 

@@ -169,3 +169,19 @@ CASE(a_message_may_be_notified_by_a_thread) {
   sleep_ms(5);
   EXPECT_IS(told, 0);
 }
+
+static void* take_one(void* unused) {
+  char bytes[16];
+  let_others_wait();
+  EXPECT_IS(mq_receive(queue, bytes, 16, NULL), 5);
+  return unused;
+}
+CASE(sending_waits_for_room_until_its_time) {
+  make(1, 0);
+  EXPECT_IS(mq_send(queue, "first", 5, 0), 0);
+  const pthread_t id = start(take_one, NULL);
+  const struct timespec deadline = in_ms(CLOCK_REALTIME, 2000);
+  EXPECT_IS(mq_timedsend(queue, "second", 6, 0, &deadline), 0);
+  join(id);
+  EXPECT_LETTER("second", 0);
+}

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <stdint.h>
 #include <sys/random.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/times.h>
 
@@ -114,4 +115,11 @@ CASE(random_files_give_bytes) {
     for (int k = 0; k < 64; ++k) printf("%02x", bytes[k]);
     close(descriptor);
   }
+}
+
+CASE(processor_time_repeats_with_the_seed) {
+  struct rusage usage;
+  for (int i = 0; i < 1000; ++i) now_ns(CLOCK_MONOTONIC);
+  EXPECT_IS(getrusage(RUSAGE_SELF, &usage), 0);
+  printf("%ld.%06ld %ld\n", (long)usage.ru_utime.tv_sec, (long)usage.ru_utime.tv_usec, usage.ru_nvcsw);
 }
