@@ -31,7 +31,7 @@ bool is_look(Operation operation) { return (looks >> static_cast<unsigned>(opera
 }  // namespace
 
 void Explorer::begin(Strategy& strategy, const Played& played) {
-  strategy_ = &strategy;
+  strategy_ = &strategy.deciding();
   played_ = played;
   plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty() ||
            played.stop_at != Played().stop_at;
@@ -70,31 +70,56 @@ bool Explorer::is_played(const Switch& change) const {
   return std::binary_search(switches_.begin(), switches_.end(), change);
 }
 
+void Explorer::begin_instant(Time now) {
+  instant_ = now;
+  step_of_instant_ = 0;
+  ++instants_;
+  last_ = nullptr;  // its time has moved on like the others': it has no claim to go on
+  if (spinning_ != 0) stop_spinning();
+  idle_turns_ = 0;
+}
+
+// Where the task that was the last to go on stands, mostly behind the others; as many as there are if it does not.
+inline std::uint32_t Explorer::place_of_last(std::span<Task* const> offered) const {
+  std::size_t place = offered.size();
+  while (place > 0 && offered[place - 1] != last_) --place;
+  return static_cast<std::uint32_t>(place > 0 ? place - 1 : offered.size());
+}
+
+inline void Explorer::write_down(Task* const* ready, const Decision& decision) {
+  schedule_.decisions.push_back(decision);
+  if (decision.is_switch())
+    schedule_.switches.push_back({Choice::task, event_of(*ready[decision.usual]), event_of(*ready[decision.chosen])});
+}
+
 std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
-  const Time now = scheduler_.global_time();
-  if (now != instant_) {
-    instant_ = now;
-    step_of_instant_ = 0;
-    ++instants_;
-    last_ = nullptr;  // its time has moved on like the others': it has no claim to go on
-    if (spinning_ != 0) stop_spinning();
-    idle_turns_ = 0;
-  }
-  if (__builtin_expect(spinning_ != 0, 0) && polls_only({ready, count}) && ++idle_turns_ > idle_turns_max &&
-      scheduler_.is_due_later())
+  if (const Time now = scheduler_.global_time(); now != instant_) begin_instant(now);
+  if (__builtin_expect(plays_ || spinning_ != 0, 0)) return next_with_care(ready, count);
+  if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
+  const std::uint32_t last = place_of_last({ready, count});
+  const bool may_go_on = last != count;
+  const std::uint32_t chosen = strategy_->next({{ready, count}, last_, may_go_on, step_});
+  if (__builtin_expect(chosen == Strategy::cut, 0)) return give_up(*ready[0]);
+  if (count > 1) write_down(ready, {count, chosen, may_go_on ? last : 0, Choice::task, may_go_on, 0});
+  note(*ready[chosen]);
+  ++step_;
+  return chosen;
+}
+
+// Something is played, or some tasks spin.
+std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) {
+  if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_turns_max && scheduler_.is_due_later())
     return later;
   if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
   const bool chooses = count > 1;
-  const bool some_spin = __builtin_expect(spinning_ != 0, 0) && chooses;
+  const bool some_spin = spinning_ != 0 && chooses;
   const std::span<Task* const> offered = some_spin ? leave_spinning_out({ready, count}) : std::span(ready, count);
-  // Who was the last to go on mostly stands behind the others.
-  std::size_t usual = offered.size();
-  while (usual > 0 && offered[usual - 1] != last_) --usual;
-  const bool may_go_on = usual > 0;
-  if (may_go_on) --usual;
-  const std::uint32_t usual_place = some_spin ? places_[usual] : static_cast<std::uint32_t>(usual);
+  const std::uint32_t last = place_of_last(offered);
+  const bool may_go_on = last != offered.size();
+  const std::uint32_t usual = may_go_on ? last : 0;
+  const std::uint32_t usual_place = some_spin ? places_[usual] : usual;
   std::uint32_t chosen = count;
-  if (__builtin_expect(plays_, 0) && chooses) {
+  if (plays_ && chooses) {
     if (schedule_.decisions.size() == played_.stop_at) return stop({ready, count}, usual_place);
     chosen = choose({ready, count}, usual_place);
   }
@@ -102,13 +127,9 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
     chosen = strategy_->next({offered, last_, may_go_on, step_});
     if (some_spin && chosen != Strategy::cut) chosen = places_[chosen];
   }
-  if (__builtin_expect(chosen == Strategy::cut, 0)) return give_up(*ready[0]);
-  if (chooses) {
-    schedule_.decisions.push_back(
-        {count, chosen, usual_place, Choice::task, may_go_on, some_spin ? spinning_among(count) : 0});
-    if (chosen != usual_place)
-      schedule_.switches.push_back({Choice::task, event_of(*ready[usual_place]), event_of(*ready[chosen])});
-  }
+  if (chosen == Strategy::cut) return give_up(*ready[0]);
+  if (chooses)
+    write_down(ready, {count, chosen, usual_place, Choice::task, may_go_on, some_spin ? spinning_among(count) : 0});
   note(*ready[chosen]);
   ++step_;
   return chosen;

@@ -77,6 +77,10 @@ class Explorer final : public kernel::Decisions {
     bool spins = false;
   };
 
+  [[gnu::noinline]] void begin_instant(Time now);
+  std::uint32_t place_of_last(std::span<Task* const> offered) const;
+  void write_down(Task* const* ready, const Decision& decision);
+  [[gnu::noinline]] std::uint32_t next_with_care(Task* const* ready, std::uint32_t count);
   std::uint32_t choose(std::span<Task* const> ready, std::uint32_t usual);
   std::uint32_t stop(std::span<Task* const> ready, std::uint32_t usual);
   std::uint32_t give_up(Task& task);

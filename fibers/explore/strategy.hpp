@@ -36,6 +36,8 @@ class Strategy {
 
   /// Schedule `number` of the campaign begins; its random numbers are `draws`.
   virtual void begin(std::uint64_t number, const Draws& draws, const Profile& profile) = 0;
+  /// Who decides in the schedule that was begun: another one, where this one is made of several.
+  virtual Strategy& deciding() { return *this; }
   /// In place of an index: nothing new can follow, the schedule is not worth going on with.
   static constexpr std::uint32_t cut = 0xFFFFFFFF;
 

@@ -52,19 +52,16 @@ class CallStack {
   void enter(std::uint64_t address) {
     if (depth_ < depth_max) calls_[depth_] = {address, 0};
     ++depth_;
+    path_ = 0;
   }
   void leave() {
     if (depth_ != 0) --depth_;
+    path_ = depth_ != 0 && depth_ <= depth_max ? calls_[depth_ - 1].path : 0;
   }
-  void clear() { depth_ = 0; }
+  void clear() { depth_ = path_ = 0; }
 
   /// Its path.
-  std::uint32_t path(CallPaths& paths) {
-    const std::uint32_t depth = depth_ < depth_max ? depth_ : depth_max;
-    if (depth == 0) return 0;
-    const std::uint32_t known = calls_[depth - 1].path;
-    return __builtin_expect(known != 0, 1) ? known : seek(paths, depth);
-  }
+  std::uint32_t path(CallPaths& paths) { return __builtin_expect(path_ != 0, 1) ? path_ : path_ = seek(paths); }
 
  private:
   struct Call {
@@ -72,7 +69,8 @@ class CallStack {
     std::uint32_t path;  // 0: not sought yet
   };
 
-  [[gnu::noinline]] std::uint32_t seek(CallPaths& paths, std::uint32_t depth) {
+  [[gnu::noinline]] std::uint32_t seek(CallPaths& paths) {
+    const std::uint32_t depth = depth_ < depth_max ? depth_ : depth_max;
     std::uint32_t known = depth;
     while (known != 0 && calls_[known - 1].path == 0) --known;
     std::uint32_t path = known == 0 ? 0 : calls_[known - 1].path;
@@ -81,6 +79,7 @@ class CallStack {
   }
 
   std::uint32_t depth_ = 0;
+  std::uint32_t path_ = 0;  // 0: not sought yet, or there are no calls
   Call calls_[depth_max];
 };
 

@@ -19,45 +19,78 @@ bool is_unwound(const kernel::Task* task) { return task != nullptr && task->sche
 
 // --- accesses ---
 
-void Detector::access_word(std::uint64_t address, std::uint32_t size, std::uint8_t kind, const void* place,
-                           kernel::Operation operation) {
-  const std::uint64_t at = reinterpret_cast<std::uint64_t>(place);
-  Cell* cell = &shadow_.cell_of(address / 8);
-  if (is_switch_point(*cell, kind, at)) {
-    const std::uint32_t index = shadow_.index_of(*cell);
-    pass_switch_point(operation, *cell);
+// The first touch of a word.
+void Detector::touch(std::uint64_t word, Seen seen) {
+  Cell& cell = shadow_.new_cell(word);
+  if (!is_other_switch_point(seen)) return begin_cell(cell, seen);
+  const std::uint32_t index = shadow_.index_of(cell);
+  pass_switch_point(seen.operation, cell);
+  if (watching_) record(shadow_.cell_again(index, word), seen);
+}
+
+// What record() comes to where there is nothing yet.
+inline void Detector::begin_cell(Cell& cell, const Seen& seen) {
+  current_->accessed = current_->epoch();
+  cell.touched = true;
+  cell.owner = current_->index;
+  cell.written = seen.writes() && seen.is_atomic();
+  cell.latest = describe(seen);
+}
+
+void Detector::access_shared(Cell& known, Seen seen) {
+  Cell* cell = &known;
+  if (is_shared_switch_point(known, seen.writes()) || is_other_switch_point(seen)) {
+    const std::uint32_t index = shadow_.index_of(known);
+    const std::uint64_t word = known.word;
+    pass_switch_point(seen.operation, known);
     if (!watching_) return;
-    cell = &shadow_.cell_again(index, address / 8);
+    cell = &shadow_.cell_again(index, word);
   }
-  record(*cell, footprint_of(address, size, kind), size, at);
+  record(*cell, seen);
+}
+
+// Nobody else has touched it: nothing can race.
+void Detector::record_own(Cell& cell, Seen seen) {
+  current_->accessed = current_->epoch();
+  const unsigned kept = !footprint::covers(seen.footprint, cell.latest.footprint);
+  if (__builtin_expect((kept | cell.more_count) != 0, 0)) keep_own(cell, seen.footprint, kept);
+  cell.latest = describe(seen);
 }
 
 void Detector::access_range(std::uint64_t address, std::size_t size, std::uint8_t kind, const void* place,
                             kernel::Operation operation) {
   if (size == 0) return;
-  const std::uint64_t at = reinterpret_cast<std::uint64_t>(place);
   const std::uint64_t end = address + size;
+  Seen seen{.place = reinterpret_cast<std::uint64_t>(place),
+            .footprint = footprint::of(0, kind),
+            .size = static_cast<std::uint8_t>(std::min<std::size_t>(size, 63)),
+            .operation = operation};
   // One switch point for all of it.
   for (std::uint64_t word = address / 8; word * 8 < end; ++word) {
-    Cell& cell = shadow_.cell_of(word);
-    if (!is_switch_point(cell, kind, at)) continue;
-    pass_switch_point(operation, cell);
+    Cell* const cell = shadow_.find(word);
+    if ((cell == nullptr || !is_shared_switch_point(*cell, seen.writes())) && !is_other_switch_point(seen)) continue;
+    pass_switch_point(operation, cell != nullptr ? *cell : shadow_.new_cell(word));
     if (!watching_) return;
     break;
   }
-  const auto size_kept = static_cast<std::uint32_t>(std::min<std::size_t>(size, 63));
   for (std::uint64_t word = address / 8; word * 8 < end; ++word) {
     const std::uint64_t low = std::max(address, word * 8);
     const std::uint64_t high = std::min(end, word * 8 + 8);
-    record(shadow_.cell_of(word), footprint_of(low, high - low, kind), size_kept, at);
+    seen.footprint = footprint_of(low, high - low, kind);
+    if (Cell* const cell = shadow_.find(word); cell != nullptr)
+      record(*cell, seen);
+    else
+      begin_cell(shadow_.new_cell(word), seen);
   }
 }
 
-inline bool Detector::is_switch_point(const Cell& cell, std::uint8_t kind, std::uint64_t place) {
-  if (cell.touched && (cell.several || cell.owner != current_->index) && ((kind & kind::write) != 0 || cell.written))
-    return true;
-  weight_ += (kind & kind::atomic) != 0 ? atomic_weight : 1;
-  return weight_ >= weight_max || learned_.find(place) != nullptr;
+inline bool Detector::is_shared_switch_point(const Cell& cell, bool writes) const {
+  return cell.touched && (cell.several || cell.owner != current_->index) && (writes || cell.written);
+}
+
+inline bool Detector::is_other_switch_point(const Seen& seen) {
+  weight_ += seen.is_atomic() ? atomic_weight : 1;
+  return weight_ >= weight_max || is_learned(seen.place);
 }
 
 void Detector::pass_switch_point(kernel::Operation operation, Cell& cell) {
@@ -74,38 +107,43 @@ void Detector::unwatched(std::uint32_t weight) {
   kernel::give_turn();
 }
 
-[[gnu::always_inline]] inline void Detector::record(Cell& cell, Footprint footprint, std::uint32_t size,
-                                                    std::uint64_t place) {
+[[gnu::always_inline]] inline void Detector::record(Cell& cell, const Seen& seen) {
   Context& self = *current_;
   const Epoch epoch = self.epoch();
   const MemoryAccess& latest = cell.latest;
-  if (latest.task == self.index && latest.epoch == epoch && footprint::covers(latest.footprint, footprint)) return;
+  if (latest.task == self.index && latest.epoch == epoch && footprint::covers(latest.footprint, seen.footprint)) return;
   self.accessed = epoch;
   if (__builtin_expect(!cell.touched, 0)) {
     cell.touched = true;
     cell.owner = self.index;
   }
-  const bool writes = (footprint & footprint::write) != 0, is_atomic = (footprint & footprint::plain) == 0;
   cell.several |= cell.owner != self.index;
-  cell.written |= writes && (cell.several || is_atomic);
+  cell.written |= seen.writes() && (cell.several || seen.is_atomic());
 
   // Of the earlier ones, those that this one does not stand for, one bit each.
   const auto is_kept = [&](const MemoryAccess& earlier) -> unsigned {
     const bool is_ordered = earlier.task == self.index || earlier.epoch <= self.clock.of(earlier.task);
     if (!is_ordered) {
-      if (!footprint::conflict(footprint, earlier.footprint)) return 1;
-      report(cell, earlier, describe(footprint, size, place));
+      if (!footprint::conflict(seen.footprint, earlier.footprint)) return 1;
+      report(cell, earlier, describe(seen));
     }
-    return !footprint::covers(footprint, earlier.footprint);
+    return !footprint::covers(seen.footprint, earlier.footprint);
   };
   unsigned kept = is_kept(latest);
   if (cell.more_count != 0) {
     const MemoryAccess* const more = shadow_.more(cell);
     for (unsigned i = 0; i < cell.more_count; ++i) kept |= is_kept(more[i]) << (i + 1);
   }
-  if (__builtin_expect(learning_, 0) && cell.several && cell.written) learn_from(cell, place);
-  if ((kept | cell.more_count) != 0) keep(cell, kept);
-  cell.latest = describe(footprint, size, place);
+  if (__builtin_expect(learning_, 0) && cell.several && cell.written) learn_from(cell, seen.place);
+  if (kept == 0) {
+    cell.more_count = 0;
+  } else if (cell.more_count == 0) {
+    *shadow_.more(cell) = latest;
+    cell.more_count = 1;
+  } else {
+    keep(cell, kept);
+  }
+  cell.latest = describe(seen);
 }
 
 // What is kept of the earlier accesses moves back, the latest first; the earliest falls off where there is no room.
@@ -151,9 +189,19 @@ void Detector::learn_from(Cell& cell, std::uint64_t place) {
 }
 
 void Detector::learn_place(std::uint64_t place) {
-  bool& known = learned_[place];
-  if (!known && listener_ != nullptr) listener_->learned(place);
-  known = true;
+  if (is_learned(place)) return;
+  if (listener_ != nullptr) listener_->learned(place);
+  know(place);
+}
+
+void Detector::know(std::uint64_t place) {
+  learned_[place] = true;
+  learned_bits_[bit_of(place) / 64] |= std::uint64_t{1} << bit_of(place) % 64;
+}
+
+void Detector::forget_learned() {
+  learned_.clear();
+  std::fill(std::begin(learned_bits_), std::end(learned_bits_), 0);
 }
 
 void Detector::ignore(bool begin) {

@@ -80,27 +80,22 @@ class Detector {
   // --- accesses ---
 
   bool watching() const { return watching_; }
-  /// A plain one within an aligned word that no other task has touched, as most are: nothing can race. False, and
-  /// nothing is done, if it is another, for access_word().
-  [[gnu::always_inline]] bool access_own(std::uint64_t address, std::uint32_t size, std::uint8_t kind,
-                                         const void* place) {
+  /// One within an aligned word. Most are plain ones to words that no other task has touched: nothing can race.
+  [[gnu::always_inline]] void access_word(std::uint64_t address, std::uint32_t size, std::uint8_t kind,
+                                          const void* place, kernel::Operation operation) {
     Cell* const cell = shadow_.find(address / 8);
-    const Footprint footprint = footprint_of(address, size, kind);
-    if (cell == nullptr || cell->owner != current_->index || !cell->touched || cell->several) return false;
-    const auto at = reinterpret_cast<std::uint64_t>(place);
-    if (weight_ + 1 >= weight_max || learned_.find(at) != nullptr) return false;
+    const Seen seen{.place = reinterpret_cast<std::uint64_t>(place),
+                    .footprint = footprint_of(address, size, kind),
+                    .size = static_cast<std::uint8_t>(size),
+                    .operation = operation};
+    if (cell == nullptr) return touch(address / 8, seen);
+    if (cell->owner != current_->index || !cell->touched || cell->several || (kind & kind::atomic) != 0 ||
+        weight_ + 1 >= weight_max || is_learned(seen.place))
+      return access_shared(*cell, seen);
     ++weight_;
-    const Epoch epoch = current_->epoch();
-    if (cell->latest.epoch == epoch && footprint::covers(cell->latest.footprint, footprint)) return true;
-    current_->accessed = epoch;
-    const unsigned kept = !footprint::covers(footprint, cell->latest.footprint);
-    if (__builtin_expect((kept | cell->more_count) != 0, 0)) keep_own(*cell, footprint, kept);
-    cell->latest = describe(footprint, size, at);
-    return true;
+    if (cell->latest.epoch != current_->epoch() || !footprint::covers(cell->latest.footprint, seen.footprint))
+      record_own(*cell, seen);
   }
-  /// One within an aligned word.
-  void access_word(std::uint64_t address, std::uint32_t size, std::uint8_t kind, const void* place,
-                   kernel::Operation operation);
   void access_range(std::uint64_t address, std::size_t size, std::uint8_t kind, const void* place,
                     kernel::Operation operation);
   /// In place of an access where nothing is watched.
@@ -113,8 +108,8 @@ class Detector {
 
   std::size_t found(const FoundRace*& races) const;
   void learn(bool on) { learning_ = on; }
-  void forget_learned() { learned_.clear(); }
-  void know(std::uint64_t place) { learned_[place] = true; }
+  void forget_learned();
+  void know(std::uint64_t place);
   void tell(const Listener& listener) { listener_ = &listener; }
 
  private:
@@ -132,6 +127,17 @@ class Detector {
     std::uint64_t run;
   };
 
+  /// An access to a word as it comes; it goes through registers.
+  struct Seen {
+    std::uint64_t place;
+    Footprint footprint;
+    std::uint8_t size;
+    kernel::Operation operation;
+
+    bool writes() const { return (footprint & footprint::write) != 0; }
+    bool is_atomic() const { return (footprint & footprint::plain) == 0; }
+  };
+
   VectorClock& sync_point(const void* at);
   Context& fresh_context();
   void take_index(Context& context, const Context& maker);
@@ -139,26 +145,36 @@ class Detector {
   void leave_outside();
   void enter_outside();
   void update_watching();
-  bool is_switch_point(const Cell& cell, std::uint8_t kind, std::uint64_t place);
+  [[gnu::noinline]] void touch(std::uint64_t word, Seen seen);
+  [[gnu::noinline]] void access_shared(Cell& cell, Seen seen);
+  [[gnu::noinline]] void record_own(Cell& cell, Seen seen);
+  bool is_learned(std::uint64_t place) {
+    const std::uint64_t bit = bit_of(place);
+    return __builtin_expect((learned_bits_[bit / 64] >> bit % 64 & 1) != 0, 0) && learned_.find(place) != nullptr;
+  }
+  static std::uint64_t bit_of(std::uint64_t place) { return place * 0x9E3779B97F4A7C15u >> (64 - 12); }
+  bool is_shared_switch_point(const Cell& cell, bool writes) const;
+  bool is_other_switch_point(const Seen& seen);
   void pass_switch_point(kernel::Operation operation, Cell& cell);
   void learn_from(Cell& cell, std::uint64_t place);
   void learn_place(std::uint64_t place);
-  void record(Cell& cell, Footprint footprint, std::uint32_t size, std::uint64_t place);
+  void begin_cell(Cell& cell, const Seen& seen);
+  void record(Cell& cell, const Seen& seen);
   static Footprint footprint_of(std::uint64_t address, std::uint64_t size, std::uint8_t kind) {
     return footprint::of(((1u << size) - 1) << (address % 8), kind);
   }
-  [[gnu::always_inline]] MemoryAccess describe(Footprint footprint, std::uint32_t size, std::uint64_t place) {
+  [[gnu::always_inline]] MemoryAccess describe(const Seen& seen) {
     Context& self = *current_;
-    return {.place = place,
+    return {.place = seen.place,
             .epoch = self.epoch(),
             .calls = self.calls.path(paths_),
             .event = static_cast<std::uint32_t>(kernel::running->sequence),
             .task = self.index,
-            .footprint = static_cast<Footprint>(footprint & 0x3FF),
-            .size = static_cast<Footprint>(size & 63)};
+            .footprint = static_cast<Footprint>(seen.footprint & 0x3FF),
+            .size = static_cast<Footprint>(seen.size & 63)};
   }
-  [[gnu::noinline]] void keep_own(Cell& cell, Footprint footprint, unsigned kept);
-  void keep(Cell& cell, unsigned kept);
+  void keep_own(Cell& cell, Footprint footprint, unsigned kept);
+  [[gnu::noinline]] void keep(Cell& cell, unsigned kept);
   [[gnu::noinline]] void report(Cell& cell, const MemoryAccess& first, const MemoryAccess& second);
   void describe(Side& side, const MemoryAccess& access);
 
@@ -169,6 +185,8 @@ class Detector {
   const void* recent_sync_at_ = nullptr;
   VectorClock* recent_sync_point_ = nullptr;
   HashTable<bool> learned_;  // places of code
+  // A bit for each of them, shared by some: of most code it tells that it is not among them.
+  std::uint64_t learned_bits_[64] = {};
   Table<TaskRecord> tasks_;
   Table<FreeIndex> free_indices_;
   Arena contexts_;  // never reset

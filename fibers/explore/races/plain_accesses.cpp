@@ -22,7 +22,7 @@ inline void access(const volatile void* at, std::uint32_t size, std::uint8_t kin
   const auto address = reinterpret_cast<std::uint64_t>(at);
   if (__builtin_expect(address % 8 + size > 8, 0))
     detector.access_range(address, size, kind, place, operation_of(kind));
-  else if (!detector.access_own(address, size, kind, place))
+  else
     detector.access_word(address, size, kind, place, operation_of(kind));
 }
 

@@ -84,11 +84,18 @@ class Shadow {
  public:
   /// The word's cell; null if it has none.
   [[gnu::always_inline]] Cell* find(std::uint64_t word) {
-    Page* const* const page = pages_.find(word / words_per_page);
-    if (__builtin_expect(page == nullptr || (*page)->run != run_, 0)) return nullptr;
-    const std::uint32_t index = (*page)->cells[word % words_per_page];
+    const RecentPage& recent = recent_[place_of(word / words_per_page)];
+    Page* page = recent.page;
+    if (__builtin_expect(recent.key != word / words_per_page + 1, 0)) {
+      page = seek_page(word / words_per_page);
+      if (page == nullptr) return nullptr;
+    }
+    if (__builtin_expect(page->run != run_, 0)) return nullptr;
+    const std::uint32_t index = page->cells[word % words_per_page];
     return __builtin_expect(index < cells_.size() && cells_[index].word == word, 1) ? &cells_[index] : nullptr;
   }
+  /// An untouched one for a word that has none.
+  Cell& new_cell(std::uint64_t word);
   /// The word's cell, an untouched one if it has none. Valid until the next call.
   Cell& cell_of(std::uint64_t word) {
     Cell* const cell = find(word);
@@ -122,13 +129,25 @@ class Shadow {
 
  private:
   static constexpr std::uint64_t words_per_page = 2048;
+  static constexpr std::uint64_t words_per_group = words_per_page / 64;
   struct Page {
-    std::uint64_t run;  // in which it was last touched
+    std::uint64_t run;     // in which it was last touched
+    std::uint64_t groups;  // a bit for each group of words with a cell in that run
     std::uint32_t cells[words_per_page];
   };
 
-  Cell& new_cell(std::uint64_t word);
+  // Of so many pages at most, what the table would say is kept at hand.
+  static constexpr std::uint64_t recent_pages = 16;
+  static std::uint64_t place_of(std::uint64_t number) { return number * 0x9E3779B97F4A7C15u >> 60; }
+  struct RecentPage {
+    std::uint64_t key;  // its number and one; 0: none
+    Page* page;
+  };
 
+  void forget(const Page& page, std::uint64_t begin, std::uint64_t from, std::uint64_t to);
+  [[gnu::noinline]] Page* seek_page(std::uint64_t number);
+
+  RecentPage recent_[recent_pages] = {};
   HashTable<Page*> pages_;
   Arena page_memory_;  // never reset: pages stay for later runs
   Table<Cell> cells_;

@@ -14,6 +14,7 @@ class Portfolio final : public Strategy {
     part_ = parts_[number % parts_.size()].get();
     part_->begin(number / parts_.size(), draws, profile);
   }
+  Strategy& deciding() override { return *part_; }
   std::uint32_t next(const SwitchPoint& at) override { return part_->next(at); }
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override {
     return part_->among(choice, task, count);
