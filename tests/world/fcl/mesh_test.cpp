@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/world/meshes.hpp"
+#include "tests/world/placements.hpp"
 #include "world/fcl/mesh_tree.hpp"
 #include "world/mesh/surfaces.hpp"
 #include "world/start_check.hpp"
@@ -22,12 +23,14 @@ double nearest_m(const Surfaces& surfaces, const Outline& outline, double z_low_
 
 TEST(Surfaces, CollideWhereFclDoesOnRandomPlacements) {
   Draws draw(1);
-  int apart = 0, together = 0;
-  for (int scene = 0; scene < 80; ++scene) {
+  constexpr int of_each_scene = 2000;
+  const long wanted = placements(160'000);
+  long apart = 0, together = 0;
+  for (int scene = 0; apart + together < wanted; ++scene) {
     const MeshObstacle mesh = mesh_obstacle("mesh", random_triangles(draw, 16, 2.5, 1.2, 2));
     const Surfaces surfaces({&mesh, 1});
     const MeshTree tree({&mesh, 1});
-    for (int k = 0; k < 2000; ++k) {
+    for (int k = 0; k < of_each_scene; ++k) {
       Shape probe = random_shape(draw, 2.5, 0.8);
       probe.z_low_m = k % 3 == 0 ? draw(0, 1.5) : 0;
       probe.z_high_m = probe.z_low_m + draw(0.1, 0.6);
@@ -42,8 +45,8 @@ TEST(Surfaces, CollideWhereFclDoesOnRandomPlacements) {
       ++(meets ? together : apart);
     }
   }
-  EXPECT_GT(apart, 20'000);
-  EXPECT_GT(together, 20'000);
+  EXPECT_GT(apart, wanted / 8);
+  EXPECT_GT(together, wanted / 8);
 }
 
 TEST(Surfaces, NearAreAllThatBoundsTouch) {
