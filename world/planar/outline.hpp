@@ -45,7 +45,7 @@ Outline outline_of(const Shape& shape, const Pose& body);
 
 /// The segment between two points.
 Outline segment_outline(Point a, Point b);
-/// The triangle of three points, which may lie on a line.
+/// The triangle of three points, which may lie on a line; such as are within a nanometre count as one.
 Outline triangle_outline(Point a, Point b, Point c);
 
 /// The points whose convex hull is the core: three or four corners counter-clockwise, or the centre.

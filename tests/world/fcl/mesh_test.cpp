@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/world/meshes.hpp"
@@ -47,6 +48,47 @@ TEST(Surfaces, CollideWhereFclDoesOnRandomPlacements) {
   }
   EXPECT_GT(apart, wanted / 8);
   EXPECT_GT(together, wanted / 8);
+}
+
+// Upright triangles whose part between the heights has two corners above each other: they are one point of the plane.
+// Rounded apart, they once made a side of no direction, and bodies that it was not in the way of.
+TEST(Surfaces, UprightTrianglesAreMetAlongAllOfThem) {
+  struct Case {
+    std::array<SpaceVector, 3> corners;
+    Pose at;
+    double length_m, width_m, low_m, high_m, depth_m;
+  };
+  const std::array<Case, 2> cases = {Case{{{{0.21188949925928569, 0.73215982556032855, 1.0913090541590307},
+                                            {-0.53682357622416776, -0.21024680130548157, 1.301258167742247},
+                                            {-0.53682357622416776, -0.21024680130548157, 0.63515656223069272}}},
+                                          {-0.37173751622415718, -0.38950173867692994, 0},
+                                          0.26804871697497501,
+                                          0.7966338196573961,
+                                          1.1566128360466146,
+                                          1.7387014708554647,
+                                          0.0796},
+                                     Case{{{{-1.159322230026117, -0.086448046969417325, 0.83488532164663609},
+                                            {-2.5545408538710639, 1.1300096407376314, 0.8030086636877467},
+                                            {-2.5545408538710639, 1.1300096407376314, 0.41671700060668759}}},
+                                          {-2.2338550232279082, 0.84067466908505972, 0},
+                                          0.051934784297637218,
+                                          0.30137047578205384,
+                                          0.39755343481904354,
+                                          0.85459129405345591,
+                                          0.025}};
+  for (const Case& c : cases) {
+    TriangleMesh one;
+    add_triangle(one, c.corners[0], c.corners[1], c.corners[2]);
+    const MeshObstacle mesh = mesh_obstacle("one", one);
+    Shape box;
+    box.pose = c.at;
+    box.length_m = c.length_m;
+    box.width_m = c.width_m;
+    box.z_low_m = c.low_m;
+    box.z_high_m = c.high_m;
+    EXPECT_TRUE(MeshTree({&mesh, 1}).collides(box));
+    EXPECT_LT(Surfaces({&mesh, 1}).separation(outline_of(box), c.low_m, c.high_m, 0).distance_m, -0.9 * c.depth_m);
+  }
 }
 
 TEST(Surfaces, NearAreAllThatBoundsTouch) {
