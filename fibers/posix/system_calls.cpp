@@ -18,7 +18,6 @@
 #include <sys/sem.h>
 #include <sys/sendfile.h>
 #include <sys/shm.h>
-#include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
@@ -31,8 +30,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
-#include <type_traits>
-#include <utility>
 
 #include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/clocks.hpp"
@@ -40,41 +37,10 @@
 #include "fibers/posix/futex.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
-#include "fibers/posix/signals.hpp"
+#include "fibers/posix/system_call_words.hpp"
 
 namespace waitpoint::posix {
 namespace {
-
-template <class T>
-T as(long word) {
-  if constexpr (std::is_pointer_v<T>)
-    return reinterpret_cast<T>(word);
-  else
-    return static_cast<T>(word);
-}
-
-/// The words of a call.
-struct Words {
-  long at[6];
-
-  template <class Result, class... Arguments>
-  long call(Result (*function)(Arguments...)) const {
-    return call_with(function, std::index_sequence_for<Arguments...>());
-  }
-  template <class T>
-  T word(int number) const {
-    return as<T>(at[number]);
-  }
-
- private:
-  template <class Result, class... Arguments, std::size_t... Numbers>
-  long call_with(Result (*function)(Arguments...), std::index_sequence<Numbers...>) const {
-    if constexpr (std::is_pointer_v<Result>)
-      return reinterpret_cast<long>(function(as<Arguments>(at[Numbers])...));
-    else
-      return static_cast<long>(function(as<Arguments>(at[Numbers])...));
-  }
-};
 
 /// The call itself is no cancellation point, whatever it does.
 class CancellationDisabled {
@@ -95,59 +61,6 @@ class CancellationDisabled {
   bool before_ = false;
 };
 
-/// A set of signals as the system has it, or none.
-class Mask {
- public:
-  explicit Mask(const SignalSet* from) : is_there_(from != nullptr) {
-    if (is_there_) set_ = to_sigset(*from);
-  }
-  const sigset_t* get() const { return is_there_ ? &set_ : nullptr; }
-
- private:
-  bool is_there_;
-  sigset_t set_;
-};
-
-/// What is done with a signal, as the system has it.
-struct SystemAction {
-  void (*handler)(int);
-  unsigned long flags;
-  void (*restorer)();
-  SignalSet mask;
-};
-
-long change_action(int signal, const SystemAction* to, SystemAction* old) {
-  struct sigaction action {
-  }, before{};
-  if (to != nullptr) {
-    action.sa_handler = to->handler;
-    action.sa_flags = static_cast<int>(to->flags);
-    action.sa_mask = to_sigset(to->mask);
-  }
-  if (sigaction(signal, to != nullptr ? &action : nullptr, &before) != 0) return -1;
-  if (old != nullptr)
-    *old = {before.sa_handler, static_cast<unsigned long>(before.sa_flags), before.sa_restorer, to_set(before.sa_mask)};
-  return 0;
-}
-
-long change_mask(int how, const SignalSet* to, SignalSet* old) {
-  sigset_t before;
-  if (sigprocmask(how, Mask(to).get(), &before) != 0) return -1;
-  if (old != nullptr) *old = to_set(before);
-  return 0;
-}
-
-long tell_pending(SignalSet* set) {
-  sigset_t pending;
-  if (sigpending(&pending) != 0) return -1;
-  *set = to_set(pending);
-  return 0;
-}
-
-long queue_signal(pid_t process, const siginfo_t& information) {
-  return sigqueue(process, information.si_signo, information.si_value);
-}
-
 long make_timer(clockid_t clock, sigevent* event, int* number) {
   timer_t made = nullptr;
   if (timer_create(clock, event, &made) != 0) return -1;
@@ -155,49 +68,7 @@ long make_timer(clockid_t clock, sigevent* event, int* number) {
   return 0;
 }
 
-// What has sets of signals, with their size behind them.
-long call_about_signals(long number, const Words& words) {
-  constexpr long size_of_set = sizeof(SignalSet);
-  const auto set = words.word<const SignalSet*>(0);
-  switch (number) {
-    case SYS_rt_sigaction:
-      if (words.at[3] != size_of_set) return fail(EINVAL);
-      return change_action(words.word<int>(0), words.word<const SystemAction*>(1), words.word<SystemAction*>(2));
-    case SYS_rt_sigprocmask:
-      if (words.at[3] != size_of_set) return fail(EINVAL);
-      return change_mask(words.word<int>(0), words.word<const SignalSet*>(1), words.word<SignalSet*>(2));
-    case SYS_rt_sigpending: return tell_pending(words.word<SignalSet*>(0));
-    case SYS_rt_sigsuspend: return sigsuspend(Mask(set).get());
-    case SYS_rt_sigtimedwait:
-      return sigtimedwait(Mask(set).get(), words.word<siginfo_t*>(1), words.word<const timespec*>(2));
-    case SYS_rt_sigqueueinfo: {
-      siginfo_t information = *words.word<const siginfo_t*>(2);
-      information.si_signo = words.word<int>(1);
-      return queue_signal(words.word<pid_t>(0), information);
-    }
-    case SYS_signalfd:
-    case SYS_signalfd4:
-      return signalfd(words.word<int>(0), Mask(words.word<const SignalSet*>(1)).get(),
-                      number == SYS_signalfd4 ? words.word<int>(3) : 0);
-    case SYS_ppoll:
-      return ppoll(words.word<pollfd*>(0), words.word<nfds_t>(1), words.word<const timespec*>(2),
-                   Mask(words.word<const SignalSet*>(3)).get());
-    case SYS_pselect6: {
-      struct WithSize {
-        const SignalSet* set;
-        std::size_t size;
-      };
-      const auto mask = words.word<const WithSize*>(5);
-      return pselect(words.word<int>(0), words.word<fd_set*>(1), words.word<fd_set*>(2), words.word<fd_set*>(3),
-                     words.word<const timespec*>(4), Mask(mask != nullptr ? mask->set : nullptr).get());
-    }
-    default:  // SYS_epoll_pwait
-      return epoll_pwait(words.word<int>(0), words.word<epoll_event*>(1), words.word<int>(2), words.word<int>(3),
-                         Mask(words.word<const SignalSet*>(4)).get());
-  }
-}
-
-long simulated_call(long number, const Words& words) {
+long simulated_call(long number, const CallWords& words) {
   const auto timer = reinterpret_cast<timer_t>(static_cast<std::uintptr_t>(words.at[0]));
   switch (number) {
     case SYS_futex: return words.call(futex);
@@ -337,7 +208,7 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED long syscall(long number, ...) noexcept {
   va_list more;
   va_start(more, number);
-  Words words;
+  CallWords words;
   for (long& word : words.at) word = va_arg(more, long);
   va_end(more);
   if (is_host_code())

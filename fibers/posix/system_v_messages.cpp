@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// System V message queues(). A message goes to a call that waits for it at once; calls that wait for room are woken,
-// and look for themselves.
+// The calls for System V message queues.
 #include <sys/msg.h>
 #include <unistd.h>
 
@@ -9,294 +8,13 @@
 #include <cstring>
 
 #include "fibers/posix/cancellation.hpp"
-#include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
-#include "fibers/posix/signals.hpp"
-#include "fibers/posix/system_v.hpp"
-#include "fibers/posix/system_v_ends.hpp"
+#include "fibers/posix/system_v_queue.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix::system_v {
 namespace {
-
-// Linux's, as it is when a machine starts.
-constexpr int queues_max = 32000;
-constexpr std::size_t bytes_a_message_max = 8192, bytes_a_queue_max = 16384;
-
-struct Message {
-  long type;
-  std::size_t size;
-  Message* next;
-  char* bytes() { return reinterpret_cast<char*>(this + 1); }
-};
-
-/// What a receiving call asks for.
-struct Wanted {
-  long type;
-  std::size_t size;
-  int flags;
-};
-
-/// A call that waits to receive, of any process of the family.
-struct Receiving {
-  pid_t process;
-  kernel::Task* task;  // in its process
-  Wanted wanted;
-  Message* message;  // given to it
-  int error;         // with which it ends
-  Receiving* next;
-};
-
-/// What senders wait for: known in each process, by its address.
-struct Room {};
-struct KnownRoom : Waitable {
-  static constexpr Kind kind_of_all = Kind::system_v;
-  explicit KnownRoom(const void* address) : Waitable(kind_of_all, "room in a System V message queue", address) {}
-};
-
-struct Queue : Common {
-  Queue() : Common("System V message queue") {}
-  ~Queue() {
-    while (Message* message = first) {
-      first = message->next;
-      family::give(message);
-    }
-  }
-
-  Room room;
-  std::size_t bytes = 0, bytes_max = bytes_a_queue_max;
-  unsigned long count = 0;
-  time_t sent = 0, received = 0, changed = 0;
-  pid_t last_sender = 0, last_receiver = 0;
-  Message* first = nullptr;
-  Receiving* first_receiving = nullptr;
-};
-
-kernel::Object& object_of_room(const Queue& queue) { return waitable_at<KnownRoom>(&queue.room).object; }
-
-using Queues = Table<Queue, queues_max>;
-Queues& queues() { return table_of<Queues>(family::Part::messages); }
-
-bool is_wanted(const Wanted& wanted, long type) {
-  if (wanted.type == 0) return true;
-  if (wanted.type < 0) return type <= (wanted.type == LONG_MIN ? LONG_MAX : -wanted.type);
-  return (type == wanted.type) != ((wanted.flags & MSG_EXCEPT) != 0);
-}
-
-// The link to the message that is received next; to null if there is none.
-Message** find_message(Queue& queue, const Wanted& wanted) {
-  if ((wanted.flags & MSG_COPY) != 0) {
-    Message** link = &queue.first;
-    for (long number = wanted.type; *link != nullptr && number > 0; --number) link = &(*link)->next;
-    return link;
-  }
-  Message** found = nullptr;
-  Message** link = &queue.first;
-  for (; *link != nullptr; link = &(*link)->next) {
-    if (!is_wanted(wanted, (*link)->type)) continue;
-    if (wanted.type >= 0) return link;
-    if (found == nullptr || (*link)->type < (*found)->type) found = link;
-  }
-  return found != nullptr ? found : link;
-}
-
-void append(Queue& queue, Message& message) {
-  Message** link = &queue.first;
-  while (*link != nullptr) link = &(*link)->next;
-  *link = &message;
-  message.next = nullptr;
-  queue.bytes += message.size;
-  ++queue.count;
-}
-
-void append(Queue& queue, Receiving& receiving) {
-  Receiving** last = &queue.first_receiving;
-  while (*last != nullptr) last = &(*last)->next;
-  *last = &receiving;
-  receiving.next = nullptr;
-}
-
-void remove(Queue& queue, Receiving& receiving) {
-  for (Receiving** link = &queue.first_receiving; *link != nullptr; link = &(*link)->next)
-    if (*link == &receiving) {
-      *link = receiving.next;
-      return;
-    }
-}
-
-void end_receiving(Queue& queue, Receiving& receiving, Message* message, int error) {
-  remove(queue, receiving);
-  receiving.message = message;
-  __atomic_store_n(&receiving.error, error, __ATOMIC_SEQ_CST);
-  if (receiving.process == family::this_process())
-    receiving.task->scheduler->wake(*receiving.task);
-  else
-    family::ring();
-}
-
-// Calls of processes that were killed wait no longer.
-void drop_dead(Queue& queue) {
-  for (Receiving** link = &queue.first_receiving; *link != nullptr;) {
-    Receiving* const each = *link;
-    if (each->process == family::this_process() || family::lives(each->process)) {
-      link = &each->next;
-      continue;
-    }
-    *link = each->next;
-    family::give(each);
-  }
-}
-
-// To one of those that wait for such a message, of the chooser's choice. Whose room is too small ends with an error.
-bool give(Queue& queue, Message& message) {
-  drop_dead(queue);
-  for (;;) {
-    std::uint32_t count = 0;
-    for (const Receiving* each = queue.first_receiving; each != nullptr; each = each->next)
-      if (is_wanted(each->wanted, message.type)) ++count;
-    if (count == 0) return false;
-    std::uint32_t chosen = is_simulated() ? kernel::running->scheduler->chooser().waiter(*kernel::running, count) : 0;
-    Receiving* each = queue.first_receiving;
-    while (!is_wanted(each->wanted, message.type) || chosen-- > 0) each = each->next;
-    if (message.size > each->wanted.size && (each->wanted.flags & MSG_NOERROR) == 0) {
-      end_receiving(queue, *each, nullptr, E2BIG);
-      continue;
-    }
-    queue.last_receiver = each->process;
-    queue.received = date();
-    end_receiving(queue, *each, &message, 0);
-    return true;
-  }
-}
-
-bool has_room(const Queue& queue, std::size_t size) {
-  return queue.bytes + size <= queue.bytes_max && queue.count + 1 <= queue.bytes_max;
-}
-
-void wake_senders(const Queue& queue) {
-  if (is_simulated()) kernel::running->scheduler->wake_all(object_of_room(queue));
-  family::ring();
-}
-
-// What a sender waits for.
-struct Sending {
-  const Queue& queue;
-  std::size_t size;
-};
-bool may_send(const void* what) {
-  const auto& sending = *static_cast<const Sending*>(what);
-  return sending.queue.removed || has_room(sending.queue, sending.size);
-}
-
-// An error, or 0.
-int put(Queue& queue, long type, const char* bytes, std::size_t size) {
-  auto* const message = static_cast<Message*>(family::take(sizeof(Message) + size));
-  if (message == nullptr) return ENOMEM;
-  message->type = type;
-  message->size = size;
-  std::memcpy(message->bytes(), bytes, size);
-  queue.last_sender = family::this_process();
-  queue.sent = date();
-  if (!give(queue, *message)) append(queue, *message);
-  return 0;
-}
-
-int send_message(Queue& queue, long type, const char* bytes, std::size_t size, int flags) {
-  const CancellationPoint point;
-  pass_if_simulated(kernel::Operation::send, &object_of(queue));
-  const Sending sending{queue, size};
-  for (;;) {
-    {
-      const family::Section section;
-      if (queue.removed) return fail(EIDRM);
-      if (has_room(queue, size)) {
-        const int error = put(queue, type, bytes, size);
-        return error == 0 ? 0 : fail(error);
-      }
-    }
-    if ((flags & IPC_NOWAIT) != 0) return fail(EAGAIN);
-    if (!is_simulated()) refuse("a thread waits before main() begins");
-    kernel::running->scheduler->enter(object_of_room(queue));
-    Wait ended = Wait::interrupted;
-    if (!point.was_cancelled()) ended = wait_on_shared(object_of_room(queue), Time::max(), may_send, &sending);
-    if (point.was_cancelled()) return fail(ECANCELED);
-    if (ended == Wait::interrupted && is_interrupted(Restart::never)) return fail(EINTR);
-  }
-}
-
-// Out of the queue, but for a copy.
-void take_out(Queue& queue, Message** link) {
-  Message* const message = *link;
-  *link = message->next;
-  queue.bytes -= message->size;
-  --queue.count;
-  queue.last_receiver = family::this_process();
-  queue.received = date();
-  wake_senders(queue);
-}
-
-// What is written to the program, and given back to the family unless it stays in the queue.
-ssize_t hand_over(Message& message, const Wanted& wanted, void* to) {
-  const std::size_t taken = message.size < wanted.size ? message.size : wanted.size;
-  std::memcpy(to, &message.type, sizeof message.type);
-  std::memcpy(static_cast<char*>(to) + sizeof message.type, message.bytes(), taken);
-  if ((wanted.flags & MSG_COPY) == 0) family::give(&message);
-  return static_cast<ssize_t>(taken);
-}
-
-bool is_done(const void* receiving) {
-  return __atomic_load_n(&static_cast<const Receiving*>(receiving)->error, __ATOMIC_SEQ_CST) >= 0;
-}
-
-// Until a message was given to it. An error, or 0.
-int wait_for_message(Queue& queue, Receiving& receiving, const CancellationPoint& point) {
-  while (!is_done(&receiving)) {
-    Wait ended = Wait::interrupted;
-    if (!point.was_cancelled()) ended = wait_on_shared(object_of(queue), Time::max(), is_done, &receiving);
-    if (is_done(&receiving)) break;
-    if (ended != Wait::interrupted) continue;  // to look again
-    {
-      const family::Section section;
-      if (is_done(&receiving)) break;
-      remove(queue, receiving);
-    }
-    if (point.was_cancelled()) return ECANCELED;
-    if (is_interrupted(Restart::never)) return EINTR;
-    const family::Section section;
-    if (queue.removed) return EIDRM;
-    append(queue, receiving);
-  }
-  return receiving.error;
-}
-
-// As msgrcv(). Who is cancelled gives ECANCELED.
-ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
-  const CancellationPoint point;
-  pass_if_simulated(kernel::Operation::receive, &object_of(queue));
-  Receiving* receiving = nullptr;
-  {
-    const family::Section section;
-    if (queue.removed) return fail(EIDRM);
-    if (Message** const link = find_message(queue, wanted); *link != nullptr) {
-      Message& message = **link;
-      if (message.size > wanted.size && (wanted.flags & MSG_NOERROR) == 0) return fail(E2BIG);
-      if ((wanted.flags & MSG_COPY) == 0) take_out(queue, link);
-      return hand_over(message, wanted, to);
-    }
-    if ((wanted.flags & IPC_NOWAIT) != 0) return fail(ENOMSG);
-    if (!is_simulated()) refuse("a thread waits before main() begins");
-    receiving = static_cast<Receiving*>(family::take(sizeof(Receiving)));
-    if (receiving == nullptr) return fail(ENOMEM);
-    *receiving = {family::this_process(), kernel::running, wanted, nullptr, -1, nullptr};
-    append(queue, *receiving);
-  }
-  const int error = wait_for_message(queue, *receiving, point);
-  const family::Section section;
-  Message* const message = receiving->message;
-  family::give(receiving);
-  return error == 0 ? hand_over(*message, wanted, to) : fail(error);
-}
 
 int tell_status(const Queue& queue, msqid_ds* to) {
   *to = {};
@@ -333,11 +51,6 @@ int tell_limits(void* to, bool used) {
   return queues().greatest_slot();
 }
 
-void end_all(Queue& queue, int error) {
-  while (queue.first_receiving != nullptr) end_receiving(queue, *queue.first_receiving, nullptr, error);
-  wake_senders(queue);
-}
-
 int control(Queue& queue, int command, msqid_ds* status) {
   switch (command) {
     case IPC_STAT: return is_allowed(queue, 4) ? tell_status(queue, status) : fail(EACCES);
@@ -359,27 +72,6 @@ int control(Queue& queue, int command, msqid_ds* status) {
 }
 
 }  // namespace
-
-void forget_message_waiter(const kernel::Task& task) {
-  const family::Section section;
-  for (int slot = 0; slot < queues().end(); ++slot) {
-    Queue* const queue = queues().in_slot(slot);
-    for (Receiving** link = queue == nullptr ? nullptr : &queue->first_receiving; link != nullptr && *link != nullptr;
-         link = &(*link)->next) {
-      Receiving* const each = *link;
-      if (each->task != &task || each->process != family::this_process()) continue;
-      *link = each->next;
-      family::give(each);
-      --queue->users;
-      return;
-    }
-  }
-}
-
-void forget_messages() {
-  const family::Section section;
-  queues().clear();
-}
 
 }  // namespace waitpoint::posix::system_v
 

@@ -80,6 +80,7 @@ NOT_MISSED = (
         "__pthread_once": "only what was linked with an older C library can call it so",
         "clock_settime": "natively it would set the machine's date (debian_test.py, Options)",
         "settimeofday": "natively it would set the machine's date",
+        "socket": "says whose it is, among several programs (several_test.py)",
         "sched_getcpu": "any processor is as good",
         "vfork": "a child that does nothing but become a program does not show whose memory it has",
         "tss_delete": "as pthread_key_delete",

@@ -463,3 +463,28 @@ CASE(nobody_waits_for_what_is_beside_a_stream) {
   int other = socket(AF_INET, SOCK_STREAM, 0);
   EXPECT_FAILS(recv(other, bytes, 4, MSG_ERRQUEUE), EAGAIN);
 }
+
+static int filled[2];
+static void* empty_it(void* unused) {
+  char bytes[64];
+  let_others_wait();
+  note("r");
+  while (recv(filled[1], bytes, sizeof bytes, MSG_DONTWAIT) > 0) {
+  }
+  return unused;
+}
+CASE(several_messages_wait_for_room) {
+  EXPECT_IS(socketpair(AF_UNIX, SOCK_DGRAM, 0, filled), 0);
+  while (send(filled[0], "full", 4, MSG_DONTWAIT) == 4) {
+  }
+  struct iovec part = {"more", 4};
+  struct mmsghdr both[2];
+  memset(both, 0, sizeof both);
+  both[0].msg_hdr.msg_iov = both[1].msg_hdr.msg_iov = &part;
+  both[0].msg_hdr.msg_iovlen = both[1].msg_hdr.msg_iovlen = 1;
+  const pthread_t id = start(empty_it, NULL);
+  EXPECT(sendmmsg(filled[0], both, 2, 0) >= 1);
+  note("s");
+  join(id);
+  EXPECT_NOTED("rs");
+}
