@@ -201,25 +201,6 @@ class Processes(Exec):
             self.assertEqual((0, hashlib.sha256(b"400 4950 2646700 0\n").hexdigest()), (status, output), text)
 
 
-    def test_that_are_started_are_native_or_simulated(self):
-        program = self.compile("starts.c")
-        ways = "system", "popen", "posix_spawn", "fork"
-
-        def run(*options):
-            words = [WAITPOINT, "exec", "--quiet", *options, "--", program]
-            done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=60)
-            self.assertEqual(done.returncode, 7, done.stderr)
-            return done.stdout.splitlines()
-
-        # The simulation's year is 2024.
-        simulated = [line for way in ways for line in ("2024", f"{way} 7")] + ["2024"]
-        self.assertEqual(run("--children", "simulated"), simulated)
-        for options in (), ("--children", "native"):
-            years = {line for line in run(*options) if " " not in line}
-            self.assertEqual(len(years), 1)
-            self.assertNotIn("2024", years)
-
-
 class Ends(Exec):
     """However a program ends, its exit status is its own, and what it came to is told."""
 
@@ -329,28 +310,6 @@ class Options(Exec):
         if os.geteuid() == 0:
             self.assertEqual(self.output("date")[0], ["1000000000"])
         self.assertLess(abs(time.time() - os.stat("/proc/self").st_ctime), 100)
-
-
-class WithinTheCLibrary(Exec):
-    """What the C library waits for within itself, which no name of ours is in front of."""
-
-    def run_by(self, what, *options, timeout=60):
-        words = [WAITPOINT, "exec", "--quiet", *options, "--", self.compile("within_libc.c"), what]
-        return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=timeout)
-
-    def test_locks_and_streams_are_simulated_by_traps(self):
-        for what in "lock", "character", "pipe", "much":
-            done = self.run_by(what, "--trap-libc")
-            self.assertEqual((done.returncode, done.stderr), (0, ""), what)
-            natively = subprocess.run([str(self.compile("within_libc.c")), what], capture_output=True, text=True)
-            self.assertEqual(done.stdout, natively.stdout, what)
-
-    def test_such_a_lock_is_waited_for_for_ever_without_them(self):
-        with self.assertRaises(subprocess.TimeoutExpired):
-            self.run_by("lock", timeout=2)
-
-    def test_a_program_that_is_started_has_no_traps(self):
-        self.assertEqual(self.run_by("start", "--trap-libc").stdout, "5\n3\n")
 
 
 class Deadlocks(Exec):

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What `waitpoint exec` simulates beside a program's own calls, if it is asked to: libc_and_children_test.py BUILD.
+
+What the C library waits for within itself (--trap-libc), and programs that are started (--children).
+"""
+
+import subprocess
+import unittest
+
+from exec_case import ExecCase, WAITPOINT
+
+
+class WithinTheCLibrary(ExecCase):
+    """What the C library waits for within itself, which no name of ours is in front of."""
+
+    def run_by(self, what, *options, timeout=60):
+        words = [WAITPOINT, "exec", "--quiet", *options, "--", self.compile("within_libc.c"), what]
+        return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=timeout)
+
+    def test_locks_and_streams_are_simulated_by_traps(self):
+        for what in "lock", "character", "pipe", "much":
+            done = self.run_by(what, "--trap-libc")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), what)
+            natively = subprocess.run([str(self.compile("within_libc.c")), what], capture_output=True, text=True)
+            self.assertEqual(done.stdout, natively.stdout, what)
+
+    def test_such_a_lock_is_waited_for_for_ever_without_them(self):
+        with self.assertRaises(subprocess.TimeoutExpired):
+            self.run_by("lock", timeout=2)
+
+    def test_a_program_that_is_started_has_no_traps(self):
+        self.assertEqual(self.run_by("start", "--trap-libc").stdout, "5\n3\n")
+
+
+class Children(ExecCase):
+    """Programs that a simulated one starts."""
+
+    def test_are_native_or_simulated(self):
+        program = self.compile("starts.c")
+        ways = "system", "popen", "posix_spawn", "fork"
+
+        def run(*options):
+            words = [WAITPOINT, "exec", "--quiet", *options, "--", program]
+            done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 7, done.stderr)
+            return done.stdout.splitlines()
+
+        # The simulation's year is 2024.
+        simulated = [line for way in ways for line in ("2024", f"{way} 7")] + ["2024"]
+        self.assertEqual(run("--children", "simulated"), simulated)
+        for options in (), ("--children", "native"):
+            years = {line for line in run(*options) if " " not in line}
+            self.assertEqual(len(years), 1)
+            self.assertNotIn("2024", years)
+
+
+if __name__ == "__main__":
+    unittest.main()
