@@ -57,7 +57,7 @@ bool begins_with(const char* text, const char* with) { return std::strncmp(text,
 
 StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
   if (!is_simulated() || given == nullptr) return;
-  if (!record->settings.simulates_started) place_at_random();
+  place_at_random();
   if (!record->settings.simulates_started) return;
   const ErrorNumberKept kept;
   if ((record_ = make_record()) < 0) return;
@@ -82,7 +82,7 @@ StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
 }
 
 // Traps of system calls, which go by where the C library is, come to programs that are started too, but nobody there
-// answers them: their C library is to be elsewhere.
+// answers them before their main(), if then: their C library is to be elsewhere.
 void StartEnvironment::place_at_random() {
   if (!record->settings.trap_library) return;
   persona_ = personality(0xFFFFFFFF);

@@ -29,7 +29,8 @@ class WithinTheCLibrary(ExecCase):
             self.run_by("lock", timeout=2)
 
     def test_a_program_that_is_started_has_no_traps(self):
-        self.assertEqual(self.run_by("start", "--trap-libc").stdout, "5\n3\n")
+        for options in (), ("--children", "simulated"):
+            self.assertEqual(self.run_by("start", "--trap-libc", *options).stdout, "5\n3\n")
 
 
 class Children(ExecCase):
