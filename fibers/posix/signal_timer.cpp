@@ -6,8 +6,11 @@
 
 namespace waitpoint::posix {
 
+constinit int SignalTimer::set_count_ = 0;
+
 void SignalTimer::await() {
   if (due_ == Time::max()) return;
+  ++set_count_;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   scheduler.enter(object_);
   const Time now = kernel::running->local_time;
@@ -36,6 +39,7 @@ void SignalTimer::start(const Duration& spent, Duration due, Duration interval) 
 void SignalTimer::stop() {
   if (node_.event.in_list()) object_.robot->scheduler->cancel(node_.event);
   if (processor_.spent != nullptr) unset_processor_timer(processor_);
+  if (due_ != Time::max()) --set_count_;
   due_ = Time::max();
   interval_ = Duration();
   missed_ = 0;
@@ -62,6 +66,7 @@ void SignalTimer::expire(kernel::EventNode& node) {
     scheduler.schedule(timer.node_.event, timer.due_, timer.object_);
   } else {
     timer.due_ = Time::max();
+    --set_count_;
   }
   timer.ring_(timer, count);
 }

@@ -11,6 +11,9 @@ namespace waitpoint::posix {
 
 class SignalTimer {
  public:
+  /// Whether any is set on virtual time: its signal may end what nothing else does.
+  static bool any_is_set() { return set_count_ > 0; }
+
   using Ring = void (*)(SignalTimer&, std::uint64_t expirations);
   constexpr explicit SignalTimer(Ring ring) : ring_(ring) {
     node_.event.fire = expire;
@@ -34,6 +37,7 @@ class SignalTimer {
   Duration interval() const { return interval_; }
 
  private:
+  static int set_count_;
   static void expire(kernel::EventNode& node);
   static void expire_by_processor(ProcessorTimer& timer, const Duration& spent);
   void await();

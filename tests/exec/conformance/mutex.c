@@ -2,6 +2,7 @@
 // Mutexes of the normal, recursive and errorcheck types, and their attributes. Robust ones: robust_mutex.c.
 #include "tests/exec/conformance/harness.h"
 
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
 
@@ -345,4 +346,16 @@ CASE(an_inheriting_mutex_is_a_mutex) {
   EXPECT_IS(pthread_mutex_lock(&inheriting), EDEADLK);
   EXPECT_IS(pthread_mutex_unlock(&inheriting), 0);
   EXPECT_IS(pthread_mutex_unlock(&inheriting), EPERM);
+}
+
+static void end_well(int signal) {
+  (void)signal;
+  _exit(3);
+}
+CASE_ENDING_WITH(3, who_waits_for_itself_is_left_by_a_timers_handler) {
+  pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+  signal(SIGALRM, end_well);
+  alarm(1);
+  pthread_mutex_lock(&mutex);
+  pthread_mutex_lock(&mutex);
 }
