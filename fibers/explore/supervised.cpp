@@ -11,8 +11,6 @@
 namespace waitpoint::exploration {
 namespace {
 
-static_assert(end_signal == SIGXCPU);
-
 // After so many seconds a schedule is told to go on for long; one in which nothing is computed for as long waits for
 // what nobody will give.
 constexpr std::uint32_t long_s = 10;

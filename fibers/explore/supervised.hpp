@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdint>
 #include <string>
 
@@ -36,6 +37,6 @@ struct Supervision {
 [[noreturn]] void supervise(int pipe, const Supervised& supervised, const Supervision& supervision);
 
 /// Whoever sends it this signal wants it to end with status 1.
-inline constexpr int end_signal = 24;  // SIGXCPU
+inline constexpr int end_signal = SIGXCPU;
 
 }  // namespace waitpoint::exploration

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "fibers/posix/chain.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/input_output.hpp"
 #include "fibers/posix/notification_threads.hpp"
@@ -46,11 +47,7 @@ Queue* queue_of(int descriptor) {
 }
 
 void remove(Queue& queue) {
-  for (Queue** link = &queues; *link != nullptr; link = &(*link)->next)
-    if (*link == &queue) {
-      *link = queue.next;
-      break;
-    }
+  posix::remove(queues, queue);
   std::free(&queue);
 }
 

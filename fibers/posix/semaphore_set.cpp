@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fibers/posix/chain.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/signals.hpp"
@@ -81,21 +82,6 @@ void end_waiting(Waiting& waiting, int result) {
     family::ring();
 }
 
-void append(Set& set, Waiting& waiting) {
-  Waiting** last = &set.first;
-  while (*last != nullptr) last = &(*last)->next;
-  *last = &waiting;
-  waiting.next = nullptr;
-}
-
-void remove(Set& set, Waiting& waiting) {
-  for (Waiting** link = &set.first; *link != nullptr; link = &(*link)->next)
-    if (*link == &waiting) {
-      *link = waiting.next;
-      return;
-    }
-}
-
 // It is done with.
 void undo(Set& set, Adjustments& adjustments) {
   for (int i = 0; i < set.size; ++i) {
@@ -168,7 +154,7 @@ void let_go_on(Set& set) {
       if (made.hindered_by != nullptr)
         each->hindered_by = static_cast<std::size_t>(made.hindered_by - each->operations());
       if (made.hindered_by != nullptr && made.error == 0) continue;
-      remove(set, *each);
+      remove(set.first, *each);
       end_waiting(*each, made.error);
       any = true;
     }
@@ -219,7 +205,7 @@ int begin(Set& set, const Caller& caller, const sembuf* operations, std::size_t 
   waiting = make_waiting(caller, operations, count);
   if (waiting == nullptr) return ENOMEM;
   waiting->hindered_by = static_cast<std::size_t>(made.hindered_by - operations);
-  append(set, *waiting);
+  append(set.first, *waiting);
   return no_wait_yet;
 }
 
@@ -246,12 +232,12 @@ int wait_until_done(Set& set, Waiting& waiting, Time deadline) {
     {
       const family::Section section;
       if (waiting.done) return waiting.result;
-      remove(set, waiting);
+      remove(set.first, waiting);
     }
     if (is_interrupted(Restart::never)) return EINTR;
     const family::Section section;
     if (set.removed) return EIDRM;
-    append(set, waiting);
+    append(set.first, waiting);
   }
 }
 
@@ -280,7 +266,7 @@ int operate(int id, const sembuf* operations, std::size_t count, Time deadline) 
     if (!is_simulated()) refuse("a thread waits before main() begins");
     error = wait_until_done(*set, *waiting, deadline);
     const family::Section section;
-    remove(*set, *waiting);
+    remove(set->first, *waiting);
     family::give(waiting);
   }
   return error == 0 ? 0 : fail(error);

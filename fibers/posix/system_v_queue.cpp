@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "fibers/posix/cancellation.hpp"
+#include "fibers/posix/chain.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/signals.hpp"
@@ -40,31 +41,13 @@ Message** find_message(Queue& queue, const Wanted& wanted) {
 }
 
 void append(Queue& queue, Message& message) {
-  Message** link = &queue.first;
-  while (*link != nullptr) link = &(*link)->next;
-  *link = &message;
-  message.next = nullptr;
+  posix::append(queue.first, message);
   queue.bytes += message.size;
   ++queue.count;
 }
 
-void append(Queue& queue, Receiving& receiving) {
-  Receiving** last = &queue.first_receiving;
-  while (*last != nullptr) last = &(*last)->next;
-  *last = &receiving;
-  receiving.next = nullptr;
-}
-
-void remove(Queue& queue, Receiving& receiving) {
-  for (Receiving** link = &queue.first_receiving; *link != nullptr; link = &(*link)->next)
-    if (*link == &receiving) {
-      *link = receiving.next;
-      return;
-    }
-}
-
 void end_receiving(Queue& queue, Receiving& receiving, Message* message, int error) {
-  remove(queue, receiving);
+  posix::remove(queue.first_receiving, receiving);
   receiving.message = message;
   __atomic_store_n(&receiving.error, error, __ATOMIC_SEQ_CST);
   if (receiving.process == family::this_process())
@@ -210,13 +193,13 @@ int wait_for_message(Queue& queue, Receiving& receiving, const CancellationPoint
     {
       const family::Section section;
       if (is_done(&receiving)) break;
-      remove(queue, receiving);
+      posix::remove(queue.first_receiving, receiving);
     }
     if (point.was_cancelled()) return ECANCELED;
     if (is_interrupted(Restart::never)) return EINTR;
     const family::Section section;
     if (queue.removed) return EIDRM;
-    append(queue, receiving);
+    posix::append(queue.first_receiving, receiving);
   }
   return receiving.error;
 }
@@ -242,7 +225,7 @@ ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
     receiving = static_cast<Receiving*>(family::take(sizeof(Receiving)));
     if (receiving == nullptr) return fail(ENOMEM);
     *receiving = {family::this_process(), kernel::running, wanted, nullptr, -1, nullptr};
-    append(queue, *receiving);
+    posix::append(queue.first_receiving, *receiving);
   }
   const int error = wait_for_message(queue, *receiving, point);
   const family::Section section;

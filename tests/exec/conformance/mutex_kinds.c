@@ -25,56 +25,22 @@ static void* unlock_it(void* p) {
   *(int*)p = pthread_mutex_unlock(&m);
   return NULL;
 }
-#define EACH(name, ...)                                      \
-  CASE(name##_normal) {                                      \
-    make(PTHREAD_MUTEX_NORMAL, 0, 0);                        \
-    const int type = PTHREAD_MUTEX_NORMAL, inherits = 0;     \
-    (void)type;                                              \
-    (void)inherits;                                          \
-    __VA_ARGS__                                              \
-  }                                                          \
-  CASE(name##_errorcheck) {                                  \
-    make(PTHREAD_MUTEX_ERRORCHECK, 0, 0);                    \
-    const int type = PTHREAD_MUTEX_ERRORCHECK, inherits = 0; \
-    (void)type;                                              \
-    (void)inherits;                                          \
-    __VA_ARGS__                                              \
-  }                                                          \
-  CASE(name##_recursive) {                                   \
-    make(PTHREAD_MUTEX_RECURSIVE, 0, 0);                     \
-    const int type = PTHREAD_MUTEX_RECURSIVE, inherits = 0;  \
-    (void)type;                                              \
-    (void)inherits;                                          \
-    __VA_ARGS__                                              \
-  }                                                          \
-  CASE(name##_pi_normal) {                                   \
-    make(PTHREAD_MUTEX_NORMAL, PTHREAD_PRIO_INHERIT, 0);     \
-    const int type = PTHREAD_MUTEX_NORMAL, inherits = 1;     \
-    (void)type;                                              \
-    (void)inherits;                                          \
-    __VA_ARGS__                                              \
-  }                                                          \
-  CASE(name##_pi_errorcheck) {                               \
-    make(PTHREAD_MUTEX_ERRORCHECK, PTHREAD_PRIO_INHERIT, 0); \
-    const int type = PTHREAD_MUTEX_ERRORCHECK, inherits = 1; \
-    (void)type;                                              \
-    (void)inherits;                                          \
-    __VA_ARGS__                                              \
-  }                                                          \
-  CASE(name##_robust) {                                      \
-    make(PTHREAD_MUTEX_ERRORCHECK, 0, 1);                    \
-    const int type = PTHREAD_MUTEX_ERRORCHECK, inherits = 0; \
-    (void)type;                                              \
-    (void)inherits;                                          \
-    __VA_ARGS__                                              \
-  }                                                          \
-  CASE(name##_pp) {                                          \
-    make(PTHREAD_MUTEX_ERRORCHECK, PTHREAD_PRIO_INHERIT, 1); \
-    const int type = PTHREAD_MUTEX_ERRORCHECK, inherits = 1; \
-    (void)type;                                              \
-    (void)inherits;                                          \
-    __VA_ARGS__                                              \
+#define OF_KIND(case_name, type_of_kind, protocol, robust, ...)                   \
+  CASE(case_name) {                                                               \
+    make(type_of_kind, protocol, robust);                                         \
+    const int type = type_of_kind, inherits = (protocol) == PTHREAD_PRIO_INHERIT; \
+    (void)type;                                                                   \
+    (void)inherits;                                                               \
+    __VA_ARGS__                                                                   \
   }
+#define EACH(name, ...)                                                                         \
+  OF_KIND(name##_normal, PTHREAD_MUTEX_NORMAL, 0, 0, __VA_ARGS__)                               \
+  OF_KIND(name##_errorcheck, PTHREAD_MUTEX_ERRORCHECK, 0, 0, __VA_ARGS__)                       \
+  OF_KIND(name##_recursive, PTHREAD_MUTEX_RECURSIVE, 0, 0, __VA_ARGS__)                         \
+  OF_KIND(name##_pi_normal, PTHREAD_MUTEX_NORMAL, PTHREAD_PRIO_INHERIT, 0, __VA_ARGS__)         \
+  OF_KIND(name##_pi_errorcheck, PTHREAD_MUTEX_ERRORCHECK, PTHREAD_PRIO_INHERIT, 0, __VA_ARGS__) \
+  OF_KIND(name##_robust, PTHREAD_MUTEX_ERRORCHECK, 0, 1, __VA_ARGS__)                           \
+  OF_KIND(name##_pp, PTHREAD_MUTEX_ERRORCHECK, PTHREAD_PRIO_INHERIT, 1, __VA_ARGS__)
 EACH(trylock_of_held, {
   int r;
   pthread_mutex_lock(&m);

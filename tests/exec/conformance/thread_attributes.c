@@ -50,39 +50,27 @@ static void* recursive(void* p) {
   if (d > 0) recursive((void*)(d - 1));
   return buffer[0] ? p : NULL;
 }
+static size_t told_when_asked_for(size_t stack_size) {
+  size_t z = 0;
+  pthread_t t;
+  pthread_attr_init(&a);
+  EXPECT_IS(pthread_attr_setstacksize(&a, stack_size), 0);
+  EXPECT_IS(pthread_create(&t, &a, own_stacksize, &z), 0);
+  join(t);
+  return z;
+}
 CASE(getattr_tells_default_stack_size) {
   size_t z = 0;
   join(start(own_stacksize, &z));
   EXPECT_IS(z, 8 << 20);
 }
-CASE(getattr_tells_asked_stack_size) {
-  size_t z = 0;
-  pthread_t t;
-  pthread_attr_init(&a);
-  EXPECT_IS(pthread_attr_setstacksize(&a, 1 << 20), 0);
-  EXPECT_IS(pthread_create(&t, &a, own_stacksize, &z), 0);
-  join(t);
-  EXPECT_IS(z, 1 << 20);
-}
+CASE(getattr_tells_asked_stack_size) { EXPECT_IS(told_when_asked_for(1 << 20), 1 << 20); }
 CASE(getattr_tells_minimal_stack_size) {
-  size_t z = 0;
-  pthread_t t;
-  pthread_attr_init(&a);
-  EXPECT_IS(pthread_attr_setstacksize(&a, PTHREAD_STACK_MIN + 16384), 0);
-  EXPECT_IS(pthread_create(&t, &a, own_stacksize, &z), 0);
-  join(t);
+  const size_t z = told_when_asked_for(PTHREAD_STACK_MIN + 16384);
   EXPECT(z >= 16384);
   EXPECT(z <= 65536);
 }
-CASE(getattr_tells_large_stack_size) {
-  size_t z = 0;
-  pthread_t t;
-  pthread_attr_init(&a);
-  EXPECT_IS(pthread_attr_setstacksize(&a, 64 << 20), 0);
-  EXPECT_IS(pthread_create(&t, &a, own_stacksize, &z), 0);
-  join(t);
-  EXPECT_IS(z, 64 << 20);
-}
+CASE(getattr_tells_large_stack_size) { EXPECT_IS(told_when_asked_for(64 << 20), 64 << 20); }
 CASE(getattr_tells_guard) {
   size_t z = 0;
   join(start(own_guard, &z));
