@@ -59,7 +59,7 @@ std::string outline_path(const PictureFrame& frame, const Shape& shape) {
                        svg_number(c.x - frame.pixels(shape.radius_m)), svg_number(c.y), fmt::arg("r", r),
                        fmt::arg("d", across));
   }
-  std::array<Point, 4> points = corners(shape);
+  std::vector<Point> points = corners(shape);
   for (Point& p : points) p = frame.pixel(p);
   return svg_polygon(points);
 }

@@ -43,10 +43,15 @@ void PictureFrame::show(Point p, double radius_m) {
   high_ = {std::max(high_.x, p.x + radius_m), std::max(high_.y, p.y + radius_m)};
 }
 
-std::array<Point, 4> corners(const world::Shape& box) {
-  const double x = box.length_m / 2, y = box.width_m / 2;
-  return {transform(box.pose, {x, y}), transform(box.pose, {-x, y}), transform(box.pose, {-x, -y}),
-          transform(box.pose, {x, -y})};
+std::vector<Point> corners(const world::Shape& shape) {
+  if (shape.kind == world::Shape::Kind::prism) {
+    std::vector<Point> points;
+    for (const auto& side : shape.polygon->sides()) points.push_back(transform(shape.pose, side.start));
+    return points;
+  }
+  const double x = shape.length_m / 2, y = shape.width_m / 2;
+  return {transform(shape.pose, {x, y}), transform(shape.pose, {-x, y}), transform(shape.pose, {-x, -y}),
+          transform(shape.pose, {x, -y})};
 }
 
 }  // namespace waitpoint::tools

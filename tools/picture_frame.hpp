@@ -2,8 +2,8 @@
 // Where metres of the world lie on a picture: the part of the world that is shown, and its scale.
 #pragma once
 
-#include <array>
 #include <span>
+#include <vector>
 
 #include "core/pose.hpp"
 #include "modules/bridge/run_result.hpp"
@@ -34,7 +34,7 @@ class PictureFrame {
   double scale_ = 1;
 };
 
-/// The corners of a box that stands at its pose.
-std::array<Point, 4> corners(const world::Shape& box);
+/// The corners of a box or a prism that stands at its pose.
+std::vector<Point> corners(const world::Shape& shape);
 
 }  // namespace waitpoint::tools

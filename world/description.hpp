@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/pose.hpp"
 #include "core/time.hpp"
+#include "world/planar/convex_polygon.hpp"
 #include "world/sensor_description.hpp"
 #include "world/triangle_mesh.hpp"
 
@@ -17,16 +19,22 @@ namespace waitpoint::world {
 
 inline constexpr double gravity_m_s2 = 9.81;
 
-/// An upright solid: a box turned about the vertical, or a cylinder, from z_low_m to z_high_m.
+/// An upright solid from z_low_m to z_high_m: a box turned about the vertical, a cylinder, or a prism over a convex
+/// polygon.
 struct Shape {
-  enum class Kind : std::uint8_t { box, cylinder };
+  enum class Kind : std::uint8_t { box, cylinder, prism };
   Kind kind = Kind::box;
   Pose pose;                         ///< of the centre; a cylinder's heading does not matter to its outline
-  double length_m = 0, width_m = 0;  ///< box: along its own x and y
+  double length_m = 0, width_m = 0;  ///< along its own x and y: of a box, or of the box about a prism
   double radius_m = 0;               ///< cylinder
   double z_low_m = 0, z_high_m = 1;
+  std::shared_ptr<const ConvexPolygon> polygon = {};  ///< prism: about its centre; shared, for shapes are copied
 
-  friend bool operator==(const Shape&, const Shape&) = default;
+  friend bool operator==(const Shape& a, const Shape& b) {
+    const bool same_polygon = a.polygon == b.polygon || (a.polygon && b.polygon && *a.polygon == *b.polygon);
+    return same_polygon && a.kind == b.kind && a.pose == b.pose && a.length_m == b.length_m && a.width_m == b.width_m &&
+           a.radius_m == b.radius_m && a.z_low_m == b.z_low_m && a.z_high_m == b.z_high_m;
+  }
 };
 
 /// Something that stands; with a mass, a dynamic world lets it be pushed.

@@ -163,6 +163,9 @@ class World {
   /// Scans with the body's laser number `laser`. The noise of beam i is drawn at (scan_number, i): the same scan asked
   /// twice is the same.
   virtual void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const = 0;
+  /// Says that scan() will be asked for this one after the next step: the server may make all those together. It reads
+  /// the same as one that comes unexpected.
+  virtual void expect_scan(BodyId id, std::size_t laser, std::uint64_t scan_number) = 0;
   /// Fires the sonars of the body's ring number `ring` whose turn firing `firing_number` is, all at once where the ring
   /// has no order. Their ranges are set, no echo reading the ring's greatest range; the others' stay. If `range_m` is
   /// of another size than the ring, all begin without echo. Noise as for scan().
@@ -173,8 +176,11 @@ class World {
   /// Reads the voltages of the body's infrared range finders, which it must have; `volts` is resized. Noise as for
   /// scan().
   virtual void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const = 0;
-  /// Adds what a scan of the body touches, without what is everybody's.
+  /// Adds what asking for the body's state, commanding it and scans that are expected touch, without what is
+  /// everybody's.
   virtual void add_to(WorkingSet& set, BodyId id) const = 0;
+  /// Adds what a scan that nobody expected touches besides.
+  virtual void add_scan_to(WorkingSet& set, BodyId id) const = 0;
   /// The distance along the beam to the first obstacle or body as a sensor of the body `own` sees them (all bodies as
   /// published at the last step but one, without `own`), without noise; range_max_m if there is none nearer.
   virtual double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own = std::nullopt) const = 0;

@@ -26,7 +26,7 @@ std::vector<world::Obstacle> meshes_on_plan(const world::WorldDescription& world
       const auto segment = world::cut(mesh.mesh->triangle(i), height_m);
       if (!segment) continue;
       const world::CorePoints ends = world::core_points(*segment);
-      walls.push_back({mesh.name, world::wall_between(ends.points[1], ends.points[0], 0, top_m), mesh.known});
+      walls.push_back({mesh.name, world::wall_between(ends[1], ends[0], 0, top_m), mesh.known});
     }
   }
   return walls;

@@ -38,6 +38,36 @@ struct Told {
   double climb_m_s = 0;
 };
 
+// A wedge: its nose 0.4 m ahead, seen from above a pentagon; the box about it would be met by the post beside.
+TEST_F(Vehicles, ARobotWhoseHullIsAMeshStopsWhereItsNoseMeetsTheWall) {
+  folder_.write("hull.obj",
+                "v 0.4 0 0.1\nv 0 0.3 0\nv -0.3 0.3 0\nv -0.3 -0.3 0\nv 0 -0.3 0\nv -0.1 0 0.4\n"
+                "f 1 2 6\nf 2 3 6\nf 3 4 6\nf 4 5 6\nf 5 1 6\nf 1 5 4\nf 1 4 3\nf 1 3 2\n");
+  folder_.write("robot.urdf",
+                "<robot name='wedge'><link name='base'><collision><geometry><mesh filename='hull.obj'/></geometry>"
+                "</collision></link></robot>");
+  std::vector<std::string> digests;
+  for (const std::string engine : {"fcl", "slice"}) {
+    folder_.write("wedge.yaml",
+                  "format: 1\nworld: {engine: " + engine +
+                      ", shapes: [{corners_m: [2, -1, 2.2, 1]}, {centre_m: [1.8, 0.31], radius_m: 0.1}]}\n"
+                      "robots:\n  - name: robot\n    start: [0, 0]\n    urdf: robot.urdf\n    base: {v_max_m_s: 2}\n"
+                      "    modules: [{name: rflex}]\n    bridge:\n"
+                      "      - {poster: rflex.command, device: base.command}\n"
+                      "      - {poster: rflex.reading, device: base.reading}\n");
+    const bridge::Scenario scenario = bridge::read_scenario(folder_ / "wedge.yaml");
+    bridge::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
+    experiment.intervene(bridge::parse_intervention("request robot rflex GotoSpeed v_m_s=0.5 w_rad_s=0", {}),
+                         Time() + 1s);
+    experiment.run_before(Time() + 6s);
+    const world::BodyState& body = experiment.world().body(world::BodyId(0));
+    EXPECT_NEAR(body.pose.x, 1.6 - 1e-6, 1e-8) << engine;
+    EXPECT_EQ(body.collisions, 1u);
+    digests.push_back(to_string(experiment.result().digest));
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+}
+
 class VehicleKinds : public Vehicles, public testing::WithParamInterface<Told> {};
 
 TEST_P(VehicleKinds, GoRoundTheCircleThatTheyAreToldAndReckonIt) {

@@ -23,11 +23,11 @@ Real cross_edge(const Line& line, Real ax, Real ay, Real bx, Real by) {
   return below > 0 && t >= 0 && s >= 0 && s <= below ? t / below : none;
 }
 
-Real hit_box(const Real* xs, const Real* ys, const Line& line) {
+Real hit_corners(const std::vector<Real>& xs, const std::vector<Real>& ys, const Line& line) {
   bool inside = true;
   Real nearest = none;
-  for (int i = 0; i < 4; ++i) {
-    const int j = (i + 1) % 4;
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    const std::size_t j = (i + 1) % xs.size();
     inside = inside && (xs[j] - xs[i]) * (line.y - ys[i]) - (ys[j] - ys[i]) * (line.x - xs[i]) >= 0;
     nearest = std::min(nearest, cross_edge(line, xs[i], ys[i], xs[j], ys[j]));
   }
@@ -52,10 +52,15 @@ Shapes::Shapes(const std::vector<Shape>& shapes) {
     Item item = {shape, {}, {}};
     const Real c = cosl(shape.pose.heading), s = sinl(shape.pose.heading);
     const Real l = shape.length_m / 2.0L, w = shape.width_m / 2.0L;
-    const Real us[4] = {l, -l, -l, l}, vs[4] = {w, w, -w, -w};
-    for (int i = 0; i < 4; ++i) {
-      item.x[i] = shape.pose.x + c * us[i] - s * vs[i];
-      item.y[i] = shape.pose.y + s * us[i] + c * vs[i];
+    std::vector<Real> us = {l, -l, -l, l}, vs = {w, w, -w, -w};
+    if (shape.kind == Shape::Kind::prism) {
+      us.clear(), vs.clear();
+      for (const ConvexPolygon::Side& side : shape.polygon->sides())
+        us.push_back(side.start.x), vs.push_back(side.start.y);
+    }
+    for (std::size_t i = 0; i < us.size(); ++i) {
+      item.x.push_back(shape.pose.x + c * us[i] - s * vs[i]);
+      item.y.push_back(shape.pose.y + s * us[i] + c * vs[i]);
     }
     items_.push_back(item);
   }
@@ -65,7 +70,8 @@ long double Shapes::range(const Line& line, double height_m, double range_max_m)
   Real nearest = range_max_m;
   for (const auto& [shape, x, y] : items_) {
     if (height_m < shape.z_low_m || height_m > shape.z_high_m) continue;
-    nearest = std::min(nearest, shape.kind == Shape::Kind::box ? hit_box(x, y, line) : hit_cylinder(shape, line));
+    nearest =
+        std::min(nearest, shape.kind == Shape::Kind::cylinder ? hit_cylinder(shape, line) : hit_corners(x, y, line));
   }
   return nearest;
 }

@@ -29,7 +29,7 @@ class Shapes {
  private:
   struct Item {
     Shape shape;
-    long double x[4], y[4];  // a box's corners, counter-clockwise
+    std::vector<long double> x, y;  // the corners of what has any, counter-clockwise
   };
   std::vector<Item> items_;
 };

@@ -29,6 +29,18 @@ inline Shape cylinder(Point centre, double radius_m) {
   return shape;
 }
 
+/// Upright over the convex hull of the points, which are given in the frame of `at` and must not lie on a line.
+inline Shape prism(const Pose& at, const std::vector<Point>& points) {
+  const PlacedPolygon hull = hull_of(points, 0).value();
+  Shape shape;
+  shape.kind = Shape::Kind::prism;
+  shape.pose = compose(at, {hull.origin.x, hull.origin.y, 0});
+  shape.length_m = 2 * hull.polygon->half_size().x;
+  shape.width_m = 2 * hull.polygon->half_size().y;
+  shape.polygon = hull.polygon;
+  return shape;
+}
+
 /// "r3", say.
 inline std::string numbered(const char* word, std::size_t number) {
   std::string name = word;
@@ -67,12 +79,25 @@ class Draws {
   std::uint64_t tick_ = 0;
 };
 
-/// A box or a cylinder somewhere in a square about the origin.
+/// Of 3 to 20 corners, within a box of that size.
+inline Shape random_prism(Draws& draw, const Pose& at, double length_m, double width_m) {
+  const std::uint64_t count = 3 + draw.below(3) * draw.below(10);
+  std::vector<Point> points = {{-0.5 * length_m, -0.3 * width_m}, {0.5 * length_m, 0.2 * width_m}, {0, 0.5 * width_m}};
+  while (points.size() < count) {
+    // Near the edge of an ellipse, where more of them are corners.
+    const double x = draw(-0.5, 0.5), y = (draw.below(2) == 0 ? -0.5 : 0.5) * std::sqrt(1 - 4 * x * x) * draw(0.9, 1);
+    points.push_back({length_m * x, width_m * y});
+  }
+  return prism(at, points);
+}
+
+/// A box, a prism or a cylinder somewhere in a square about the origin.
 inline Shape random_shape(Draws& draw, double half_square_m, double size_max_m) {
   const double x = draw(-half_square_m, half_square_m), y = draw(-half_square_m, half_square_m);
   if (draw(0, 1) < 0.4) return cylinder({x, y}, draw(0.05, 0.5 * size_max_m));
   const double heading = draw(0, 1) < 0.4 ? 0 : draw(-3, 3);
   const double length = draw(0.05, size_max_m), width = draw(0.05, size_max_m);
+  if (draw(0, 1) < 0.35) return random_prism(draw, {x, y, heading}, length, width);
   return box({x, y, heading}, length, width);
 }
 
@@ -91,8 +116,9 @@ inline std::vector<Shape> random_shapes(std::uint64_t seed, int count, double ha
 
 /// A direction from `origin` that only just touches the outline: to a corner, or along a tangent.
 inline Point grazing_direction(const Outline& outline, Point origin, Draws& draw) {
-  if (outline.is_box) {
-    const Point d = core_points(outline).points[draw.below(4)] - origin;
+  if (outline.is_box || outline.polygon != nullptr) {
+    const CorePoints corners = core_points(outline);
+    const Point d = corners[draw.below(corners.count())] - origin;
     return (1 / length(d)) * d;
   }
   const Point d = outline.centre - origin;

@@ -145,14 +145,14 @@ std::string scene_update(Time time, const std::string& frame, std::span<const wo
   for (const world::Shape& shape : shapes) {
     const double height_m = shape.z_high_m - shape.z_low_m;
     Json part{{"pose", of(shape.pose, (shape.z_low_m + shape.z_high_m) / 2)}};
-    if (shape.kind == world::Shape::Kind::box) {
+    if (shape.kind != world::Shape::Kind::cylinder) {
       part["size"] = of(shape.length_m, shape.width_m, height_m);
     } else {
       part["size"] = of(2 * shape.radius_m, 2 * shape.radius_m, height_m);
       part["bottom_scale"] = part["top_scale"] = 1.0;
     }
     part["color"] = grey();
-    (shape.kind == world::Shape::Kind::box ? cubes : cylinders).push_back(std::move(part));
+    (shape.kind != world::Shape::Kind::cylinder ? cubes : cylinders).push_back(std::move(part));
   }
   const Json entity{{"timestamp", of(time)},
                     {"frame_id", frame},

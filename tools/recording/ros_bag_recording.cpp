@@ -17,8 +17,9 @@ RosBagFile::Place place(Time time, const std::string& frame, const Pose& pose, d
 RosBagFile::Solid solid(const world::Shape& shape, const std::string& frame) {
   const double height_m = shape.z_high_m - shape.z_low_m;
   const RosBagFile::Place middle = place(Time(), frame, shape.pose, (shape.z_low_m + shape.z_high_m) / 2);
-  if (shape.kind == world::Shape::Kind::box) return {true, middle, {shape.length_m, shape.width_m, height_m}};
-  return {false, middle, {2 * shape.radius_m, 2 * shape.radius_m, height_m}};
+  if (shape.kind == world::Shape::Kind::cylinder)
+    return {false, middle, {2 * shape.radius_m, 2 * shape.radius_m, height_m}};
+  return {true, middle, {shape.length_m, shape.width_m, height_m}};
 }
 
 }  // namespace

@@ -13,6 +13,24 @@ static_assert(sizeof(btScalar) == sizeof(double), "Bullet is to compute in doubl
 // Bullet rounds the edges of what it finds contacts of, other than of two boxes, by this much.
 constexpr double rounding_m = 0.002;
 
+// Bullet rounds a hull's edges outwards. So it is given a smaller one, whose sides lie so much within.
+std::unique_ptr<btCollisionShape> prism(const Shape& shape) {
+  const std::span<const ConvexPolygon::Side> sides = shape.polygon->sides();
+  const btVector3 half = 0.5 * vector(size_of(shape));
+  const double margin_m = std::min(rounding_m, 0.1 * half[half.minAxis()]);
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Point before = sides[(i + sides.size() - 1) % sides.size()].outward, after = sides[i].outward;
+    // Of a corner that is sharper than that, less.
+    const double along = std::max(1 + dot(before, after), 0.1);
+    const Point corner = sides[i].start - (margin_m / along) * (before + after);
+    for (const double z : {-half.z() + margin_m, half.z() - margin_m}) hull->addPoint({corner.x, corner.y, z}, false);
+  }
+  hull->setMargin(margin_m);
+  hull->recalcLocalAabb();
+  return hull;
+}
+
 }  // namespace
 
 btMatrix3x3 upright(double heading_rad) {
@@ -29,6 +47,10 @@ std::unique_ptr<btCollisionShape> collision_shape(Shape::Kind kind, SpaceVector 
     shape = std::make_unique<btBoxShape>(half);
   shape->setMargin(std::min(rounding_m, 0.1 * half[half.minAxis()]));
   return shape;
+}
+
+std::unique_ptr<btCollisionShape> collision_shape(const Shape& shape) {
+  return shape.kind == Shape::Kind::prism ? prism(shape) : collision_shape(shape.kind, size_of(shape));
 }
 
 }  // namespace waitpoint::world

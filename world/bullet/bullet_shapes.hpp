@@ -16,7 +16,9 @@ inline SpaceVector space_vector(const btVector3& v) { return {v.x(), v.y(), v.z(
 /// The axes of what stands upright.
 btMatrix3x3 upright(double heading_rad);
 
-/// Of these extents along its own axes, about its middle.
+/// Of these extents along its own axes, about its middle: a box or a cylinder.
 std::unique_ptr<btCollisionShape> collision_shape(Shape::Kind kind, SpaceVector size_m);
+/// Of what stands upright, about its middle.
+std::unique_ptr<btCollisionShape> collision_shape(const Shape& shape);
 
 }  // namespace waitpoint::world

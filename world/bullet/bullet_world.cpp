@@ -135,6 +135,7 @@ void BulletWorld::step() {
   latch();
   move();
   publish();
+  senses_.make_expected_scans(vehicles_, elapsed_s());
 }
 
 // What moved in the last step, others see from now on.

@@ -141,8 +141,7 @@ struct Dynamics::Bodies {
     steps.addCollisionObject(&floor, of_floor, of_flying | of_loose);
     for (const Shape& shape : shapes) {
       const btVector3 centre(shape.pose.x, shape.pose.y, 0.5 * (shape.z_low_m + shape.z_high_m));
-      standing.emplace_back(collision_shape(shape.kind, size_of(shape)),
-                            btTransform(upright(shape.pose.heading), centre));
+      standing.emplace_back(collision_shape(shape), btTransform(upright(shape.pose.heading), centre));
       steps.addCollisionObject(&standing.back().object, of_standing, of_rolling | of_flying | of_loose);
     }
     for (const MeshObstacle& mesh : of_meshes) {

@@ -24,7 +24,7 @@ btRigidBody::btRigidBodyConstructionInfo upright_body(const Shape& s, double mas
 
 Hull::Hull(const Shape& shape, double mass_kg, bool flies)
     : in_body_(shape),
-      shape_(collision_shape(shape.kind, size_of(shape))),
+      shape_(collision_shape(shape)),
       body_(upright_body(shape, mass_kg, shape_.get())),
       drive_(body_, flies) {
   body_.setFriction(flies ? 0 : hull_friction);

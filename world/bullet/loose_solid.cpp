@@ -12,7 +12,8 @@ SpaceVector size_of(const Shape& shape) {
 }
 
 LooseSolid loose_solid(const Shape& shape, double mass_kg, double friction) {
-  LooseSolid solid{shape.kind, size_of(shape), mass_kg, friction, {}, {}, {}};
+  const Shape::Kind kind = shape.kind == Shape::Kind::cylinder ? Shape::Kind::cylinder : Shape::Kind::box;
+  LooseSolid solid{kind, size_of(shape), mass_kg, friction, {}, {}, {}};
   const auto [s, c] = exact::sincos(shape.pose.heading);
   solid.pose = {{shape.pose.x, shape.pose.y, 0.5 * (shape.z_low_m + shape.z_high_m)},
                 {{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}}};
@@ -21,6 +22,7 @@ LooseSolid loose_solid(const Shape& shape, double mass_kg, double friction) {
 
 double inertia_kg_m2(const Shape& shape, double mass_kg) {
   if (shape.kind == Shape::Kind::cylinder) return 0.5 * mass_kg * shape.radius_m * shape.radius_m;
+  if (shape.kind == Shape::Kind::prism) return mass_kg * shape.polygon->mean_square_m2();
   return mass_kg / 12 * (shape.length_m * shape.length_m + shape.width_m * shape.width_m);
 }
 

@@ -16,7 +16,7 @@ struct LooseSolid {
   SpaceVector velocity_m_s, spin_rad_s;
 };
 
-/// As the shape of that mass stands upright, at rest.
+/// As the shape of that mass stands upright, at rest; for a prism the box about it.
 LooseSolid loose_solid(const Shape& shape, double mass_kg, double friction);
 
 /// The upright shape that it is, or while it tips the one about it.

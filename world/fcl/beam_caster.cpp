@@ -2,6 +2,7 @@
 #include "world/fcl/beam_caster.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/error.hpp"
 
@@ -47,11 +48,31 @@ void BeamCaster::stand(std::span<const Shape> obstacles) {
 
 void BeamCaster::move(std::span<const Shape> movers) {
   if (slices_beams_) moving_ = MovingSolids(movers);
+  late_.clear();
+  is_late_.assign(movers.size(), 0);
 }
 
 void BeamCaster::place(std::uint32_t mover, const Outline& outline, double z_low_m, double z_high_m) {
-  movers_.place(mover, outline, z_low_m, z_high_m);
-  if (slices_beams_) moving_.place(mover, outline, z_low_m, z_high_m);
+  if (!slices_beams_) return movers_.place(mover, outline, z_low_m, z_high_m);
+  moving_.place(mover, outline, z_low_m, z_high_m);
+  if (is_late_[mover] != 0) return;
+  is_late_[mover] = 1;
+  late_.push_back(mover);
+}
+
+const Scene& BeamCaster::movers() const {
+  for (const std::uint32_t mover : late_) {
+    movers_.place(mover, moving_.outline(mover), moving_.z_low_m(mover), moving_.z_high_m(mover));
+    is_late_[mover] = 0;
+  }
+  late_.clear();
+  return movers_;
+}
+
+void BeamCaster::list_movers(std::vector<std::uint32_t>& movers) const {
+  if (slices_beams_) return moving_.list_by_leaves(movers);
+  movers.resize(movers_.size());
+  std::iota(movers.begin(), movers.end(), 0u);
 }
 
 const Slice* BeamCaster::slice_at(double height_m) const {
@@ -77,7 +98,7 @@ void BeamCaster::cast(const Fan& fan, double height_m, std::uint32_t own, double
   std::fill(ranges_m.begin(), ranges_m.end(), range_max_m);
   obstacles_.cast(fan.origin, directions_, height_m, Scene::none, ranges_m);
   meshes_.cast(fan.origin, directions_, height_m, ranges_m);
-  movers_.cast(fan.origin, directions_, height_m, own, ranges_m);
+  movers().cast(fan.origin, directions_, height_m, own, ranges_m);
 }
 
 double BeamCaster::cast(Point origin, Point direction, double height_m, std::uint32_t own, double range_max_m) const {

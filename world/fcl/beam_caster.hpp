@@ -25,7 +25,7 @@ class BeamCaster {
   void stand(std::span<const Shape> obstacles);
   /// Tells it what the scene of movers was made of (anew).
   void move(std::span<const Shape> movers);
-  /// Moves one of the movers, in their scene too.
+  /// Moves one of the movers, in their scene too, once that is asked for.
   void place(std::uint32_t mover, const Outline& outline, double z_low_m, double z_high_m);
 
   /// The distance of each beam to the first obstacle, or mover other than `own` (Scene::none: all count); range_max_m
@@ -33,6 +33,11 @@ class BeamCaster {
   void cast(const Fan& fan, double height_m, std::uint32_t own, double range_max_m, std::span<double> ranges_m) const;
   /// The same for one beam.
   double cast(Point origin, Point direction, double height_m, std::uint32_t own, double range_max_m) const;
+
+  /// The movers' scene, with all where they are.
+  const Scene& movers() const;
+  /// Overwrites `movers` with all of them, neighbours one after the other if there are slices.
+  void list_movers(std::vector<std::uint32_t>& movers) const;
 
  private:
   const Slice* slice_at(double height_m) const;
@@ -45,6 +50,10 @@ class BeamCaster {
   std::vector<Surfaces::Cut> cuts_;  // of the meshes, at each
   std::vector<Slice> slices_;
   MovingSolids moving_;  // none without slices
+  // Movers that are not yet in the scene where they are, and of each whether it is among them: where all sensors go by
+  // slices nobody asks for the scene, and its solids are scattered in memory.
+  mutable std::vector<std::uint32_t> late_;
+  mutable std::vector<char> is_late_;
 
   // Of one call, kept so that scans allocate nothing.
   mutable DepthBuffer buffer_;

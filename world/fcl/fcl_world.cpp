@@ -86,6 +86,7 @@ void FclWorld::step() {
   latch();
   move();
   publish();
+  senses_.make_expected_scans(vehicles_, elapsed_s());
 }
 
 void FclWorld::latch() {

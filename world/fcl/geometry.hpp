@@ -3,17 +3,40 @@
 #pragma once
 
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "world/planar/outline.hpp"
 
 namespace waitpoint::world {
 
+/// About its middle: corners of the lower face, then of the upper one.
+inline std::shared_ptr<fcl::CollisionGeometryd> prism_of(std::span<const ConvexPolygon::Side> sides, double height_m) {
+  const auto n = static_cast<int>(sides.size());
+  auto corners = std::make_shared<std::vector<fcl::Vector3d>>();
+  for (const double z : {-0.5 * height_m, 0.5 * height_m})
+    for (const ConvexPolygon::Side& side : sides) corners->emplace_back(side.start.x, side.start.y, z);
+  // Each face by how many corners it has, and which: counter-clockwise as seen from outside.
+  auto faces = std::make_shared<std::vector<int>>();
+  faces->push_back(n);
+  for (int i = n; i-- > 0;) faces->push_back(i);
+  faces->push_back(n);
+  for (int i = 0; i < n; ++i) faces->push_back(n + i);
+  for (int i = 0; i < n; ++i) {
+    const int next = (i + 1) % n;
+    faces->insert(faces->end(), {4, i, next, n + next, n + i});
+  }
+  return std::make_shared<fcl::Convexd>(corners, n + 2, faces);
+}
+
 inline std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Shape& shape) {
   const double height = shape.z_high_m - shape.z_low_m;
   if (shape.kind == Shape::Kind::cylinder) return std::make_shared<fcl::Cylinderd>(shape.radius_m, height);
+  if (shape.kind == Shape::Kind::prism) return prism_of(shape.polygon->sides(), height);
   return std::make_shared<fcl::Boxd>(shape.length_m, shape.width_m, height);
 }
 

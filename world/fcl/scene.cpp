@@ -32,8 +32,12 @@ constexpr std::size_t higher_max = 10;
 class Solid : public fcl::CollisionObjectd {
  public:
   Solid(const Shape& shape, std::uint32_t number)
-      : fcl::CollisionObjectd(geometry_of(shape)), z_low_m(shape.z_low_m), z_high_m(shape.z_high_m), number(number) {
-    outline = outline_of(shape);
+      : fcl::CollisionObjectd(geometry_of(shape)),
+        outline(outline_of(shape)),
+        z_low_m(shape.z_low_m),
+        z_high_m(shape.z_high_m),
+        number(number),
+        polygon_(shape.polygon) {
     settle();
   }
 
@@ -57,6 +61,9 @@ class Solid : public fcl::CollisionObjectd {
   std::uint32_t number;
   bool unsettled = false;
   Node* leaf = nullptr;
+
+ private:
+  std::shared_ptr<const ConvexPolygon> polygon_;  // the outline's
 };
 
 const Solid& solid_in(const Node* leaf) {

@@ -59,7 +59,9 @@ std::vector<Shape> shapes_of(std::span<const BodyDescription> bodies) {
 
 Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64_t seed)
     : trail(longest_scan_s(body), step_s, body.start), infrared_noise(world::infrared_noise(seed, body.name)) {
+  lasers.reserve(body.lasers.size());
   for (std::size_t i = 0; i < body.lasers.size(); ++i) lasers.emplace_back(body.lasers[i], seed, body.name, i);
+  looks_back = !std::all_of(lasers.begin(), lasers.end(), [](const Laser& laser) { return laser.plain(); });
   for (std::size_t i = 0; i < body.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, body.name, i));
   if (body.imu) imu = std::make_unique<Imu>(*body.imu, seed, body.name);
   if (body.gps) gps = std::make_unique<PositionReceiver>(*body.gps, seed, body.name);
@@ -71,7 +73,7 @@ Senses::Senses(const WorldDescription& description, std::span<const Shape> stand
       standing_(std::span<const Shape>()),
       movers_(std::span<const Shape>()),
       caster_(description, surfaces_, standing_, movers_),
-      sonar_echoes_(standing_, surfaces_, movers_, caster_) {
+      sonar_echoes_(standing_, surfaces_, caster_) {
   stand(standing);
   move(movers);
 }
@@ -80,18 +82,19 @@ void Senses::restart(std::uint64_t seed) {
   devices_.clear();
   for (const BodyDescription& body : description_.bodies)
     devices_.emplace_back(body, description_.step.seconds(), seed);
+  expected_.restart(devices_.size());
 }
 
 void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t step) {
   Devices& devices = devices_[body];
   const BodyState& state = vehicle.state();
-  devices.trail.add(state.arc);
+  if (devices.looks_back) devices.trail.add(state.arc);
   const Duration now = description_.step * static_cast<std::int64_t>(step);
   if (devices.imu) devices.imu->add(now, description_.step, state.arc, state.velocity);
   if (devices.gps) devices.gps->add(now, description_.step, state.pose, state.height_m);
 }
 
-void Senses::add_to(WorkingSet& set, std::uint32_t body) const {
+void Senses::add_scan_to(WorkingSet& set, std::uint32_t body) const {
   const Devices& devices = devices_.at(body);
   set.add(devices);
   for (const Laser& laser : devices.lasers) laser.add_to(set);
@@ -107,13 +110,20 @@ const PositionFix& Senses::position_fix(std::uint32_t own) const {
   return devices_[own].gps->fix();
 }
 
+void Senses::put(std::uint32_t body, const Pose& pose) {
+  devices_[body].trail.restart(pose);
+  expected_.forget();
+}
+
 void Senses::stand(std::span<const Shape> standing) {
+  expected_.forget();
   standing_ = Scene(standing);
   caster_.stand(standing);
   if (std::any_of(description_.bodies.begin(), description_.bodies.end(), has_sonars)) sonar_echoes_.stand(standing);
 }
 
 void Senses::move(std::span<const Shape> movers) {
+  expected_.forget();
   movers_ = Scene(movers, roam_m);
   caster_.move(movers);
 }
@@ -127,8 +137,25 @@ void Senses::place(std::uint32_t mover, const Vehicle& vehicle) {
   place(mover, vehicle.outline(), shape.z_low_m, shape.z_high_m);
 }
 
-void Senses::scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser_number, std::uint64_t scan_number,
+void Senses::make_expected_scans(std::span<const Vehicle> vehicles, double time_s) {
+  if (!expected_.begin()) return;
+  caster_.list_movers(in_turn_);
+  for (const std::uint32_t mover : in_turn_) {
+    if (mover >= vehicles.size()) continue;  // what is pushed about has no lasers
+    expected_.make(mover, [&](const ExpectedScans::Entry& expected, LaserScan& scan) {
+      make_scan(vehicles[mover], mover, expected.laser, expected.number, time_s, scan);
+    });
+  }
+}
+
+void Senses::scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number,
                   double time_s, LaserScan& out) const {
+  if (!expected_.find(own, static_cast<std::uint32_t>(laser), scan_number, out))
+    make_scan(vehicle, own, laser, scan_number, time_s, out);
+}
+
+void Senses::make_scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser_number, std::uint64_t scan_number,
+                       double time_s, LaserScan& out) const {
   const Laser& laser = devices_[own].lasers.at(laser_number);
   const LaserDescription& device = vehicle.description().lasers[laser_number];
   out.first_angle_rad = laser.first_angle_rad();
@@ -180,7 +207,7 @@ std::uint32_t Senses::bumpers(const Vehicle& vehicle, std::uint32_t own) const {
     }
   };
   touch(standing_);
-  touch(movers_);
+  touch(movers());
   surfaces_.near(reach, shape.z_low_m, shape.z_high_m, near_);
   for (const std::uint32_t number : near_)
     pressed |= pressed_panel(bumper, vehicle.state().pose.heading,

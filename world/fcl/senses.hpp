@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "world/fcl/beam_caster.hpp"
+#include "world/fcl/expected_scans.hpp"
 #include "world/fcl/scene.hpp"
 #include "world/fcl/sonar_echoes.hpp"
 #include "world/sensors/arc_trail.hpp"
@@ -42,7 +43,7 @@ class Senses {
 
   const Scene& standing() const { return standing_; }
   const Surfaces& surfaces() const { return surfaces_; }
-  const Scene& movers() const { return movers_; }
+  const Scene& movers() const { return caster_.movers(); }
   /// Other things stand there now.
   void stand(std::span<const Shape> standing);
   /// Other things move now; the bodies are the first of them, as ever.
@@ -52,13 +53,19 @@ class Senses {
 
   // What happens to a body.
 
+  /// After the next step this scan of it will be asked for.
+  void expect_scan(std::uint32_t body, std::size_t laser, std::uint64_t scan_number) {
+    expected_.expect(body, static_cast<std::uint32_t>(laser), scan_number);
+  }
+  /// A step is done, at that time: the scans that are expected after it are made, of bodies that are these vehicles.
+  void make_expected_scans(std::span<const Vehicle> vehicles, double time_s);
   /// It, which is `vehicle`, has done step number `step`.
   void moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t step);
   /// A hand has put it there.
-  void put(std::uint32_t body, const Pose& pose) { devices_[body].trail.restart(pose); }
+  void put(std::uint32_t body, const Pose& pose);
 
-  /// Adds what its devices touch, without what is everybody's.
-  void add_to(WorkingSet& set, std::uint32_t body) const;
+  /// Adds what a scan of it touches, without what is everybody's.
+  void add_scan_to(WorkingSet& set, std::uint32_t body) const;
 
   // What World has of the same names, for the body `own`, which is `vehicle`.
 
@@ -74,10 +81,14 @@ class Senses {
   const PositionFix& position_fix(std::uint32_t own) const;
 
  private:
+  void make_scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number, double time_s,
+                 LaserScan& out) const;
+
   /// A body's, that remember something.
   struct Devices {
-    ArcTrail trail;  // as far back as a scan reaches
     std::vector<Laser> lasers;
+    bool looks_back;  // a laser measures while it moves
+    ArcTrail trail;   // then as far back as a scan reaches
     std::vector<RandomStream> sonar_noise;
     RandomStream infrared_noise;
     std::unique_ptr<Imu> imu;               // null for a body without one
@@ -92,10 +103,12 @@ class Senses {
   Scene standing_, movers_;
   BeamCaster caster_;
   SonarEchoes sonar_echoes_;
+  ExpectedScans expected_;
 
   // Of one call, kept so that readings allocate nothing.
   mutable std::vector<std::uint32_t> near_;
   mutable std::vector<double> distances_;
+  std::vector<std::uint32_t> in_turn_;
 };
 
 }  // namespace waitpoint::world

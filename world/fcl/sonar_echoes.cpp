@@ -15,9 +15,8 @@ constexpr double rounding_m = 1e-9;
 
 }  // namespace
 
-SonarEchoes::SonarEchoes(const Scene& obstacles, const Surfaces& surfaces, const Scene& bodies,
-                         const BeamCaster& caster)
-    : obstacles_(obstacles), surfaces_(surfaces), bodies_(bodies), caster_(caster) {}
+SonarEchoes::SonarEchoes(const Scene& obstacles, const Surfaces& surfaces, const BeamCaster& caster)
+    : obstacles_(obstacles), surfaces_(surfaces), caster_(caster) {}
 
 void SonarEchoes::stand(std::span<const Shape> obstacles) {
   corners_.clear();
@@ -45,8 +44,9 @@ void SonarEchoes::collect_surroundings(Point at, double height_m, std::uint32_t 
   surfaces_.near(reach, height_m, height_m, near_);
   for (const std::uint32_t number : near_)
     if (const auto segment = cut(surfaces_.triangle(number), height_m)) near_segments_.push_back(*segment);
+  near_corners_.find(near_segments_);
   obstacles_.near(reach, height_m, height_m, near_);
-  bodies_.near(reach, height_m, height_m, near_bodies_);
+  caster_.movers().near(reach, height_m, height_m, near_bodies_);
   std::erase(near_bodies_, own);
 }
 
@@ -85,7 +85,10 @@ double SonarEchoes::nearest_echo(const SonarCone& cone, double height_m, std::ui
     }
   }
   for (const Outline& segment : near_segments_) cone.add_surface(segment, echoes_);
-  for (const std::uint32_t other : near_bodies_) cone.add(bodies_.outline(other), echoes_);
+  for (const ConcaveCorner& corner : near_corners_.corners()) cone.add(corner, echoes_);
+  for (const ConvexEdge& edge : near_corners_.edges())
+    if (edge.is_before(cone.origin())) cone.add_edge(edge.at, echoes_);
+  for (const std::uint32_t other : near_bodies_) cone.add(caster_.movers().outline(other), echoes_);
   std::sort(echoes_.begin(), echoes_.end(), [](const Echo& a, const Echo& b) {
     return std::tie(a.distance_m, a.direction.x, a.direction.y) < std::tie(b.distance_m, b.direction.x, b.direction.y);
   });
@@ -107,8 +110,10 @@ double SonarEchoes::nearest_cross_echo(const SonarCone& listener, const SonarCon
     }
   }
   for (const Outline& segment : near_segments_) add_cross_echoes(emitter, listener, segment, cross_echoes_);
+  for (const ConcaveCorner& corner : near_corners_.corners())
+    add_cross_echoes(emitter, listener, corner, cross_echoes_);
   for (const std::uint32_t other : near_bodies_)
-    add_cross_echoes(emitter, listener, bodies_.outline(other), cross_echoes_);
+    add_cross_echoes(emitter, listener, caster_.movers().outline(other), cross_echoes_);
   for (const CrossEcho& echo : cross_echoes_) {
     if (echo.distance_m < below_m && clear(emitter.origin(), echo.at, height_m, own) &&
         clear(listener.origin(), echo.at, height_m, own))

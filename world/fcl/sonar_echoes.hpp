@@ -10,15 +10,16 @@
 #include "world/fcl/scene.hpp"
 #include "world/mesh/surfaces.hpp"
 #include "world/sensors/sonar_crosstalk.hpp"
+#include "world/sensors/surface_corners.hpp"
 #include "world/vehicles/vehicle.hpp"
 
 namespace waitpoint::world {
 
 class SonarEchoes {
  public:
-  /// The scenes, the surfaces and the caster must outlive it, and be told of changes before it is. Of surfaces walls
-  /// answer, corners and edges do not.
-  SonarEchoes(const Scene& obstacles, const Surfaces& surfaces, const Scene& bodies, const BeamCaster& caster);
+  /// The scene, the surfaces and the caster, which has the bodies, must outlive it, and be told of changes before it
+  /// is.
+  SonarEchoes(const Scene& obstacles, const Surfaces& surfaces, const BeamCaster& caster);
 
   /// Finds the corners of the obstacles, which are those of the scene. Without it there are none.
   void stand(std::span<const Shape> obstacles);
@@ -43,13 +44,13 @@ class SonarEchoes {
 
   const Scene& obstacles_;
   const Surfaces& surfaces_;
-  const Scene& bodies_;
   const BeamCaster& caster_;
   std::vector<std::vector<Corner>> corners_;  // of each obstacle with later ones
 
   // Of one call, kept so that firing allocates nothing.
   mutable std::vector<std::uint32_t> near_, near_bodies_;
   mutable std::vector<Outline> near_segments_;
+  mutable SurfaceCorners near_corners_;
   mutable std::vector<Echo> echoes_;
   mutable std::vector<CrossEcho> cross_echoes_;
   mutable std::vector<SonarCone> emitters_;

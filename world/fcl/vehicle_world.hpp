@@ -26,6 +26,9 @@ class VehicleWorld : public World {
   void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const final {
     senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, elapsed_s(), out);
   }
+  void expect_scan(BodyId id, std::size_t laser, std::uint64_t scan_number) final {
+    senses_.expect_scan(number(id), laser, scan_number);
+  }
   void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const final {
     senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
   }
@@ -33,10 +36,8 @@ class VehicleWorld : public World {
   void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const final {
     senses_.infrareds(vehicles_.at(index(id)), number(id), reading_number, volts);
   }
-  void add_to(WorkingSet& set, BodyId id) const final {
-    set.add(vehicles_.at(index(id)));
-    senses_.add_to(set, number(id));
-  }
+  void add_to(WorkingSet& set, BodyId id) const final { vehicles_.at(index(id)).add_to(set); }
+  void add_scan_to(WorkingSet& set, BodyId id) const final { senses_.add_scan_to(set, number(id)); }
   double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const final {
     return senses_.cast(beam, range_max_m, own);
   }

@@ -2,6 +2,8 @@
 #include "world/formats/upright.hpp"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/exact_math.hpp"
 
@@ -9,6 +11,7 @@ namespace waitpoint::world {
 namespace {
 
 double level_length(SpaceVector v) { return exact::hypot(v.x, v.y); }
+constexpr double thin_m = 1e-4;
 bool is_vertical(SpaceVector axis) { return level_length(axis) < tilt_max_rad; }
 
 // The shape's middle and heights; its heading is that of `along` as seen from above.
@@ -72,6 +75,25 @@ UprightSolid upright_sphere(const SpacePose& pose, double radius_m) {
   shape.kind = Shape::Kind::cylinder;
   shape.radius_m = radius_m;
   return {shape, false};
+}
+
+std::optional<Shape> upright_hull(std::span<const SpaceVector> points) {
+  std::vector<Point> from_above;
+  Shape shape;
+  shape.kind = Shape::Kind::prism;
+  shape.z_low_m = shape.z_high_m = points.front().z;
+  for (const SpaceVector& p : points) {
+    from_above.push_back({p.x, p.y});
+    shape.z_low_m = std::fmin(shape.z_low_m, p.z);
+    shape.z_high_m = std::fmax(shape.z_high_m, p.z);
+  }
+  const std::optional<PlacedPolygon> hull = hull_of(std::move(from_above), thin_m);
+  if (!hull || shape.z_high_m - shape.z_low_m < thin_m) return std::nullopt;
+  shape.pose = {hull->origin.x, hull->origin.y, 0};
+  shape.length_m = 2 * hull->polygon->half_size().x;
+  shape.width_m = 2 * hull->polygon->half_size().y;
+  shape.polygon = hull->polygon;
+  return shape;
 }
 
 }  // namespace waitpoint::world

@@ -5,7 +5,11 @@
 //   a tilted box        the box of its extents along and across the edge that is longest seen from above, and upwards
 //   a tilted cylinder   the box of its extents along and across its axis as seen from above, and upwards
 //   a sphere            the cylinder about it
+//   any points          the prism over their convex hull as seen from above, as high as they are
 #pragma once
+
+#include <optional>
+#include <span>
 
 #include "world/description.hpp"
 #include "world/space_pose.hpp"
@@ -25,5 +29,7 @@ UprightSolid upright_box(const SpacePose& pose, SpaceVector size_m);
 /// A cylinder about `pose`, along its third axis.
 UprightSolid upright_cylinder(const SpacePose& pose, double radius_m, double length_m);
 UprightSolid upright_sphere(const SpacePose& pose, double radius_m);
+/// About one point at least, with a heading of 0; none where they are thinner than 0.1 mm, seen from above or upwards.
+std::optional<Shape> upright_hull(std::span<const SpaceVector> points);
 
 }  // namespace waitpoint::world

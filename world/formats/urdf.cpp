@@ -27,6 +27,16 @@ using Element = XmlReader::Element;
 constexpr std::size_t link_count_max = 10'000;
 constexpr double thin_m = 1e-4;
 constexpr int folders_up_max = 32;
+// Sides of the polygon about something round; a prism takes the place of a box or a cylinder that it so much undercuts.
+constexpr int round_sides = 24;
+constexpr double much_tighter = 0.9;
+
+double area_m2(const ConvexPolygon& polygon) {
+  const std::span<const ConvexPolygon::Side> sides = polygon.sides();
+  double twice_m2 = 0;
+  for (std::size_t i = 0; i < sides.size(); ++i) twice_m2 += cross(sides[i].start, sides[(i + 1) % sides.size()].start);
+  return 0.5 * twice_m2;
+}
 
 struct Link {
   const Element* element;
@@ -182,6 +192,18 @@ class UrdfReader {
     if (++mesh_count_ > mesh_count_max)
       xml_.fail(mesh, "expected at most " + std::to_string(mesh_count_max) + " meshes");
     const std::vector<SpaceVector> corners = read_mesh_file(file, placement, left_out_).corners;
+    std::vector<SpaceVector> placed;
+    for (const SpaceVector& corner : corners) placed.push_back(pose.position + pose.turned(corner));
+    if (const std::optional<Shape> hull = upright_hull(placed)) {
+      tell(mesh, "a <mesh>", "is taken as the upright prism over its convex outline");
+      solids_.push_back(*hull);
+    } else {
+      solids_.push_back(thin_box(mesh, corners, pose));
+    }
+  }
+
+  // About what has hardly an extent in some direction.
+  Shape thin_box(const Element& mesh, const std::vector<SpaceVector>& corners, const SpacePose& pose) {
     SpaceVector low = corners[0], high = corners[0];
     for (const SpaceVector& c : corners) {
       low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
@@ -192,8 +214,7 @@ class UrdfReader {
     const SpaceVector size = high + -1 * low;
     tell(mesh, "a <mesh>", "is taken as the box about it");
     // A box has an extent along each of its axes, if only a hair's.
-    solids_.push_back(
-        upright_box(middle, {std::max(size.x, thin_m), std::max(size.y, thin_m), std::max(size.z, thin_m)}).shape);
+    return upright_box(middle, {std::max(size.x, thin_m), std::max(size.y, thin_m), std::max(size.z, thin_m)}).shape;
   }
 
   // Empty for a package that is nowhere.
@@ -244,7 +265,18 @@ class UrdfReader {
     }
     all.length_m = bounds.high.x - bounds.low.x;
     all.width_m = bounds.high.y - bounds.low.y;
-    const bool is_round = exact::pi * radius_m * radius_m <= all.length_m * all.width_m;
+    const double round_m2 = exact::pi * radius_m * radius_m, box_m2 = all.length_m * all.width_m;
+    const bool is_round = round_m2 <= box_m2;
+    if (const std::optional<PlacedPolygon> hull = hull_around_all();
+        hull && area_m2(*hull->polygon) < much_tighter * std::min(round_m2, box_m2)) {
+      all.kind = Shape::Kind::prism;
+      all.pose = {hull->origin.x, hull->origin.y, 0};
+      all.length_m = 2 * hull->polygon->half_size().x;
+      all.width_m = 2 * hull->polygon->half_size().y;
+      all.polygon = hull->polygon;
+      tell(xml_.root(), "a <robot> of several solids", "is taken as the upright prism over the convex outline of them");
+      return all;
+    }
     if (is_round) {
       all.kind = Shape::Kind::cylinder;
       all.radius_m = radius_m;
@@ -254,6 +286,24 @@ class UrdfReader {
     tell(xml_.root(), "a <robot> of several solids",
          is_round ? "is taken as the upright cylinder about them" : "is taken as the upright box about them");
     return all;
+  }
+
+  // As seen from above; what is round as the polygon about it.
+  std::optional<PlacedPolygon> hull_around_all() const {
+    std::vector<Point> corners;
+    for (const Shape& solid : solids_) {
+      const Outline outline = outline_of(solid);
+      if (outline.radius_m == 0) {
+        for (const Point p : core_points(outline)) corners.push_back(p);
+        continue;
+      }
+      const double corner_m = outline.radius_m / exact::cos(exact::pi / round_sides);
+      for (int i = 0; i < round_sides; ++i) {
+        const auto [s, c] = exact::sincos(2 * exact::pi * i / round_sides);
+        corners.push_back(outline.centre + corner_m * Point{c, s});
+      }
+    }
+    return hull_of(std::move(corners), thin_m);
   }
 
   void stand_on_floor() {

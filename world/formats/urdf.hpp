@@ -9,10 +9,11 @@
 //
 // Links hang together by joints as a tree; joints that move stand at 0. A body of this world is one upright solid on
 // the floor: where the file has one such, that; else the smaller of the upright box about all, and of the cylinder
-// about all whose middle is the root link's. A mesh is taken as the box about it, and told. Its file is a path relative
-// to the URDF, also behind "file://", or "package://NAME/PATH": PATH in a folder NAME that the URDF is in, or that lies
-// in one of those. Everything else (<visual>, <inertial>, <transmission>, <gazebo>, ...) is left out and told, so is a
-// mesh whose file is missing or of a kind that this program does not read.
+// about all whose middle is the root link's. A mesh is taken as the upright
+// prism over its convex outline as seen from above (what is thinner than 0.1 mm as the box about it), and told. Its
+// file is a path relative to the URDF, also behind "file://", or "package://NAME/PATH": PATH in a folder NAME that the
+// URDF is in, or that lies in one of those. Everything else (<visual>, <inertial>, <transmission>, <gazebo>, ...) is
+// left out and told, so is a mesh whose file is missing or of a kind that this program does not read.
 #pragma once
 
 #include <string>

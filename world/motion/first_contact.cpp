@@ -17,9 +17,9 @@ constexpr int rounds_max = 100000;
 // foremost point (0 for that one), and how fast it moves that way.
 struct Reach {
   struct Item {
-    double behind_m = 0, towards_m = 0;
+    double behind_m, towards_m;
   };
-  std::array<Item, 4> items;
+  std::array<Item, ConvexPolygon::corners_max> items;
   std::size_t count = 0;
 
   // The fastest approach among the points that are foremost, but for rounding.
@@ -32,20 +32,27 @@ struct Reach {
   }
 };
 
-Reach reach_along(const Mover& mover, const Outline& outline, double fraction, Point normal) {
+// Without points so far behind that all which both sides could ever approach, by the bounds on their motions, is less.
+Reach reach_along(const Mover& mover, const Outline& outline, double fraction, Point normal, double approach_m_max) {
   Reach reach;
   if (!mover.moves()) {
+    reach.items[0] = {0, 0};
     reach.count = 1;
     return reach;
   }
   const PointVelocities velocities = mover.velocities_at(fraction);
   double foremost = -HUGE_VAL;
-  for (const Point& p : core_points(outline)) {
+  for (const Point p : core_points(outline)) {
     const double along = dot(normal, p);
     foremost = std::max(foremost, along);
     reach.items[reach.count++] = {along, dot(normal, velocities.of(p))};
   }
-  for (std::size_t i = 0; i < reach.count; ++i) reach.items[i].behind_m = foremost - reach.items[i].behind_m;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < reach.count; ++i) {
+    const Reach::Item item = {foremost - reach.items[i].behind_m, reach.items[i].towards_m};
+    if (item.behind_m <= contact_gap_m + approach_m_max) reach.items[kept++] = item;
+  }
+  reach.count = kept;
   return reach;
 }
 
@@ -110,7 +117,7 @@ std::optional<Contact> first_contact_with_surface(const Mover& body, const Trian
 
 // A disc turns within itself: of it only the centre counts.
 double reach_m(const Shape& shape) {
-  const double core = shape.kind == Shape::Kind::box ? 0.5 * exact::hypot(shape.length_m, shape.width_m) : 0;
+  const double core = shape.kind == Shape::Kind::cylinder ? 0 : 0.5 * exact::hypot(shape.length_m, shape.width_m);
   return length(shape.pose.position()) + core;
 }
 
@@ -137,6 +144,7 @@ std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from
   const VerticalGap vertical(a.heights(), a.climb_m(), b.heights(), b.climb_m());
   const double path_m = a.path_m() + b.path_m(), bend_m = a.bend_m() + b.bend_m();
   if (!vertical.changes() && (path_m == 0 || vertical.at(from) >= 0)) return std::nullopt;
+  const double approach_m_max = path_m + 0.5 * bend_m;
   const double climb_m = std::fabs(a.climb_m()) + std::fabs(b.climb_m());
   double fraction = from;
   for (int round = 0; fraction < 1; ++round) {
@@ -149,8 +157,8 @@ std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from
     const Outline outline_a = a.at(fraction), outline_b = b.at(fraction);
     const auto [gap_m, normal] = separation(outline_a, outline_b);
     if (gap_m - path_m * (1 - fraction) > contact_gap_m) return std::nullopt;
-    const Reach reach_a = reach_along(a, outline_a, fraction, normal);
-    const Reach reach_b = reach_along(b, outline_b, fraction, {-normal.x, -normal.y});
+    const Reach reach_a = reach_along(a, outline_a, fraction, normal, approach_m_max);
+    const Reach reach_b = reach_along(b, outline_b, fraction, {-normal.x, -normal.y}, approach_m_max);
     double advance = 0;
     if (gap_m > contact_gap_m + contact_tolerance_m) {
       const double spare_m = gap_m - contact_gap_m;

@@ -46,8 +46,27 @@ inline double hit_disc(const Outline& disc, const Ray& ray) {
   return std::max(along - std::sqrt(rest), 0.0);
 }
 
+inline double hit_polygon(const Outline& outline, const Ray& ray) {
+  const Point o = outline.local(ray.origin);
+  const Point d = {outline.axis_cos * ray.direction.x + outline.axis_sin * ray.direction.y,
+                   outline.axis_cos * ray.direction.y - outline.axis_sin * ray.direction.x};
+  double enter = 0, leave = no_hit;
+  for (const ConvexPolygon::Side& side : outline.polygon->sides()) {
+    const double within = side.beyond_m + seal_m - dot(side.outward, o), outwards = dot(side.outward, d);
+    if (outwards < 0) {
+      enter = std::max(enter, within / outwards);
+    } else if (outwards > 0) {
+      leave = std::min(leave, within / outwards);
+    } else if (within < 0) {
+      return no_hit;
+    }
+  }
+  return enter <= leave ? enter : no_hit;
+}
+
 inline double hit(const Outline& outline, const Ray& ray) {
-  return outline.is_box ? hit_box(outline, ray) : hit_disc(outline, ray);
+  if (outline.is_box) return hit_box(outline, ray);
+  return outline.polygon != nullptr ? hit_polygon(outline, ray) : hit_disc(outline, ray);
 }
 
 }  // namespace waitpoint::world

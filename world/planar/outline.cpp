@@ -21,11 +21,19 @@ Outline outline_at(const Shape& shape, Point centre, double heading) {
   outline.axis_sin = s;
   outline.half_length_m = 0.5 * shape.length_m;
   outline.half_width_m = 0.5 * shape.width_m;
-  outline.is_box = true;
+  outline.is_box = shape.kind == Shape::Kind::box;
+  if (shape.kind == Shape::Kind::prism) outline.polygon = shape.polygon.get();
   return outline;
 }
 
 }  // namespace
+
+std::vector<std::shared_ptr<const ConvexPolygon>> polygons_of(std::span<const Shape> shapes) {
+  std::vector<std::shared_ptr<const ConvexPolygon>> polygons;
+  for (const Shape& shape : shapes)
+    if (shape.polygon) polygons.push_back(shape.polygon);
+  return polygons;
+}
 
 Outline outline_of(const Shape& shape) { return outline_at(shape, shape.pose.position(), shape.pose.heading); }
 
@@ -75,6 +83,7 @@ CorePoints core_points(const Outline& outline) {
     const auto at = [&](Point p) { return outline.centre + outline.outward(p); };
     return {{at({outline.apex_m, w}), at({-l, -w}), at({l, -w})}, 3};
   }
+  if (outline.polygon != nullptr) return CorePoints(outline);
   if (!outline.is_box) return {{outline.centre}, 1};
   const Point along = outline.outward({outline.half_length_m, 0}), across = outline.outward({0, outline.half_width_m});
   const Point front = outline.centre + along, back = outline.centre - along;
@@ -82,11 +91,14 @@ CorePoints core_points(const Outline& outline) {
 }
 
 Bounds bounds_of(const Outline& outline) {
-  if (outline.is_triangle) {
+  if (outline.is_triangle || outline.polygon != nullptr) {
     const CorePoints corners = core_points(outline);
-    const Point a = corners.points[0], b = corners.points[1], c = corners.points[2];
-    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
-            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}};
+    Bounds bounds = {corners[0], corners[0]};
+    for (const Point p : corners) {
+      bounds = {{std::min(bounds.low.x, p.x), std::min(bounds.low.y, p.y)},
+                {std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y)}};
+    }
+    return bounds;
   }
   const double c = std::fabs(outline.axis_cos), s = std::fabs(outline.axis_sin);
   const Point half = {c * outline.half_length_m + s * outline.half_width_m + outline.radius_m,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The horizontal section of an upright shape: an oriented box or a disc, ready for geometry. And what a mesh comes to
-// in the plane: triangles, and segments, which are boxes without width.
+// The horizontal section of an upright shape: an oriented box, a convex polygon or a disc, ready for geometry. And what
+// a mesh comes to in the plane: triangles, and segments, which are boxes without width.
 //
-// All are one thing, a core with a radius around it: a box's and a triangle's core is itself with radius 0, a disc's
-// core is its centre. So distances are distances of cores less the radii, and a motion is followed by the core's
+// All are one thing, a core with a radius around it: a disc's core is its centre, every other one's is itself, with
+// radius 0. So distances are distances of cores less the radii, and a motion is followed by the core's
 // points.
 //
 //        apex            a triangle in its own frame: it fills the frame's box from side to side, its longest side
@@ -14,6 +14,9 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "core/pose.hpp"
 #include "world/description.hpp"
@@ -23,11 +26,12 @@ namespace waitpoint::world {
 struct Outline {
   Point centre;
   double axis_cos = 1, axis_sin = 0;           ///< direction of the box's own x axis
-  double half_length_m = 0, half_width_m = 0;  ///< of the core; both 0 for a disc
-  double radius_m = 0;                         ///< around the core; 0 for a box
+  double half_length_m = 0, half_width_m = 0;  ///< of the frame's box, which just holds the core; both 0 for a disc
+  double radius_m = 0;                         ///< around the core; 0 but for a disc
   bool is_box = false;
   bool is_triangle = false;
-  double apex_m = 0;  ///< of a triangle: where, along, the corner across from its longest side is
+  double apex_m = 0;                       ///< of a triangle: where, along, the corner across from its longest side is
+  const ConvexPolygon* polygon = nullptr;  ///< in the outline's frame; the shape's, which must outlive the outline
 
   /// The point `p` of the plane in the outline's own frame.
   Point local(Point p) const {
@@ -37,6 +41,9 @@ struct Outline {
   /// A vector of the outline's own frame, in the plane.
   Point outward(Point v) const { return {axis_cos * v.x - axis_sin * v.y, axis_sin * v.x + axis_cos * v.y}; }
 };
+
+/// What outlines of these shapes point to: for who keeps outlines longer than shapes.
+std::vector<std::shared_ptr<const ConvexPolygon>> polygons_of(std::span<const Shape> shapes);
 
 /// The section of a shape that stands in the world frame.
 Outline outline_of(const Shape& shape);
@@ -48,12 +55,41 @@ Outline segment_outline(Point a, Point b);
 /// The triangle of three points, which may lie on a line; such as are within a nanometre count as one.
 Outline triangle_outline(Point a, Point b, Point c);
 
-/// The points whose convex hull is the core: three or four corners counter-clockwise, or the centre.
-struct CorePoints {
-  std::array<Point, 4> points;
-  std::size_t count = 0;
-  const Point* begin() const { return points.data(); }
-  const Point* end() const { return points.data() + count; }
+/// The points whose convex hull is the core: corners counter-clockwise, or the centre. A polygon's are placed when they
+/// are asked for.
+class CorePoints {
+ public:
+  /// Of few, or of the outline's polygon.
+  CorePoints(const std::array<Point, 4>& points, std::size_t count) : points_(points), count_(count) {}
+  explicit CorePoints(const Outline& of)
+      : count_(of.polygon->sides().size()), polygon_(of.polygon), centre_(of.centre), axis_{of.axis_cos, of.axis_sin} {}
+
+  std::size_t count() const { return count_; }
+  Point operator[](std::size_t i) const {
+    if (polygon_ == nullptr) return points_[i];
+    const Point p = polygon_->sides()[i].start;
+    return centre_ + Point{axis_.x * p.x - axis_.y * p.y, axis_.y * p.x + axis_.x * p.y};
+  }
+
+  class Iterator {
+   public:
+    Iterator(const CorePoints& of, std::size_t at) : of_(&of), at_(at) {}
+    Point operator*() const { return (*of_)[at_]; }
+    Iterator& operator++() { return ++at_, *this; }
+    bool operator!=(const Iterator& other) const { return at_ != other.at_; }
+
+   private:
+    const CorePoints* of_;
+    std::size_t at_;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, count_}; }
+
+ private:
+  std::array<Point, 4> points_;
+  std::size_t count_;
+  const ConvexPolygon* polygon_ = nullptr;
+  Point centre_, axis_;
 };
 CorePoints core_points(const Outline& outline);
 

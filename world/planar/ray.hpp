@@ -20,7 +20,7 @@ inline constexpr double no_hit = std::numeric_limits<double>::infinity();
 /// between them; a range is shorter by this much over the cosine of its incidence.
 inline constexpr double seal_m = 1e-12;
 
-/// The distance along the ray to the outline, which is a box or a disc: 0 if it starts inside, `no_hit` if it passes.
+/// The distance along the ray to the outline, which is no triangle: 0 if it starts inside, `no_hit` if it passes.
 double hit_distance(const Outline& outline, const Ray& ray);
 
 }  // namespace waitpoint::world

@@ -42,11 +42,11 @@ Separation box_to_box(const Outline& a, const Outline& b) {
       by_a.distance_m >= by_b.distance_m ? by_a : Separation{by_b.distance_m, reversed(by_b.normal)};
   if (widest.distance_m <= 0) return widest;
   Separation nearest = {HUGE_VAL, {}};
-  for (const Point& corner : core_points(b)) {
+  for (const Point corner : core_points(b)) {
     const Separation s = box_to_point(a, corner);
     if (s.distance_m < nearest.distance_m) nearest = s;
   }
-  for (const Point& corner : core_points(a)) {
+  for (const Point corner : core_points(a)) {
     const Separation s = box_to_point(b, corner);
     if (s.distance_m < nearest.distance_m) nearest = {s.distance_m, reversed(s.normal)};
   }
@@ -69,10 +69,10 @@ Separation of_segment_to_point(Point start, Point end, Point p) {
 
 // From the core to the point; the normal points from it to the point. One point's core is never inside of another's.
 Separation core_to_point(const CorePoints& core, Point p) {
-  if (core.count == 1) return point_to_point(core.points[0], p);
+  if (core.count() == 1) return point_to_point(core[0], p);
   Separation nearest = {HUGE_VAL, {}}, deepest = {-HUGE_VAL, {}};
-  for (std::size_t i = 0; i < core.count; ++i) {
-    const Point start = core.points[i], end = core.points[(i + 1) % core.count], along = end - start;
+  for (std::size_t i = 0; i < core.count(); ++i) {
+    const Point start = core[i], end = core[(i + 1) % core.count()], along = end - start;
     const double length_m = length(along);
     if (length_m == 0) continue;
     const Point outward = {along.y / length_m, -along.x / length_m};
@@ -87,13 +87,13 @@ Separation core_to_point(const CorePoints& core, Point p) {
 // The greatest separation of `b` from a side of `a`, along that side's outward normal.
 Separation side_separation(const CorePoints& a, const CorePoints& b) {
   Separation widest = {-HUGE_VAL, {}};
-  for (std::size_t i = 0; i < a.count && a.count > 1; ++i) {
-    const Point start = a.points[i], along = a.points[(i + 1) % a.count] - start;
+  for (std::size_t i = 0; i < a.count() && a.count() > 1; ++i) {
+    const Point start = a[i], along = a[(i + 1) % a.count()] - start;
     const double length_m = length(along);
     if (length_m == 0) continue;
     const Point outward = {along.y / length_m, -along.x / length_m};
     double least = HUGE_VAL;
-    for (const Point& p : b) least = std::fmin(least, dot(p - start, outward));
+    for (const Point p : b) least = std::fmin(least, dot(p - start, outward));
     if (least > widest.distance_m) widest = {least, outward};
   }
   return widest;
@@ -101,29 +101,38 @@ Separation side_separation(const CorePoints& a, const CorePoints& b) {
 
 // Of convex cores, of which one at least has an area.
 Separation of_core_points(const CorePoints& a, const CorePoints& b) {
-  if (b.count == 1) return core_to_point(a, b.points[0]);
-  if (a.count == 1) {
-    const Separation s = core_to_point(b, a.points[0]);
+  if (b.count() == 1) return core_to_point(a, b[0]);
+  if (a.count() == 1) {
+    const Separation s = core_to_point(b, a[0]);
     return {s.distance_m, reversed(s.normal)};
   }
   const Separation by_a = side_separation(a, b), by_b = side_separation(b, a);
   const Separation widest =
       by_a.distance_m >= by_b.distance_m ? by_a : Separation{by_b.distance_m, reversed(by_b.normal)};
   if (widest.distance_m <= 0) return widest;
+  // What is far behind along the way between them cannot be nearest.
+  double last_of_a = -HUGE_VAL, first_of_b = HUGE_VAL;
+  for (const Point p : a) last_of_a = std::fmax(last_of_a, dot(p, widest.normal));
+  for (const Point p : b) first_of_b = std::fmin(first_of_b, dot(p, widest.normal));
+  constexpr double rounding_m = 1e-6;
   Separation nearest = {HUGE_VAL, {}};
-  for (const Point& corner : b) {
+  for (const Point corner : b) {
+    if (dot(corner, widest.normal) - last_of_a > nearest.distance_m + rounding_m) continue;
     const Separation s = core_to_point(a, corner);
     if (s.distance_m < nearest.distance_m) nearest = s;
   }
-  for (const Point& corner : a) {
+  for (const Point corner : a) {
+    if (first_of_b - dot(corner, widest.normal) > nearest.distance_m + rounding_m) continue;
     const Separation s = core_to_point(b, corner);
     if (s.distance_m < nearest.distance_m) nearest = {s.distance_m, reversed(s.normal)};
   }
   return nearest;
 }
 
+bool has_corners_of_its_own(const Outline& outline) { return outline.is_triangle || outline.polygon != nullptr; }
+
 Separation of_cores(const Outline& a, const Outline& b) {
-  if (a.is_triangle || b.is_triangle) return of_core_points(core_points(a), core_points(b));
+  if (has_corners_of_its_own(a) || has_corners_of_its_own(b)) return of_core_points(core_points(a), core_points(b));
   if (a.is_box) return b.is_box ? box_to_box(a, b) : box_to_point(a, b.centre);
   if (!b.is_box) return point_to_point(a.centre, b.centre);
   const Separation s = box_to_point(b, a.centre);

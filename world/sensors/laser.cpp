@@ -128,7 +128,8 @@ double Laser::seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& mid
 
 void Laser::measure(std::uint64_t scan_number, double on_s, std::span<double> ranges_m) const {
   const LaserDescription& d = *description_;
-  const double bias_m = d.range_bias_m + d.warm_up_bias_m * exact::exp(-on_s / d.warm_up_s);
+  const bool warms_up = d.warm_up_bias_m != 0;
+  const double bias_m = d.range_bias_m + (warms_up ? d.warm_up_bias_m * exact::exp(-on_s / d.warm_up_s) : 0);
   const bool noisy = d.range_noise_m > 0;
   for (std::size_t i = 0; i < ranges_m.size(); i += 2) {
     std::array<double, 2> normals{};

@@ -8,10 +8,10 @@
 namespace waitpoint::world {
 namespace {
 
-// How near to each other two walls must come to make a corner, and how far each must go on beyond it.
-constexpr double meeting_m = 1e-6, beyond_m = 5e-3;
+// How near to each other two walls must come to make a corner.
+constexpr double meeting_m = 1e-6;
 
-bool on_face(const BoxFace& face, Point p) {
+bool on_face(const Face& face, Point p) {
   const Point edge = face.end - face.start;
   const double along = dot(p - face.start, edge), across = dot(p - face.start, face.normal);
   const double span = dot(edge, edge), margin = meeting_m * std::sqrt(span);
@@ -20,14 +20,11 @@ bool on_face(const BoxFace& face, Point p) {
 
 }  // namespace
 
-std::array<BoxFace, 4> faces_of(const Outline& box) {
+std::array<Face, 4> faces_of(const Outline& box) {
   const CorePoints p = core_points(box);
   const Point along = box.outward({1, 0}), across = box.outward({0, 1});
   const Point back = {-along.x, -along.y}, right = {-across.x, -across.y};
-  return {{{p.points[0], p.points[1], across},
-           {p.points[1], p.points[2], back},
-           {p.points[2], p.points[3], right},
-           {p.points[3], p.points[0], along}}};
+  return {{{p[0], p[1], across}, {p[1], p[2], back}, {p[2], p[3], right}, {p[3], p[0], along}}};
 }
 
 SonarCone::SonarCone(const SonarRingDescription& ring, const Pose& transducer)
@@ -47,7 +44,7 @@ void SonarCone::add_point(Point p, double cosine_min, double range_max_m, std::v
   echoes.push_back({distance, {d.x / distance, d.y / distance}});
 }
 
-void SonarCone::add_wall(const BoxFace& wall, std::vector<Echo>& echoes) const {
+void SonarCone::add_wall(const Face& wall, std::vector<Echo>& echoes) const {
   const double height = dot(origin_ - wall.start, wall.normal);
   if (height <= 0 || height > range_max_m_ || -dot(wall.normal, axis_) < cosine_whole_) return;
   const Point edge = wall.end - wall.start;
@@ -56,16 +53,16 @@ void SonarCone::add_wall(const BoxFace& wall, std::vector<Echo>& echoes) const {
 }
 
 void SonarCone::add_surface(const Outline& segment, std::vector<Echo>& echoes) const {
-  const std::array<BoxFace, 4> faces = faces_of(segment);
+  const std::array<Face, 4> faces = faces_of(segment);
   add_wall(faces[0], echoes);
   add_wall(faces[2], echoes);
 }
 
-void SonarCone::add_box(const Outline& box, std::vector<Echo>& echoes) const {
-  for (const BoxFace& face : faces_of(box)) {
+void SonarCone::add_faces(const Outline& outline, std::vector<Echo>& echoes) const {
+  visit_faces(outline, [&](const Face& face) {
     add_wall(face, echoes);
-    add_point(face.start, cosine_half_, 0.5 * range_max_m_, echoes);
-  }
+    add_edge(face.start, echoes);
+  });
 }
 
 void SonarCone::add(const Outline& outline, std::vector<Echo>& echoes) const {
@@ -73,7 +70,7 @@ void SonarCone::add(const Outline& outline, std::vector<Echo>& echoes) const {
   const double extent = outline.half_length_m + outline.half_width_m + outline.radius_m;
   const Point d = outline.centre - origin_;
   if (dot(d, axis_) < -extent || dot(d, d) > (range_max_m_ + extent) * (range_max_m_ + extent)) return;
-  if (outline.is_box) return add_box(outline, echoes);
+  if (outline.is_box || outline.polygon != nullptr) return add_faces(outline, echoes);
   const std::size_t before = echoes.size();
   add_point(outline.centre, cosine_whole_, range_max_m_ + outline.radius_m, echoes);
   if (echoes.size() > before) echoes.back().distance_m = std::max(echoes.back().distance_m - outline.radius_m, 0.0);
@@ -86,17 +83,17 @@ void SonarCone::add(const ConcaveCorner& corner, std::vector<Echo>& echoes) cons
 }
 
 void find_concave_corners(const Outline& a, const Outline& b, std::vector<ConcaveCorner>& corners) {
-  for (const BoxFace& f : faces_of(a)) {
-    for (const BoxFace& g : faces_of(b)) {
-      if (std::fabs(dot(f.normal, g.normal)) > 0.1) continue;
+  for (const Face& f : faces_of(a)) {
+    for (const Face& g : faces_of(b)) {
+      if (!is_corner_of_walls(f.normal, g.normal)) continue;
       // The lines of the two faces meet at f.start + t (f.end - f.start).
       const Point edge = f.end - f.start;
       const double slope = dot(edge, g.normal);
       if (slope == 0) continue;
       const Point p = f.start + (dot(g.start - f.start, g.normal) / slope) * edge;
       // Each wall goes on before the other, or the corner is none.
-      if (on_face(f, p) && on_face(g, p) && on_face(f, p + beyond_m * g.normal) &&
-          on_face(g, p + beyond_m * f.normal)) {
+      if (on_face(f, p) && on_face(g, p) && on_face(f, p + corner_wall_m_min * g.normal) &&
+          on_face(g, p + corner_wall_m_min * f.normal)) {
         corners.push_back({p, f.normal, g.normal});
       }
     }

@@ -2,8 +2,7 @@
 // Sonars with specular reflection: a smooth wall is a mirror to sound, so what answers is not what a ray hits.
 //
 //   wall            answers if the perpendicular on it from the transducer lies in the cone and on the wall; the range
-//   is
-//                   the perpendicular distance, not that along the axis
+//                   is the perpendicular distance, not that along the axis
 //   cylinder        always has a surface facing the transducer: answers if the direction to its axis lies in the cone
 //   concave corner  sends sound back where it came from: answers over the whole cone
 //   convex edge     diffracts weakly: answers in the inner half of the cone, up to half of the greatest range
@@ -14,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -33,12 +33,27 @@ struct Echo {
 struct ConcaveCorner {
   Point at, normal_1, normal_2;
 };
+/// Walls that go off in these directions make a corner only if the angle between them is nearly right.
+inline bool is_corner_of_walls(Point along_1, Point along_2) { return std::fabs(dot(along_1, along_2)) <= 0.1; }
+/// And each must go on beyond it by this.
+inline constexpr double corner_wall_m_min = 5e-3;
 
-/// A side of a box, its normal out of it.
-struct BoxFace {
+/// A side of a box or a polygon, its normal out of it.
+struct Face {
   Point start, end, normal;
 };
-std::array<BoxFace, 4> faces_of(const Outline& box);
+std::array<Face, 4> faces_of(const Outline& box);
+
+/// Shows all sides of a box or a polygon; nothing of a disc, which has none.
+template <class Visit>
+void visit_faces(const Outline& outline, Visit visit) {
+  if (outline.is_box)
+    for (const Face& face : faces_of(outline)) visit(face);
+  if (outline.polygon == nullptr) return;
+  const CorePoints corners = core_points(outline);
+  for (std::size_t i = 0; i < corners.count(); ++i)
+    visit(Face{corners[i], corners[(i + 1) % corners.count()], outline.outward(outline.polygon->sides()[i].outward)});
+}
 
 /// One transducer's field: what of the things it is shown answers.
 class SonarCone {
@@ -48,8 +63,12 @@ class SonarCone {
   /// Shows an outline; appends its possible echoes.
   void add(const Outline& outline, std::vector<Echo>& echoes) const;
   void add(const ConcaveCorner& corner, std::vector<Echo>& echoes) const;
-  /// Shows a segment of a surface that may go on at its ends, where it has no edges therefore.
+  /// Shows a segment of a surface: its walls, on both sides.
   void add_surface(const Outline& segment, std::vector<Echo>& echoes) const;
+  /// Shows an edge that the transducer is before.
+  void add_edge(Point edge, std::vector<Echo>& echoes) const {
+    add_point(edge, cosine_half_, 0.5 * range_max_m_, echoes);
+  }
 
   Point origin() const { return origin_; }
   Point axis() const { return axis_; }
@@ -59,8 +78,8 @@ class SonarCone {
   bool looks_at(Point p) const { return dot(p - origin_, axis_) >= cosine_whole_ * length(p - origin_); }
 
  private:
-  void add_box(const Outline& box, std::vector<Echo>& echoes) const;
-  void add_wall(const BoxFace& wall, std::vector<Echo>& echoes) const;
+  void add_faces(const Outline& outline, std::vector<Echo>& echoes) const;
+  void add_wall(const Face& wall, std::vector<Echo>& echoes) const;
   void add_point(Point p, double cosine_min, double range_max_m, std::vector<Echo>& echoes) const;
 
   Point origin_, axis_;

@@ -24,23 +24,23 @@ bool may_hear(const SonarCone& listener, const SonarCone& emitter) {
 void add_cross_echoes(const SonarCone& emitter, const SonarCone& listener, const Outline& outline,
                       std::vector<CrossEcho>& echoes) {
   const Point a = emitter.origin(), b = listener.origin();
-  if (!outline.is_box) {
+  if (!outline.is_box && outline.polygon == nullptr) {
     const Point to_a = a - outline.centre, to_b = b - outline.centre;
     if (std::min(length(to_a), length(to_b)) <= outline.radius_m) return;
     const Point middle = unit(to_a) + unit(to_b);
     if (length(middle) > 0) add_by_way_of(outline.centre + outline.radius_m * unit(middle), emitter, listener, echoes);
     return;
   }
-  for (const BoxFace& face : faces_of(outline)) {
+  visit_faces(outline, [&](const Face& face) {
     const double height_a = dot(a - face.start, face.normal), height_b = dot(b - face.start, face.normal);
-    if (height_a <= 0 || height_b <= 0) continue;
+    if (height_a <= 0 || height_b <= 0) return;
     const Point foot_a = a - height_a * face.normal, foot_b = b - height_b * face.normal;
     const Point at = foot_a + (height_a / (height_a + height_b)) * (foot_b - foot_a);
     const Point edge = face.end - face.start;
     const double along = dot(at - face.start, edge);
-    if (edge == Point{}) continue;  // of a segment
+    if (edge == Point{}) return;  // of a segment
     if (along >= 0 && along <= dot(edge, edge)) add_by_way_of(at, emitter, listener, echoes);
-  }
+  });
 }
 
 void add_cross_echoes(const SonarCone& emitter, const SonarCone& listener, const ConcaveCorner& corner,

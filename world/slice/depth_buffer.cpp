@@ -40,14 +40,14 @@ void DepthBuffer::begin(const Fan& fan, double range_max_m, bool identify) {
   identify_ = identify;
 
   const std::size_t blocks = (beams_ + Beams::block - 1) / Beams::block, padded = blocks * Beams::block;
-  x_.resize(padded);
-  y_.resize(padded);
+  x_.resize(padded + Beams::beams_read_beyond);
+  y_.resize(padded + Beams::beams_read_beyond);
   for (std::size_t i = kernels_->turn(fan.directions.data(), beams_, axis_, x_.data(), y_.data()); i < beams_; ++i) {
     const Point d = fan.directions[i];
     x_[i] = axis_.x * d.x - axis_.y * d.y;
     y_[i] = axis_.y * d.x + axis_.x * d.y;
   }
-  for (std::size_t i = beams_; i < padded; ++i) {
+  for (std::size_t i = beams_; i < x_.size(); ++i) {
     x_[i] = x_[beams_ - 1];
     y_[i] = y_[beams_ - 1];
   }
@@ -90,13 +90,13 @@ bool DepthBuffer::hidden(const Pending& what) const {
   return hidden(what.near_m2, what.first, static_cast<std::int32_t>(beams_) - 1) && hidden(what.near_m2, 0, what.last);
 }
 
-// Shows `ask` what is narrow, at once, and fetches what is at its `place`; the rest is pending, the nearest on top of
+// Asks about what is narrow, at once, and fetches what is at its `place`; the rest is pending, the nearest on top of
 // what was so before.
-template <class Ask, class Place>
-void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Ask ask,
+template <class Find, class Place>
+void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Find find,
                                 Place place) {
   const auto& [bounds, children] = nodes[node];
-  Sight sight;
+  Sight sight{};
   const std::size_t before = pending_.size();
   unsigned seen = kernels_->look(bounds, view, sight);
   const bool is_large = nodes.size() >= many_nodes;
@@ -107,19 +107,35 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
     const std::size_t size = child < 0 ? sizeof(Outline) : sizeof(TreeNode);
     for (std::size_t at = 0; at < size; at += 64) __builtin_prefetch(static_cast<const char*>(first) + at);
   }
+  std::array<NarrowQuestion, EightBounds::width> narrow;
+  int narrow_count = 0;
+  // Without branches, which no processor could foresee.
+  unsigned narrow_ones = 0;
+  for (std::size_t i = 0; i < EightBounds::width; ++i) {
+    const bool is_narrow = static_cast<std::uint32_t>(sight.last[i] - sight.first[i]) < narrow_beams;
+    narrow_ones |= static_cast<unsigned>(is_narrow & (children[i] < 0)) << i;
+  }
+  narrow_ones &= seen;
+  seen &= ~narrow_ones;
+  for (; narrow_ones != 0; narrow_ones &= narrow_ones - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(narrow_ones));
+    const Candidate candidate = find(~children[i]);
+    if (candidate.outline == nullptr) continue;
+    if (identify_ || candidate.outline->polygon != nullptr)
+      ask_narrow(*candidate.outline, candidate.solid, {sight.near_m2[i], children[i], sight.first[i], sight.last[i]});
+    else
+      narrow[static_cast<std::size_t>(narrow_count++)] = {candidate.outline, sight.first[i], sight.last[i]};
+  }
   for (; seen != 0; seen &= seen - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(seen));
     const Pending child = {sight.near_m2[i], children[i], sight.first[i], sight.last[i]};
-    if (child.child < 0 && is_narrow(child)) {
-      ask(~child.child, child);
-      continue;
-    }
     if (!is_of_two_blocks(child) && hidden(child)) continue;
     std::size_t at = pending_.size();
     pending_.push_back(child);
     for (; at > before && pending_[at - 1].near_m2 < child.near_m2; --at) pending_[at] = pending_[at - 1];
     pending_[at] = child;
   }
+  if (narrow_count > 0) kernels_->ask_narrow(narrow.data(), narrow_count, beams());
 }
 
 // Whether its range is less now.
@@ -149,8 +165,17 @@ void DepthBuffer::ask_narrow(const Outline& outline, std::uint32_t solid, const 
     note_farthest(block);
 }
 
+// Of polygons there are few.
+void DepthBuffer::ask_each(const Outline& outline, std::uint32_t solid, const Pending& where) {
+  const auto beams = static_cast<std::int32_t>(beams_);
+  if (where.first <= where.last) return ask_narrow(outline, solid, where);
+  ask_narrow(outline, solid, {where.near_m2, where.child, where.first, beams - 1});
+  ask_narrow(outline, solid, {where.near_m2, where.child, 0, where.last});
+}
+
 void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending& where) {
   if (is_narrow(where)) return ask_narrow(outline, solid, where);
+  if (outline.polygon != nullptr) return ask_each(outline, solid, where);
   const auto question = outline.is_box ? kernels_->ask_box : kernels_->ask_disc;
   const std::int32_t first = where.first / Beams::block, last = where.last / Beams::block;
   if (where.first <= where.last) return question({outline, solid, first, last, where.near_m2}, beams());
@@ -158,19 +183,19 @@ void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending
   question({outline, solid, 0, last, where.near_m2}, beams());
 }
 
-// Shows `ask` what is in sight and not hidden, near to far, by its number in the tree.
-template <class Ask, class Place>
-void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Ask ask, Place place) {
+// Asks about what is in sight and not hidden, near to far.
+template <class Find, class Place>
+void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Find find, Place place) {
   pending_.clear();
-  push_in_sight(nodes, 0, from, ask, place);
+  push_in_sight(nodes, 0, from, find, place);
   while (!pending_.empty()) {
     const Pending next = pending_.back();
     pending_.pop_back();
     if (hidden(next)) continue;
     if (next.child >= 0) {
-      push_in_sight(nodes, static_cast<std::size_t>(next.child), from, ask, place);
-    } else {
-      ask(~next.child, next);
+      push_in_sight(nodes, static_cast<std::size_t>(next.child), from, find, place);
+    } else if (const Candidate candidate = find(~next.child); candidate.outline != nullptr) {
+      ask(*candidate.outline, candidate.solid, next);
     }
   }
 }
@@ -250,11 +275,7 @@ void DepthBuffer::lower(std::span<const TreeNode> nodes, Point middle, double ex
   if (nodes.empty() || beams_ == 0) return;
   const View from = view(middle, extent_m);
   if (beams_ <= FewBeams::most && find_near(nodes, middle, extent_m)) return ask_near(from, find);
-  const auto ask_where = [&](std::int32_t in_tree, const Pending& where) {
-    const Candidate candidate = find(in_tree);
-    if (candidate.outline != nullptr) ask(*candidate.outline, candidate.solid, where);
-  };
-  walk(nodes, from, ask_where, place);
+  walk(nodes, from, find, place);
 }
 
 void DepthBuffer::lower(const Slice& slice) {

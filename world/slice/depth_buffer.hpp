@@ -54,8 +54,9 @@ class DepthBuffer {
     std::int32_t child, first, last;
   };
 
-  /// What is so narrow is asked about at once, beam by beam: the kernels would take longer to begin than to answer.
-  static constexpr std::int32_t narrow_beams = 3;
+  /// What is so narrow is asked about as soon as it is seen, together with what else of its node is: to look whether it
+  /// is hidden would take longer, for it cannot be foreseen.
+  static constexpr std::int32_t narrow_beams = 16;
   /// Within so few blocks beams are looked at one by one: those at the ends may be all that is not hidden.
   static constexpr std::int32_t few_blocks = 3;
   static bool is_narrow(const Pending& what) {
@@ -90,12 +91,13 @@ class DepthBuffer {
   void lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find, Place place);
   template <class Find>
   void ask_near(const View& from, Find find);
-  template <class Ask, class Place>
-  void walk(std::span<const TreeNode> nodes, const View& from, Ask ask, Place place);
-  template <class Ask, class Place>
-  void push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Ask ask, Place place);
+  template <class Find, class Place>
+  void walk(std::span<const TreeNode> nodes, const View& from, Find find, Place place);
+  template <class Find, class Place>
+  void push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Find find, Place place);
   void ask(const Outline& outline, std::uint32_t solid, const Pending& where);
   void ask_narrow(const Outline& outline, std::uint32_t solid, const Pending& where);
+  void ask_each(const Outline& outline, std::uint32_t solid, const Pending& where);
   bool ask_beam(std::size_t beam, const Outline& outline, std::uint32_t solid);
   void note_farthest(std::int32_t block);
   Beams beams();

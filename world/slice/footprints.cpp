@@ -17,7 +17,8 @@ Tree tree_over(std::span<const Shape> shapes) {
 
 }  // namespace
 
-Footprints::Footprints(std::span<const Shape> shapes, const Kernels& of) : kernels_(&of), tree_(tree_over(shapes)) {
+Footprints::Footprints(std::span<const Shape> shapes, const Kernels& of)
+    : kernels_(&of), polygons_(polygons_of(shapes)), tree_(tree_over(shapes)) {
   for (const Shape& shape : shapes) {
     const Outline outline = outline_of(shape);
     solids_.push_back({outline, bounds_of(outline), shape.z_low_m, shape.z_high_m});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,7 @@ class Footprints {
   void visit(const Bounds& bounds, Visit visit) const;
 
   const Kernels* kernels_;
+  std::vector<std::shared_ptr<const ConvexPolygon>> polygons_;  // of the outlines
   std::vector<Solid> solids_;
   Tree tree_;
 };

@@ -68,6 +68,12 @@ struct Question {
   float near_m2;  ///< it is no nearer
 };
 
+/// A box or a disc that only a few beams can meet: `first` to `last`.
+struct NarrowQuestion {
+  const Outline* outline;
+  std::int32_t first, last;
+};
+
 struct Kernels {
   const char* name;
   /// Turns directions into the frame in which `axis` is the x axis of theirs; gives how many it has done: all but a few
@@ -88,6 +94,9 @@ struct Kernels {
   /// solids the one of the lesser number is hit.
   void (*ask_box)(const Question& question, const Beams& beams);
   void (*ask_disc)(const Question& question, const Beams& beams);
+  /// The same for some solids, and each one's few beams: at least those, with as few branches as can be. Who was hit is
+  /// not told. Beams beyond the last are asked, too.
+  void (*ask_narrow)(const NarrowQuestion* questions, int count, const Beams& beams);
 };
 
 /// The widest that this processor has.

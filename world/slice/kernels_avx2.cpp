@@ -16,6 +16,7 @@ constinit const Kernels kernels_avx2 = {
     &VectorCulling<4>::meet,
     &VectorAsking<4>::ask_box,
     &VectorAsking<4>::ask_disc,
+    &VectorAsking<4>::ask_narrow,
 };
 
 }  // namespace waitpoint::world

@@ -16,6 +16,7 @@ constinit const Kernels kernels_avx512 = {
     &VectorCulling<8>::meet,
     &VectorAsking<8>::ask_box,
     &VectorAsking<8>::ask_disc,
+    &VectorAsking<8>::ask_narrow,
 };
 
 }  // namespace waitpoint::world

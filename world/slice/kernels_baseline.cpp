@@ -16,6 +16,7 @@ constinit const Kernels kernels_baseline = {
     &VectorCulling<2>::meet,
     &VectorAsking<2>::ask_box,
     &VectorAsking<2>::ask_disc,
+    &VectorAsking<2>::ask_narrow,
 };
 
 }  // namespace waitpoint::world

@@ -30,7 +30,8 @@ FloatBounds united(const TreeNode& node) {
 
 }  // namespace
 
-MovingSolids::MovingSolids(std::span<const Shape> shapes, std::uint32_t first_solid) : first_solid_(first_solid) {
+MovingSolids::MovingSolids(std::span<const Shape> shapes, std::uint32_t first_solid)
+    : first_solid_(first_solid), polygons_(polygons_of(shapes)) {
   for (const Shape& shape : shapes) solids_.push_back({outline_of(shape), shape.z_low_m, shape.z_high_m, 0});
   if (solids_.empty()) return;
   std::vector<std::size_t> counts = {(solids_.size() + width - 1) / width};
@@ -142,6 +143,14 @@ void MovingSolids::place(std::size_t at, const Outline& outline, double z_low_m,
   solids_[at].z_low_m = z_low_m;
   solids_[at].z_high_m = z_high_m;
   place(at, outline);
+}
+
+void MovingSolids::list_by_leaves(std::vector<std::uint32_t>& places) const {
+  places.clear();
+  if (levels_.empty()) return;
+  for (std::size_t node = levels_.back(); node < nodes_.size(); ++node)
+    for (std::size_t i = 0; i < width && nodes_[node].child[i] != TreeNode::none; ++i)
+      places.push_back(static_cast<std::uint32_t>(~nodes_[node].child[i]));
 }
 
 void MovingSolids::near(const Bounds& bounds, std::vector<std::uint32_t>& found, const Kernels& of) const {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,8 @@ class MovingSolids {
   bool reaches(std::size_t at, double height_m) const {
     return solids_[at].z_low_m <= height_m && height_m <= solids_[at].z_high_m;
   }
+  double z_low_m(std::size_t at) const { return solids_[at].z_low_m; }
+  double z_high_m(std::size_t at) const { return solids_[at].z_high_m; }
   /// Moves one; its heights stay, or are those.
   void place(std::size_t at, const Outline& outline);
   void place(std::size_t at, const Outline& outline, double z_low_m, double z_high_m);
@@ -37,6 +40,8 @@ class MovingSolids {
 
   /// The tree, its root first; in floats of the world's own coordinates. Its leaves are places in this list.
   std::span<const TreeNode> nodes() const { return nodes_; }
+  /// Overwrites `places` with the places in this list as the leaves have them: neighbours side by side.
+  void list_by_leaves(std::vector<std::uint32_t>& places) const;
   /// The greatest coordinate that any of them has had.
   double extent_m() const { return extent_m_; }
 
@@ -54,6 +59,7 @@ class MovingSolids {
   double spread_m() const;
 
   std::uint32_t first_solid_;
+  std::vector<std::shared_ptr<const ConvexPolygon>> polygons_;  // of the outlines
   double extent_m_ = 0;
   std::vector<Solid> solids_;
   std::vector<TreeNode> nodes_;

@@ -28,7 +28,7 @@ std::vector<Bounds> bounds_of_all(std::span<const Outline> outlines) {
 
 Slice::Slice(std::span<const Shape> shapes, double height_m, std::span<const Outline> others,
              std::span<const std::uint32_t> solids_of_others)
-    : height_m_(height_m), tree_(std::span<const Bounds>()) {
+    : height_m_(height_m), polygons_(polygons_of(shapes)), tree_(std::span<const Bounds>()) {
   std::vector<std::uint32_t> solids = reaching(shapes, height_m);
   std::vector<Outline> outlines = outlines_of(shapes, solids);
   outlines.insert(outlines.end(), others.begin(), others.end());

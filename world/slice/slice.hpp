@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "world/planar/outline.hpp"
+#include "world/slice/large_pages.hpp"
 #include "world/slice/tree.hpp"
 
 namespace waitpoint::world {
@@ -33,7 +35,8 @@ class Slice {
 
  private:
   double height_m_;
-  std::vector<Outline> outlines_;
+  std::vector<std::shared_ptr<const ConvexPolygon>> polygons_;  // of the outlines
+  std::vector<Outline, LargePages<Outline>> outlines_;
   std::vector<std::uint32_t> solids_;
   Tree tree_;
 };

@@ -10,7 +10,7 @@ namespace waitpoint::world {
 namespace {
 
 // Below this many levels solids are halved by number: however they lie, the tree ends.
-constexpr int swept_levels_max = 24;
+constexpr int swept_levels_max = 48;
 
 Bounds united(const Bounds& a, const Bounds& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
@@ -43,11 +43,26 @@ TreeNode TreeNode::empty() {
   return node;
 }
 
+// A part of the binary tree: one solid, or two parts. Of a node's eight children it may have k: itself as one node, or
+// so many for its left part and the rest for its right one; `perimeters_m[k]` is what the nodes within it then come to,
+// at least. (Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG
+// 2017.)
+struct Part {
+  Bounds bounds;
+  std::int32_t left = 0, right = 0;  // parts; of a solid `left` is ~ its number
+  std::array<float, EightBounds::width + 1> perimeters_m{};
+  std::array<std::uint8_t, EightBounds::width + 1> to_left{};  // of k; 0: it is one node
+  std::uint8_t to_left_as_node = 0;                            // of its own eight
+
+  bool is_solid() const { return left < 0; }
+};
+
 struct Tree::Builder {
   using Group = std::span<std::uint32_t>;
 
   Tree& tree;
   std::span<const Bounds> solids;
+  std::vector<Part> parts = {};
   std::vector<double> perimeters = {};  // of what is right of a division, by its place
 
   Bounds bounds(Group group) const {
@@ -96,33 +111,72 @@ struct Tree::Builder {
     return by_y.second;
   }
 
-  std::int32_t build(Group group, int level) {
-    const std::size_t number = tree.nodes_.size();
+  std::int32_t halve(Group group, int level) {
+    const std::size_t number = parts.size();
+    parts.push_back({bounds(group)});
+    if (group.size() == 1) {
+      parts.back().left = ~static_cast<std::int32_t>(group.front());
+      return static_cast<std::int32_t>(number);
+    }
+    const std::size_t first = divide(group, level);
+    const std::int32_t left = halve(group.first(first), level + 1), right = halve(group.subspan(first), level + 1);
+    parts[number].left = left;
+    parts[number].right = right;
+    share_children(parts[number]);
+    return static_cast<std::int32_t>(number);
+  }
+
+  const Part& part(std::int32_t number) const { return parts[static_cast<std::size_t>(number)]; }
+
+  void share_children(Part& whole) const {
+    constexpr std::size_t width = EightBounds::width;
+    const Part &left = part(whole.left), &right = part(whole.right);
+    for (std::size_t k = 2; k <= width; ++k) {
+      whole.perimeters_m[k] = std::numeric_limits<float>::infinity();
+      for (std::size_t a = 1; a < k; ++a) {
+        const float sum_m = left.perimeters_m[a] + right.perimeters_m[k - a];
+        if (!(sum_m < whole.perimeters_m[k])) continue;
+        whole.perimeters_m[k] = sum_m;
+        whole.to_left[k] = static_cast<std::uint8_t>(a);
+      }
+    }
+    whole.to_left_as_node = whole.to_left[width];
+    whole.perimeters_m[1] = static_cast<float>(half_perimeter(whole.bounds)) + whole.perimeters_m[width];
+    for (std::size_t k = 2; k <= width; ++k) {
+      if (whole.perimeters_m[1] > whole.perimeters_m[k]) continue;
+      whole.perimeters_m[k] = whole.perimeters_m[1];
+      whole.to_left[k] = 0;
+    }
+  }
+
+  /// The parts that are children in place of this one, which may have so many.
+  void take(std::int32_t number, std::size_t most, std::vector<std::int32_t>& children) const {
+    const Part& p = part(number);
+    const std::size_t to_left = p.is_solid() || most == 1 ? 0 : p.to_left[most];
+    if (to_left == 0) return children.push_back(number);
+    take(p.left, to_left, children);
+    take(p.right, most - to_left, children);
+  }
+
+  std::int32_t build(std::int32_t number, int level) {
+    const std::size_t at = tree.nodes_.size();
     tree.nodes_.emplace_back();
     tree.depth_ = std::max(tree.depth_, level + 1);
-
-    std::array<Group, EightBounds::width> parts = {group};
-    std::size_t count = 1;
-    while (count < parts.size()) {
-      Group* largest = nullptr;
-      double most = -1;
-      for (std::size_t i = 0; i < count; ++i) {
-        const double cost = parts[i].size() > 1 ? half_perimeter(bounds(parts[i])) : -1;
-        if (cost > most) largest = &parts[i], most = cost;
-      }
-      if (largest == nullptr) break;
-      const std::size_t first = divide(*largest, level);
-      parts[count++] = largest->subspan(first);
-      *largest = largest->first(first);
+    std::vector<std::int32_t> children;
+    if (const Part& whole = part(number); whole.is_solid()) {
+      children.push_back(number);
+    } else {
+      take(whole.left, whole.to_left_as_node, children);
+      take(whole.right, EightBounds::width - whole.to_left_as_node, children);
     }
-
     TreeNode node = TreeNode::empty();
-    for (std::size_t i = 0; i < count; ++i) {
-      node.bounds.set(static_cast<int>(i), bounds(parts[i]), tree.middle_, float_margin_m(tree.extent_m_));
-      node.child[i] = parts[i].size() == 1 ? ~static_cast<std::int32_t>(parts[i].front()) : build(parts[i], level + 1);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      const Part& child = part(children[i]);
+      node.bounds.set(static_cast<int>(i), child.bounds, tree.middle_, float_margin_m(tree.extent_m_));
+      node.child[i] = child.is_solid() ? child.left : build(children[i], level + 1);
     }
-    tree.nodes_[number] = node;
-    return static_cast<std::int32_t>(number);
+    tree.nodes_[at] = node;
+    return static_cast<std::int32_t>(at);
   }
 };
 
@@ -146,7 +200,7 @@ Tree::Tree(std::span<const Bounds> solids) {
   const Bounds around = builder.bounds(all);
   middle_ = 0.5 * (around.low + around.high);
   extent_m_ = std::max(around.high.x - middle_.x, around.high.y - middle_.y);
-  builder.build(all, 0);
+  builder.build(builder.halve(all, 0), 0);
 }
 
 }  // namespace waitpoint::world

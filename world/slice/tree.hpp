@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A bounding-volume tree, eight children wide, over solids that stand still.
 //
-// Its rectangles are of floats, relative to the middle of all, and a little too large: they only cull. The tree is
-// built from above: what is largest is divided again, by the sweep that makes perimeter times count least, until a node
-// has its eight.
+// Its rectangles are of floats, relative to the middle of all, and a little too large: they only cull. First all is
+// halved, again and again, by the sweep that makes perimeter times count least; then nodes of eight take in those
+// halves with which the perimeters of all nodes are least in sum.
 #pragma once
 
 #include <array>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "world/planar/outline.hpp"
+#include "world/slice/large_pages.hpp"
 
 namespace waitpoint::world {
 
@@ -62,7 +63,7 @@ class Tree {
  private:
   struct Builder;
 
-  std::vector<TreeNode> nodes_;
+  std::vector<TreeNode, LargePages<TreeNode>> nodes_;
   Point middle_;
   double extent_m_ = 0;
   int depth_ = 0;

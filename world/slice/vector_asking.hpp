@@ -34,6 +34,11 @@ struct VectorAsking {
     return lowered;
   }
 
+  static void set_farthest(float& farthest_m2, Doubles ranges) {
+    const float rounded = static_cast<float>(V::greatest_of(ranges));
+    farthest_m2 = rounded * rounded * (1 + 1e-6f);
+  }
+
   // Asks `answer(first beam, distances, hits)` for all blocks in which the solid could be nearest.
   template <class Answer>
   static void ask(const Question& question, const Beams& beams, Answer answer) {
@@ -47,10 +52,7 @@ struct VectorAsking {
         answer(at, distance, hit);
         farthest = V::greatest(farthest, lower(beams, at, distance, hit, question.solid));
       }
-      double most = farthest[0];
-      for (int i = 1; i < lanes; ++i) most = farthest[i] > most ? farthest[i] : most;
-      const float rounded = static_cast<float>(most);
-      beams.farthest_m2[block] = rounded * rounded * (1 + 1e-6f);
+      set_farthest(beams.farthest_m2[block], farthest);
     }
   }
 
@@ -61,62 +63,103 @@ struct VectorAsking {
   // and has a hit where the greater entry comes before the lesser exit. Which is which is plain from products, without
   // a quotient, unless they are equal but for rounding; those few beams are asked one by one. `far` is negative where
   // the beam leads away, and then by more than any rounding before the entry.
-  static void ask_box(const Question& question, const Beams& beams) {
-    const Outline& box = question.outline;
+  template <class Asker>
+  __attribute__((always_inline)) static void ask_box(const Outline& box, const Beams& beams, Asker asker) {
     const double from_x = beams.origin.x - box.centre.x, from_y = beams.origin.y - box.centre.y;
     const double o_x = box.axis_cos * from_x + box.axis_sin * from_y;
     const double o_y = box.axis_cos * from_y - box.axis_sin * from_x;
     const double half_x = box.half_length_m + seal_m, half_y = box.half_width_m + seal_m;
     const double beside_x = (o_x < 0 ? -o_x : o_x) - half_x, beside_y = (o_y < 0 ? -o_y : o_y) - half_y;
-    if (beside_x <= 0 && beside_y <= 0) return hit_all(question, beams);
+    if (beside_x <= 0 && beside_y <= 0) return hit_all(asker);
     const Doubles cosine = V::all(box.axis_cos), sine = V::all(box.axis_sin);
     const Doubles near_x = V::all(beside_x > 0 ? beside_x : 0), near_y = V::all(beside_y > 0 ? beside_y : 0);
     const Doubles forth_x = V::all(half_x - o_x), back_x = V::all(half_x + o_x);
     const Doubles forth_y = V::all(half_y - o_y), back_y = V::all(half_y + o_y);
-    ask(
-        question, beams, [&](int at, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
-          const Doubles x = V::template load<Doubles>(beams.x + at), y = V::template load<Doubles>(beams.y + at);
-          const Doubles d_x = cosine * x + sine * y, d_y = cosine * y - sine * x;
-          const Doubles along_x = V::absolute(d_x), along_y = V::absolute(d_y);
-          const Doubles far_x = d_x < 0 ? back_x : forth_x, far_y = d_y < 0 ? back_y : forth_y;
-          const Doubles enter_x = near_x * along_y, enter_y = near_y * along_x;
-          const Doubles spare = V::least(far_y * along_x - enter_x, far_x * along_y - enter_y);
-          const Doubles rounding = 1e-14 * (enter_x + enter_y) + 1e-290;
-          const Longs by_x = enter_x > enter_y;
-          hit = spare > rounding;
-          distance = (by_x ? near_x : near_y) / (by_x ? along_x : along_y);
-          const unsigned undecided = V::bits((Longs)(V::absolute(spare) <= rounding) |
-                                             (hit & (Longs)(V::absolute(enter_x - enter_y) <= rounding)));
-          for (unsigned rest = undecided; rest != 0; rest &= rest - 1) {
-            const int lane = __builtin_ctz(rest);
-            const double exact = hit_distance(box, Ray{beams.origin, Point{x[lane], y[lane]}});
-            distance[lane] = exact;
-            hit[lane] = exact < no_hit ? -1 : 0;
-          }
-        });
+    asker([&](int at, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
+      const Doubles x = V::template load<Doubles>(beams.x + at), y = V::template load<Doubles>(beams.y + at);
+      const Doubles d_x = cosine * x + sine * y, d_y = cosine * y - sine * x;
+      const Doubles along_x = V::absolute(d_x), along_y = V::absolute(d_y);
+      const Doubles far_x = d_x < 0 ? back_x : forth_x, far_y = d_y < 0 ? back_y : forth_y;
+      const Doubles enter_x = near_x * along_y, enter_y = near_y * along_x;
+      const Doubles spare = V::least(far_y * along_x - enter_x, far_x * along_y - enter_y);
+      const Doubles rounding = 1e-14 * (enter_x + enter_y) + 1e-290;
+      const Longs by_x = enter_x > enter_y;
+      hit = spare > rounding;
+      distance = (by_x ? near_x : near_y) / (by_x ? along_x : along_y);
+      const unsigned undecided = V::bits((Longs)(V::absolute(spare) <= rounding) |
+                                         (hit & (Longs)(V::absolute(enter_x - enter_y) <= rounding)));
+      for (unsigned rest = undecided; rest != 0; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        const double exact = hit_distance(box, Ray{beams.origin, Point{x[lane], y[lane]}});
+        distance[lane] = exact;
+        hit[lane] = exact < no_hit ? -1 : 0;
+      }
+    });
   }
 
-  static void ask_disc(const Question& question, const Beams& beams) {
-    const Outline& disc = question.outline;
+  template <class Asker>
+  __attribute__((always_inline)) static void ask_disc(const Outline& disc, const Beams& beams, Asker asker) {
     const double to_x = disc.centre.x - beams.origin.x, to_y = disc.centre.y - beams.origin.y;
     const double square = disc.radius_m * disc.radius_m;
-    if (to_x * to_x + to_y * to_y <= square) return hit_all(question, beams);
-    ask(
-        question, beams, [&](int at, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
-          const Doubles x = V::template load<Doubles>(beams.x + at), y = V::template load<Doubles>(beams.y + at);
-          const Doubles along = to_x * x + to_y * y, offset = to_x * y - to_y * x;
-          const Doubles rest = square - offset * offset;
-          hit = (along > 0) & (rest >= 0);
-          distance = V::greatest(along - V::root(rest), Doubles{});
-        });
+    if (to_x * to_x + to_y * to_y <= square) return hit_all(asker);
+    asker([&](int at, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
+      const Doubles x = V::template load<Doubles>(beams.x + at), y = V::template load<Doubles>(beams.y + at);
+      const Doubles along = to_x * x + to_y * y, offset = to_x * y - to_y * x;
+      const Doubles rest = square - offset * offset;
+      hit = (along > 0) & (rest >= 0);
+      distance = V::greatest(along - V::root(rest), Doubles{});
+    });
   }
 
-  static void hit_all(const Question& question, const Beams& beams) {
-    ask(
-        question, beams, [](int, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
-          distance = Doubles{};
-          hit = ~Longs{};
-        });
+  template <class Asker>
+  __attribute__((always_inline)) static void hit_all(Asker asker) {
+    asker([](int, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
+      distance = Doubles{};
+      hit = ~Longs{};
+    });
+  }
+
+  static void ask_box(const Question& question, const Beams& beams) {
+    ask_box(question.outline, beams, [&](auto answer) { ask(question, beams, answer); });
+  }
+  static void ask_disc(const Question& question, const Beams& beams) {
+    ask_disc(question.outline, beams, [&](auto answer) { ask(question, beams, answer); });
+  }
+
+  // Every range is written, lowered or not, and every block looked at once, for whether one is lowered is a toss of a
+  // coin: a branch that is not foreseen costs as much as asking.
+  static void ask_narrow(const NarrowQuestion* questions, int count, const Beams& beams) {
+    std::int32_t first_block = 0x7FFFFFFF, last_block = -1;
+    for (int i = 0; i < count; ++i) {
+      const NarrowQuestion& q = questions[i];
+      const auto asker = [&](auto answer) __attribute__((always_inline)) {
+        int at = q.first;
+        do {
+          Doubles distance;
+          Longs hit;
+          answer(at, distance, hit);
+          const Doubles range = V::template load<Doubles>(beams.range_m + at);
+          const Longs nearer = hit & (Longs)(distance < range);
+          V::store(beams.range_m + at, nearer ? distance : range);
+          at += lanes;
+        } while (at <= q.last);
+      };
+      if (q.outline->is_box)
+        ask_box(*q.outline, beams, asker);
+      else
+        ask_disc(*q.outline, beams, asker);
+      const std::int32_t first = q.first / Beams::block, last = q.last / Beams::block;
+      first_block = first < first_block ? first : first_block;
+      last_block = last > last_block ? last : last_block;
+    }
+    for (std::int32_t block = first_block; block <= last_block; ++block) note_farthest(block, beams);
+  }
+
+  static void note_farthest(std::int32_t block, const Beams& beams) {
+    Doubles farthest{};
+    for (int i = 0; i < Beams::block; i += lanes)
+      farthest = V::greatest(farthest, V::template load<Doubles>(beams.range_m + block * Beams::block + i));
+    set_farthest(beams.farthest_m2[block], farthest);
   }
 };
 

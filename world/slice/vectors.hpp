@@ -72,6 +72,14 @@ struct Vectors {
     return a < b ? b : a;
   }
 
+  // Of all lanes: halves against each other.
+  static double greatest_of(Doubles v) {
+    if constexpr (lanes == 8) v = greatest(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+    if constexpr (lanes == 8) v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
+    if constexpr (lanes == 4) v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1));
+    return v[0] < v[1] ? v[1] : v[0];
+  }
+
   static Floats gather(const float* from, Ints at) {
 #if defined(__AVX2__)
     if constexpr (float_lanes == 8) return (Floats)_mm256_i32gather_ps(from, (__m256i)at, sizeof(float));

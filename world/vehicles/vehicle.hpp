@@ -28,6 +28,8 @@ class Vehicle {
   const BodyDescription& description() const { return *description_; }
   const BodyState& state() const { return state_; }
   const OdometerReading& odometer() const { return odometer_.reading(); }
+  /// Adds what its state and a command touch.
+  void add_to(WorkingSet& set) const { set.add_between(this, &motion_); }
   /// So long after the start.
   BatteryState battery(double elapsed_s) const;
   /// Where it stands.

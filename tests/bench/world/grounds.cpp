@@ -28,7 +28,7 @@ world::Shape obstacle(const RandomStream& draw, std::size_t number, Point corner
 
 }  // namespace
 
-Place grounds(std::size_t obstacles, double square_m, std::size_t stations) {
+Place grounds(std::size_t obstacles, double square_m, std::size_t stations, double border_m) {
   const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(obstacles))));
   const double side_m = static_cast<double>(columns) * square_m;
   Place place{"grounds", side_m, side_m, {}, {}, {}};
@@ -37,8 +37,11 @@ Place grounds(std::size_t obstacles, double square_m, std::size_t stations) {
     return square_m * Point{static_cast<double>(square % columns), static_cast<double>(square / columns)};
   };
   for (std::size_t i = 0; i < obstacles; ++i) place.obstacles.push_back(obstacle(draw, i, corner(i), square_m));
+  const auto outer = static_cast<std::size_t>(std::ceil(border_m / square_m)), inner = columns - 2 * outer;
+  const RandomStream squares(1, place.name, "stations");
   for (std::size_t i = 0; i < stations; ++i) {
-    const Point at = corner(i * obstacles / stations);
+    const auto drawn = [&](std::uint64_t index) { return outer + squares.below(inner, i, index); };
+    const Point at = border_m > 0 ? corner(drawn(0) + columns * drawn(1)) : corner(i * obstacles / stations);
     place.stations.push_back({at.x, at.y, exact::pi * (2 * headings.uniform(i) - 1)});
   }
   return place;

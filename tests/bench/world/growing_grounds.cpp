@@ -14,10 +14,11 @@ namespace waitpoint::bench {
 
 void growing_grounds(bool quick, Figures& figures) {
   constexpr std::size_t least = 1000;
-  constexpr double square_m = 2;
+  // Who stands near the border looks out of the place, where there is nothing to find: the more so the smaller it is.
+  constexpr double square_m = 2, border_m = 24;
   double first_ns = 0;
   for (std::size_t obstacles = least; obstacles <= 1'000'000; obstacles *= 10) {
-    const Place place = grounds(obstacles, square_m, 1000);
+    const Place place = grounds(obstacles, square_m, 1000, border_m);
     const std::unique_ptr<Contender> ours = our_slice(place);
     double best_ns = HUGE_VAL;
     std::array<double, beams> ranges;

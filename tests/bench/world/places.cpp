@@ -127,12 +127,12 @@ Place warehouse(std::size_t robots) {
 
 std::vector<Point> corners(const Shape& shape) {
   const world::Outline outline = world::outline_of(shape);
+  std::vector<Point> around;
   if (outline.is_box) {
-    const world::CorePoints points = world::core_points(outline);
-    return {points.begin(), points.end()};
+    for (const Point corner : world::core_points(outline)) around.push_back(corner);
+    return around;
   }
   constexpr int sides = 16;
-  std::vector<Point> around;
   for (int i = 0; i < sides; ++i) {
     const auto [s, c] = exact::sincos(2 * exact::pi * i / sides);
     around.push_back(outline.centre + outline.radius_m * Point{c, s});

@@ -53,6 +53,7 @@ void drive(world::World& world, world::BodyId body) {
   set.add_stack_below(1024);
   set.add(scan.range_m.data(), scan.range_m.size() * sizeof(double));
   world.add_to(set, body);
+  world.add_scan_to(set, body);
   this_thread::set_working_set(set);
   for (std::uint64_t number = 1;; ++number) {
     world.scan(body, 0, number, scan);

@@ -39,6 +39,19 @@ TEST_F(Driving, OnAFreeFloorIsThatOfTheKinematicWorld) {
   }
 }
 
+TEST_F(Driving, APrismIsHeldWhereItsNoseMeetsAWall) {
+  BodyDescription body = robot("r", {0, 0, 0});
+  body.shape = prism({0, 0, 0}, {{0.4, 0}, {0.1, 0.3}, {-0.3, 0.2}, {-0.3, -0.2}, {0.1, -0.3}});
+  description_.bodies = {body};
+  description_.obstacles = {wall({1.6, 0, 0}, 0.2, 4)};
+  start();
+  world_->command(BodyId(0), {0.8, 0});
+  run(3);
+  EXPECT_NEAR(this->body().pose.x, 1.1, 0.005);
+  EXPECT_TRUE(this->body().stalled);
+  EXPECT_NEAR(this->body().pose.heading, 0, 1e-3);
+}
+
 TEST_F(Driving, IsHeldByAWallAndTheWheelsStand) {
   BodyDescription body = robot("r", {0, 0, 0});
   body.bumpers.emplace();

@@ -20,7 +20,8 @@ WorldDescription robots_among_shapes() {
   while (description.bodies.size() < 12) {
     const std::size_t n = description.bodies.size();
     const Pose start = {draw(-half_square_m, half_square_m), draw(-half_square_m, half_square_m), draw(-3, 3)};
-    const Shape shape = n % 2 == 0 ? cylinder({0, 0}, 0.3) : box({0.1, 0, 0}, 0.8, 0.5);
+    const Shape hull = prism({0.1, 0, 0}, {{0.4, 0}, {0, 0.3}, {-0.3, 0.25}, {-0.3, -0.25}, {0, -0.2}});
+    const Shape shape = n % 2 == 0 ? cylinder({0, 0}, 0.3) : n % 4 == 1 ? box({0.1, 0, 0}, 0.8, 0.5) : hull;
     BodyDescription body = nimble_body(numbered("r", n), shape, start);
     if (n % 3 == 1) {
       body.base.kind = BaseDescription::Kind::aerial;

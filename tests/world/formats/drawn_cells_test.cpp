@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/world/scenes.hpp"
@@ -33,6 +34,11 @@ TEST(DrawnCells, ExactlyTheCellsThatAShapeReachesInto) {
     const Outline outline = outline_of(shape);
     const auto inside = [&](Point p, double margin) {
       const Point q = outline.local(p);
+      if (outline.polygon != nullptr) {
+        return std::ranges::all_of(outline.polygon->sides(), [&](const ConvexPolygon::Side& side) {
+          return dot(side.outward, q) < side.beyond_m + margin;
+        });
+      }
       if (!outline.is_box) return length(q) < outline.radius_m + margin;
       return std::fabs(q.x) < outline.half_length_m + margin && std::fabs(q.y) < outline.half_width_m + margin;
     };

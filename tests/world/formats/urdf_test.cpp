@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "tests/world/formats/files.hpp"
+#include "world/planar/outline.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -81,6 +83,38 @@ TEST(Urdf, SeveralSolidsAreTakenTogetherAndFramesFollowTheJoints) {
   EXPECT_EQ(read.warnings[1], "r.urdf:1: a <robot> of several solids is taken as the upright box about them");
 }
 
+// A hull with an arm across its front: neither the box nor the cylinder about them is near.
+TEST(Urdf, SeveralSolidsAreThePrismAboutThemWhereThatIsMuchTighter) {
+  const Read read =
+      parsed(link("base", collision("<cylinder radius='0.2' length='0.4'/>", "<origin xyz='-0.5 0 0'/>")) +
+             link("arm", collision("<box size='0.1 1 0.2'/>", "<origin xyz='0.4 0 0.3'/>")) + joint("base", "arm"));
+  const Shape& shape = read.robot.shape;
+  ASSERT_EQ(shape.kind, Shape::Kind::prism);
+  EXPECT_NEAR(shape.z_low_m, 0, 1e-12);
+  EXPECT_NEAR(shape.z_high_m, 0.6, 1e-12);
+  const Outline outline = outline_of(shape);
+  const Bounds bounds = bounds_of(outline);
+  EXPECT_NEAR(bounds.high.x, 0.45, 1e-9);
+  EXPECT_NEAR(bounds.high.y, 0.5, 1e-9);
+  EXPECT_NEAR(bounds.low.x, -0.7, 0.009 * 0.2);
+  const auto is_inside = [&](Point p) {
+    const Point local = outline.local(p);
+    const auto sides = shape.polygon->sides();
+    return std::all_of(sides.begin(), sides.end(),
+                       [&](const auto& side) { return dot(side.outward, local) <= side.beyond_m; });
+  };
+  for (int i = 0; i < 360; ++i) {
+    const double angle = i * exact::pi / 180;
+    EXPECT_TRUE(is_inside({-0.5 + 0.2 * std::cos(angle), 0.2 * std::sin(angle)})) << i;
+  }
+  EXPECT_TRUE(is_inside({0.449, 0.499}));
+  EXPECT_FALSE(is_inside({-0.3, 0.4})) << "in the box about them, and not between them";
+  EXPECT_EQ(
+      read.warnings,
+      (std::vector<std::string>{
+          "r.urdf:1: a <robot> of several solids is taken as the upright prism over the convex outline of them"}));
+}
+
 TEST(Urdf, ARoundRobotStaysRound) {
   const Read read =
       parsed(link("base", collision(hull) + collision("<sphere radius='0.05'/>", "<origin xyz='-0.15 0 -0.15'/>")));
@@ -121,7 +155,7 @@ TEST(Urdf, BadInputIsOneLineAtItsPlace) {
       "r.urdf:1", "expected the outermost element to be <robot>"));
 }
 
-TEST(Urdf, AMeshIsTakenAsTheBoxAboutIt) {
+TEST(Urdf, AMeshIsThePrismOverItsConvexOutline) {
   const Folder folder;
   std::filesystem::create_directories(folder.path("rover/meshes"));
   std::filesystem::create_directories(folder.path("rover/urdf"));
@@ -135,7 +169,12 @@ TEST(Urdf, AMeshIsTakenAsTheBoxAboutIt) {
                                               "<origin xyz='0 0 0.1'/>")) +
                        "</robot>",
                    file, left_out);
-    EXPECT_EQ(robot.shape.kind, Shape::Kind::box);
+    EXPECT_EQ(robot.shape.kind, Shape::Kind::prism);
+    const CorePoints corners = core_points(outline_of(robot.shape));
+    ASSERT_EQ(corners.count(), 3u);
+    for (const Point corner : {Point{-0.1, 0}, Point{0.3, 0}, Point{0, 0.2}})
+      EXPECT_LT(std::min({length(corners[0] - corner), length(corners[1] - corner), length(corners[2] - corner)}),
+                1e-12);
     EXPECT_NEAR(robot.shape.pose.x, 0.1, 1e-12);
     EXPECT_NEAR(robot.shape.pose.y, 0.1, 1e-12);
     EXPECT_NEAR(robot.shape.length_m, 0.4, 1e-12);
@@ -143,8 +182,29 @@ TEST(Urdf, AMeshIsTakenAsTheBoxAboutIt) {
     EXPECT_NEAR(robot.shape.z_low_m, 0.1, 1e-12);
     EXPECT_NEAR(robot.shape.z_high_m, 0.15, 1e-12);
     ASSERT_EQ(left_out.warnings().size(), 1u);
-    EXPECT_NE(left_out.warnings()[0].find("a <mesh> is taken as the box about it"), std::string::npos);
+    EXPECT_NE(left_out.warnings()[0].find("a <mesh> is taken as the upright prism over its convex outline"),
+              std::string::npos);
   }
+}
+
+TEST(Urdf, ATiltedMeshHasTheOutlineOfAllItsCorners) {
+  const Folder folder;
+  folder.write("plate.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  const auto robot = [&](const std::string& rpy) {
+    LeftOut left_out;
+    return parse_urdf("<robot name='r'>" +
+                          link("base", collision("<mesh filename='plate.obj'/>", "<origin rpy='" + rpy + "'/>")) +
+                          "</robot>",
+                      folder.path("r.urdf"), left_out);
+  };
+  const Shape turned_up = robot("0 -0.5 0").shape;  // about the side along y
+  EXPECT_EQ(turned_up.kind, Shape::Kind::prism);
+  EXPECT_NEAR(turned_up.length_m, std::cos(0.5), 1e-12);
+  EXPECT_NEAR(turned_up.width_m, 1, 1e-12);
+  EXPECT_NEAR(turned_up.z_high_m - turned_up.z_low_m, std::sin(0.5), 1e-12);
+  // What has hardly an extent is a thin box.
+  EXPECT_EQ(robot("0 0 0.3").shape.kind, Shape::Kind::box);
+  EXPECT_EQ(robot("1.5707963267948966 0 0").shape.kind, Shape::Kind::box);
 }
 
 }  // namespace

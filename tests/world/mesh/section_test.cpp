@@ -56,7 +56,7 @@ TEST(Cut, OfAClosedSurfaceLetsNoBeamOut) {
         Ray ray = {{draw(-0.5, 0.5), draw(-0.5, 0.5)}, {}};
         Point target = {draw(-5, 5), draw(-5, 5)};
         // Half of the beams go to where two segments meet.
-        if (i % 2 == 0) target = core_points(all.segments[draw.below(all.segments.size())]).points[i % 4];
+        if (i % 2 == 0) target = core_points(all.segments[draw.below(all.segments.size())])[i % 4];
         ray.direction = (1 / length(target - ray.origin)) * (target - ray.origin);
         double range_m = no_hit;
         for (const Outline& segment : all.segments) range_m = std::min(range_m, hit_distance(segment, ray));
@@ -104,7 +104,8 @@ TEST(Triangles, HaveTheDistanceOfTheirNearestPoints) {
     const Point a = {draw(-2, 2), draw(-2, 2)}, b = {draw(-2, 2), draw(-2, 2)};
     const double t = draw(0, 1);
     const Point c = k % 3 == 0 ? a + t * (b - a) : Point{draw(-2, 2), draw(-2, 2)};
-    const Outline triangle = triangle_outline(a, b, c), other = outline_of(random_shape(draw, 3, 2));
+    const Shape shape = random_shape(draw, 3, 2);
+    const Outline triangle = triangle_outline(a, b, c), other = outline_of(shape);
     const Separation s = separation(triangle, other);
     EXPECT_NEAR(s.distance_m, separation(other, triangle).distance_m, 1e-12);
     EXPECT_NEAR(length(s.normal), 1, 1e-12);

@@ -14,7 +14,8 @@ namespace {
 struct Crowd {
   std::vector<Shape> shapes;
   std::vector<Arc> arcs;
-  std::vector<Outline> obstacles;
+  std::vector<Outline> obstacles = {};
+  std::vector<Shape> standing = {};  // whose outlines they are
 
   Mover mover(std::size_t i) const { return Mover(shapes[i], outline_of(shapes[i], arcs[i].start), arcs[i]); }
 };
@@ -77,7 +78,7 @@ Crowd random_crowd(Draws& draw, std::size_t bodies) {
     crowd.arcs.push_back(arc);
   }
   for (int i = 0; i < 3; ++i) {
-    const Outline obstacle = outline_of(random_shape(draw, 2.5, 0.5));
+    const Outline obstacle = outline_of(crowd.standing.emplace_back(random_shape(draw, 2.5, 0.5)));
     bool clear = true;
     for (std::size_t k = 0; k < bodies; ++k) {
       clear = clear && separation(obstacle, crowd.mover(k).start()).distance_m > 2 * contact_gap_m;

@@ -55,6 +55,61 @@ TEST(FirstContact, ATurningBoxStopsWhereItsCornerMeetsTheWall) {
   EXPECT_NEAR(gap(mover, wall, contact->fraction), contact_gap_m, 2 * contact_tolerance_m);
 }
 
+TEST(FirstContact, APrismStopsWhereItsNoseMeetsTheWallAtAnySpeed) {
+  // A hull with its nose 0.5 m ahead and 0.1 m to the left.
+  const Shape body = prism({0.1, 0.05, 0}, {{0.4, 0.05}, {0.1, 0.3}, {-0.4, 0.2}, {-0.4, -0.2}, {0.1, -0.3}});
+  for (const double distance : {0.001, 0.1, 10.0, 1e4}) {
+    for (const double slope : {0.0, 0.3, -0.2}) {  // of a wall that passes through (1, 0.1)
+      const auto [s, c] = exact::sincos(slope);
+      const Mover wall(outline_of(box({1 + 0.05 * c - 0.4 * s, 0.1 + 0.05 * s + 0.4 * c, slope}, 0.1, 5)));
+      const Mover mover = on_arc(body, {{0, 0, 0}, distance + 0.5, 0});
+      const auto contact = first_contact(mover, wall, 0);
+      ASSERT_TRUE(contact);
+      EXPECT_TRUE(contact->first_closes);
+      EXPECT_NEAR(gap(mover, wall, contact->fraction), contact_gap_m, 2 * contact_tolerance_m);
+      EXPECT_NEAR(contact->fraction * (distance + 0.5), 0.5 - contact_gap_m / c, 1e-8);
+    }
+  }
+}
+
+TEST(FirstContact, ATurningPrismStopsWhereItsCornerMeetsTheWall) {
+  // Its corners are on a circle of 0.5 m, the foremost turned by 0.3 rad from where it would be nearest to the wall.
+  for (const int count : {3, 5, 16, 64}) {
+    std::vector<Point> points;
+    for (int i = 0; i < count; ++i) {
+      const auto [s, c] = exact::sincos(exact::wrap_angle(-0.3 / count + 2 * exact::pi * i / count));
+      points.push_back({0.5 * c, 0.5 * s});
+    }
+    const Shape body = prism({0, 0, 0}, points);
+    const double near_m = 0.5 * std::cos(0.1 / count);
+    const Mover wall(outline_of(box({near_m + 1, 0, 0}, 2, 6)));
+    const Mover mover = on_arc(body, {{0, 0, 0}, 0, 1});
+    const auto contact = first_contact(mover, wall, 0);
+    ASSERT_TRUE(contact) << count;
+    const double at = 0.3 / count - std::acos((near_m - contact_gap_m) / 0.5);
+    EXPECT_NEAR(0.5 * std::cos(0.3 / count - contact->fraction), near_m - contact_gap_m, 2 * contact_tolerance_m);
+    EXPECT_NEAR(contact->fraction, at, 1e-6);
+  }
+}
+
+TEST(FirstContact, APrismMeetsADiscWithItsCornerOrSideAndACornerWithItsSide) {
+  const Shape body = prism({0, 0, 0}, {{0.5, 0}, {0, 0.4}, {-0.3, 0}, {0, -0.4}});
+  const Mover mover = on_arc(body, {{0, 0, 0}, 3, 0});
+  const auto with_corner_of_ours = first_contact(mover, Mover(outline_of(cylinder({2, 0.1}, 0.3))), 0);
+  ASSERT_TRUE(with_corner_of_ours);
+  EXPECT_NEAR(3 * with_corner_of_ours->fraction, 1.5 - std::sqrt(std::pow(0.3 + contact_gap_m, 2) - 0.01), 1e-8);
+  // The foremost side has the normal (4, 5) / sqrt(41), and lies 2 / sqrt(41) beyond the body's middle.
+  const double root_41 = std::sqrt(41.0);
+  const auto with_disc = first_contact(mover, Mover(outline_of(cylinder({2, 0.3}, 0.3))), 0);
+  ASSERT_TRUE(with_disc);
+  const double to_disc = 2 + 0.3 * 5 / 4 - (0.3 + contact_gap_m + 2 / root_41) * root_41 / 4;
+  EXPECT_NEAR(3 * with_disc->fraction, to_disc, 1e-8);
+  const Shape other = prism({2, 0.2, 0}, {{-0.4, 0}, {0.2, 0.3}, {0.2, -0.3}});
+  const auto with_corner = first_contact(mover, Mover(outline_of(other)), 0);
+  ASSERT_TRUE(with_corner);
+  EXPECT_NEAR(3 * with_corner->fraction, 1.6 - 0.5 + 0.2 * 5 / 4 - contact_gap_m * root_41 / 4, 1e-8);
+}
+
 // Ahead by d, to the left by s and turning by a, the centre goes round (-s, d) / a, from the angle -atan2(d, s) on.
 TEST(FirstContact, SidewaysArcsMeetTheWallWhereTheirCircleDoes) {
   const Shape disc = cylinder({0, 0}, 0.25);

@@ -109,7 +109,7 @@ Mover random_flight(Draws& draw, const Shape& shape, double scale) {
 TEST(FlightContact, NeverLateOnRandomFlights) {
   Draws draw(5);
   int from_the_side = 0, from_above = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 24000; ++i) {
     const Shape a = between(random_shape(draw, 0.2, 1), 0, draw(0.1, 0.6));
     const Shape b = between(random_shape(draw, 0.2, 1), 0, draw(0.1, 0.6));
     const double scale = i % 2 == 0 ? 1 : 20;
@@ -133,7 +133,7 @@ TEST(FlightContact, NeverLateOnRandomFlights) {
 TEST(FlightContact, ASwarmNeverOverlapsAndEveryNumberingGivesTheSameStops) {
   Draws draw(7);
   int stopped = 0;
-  for (int round = 0; round < 600; ++round) {
+  for (int round = 0; round < 700; ++round) {
     std::vector<Shape> shapes;
     for (int i = 0; i < 6; ++i) shapes.push_back(between(random_shape(draw, 0.1, 0.9), 0, draw(0.1, 0.5)));
     std::vector<Mover> movers;

@@ -14,7 +14,7 @@ namespace {
 class Yard final : public MeetingPlace {
  public:
   Yard(std::vector<Shape> bodies, std::vector<Pose> poses, const std::vector<Shape>& obstacles)
-      : shapes(std::move(bodies)), poses(std::move(poses)), heights_m(shapes.size()) {
+      : shapes(std::move(bodies)), obstacles(obstacles), poses(std::move(poses)), heights_m(shapes.size()) {
     for (const Shape& obstacle : obstacles)
       standing.push_back(Mover(outline_of(obstacle), {obstacle.z_low_m, obstacle.z_high_m}));
     begin(std::vector<Velocity>(shapes.size()));
@@ -64,7 +64,7 @@ class Yard final : public MeetingPlace {
     return separation(outline(body), standing[obstacle].start()).distance_m;
   }
 
-  std::vector<Shape> shapes;
+  std::vector<Shape> shapes, obstacles;
   std::vector<Pose> poses;
   std::vector<double> heights_m;
   std::vector<Mover> standing;

@@ -57,6 +57,16 @@ TEST(Sonar, AConcaveCornerThrowsSoundBackOverTheWholeCone) {
   EXPECT_EQ(range(corner, exact::pi / 4 + 0.3), 3);
 }
 
+TEST(Sonar, APrismAnswersByItsSidesAndEdges) {
+  // Its nose 1 m ahead; of its two sides there one faces a sonar that is turned by 0.6 rad, 0.8 m away.
+  const auto [s, c] = exact::sincos(0.6);
+  const Point nose = {1, 0}, left = nose + 2 * Point{-s, c}, right = {3, -1};
+  const std::vector<Shape> hull = {prism({0, 0, 0}, {nose, left, right, {4, 0}})};
+  EXPECT_NEAR(range(hull, 0), 0.75, 1e-9) << "the edge";
+  EXPECT_EQ(range(hull, -0.3), 3) << "no side of it faces that way";
+  EXPECT_NEAR(range(hull, 0.6), c - 0.25, 1e-9);
+}
+
 TEST(Sonar, AnEdgeAnswersWeakly) {
   const auto edge_at = [](double x) { return std::vector<Shape>{box({x + std::sqrt(0.5), 0, exact::pi / 4}, 1, 1)}; };
   EXPECT_NEAR(range(edge_at(1.5), 0), 1.25, 1e-9);

@@ -77,6 +77,25 @@ TEST(MovingSolids, NearAreThoseWhoseBoundsOverlap) {
   }
 }
 
+// All once, and those of one node one after the other.
+TEST(MovingSolids, AreListedNeighboursSideBySide) {
+  Draws draw(4);
+  std::vector<Shape> shapes;
+  for (int i = 0; i < 1000; ++i) shapes.push_back(cylinder({draw(0, 64), draw(0, 64)}, 0.2));
+  const MovingSolids solids(shapes);
+  std::vector<std::uint32_t> places = {7};
+  solids.list_by_leaves(places);
+  double way_m = 0;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    way_m += length(shapes[places[i]].pose.position() - shapes[places[i - 1]].pose.position());
+  EXPECT_LT(way_m / 1000, 6) << "drawn at random they are 33 m from each other";
+  std::sort(places.begin(), places.end());
+  ASSERT_EQ(places.size(), 1000u);
+  for (std::uint32_t i = 0; i < 1000; ++i) EXPECT_EQ(places[i], i);
+  MovingSolids(std::span<const Shape>()).list_by_leaves(places);
+  EXPECT_TRUE(places.empty());
+}
+
 // What is mixed thoroughly is ordered anew: boxes of eight are not much larger than where eight have room.
 TEST(MovingSolids, NeighboursStayTogetherInTheTree) {
   Draws draw(3);
