@@ -4,6 +4,7 @@
 #include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/explore/timeline_recorder.hpp"
+#include "fibers/explore/trail_recorder.hpp"
 
 namespace waitpoint::exploration {
 
@@ -44,6 +45,17 @@ std::vector<DoneEvent> take_events(Body& body, std::span<const Decision> decisio
   (void)body.run(rest, {.prefix = decisions});
   scheduler.set_watch(nullptr);
   return events;
+}
+
+Trail take_trail(Body& body, const Schedule& schedule, std::uint32_t log_spacing) {
+  Trail trail{log_spacing, {}};
+  TrailRecorder recording(trail, body.simulation());
+  kernel::Scheduler& scheduler = body.simulation().scheduler();
+  scheduler.set_watch(&recording);
+  Fifo rest;
+  (void)body.run(rest, {.prefix = schedule.decisions});
+  scheduler.set_watch(nullptr);
+  return trail;
 }
 
 }  // namespace waitpoint::exploration

@@ -6,6 +6,7 @@
 #include "fibers/explore/event_log.hpp"
 #include "fibers/explore/profile.hpp"
 #include "fibers/explore/timeline.hpp"
+#include "fibers/explore/trail.hpp"
 
 namespace waitpoint::exploration {
 
@@ -17,5 +18,8 @@ Timeline take_timeline(Body& body, const Schedule& schedule);
 
 /// Runs `body` by these decisions, and then in the default order: its events behind decision `from`.
 std::vector<DoneEvent> take_events(Body& body, std::span<const Decision> decisions, std::size_t from);
+
+/// Runs `body` once more by `schedule`: its trail, with a mark behind each 2^log_spacing events.
+Trail take_trail(Body& body, const Schedule& schedule, std::uint32_t log_spacing);
 
 }  // namespace waitpoint::exploration

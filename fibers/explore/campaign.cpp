@@ -22,6 +22,17 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t runs_to_minimize = 200'000;
 constexpr std::uint64_t runs_to_explain = 20'000;
 
+// By which two runs of one schedule are known to be one.
+std::uint64_t number_of(const Outcome& outcome) {
+  return Digest::mix(outcome.digest) ^ static_cast<std::uint64_t>(outcome.passed());
+}
+
+// Of what is run: the token that is to be replayed, or the schedules' but for their numbers.
+Token first_token(const ExploreOptions& options, std::uint32_t call) {
+  if (!options.replay.empty()) return read_token(options.replay);
+  return {call, 0, options.strategy, options.seed, 0, {}};
+}
+
 }  // namespace
 
 Campaign::Campaign(ForeignChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call)
@@ -30,9 +41,10 @@ Campaign::Campaign(ForeignChecks* checks, std::function<void()> body, const Expl
       call_(call),
       body_(std::move(body), checks, options.until, options.steps_max),
       supervisor_({.explored = -1,
-                   .token = {call, 0, options.strategy, options.seed, 0, {}},
+                   .token = first_token(options, call),
                    .replay = "replay: WAITPOINT_REPLAY=",
                    .after = " " + command_line(checks),
+                   .run = [this](const Token& token) { return number_of(play(token)); },
                    .limit_s = options.schedule_limit_s}) {
   if (!options.races) body_.ignore_races();
 }
@@ -155,13 +167,37 @@ Token Campaign::token_of(const Failure& failure) const {
   return {call_, token_digest(failure.outcome.digest), "", 0, 0, failure.schedule.deviations()};
 }
 
+std::string Campaign::replay_by(const Token& token, const Failure& failure) {
+  return to_text_with(token, take_trail(body_, failure.schedule, log_spacing_for(failure.outcome.events)));
+}
+
+// Whether a process that has run nothing before does the same by that failure's schedule. A process under a debugger
+// has nobody to ask: then it is taken for granted.
+bool Campaign::is_of_its_schedule(const Failure& failure) {
+  const std::optional<std::uint64_t> fresh = supervisor_.outcome_when_fresh(token_of(failure));
+  return !fresh || *fresh == number_of(failure.outcome);
+}
+
+void Campaign::tell_leak(const Found& found) {
+  supervisor_.pause();
+  report_.schedule = found.failure.schedule;
+  report_.text =
+      found.which + " failed: " + with_places(body_, found.failure).outcome.failure +
+      "\nin a process that has run nothing before, the same schedule is another run: the body leaks state from "
+      "one schedule into the next, or reads what is not simulated, a clock or random numbers. No line repeats it";
+}
+
 void Campaign::tell(const Found& found) {
+  if (!found.is_default && !is_of_its_schedule(found.failure)) return tell_leak(found);
   Failure least = found.failure;
   supervisor_.begin_minimizing(found.token.number, found.failure.outcome.failure);
   if (options_.minimize) least = minimize(body_, found.failure, {runs_to_minimize});
   least = with_places(body_, least);
-  const std::string deviating = to_text(token_of(least));
-  report_.replay = deviating.size() <= token_length_max ? deviating : to_text(found.token);
+  // What was run meanwhile may have left something, too.
+  if (!found.is_default && !is_of_its_schedule(least)) return tell_leak(found);
+  report_.replay = replay_by(token_of(least), least);
+  const bool is_shortest = report_.replay.size() <= token_length_max;
+  if (!is_shortest) report_.replay = replay_by(found.token, found.failure);
   report_.schedule = least.schedule;
   std::string& text = report_.text;
   text = found.which + " failed: " + least.outcome.failure + "\n";
@@ -175,6 +211,9 @@ void Campaign::tell(const Found& found) {
     if (!out.flush()) text += "waitpoint: WAITPOINT_TRACE: cannot write to '" + file + "'\n";
   }
   supervisor_.pause();
+  if (!is_shortest && !found.token.strategy.empty() && least.schedule.switches != found.failure.schedule.switches)
+    text += "a line is too short for these switches: the next one repeats the run as it was found, with " +
+            std::to_string(found.failure.schedule.switches.size()) + "\n";
   text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_line(checks_);
 }
 
@@ -211,13 +250,19 @@ std::string Campaign::difference_to(const Token& token, const Outcome& outcome) 
              " alternatives, none of the number " + std::to_string(deviation.chosen) + ": it left the record at " +
              event_at(token, deviation.decision);
   }
-  if (token.digest == 0 || token.digest == token_digest(outcome.digest)) return "";
-  return "it had " + std::to_string(outcome.events) + " events, and its digest begins with " +
-         digest_text(token_digest(outcome.digest)) + ", the token's with " + digest_text(token.digest);
+  if (token.digest == 0) return outcome.passed() ? "that one ended its process, this one passed" : "";
+  if (token.digest == token_digest(outcome.digest)) return "";
+  const std::string digests = "it had " + std::to_string(outcome.events) + " events, and its digest begins with " +
+                              digest_text(token_digest(outcome.digest)) + ", the token's with " +
+                              digest_text(token.digest);
+  if (token.trail.marks.empty()) return digests;
+  const Schedule schedule = body_.explorer().schedule();
+  return digests + ": it left the record " + parting(token.trail, take_trail(body_, schedule, token.trail.log_spacing));
 }
 
 ExploreReport Campaign::replay(const Token& token) {
   options_.minimize = false;
+  supervisor_.begin_replay();
   const Outcome outcome = play(token);
   report_.schedules = 1;
   report_.distinct = 1;

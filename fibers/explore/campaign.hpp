@@ -19,7 +19,7 @@ class Campaign {
   Campaign(ForeignChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call);
 
   ExploreReport run();
-  /// The schedule of that token alone.
+  /// The schedule of `token` alone, that of the options.
   ExploreReport replay(const Token& token);
 
  private:
@@ -37,10 +37,13 @@ class Campaign {
   std::string difference_to_the_first();
   void say_scope(const Strategy& strategy);
   void tell(const Found& found);
+  void tell_leak(const Found& found);
   Outcome play(const Token& token);
   std::string difference_to(const Token& token, const Outcome& outcome);
   std::string event_at(const Token& token, std::uint32_t decision);
   Token token_of(const Failure& failure) const;
+  bool is_of_its_schedule(const Failure& failure);
+  std::string replay_by(const Token& token, const Failure& failure);
 
   ForeignChecks* checks_;
   ExploreOptions options_;

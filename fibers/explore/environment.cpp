@@ -58,7 +58,7 @@ bool came_to_replay = false;
 void check_replayed() {
   if (came_to_replay || variable(replay_name).empty()) return;
   refuse(std::string(replay_name) + ": expected a token of this program, found '" + variable(replay_name) +
-         "': the test has no such call");
+         "': no test that was run has such a call");
 }
 
 // As a shell takes it for one.

@@ -20,9 +20,16 @@ std::uint32_t count_call(const std::string& test) {
   return ++calls;
 }
 
+void check_can_be_meant(const ExploreOptions& options) {
+  (void)exploration::make_strategy(options.strategy);
+  if (options.iterations == 0) throw BadInput("iterations", "expected a positive whole number, found 0");
+  if (!(options.time_limit_s >= 0))
+    throw BadInput("time_limit_s", "expected seconds, or 0 for none, found " + std::to_string(options.time_limit_s));
+}
+
 ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<void()> body, ExploreOptions options) {
   const std::uint32_t call = count_call(checks != nullptr ? checks->name() : "");
-  (void)exploration::make_strategy(options.strategy);  // BadInput before anything is run
+  check_can_be_meant(options);  // before anything is run
   if (options.replay.empty()) return exploration::Campaign(checks, std::move(body), options, call).run();
   const exploration::Token token = exploration::read_token(options.replay);
   if (token.call == 0)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Expectations of GoogleTest that fail within an explored body are caught: they make its schedule fail, and are shown
-// once, with the report. A body that skips the test (GTEST_SKIP) skips it. Comes with explore.hpp where GoogleTest was
-// included before.
+// once, with the report. A body that skips the test (GTEST_SKIP) in the default order, which is the first, skips it; in
+// another schedule it only leaves. Comes with explore.hpp where GoogleTest was included before.
 #pragma once
 
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -16,11 +17,8 @@ namespace waitpoint::exploration {
 
 class GoogleTestChecks final : public ForeignChecks {
  public:
-  GoogleTestChecks() {
-    static const bool listens = (testing::UnitTest::GetInstance()->listeners().Append(new Ends), true);
-    (void)listens;
-  }
   void begin() override {
+    ++runs_;
     reporter_.reset();
     results_.emplace();
     reporter_.emplace(testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &*results_);
@@ -38,7 +36,7 @@ class GoogleTestChecks final : public ForeignChecks {
             .append(std::to_string(result.line_number()))
             .append(": ")
             .append(result.message());
-      else if (result.skipped() && !skips_)
+      else if (result.skipped() && runs_ == 1)
         skip(result);
     }
     return text;
@@ -58,14 +56,16 @@ class GoogleTestChecks final : public ForeignChecks {
     void OnTestIterationEnd(const testing::UnitTest&, int) override { tests_are_over(); }
   };
 
-  // Told to the test itself, once.
-  void skip(const testing::TestPartResult& result) {
-    skips_ = true;
+  // Told to the test itself.
+  static void skip(const testing::TestPartResult& result) {
     GTEST_SKIP() << (result.file_name() != nullptr ? result.file_name() : "?") << ":" << result.line_number() << ": "
                  << result.message();
   }
 
-  bool skips_ = false;
+  // From the program's start, as a filter may leave no test that explores.
+  inline static const bool listens_ = (testing::UnitTest::GetInstance()->listeners().Append(new Ends), true);
+
+  std::uint64_t runs_ = 0;
   std::optional<testing::TestPartResultArray> results_;
   std::optional<testing::ScopedFakeTestPartResultReporter> reporter_;
 };

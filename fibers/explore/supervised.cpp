@@ -1,38 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/supervised.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <fstream>
 #include <optional>
+
+#include "fibers/explore/process_ticks.hpp"
 
 namespace waitpoint::exploration {
 namespace {
 
-// After so many seconds a schedule is told to go on for long; one in which nothing is computed for as long waits for
-// what nobody will give.
+// After so many seconds a schedule is told to go on for long.
 constexpr std::uint32_t long_s = 10;
-constexpr int second_ms = 1000, patience_ms = 2000;
-
-// The time that a process has computed, in the system's ticks; nothing where it is stopped, by a debugger for example.
-std::optional<std::uint64_t> ticks_of(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  std::getline(file, text, ')');  // the number and the name, which may have blanks
-  char state = 0;
-  file >> state;
-  constexpr int fields_between = 10;
-  for (int i = 0; i < fields_between; ++i) file >> text;
-  std::uint64_t user = 0, system = 0;
-  if (!(file >> user >> system) || state == 'T' || state == 't') return std::nullopt;
-  return user + system;
-}
+constexpr int second_ms = 1000, patience_ms = 2000, fresh_ms_max = 10'000;
+// A status that no body is likely to end a process with.
+constexpr int came_to_its_end = 87;
 
 class Watchman {
  public:
-  Watchman(int pipe, const Supervised& supervised, const Supervision& supervision)
+  Watchman(int pipe, Supervised& supervised, const Supervision& supervision)
       : pipe_(pipe), supervised_(supervised), supervision_(supervision) {}
 
   void run() {
@@ -41,23 +31,49 @@ class Watchman {
   }
 
  private:
-  bool is_over(int timeout_ms) const {
+  bool is_over(int timeout_ms) {
     pollfd end{pipe_, POLLIN, 0};
-    return poll(&end, 1, timeout_ms) != 0;
+    if (poll(&end, 1, timeout_ms) == 0) return false;
+    char word = it_is_done;
+    if (read(pipe_, &word, 1) != 1 || word != asks_for_fresh) return true;
+    std::string token;
+    while (read(pipe_, &word, 1) == 1 && word != '\n') token += word;
+    run_fresh(token);
+    return false;
+  }
+
+  // In a process of its own, as this one is: it has never run the body.
+  void run_fresh(const std::string& token) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+      for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, descriptor);
+      supervised_.fresh_outcome = supervision_.run(read_token(token));
+      _exit(came_to_its_end);
+    }
+    int status = 0;
+    for (int waited_ms = 0; child > 0 && waitpid(child, &status, WNOHANG) == 0; ++waited_ms) {
+      if (waited_ms == fresh_ms_max) kill(child, SIGKILL);
+      usleep(1000);
+    }
+    // Said last of all: the next request may follow at once.
+    const bool is_known = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == came_to_its_end;
+    supervised_.fresh = is_known ? Fresh::known : Fresh::unknown;
   }
 
   // Once a second.
   void look() {
     const std::optional<std::uint64_t> ticks = ticks_of(supervision_.explored);
     const Doing doing = supervised_.doing;
-    const bool is_another = supervised_.turn != turn_ || (doing != Doing::default_schedule && doing != Doing::schedule);
+    const bool is_one = doing == Doing::default_schedule || doing == Doing::schedule || doing == Doing::replay;
+    const bool is_another = supervised_.turn != turn_ || !is_one;
     if (is_another) seconds_ = idle_s_ = 0;
     turn_ = supervised_.turn;
     if (is_another || !ticks) return;
     idle_s_ = *ticks == ticks_ ? idle_s_ + 1 : 0;
     ticks_ = *ticks;
     ++seconds_;
-    if (idle_s_ >= long_s)
+    if (idle_s_ >= idle_s_max)
       end(" has waited for " + std::to_string(idle_s_) +
           " s for something that is not simulated, a real lock or input: the process is ended");
     else if (supervision_.limit_s != 0 && seconds_ >= supervision_.limit_s)
@@ -69,6 +85,7 @@ class Watchman {
 
   bool is_default() const { return supervised_.doing == Doing::default_schedule; }
   std::string which() const {
+    if (supervised_.doing == Doing::replay) return "the replayed schedule";
     return is_default() ? "the default schedule" : "schedule " + std::to_string(supervised_.number);
   }
   std::string within() const {
@@ -79,14 +96,14 @@ class Watchman {
 
   void tell(const std::string& words) const {
     Token token = supervision_.token;
-    token.number = supervised_.number;
-    if (is_default()) token.strategy.clear();
+    if (supervised_.doing != Doing::replay) token.number = supervised_.number;
+    if (is_default()) token = {.call = token.call, .strategy = {}, .deviations = {}};
     const std::string text =
         "waitpoint: " + words + "\n" + supervision_.replay + to_text(token) + supervision_.after + "\n";
     (void)!write(STDERR_FILENO, text.data(), text.size());
   }
 
-  [[noreturn]] void end(const std::string& why) const {
+  [[noreturn]] void end(const std::string& why) {
     tell(which() + why);
     kill(supervision_.explored, end_signal);
     if (!is_over(patience_ms)) kill(supervision_.explored, SIGKILL);
@@ -94,7 +111,7 @@ class Watchman {
   }
 
   int pipe_;
-  const Supervised& supervised_;
+  Supervised& supervised_;
   const Supervision& supervision_;
   std::uint64_t turn_ = 0, ticks_ = 0;
   std::uint32_t seconds_ = 0, idle_s_ = 0;  // of this turn; without computing
@@ -102,7 +119,7 @@ class Watchman {
 
 }  // namespace
 
-void supervise(int pipe, const Supervised& supervised, const Supervision& supervision) {
+void supervise(int pipe, Supervised& supervised, const Supervision& supervision) {
   setsid();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
   Watchman(pipe, supervised, supervision).run();

@@ -74,7 +74,7 @@ Supervisor::~Supervisor() {
   if (shared_ != nullptr) shared_->done = true;
   // Not the end of the pipe alone: processes that a debugger or the body forked may have it open still.
   if (pipe_ >= 0) {
-    (void)!write(pipe_, "", 1);
+    (void)!write(pipe_, &it_is_done, 1);
     close(pipe_);
   }
   if (process_ > 0) {
@@ -92,6 +92,8 @@ void Supervisor::begin(Doing doing) {
 
 void Supervisor::begin_default() { begin(Doing::default_schedule); }
 
+void Supervisor::begin_replay() { begin(Doing::replay); }
+
 void Supervisor::begin(std::uint64_t number) {
   if (shared_ == nullptr) return;
   shared_->number.store(number, std::memory_order_relaxed);
@@ -103,6 +105,20 @@ void Supervisor::begin_minimizing(std::uint64_t number, const std::string& failu
   shared_->number.store(number, std::memory_order_relaxed);
   std::snprintf(shared_->failure, sizeof shared_->failure, "%s", failure.c_str());
   begin(Doing::minimizing);
+}
+
+std::optional<std::uint64_t> Supervisor::outcome_when_fresh(const Token& token) {
+  if (process_ <= 0) return std::nullopt;
+  shared_->fresh = Fresh::asked;
+  const std::string text = asks_for_fresh + to_text(token) + '\n';
+  for (std::size_t at = 0; at < text.size();) {
+    const ssize_t written = write(pipe_, text.data() + at, text.size() - at);
+    if (written <= 0) return std::nullopt;
+    at += static_cast<std::size_t>(written);
+  }
+  while (shared_->fresh == Fresh::asked)
+    if (usleep(100); waitpid(process_, nullptr, WNOHANG) != 0) return std::nullopt;  // nobody is there
+  return shared_->fresh == Fresh::known ? std::optional(shared_->fresh_outcome.load()) : std::nullopt;
 }
 
 void Supervisor::pause() {

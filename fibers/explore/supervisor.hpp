@@ -16,6 +16,7 @@
 
 #include <csignal>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "fibers/explore/supervised.hpp"
@@ -36,8 +37,13 @@ class Supervisor {
   void begin_default();
   /// Schedule `number` begins.
   void begin(std::uint64_t number);
+  /// The schedule of the token that is supervised begins.
+  void begin_replay();
   /// Schedule `number` has failed, in these words, and is cut down and explained by running others.
   void begin_minimizing(std::uint64_t number, const std::string& failure);
+  /// What the run of `token` comes to in a process that was forked before anything was run; nothing where it is not
+  /// known: there is no supervision, or the process did not come to the end.
+  std::optional<std::uint64_t> outcome_when_fresh(const Token& token);
   /// Nothing of a schedule is under way.
   void pause();
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view version = "wx1";
 constexpr std::size_t digest_digits = 8;
+constexpr char before_trail = '-';
 
 [[noreturn]] void refuse(const std::string& text, const std::string& expected) {
   throw BadInput("replay", "expected " + expected + " in the token '" + text + "'");
@@ -56,7 +57,9 @@ bool is_token(const std::string& text) { return text.starts_with("wx") && text.f
 
 std::string to_text(const Token& token) {
   std::string text(version);
-  text += "." + std::to_string(token.call) + "." + digest_text(token.digest) + ".";
+  text += "." + std::to_string(token.call) + "." + digest_text(token.digest);
+  if (const std::string trail = to_text(token.trail); !trail.empty()) text += before_trail + trail;
+  text += ".";
   if (!token.strategy.empty())
     return text + token.strategy + "." + std::to_string(token.seed) + "." + std::to_string(token.number);
   text += "=";
@@ -67,13 +70,24 @@ std::string to_text(const Token& token) {
   return text;
 }
 
+std::string to_text_with(Token token, const Trail& trail) {
+  token.trail = trail;
+  if (std::string text = to_text(token); text.size() <= token_length_max) return text;
+  token.trail = {};
+  return to_text(token);
+}
+
 Token read_token(const std::string& text) {
   std::string_view rest = text;
   if (const std::string_view first = take(rest, '.'); first != version)
     refuse(text, "the version " + std::string(version) + ", not '" + std::string(first) + "',");
   Token token;
   token.call = take_number<std::uint32_t>(take(rest, '.'), text, "the number of the call of explore()");
-  token.digest = take_digest(take(rest, '.'), text);
+  std::string_view end = take(rest, '.');
+  const bool has_trail = end.find(before_trail) != std::string_view::npos;
+  token.digest = take_digest(take(end, before_trail), text);
+  if (has_trail && !read_trail(end, token.trail))
+    refuse(text, "letters and digits of a trail, not '" + std::string(end) + "',");
   if (rest.starts_with('=')) {
     rest.remove_prefix(1);
     while (!rest.empty()) {

@@ -3,9 +3,11 @@
 //
 //   wx1.1.9f3a2c1b.pct:3.7.1234      schedule 1234 of strategy pct:3 with seed 7
 //   wx1.1.9f3a2c1b.=12-1,40-2        the default order, but at its 12th choice alternative 1, at its 40th alternative 2
+//   wx1.1.9f3a2c1b-4Fx0s.=12-1       the same, with a trail
 //
 // The second field counts the calls of explore() in the test, the third is the beginning of the digest of the run, by
-// which another program's token is known; zeros where the run was cut off by a crash.
+// which another program's token is known; zeros where the run was cut off by a crash. Where there is room, a trail
+// (trail.hpp) follows it, by which it is known too where the run of another program leaves this one.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "fibers/explore/schedule.hpp"
+#include "fibers/explore/trail.hpp"
 
 namespace waitpoint::exploration {
 
@@ -23,6 +26,7 @@ struct Token {
   std::uint64_t seed = 0;
   std::uint64_t number = 0;
   std::vector<Deviation> deviations;
+  Trail trail = {};
 
   friend bool operator==(const Token&, const Token&) = default;
 };
@@ -37,6 +41,8 @@ std::string digest_text(std::uint32_t digest);
 inline constexpr std::size_t token_length_max = 80;
 
 std::string to_text(const Token& token);
+/// With this trail, where there is room for it in a line.
+std::string to_text_with(Token token, const Trail& trail);
 /// Throws BadInput, which says what was expected.
 Token read_token(const std::string& text);
 /// Whether `text` is meant as one, and not as the name of a file.

@@ -30,10 +30,13 @@ void show_debugger(Time now, const Task& task, Operation operation, const Object
   view.before = view.last;
   view.last = {now, task.id, object != nullptr ? object->identity : 0, operation};
   ++view.events;
-  if (view.events == view.stop_at_event || now >= view.stop_at_time || task.id == view.stop_at_task)
-    debugger_stop();
-  else if (view.events >= view.checkpoint_at)
+  const bool stops = view.events == view.stop_at_event || now >= view.stop_at_time || task.id == view.stop_at_task;
+  if (view.events >= view.checkpoint_at) {
+    view.restarted = false;
     debugger_checkpoint();
+    if (view.restarted) return;  // what was asked then is past
+  }
+  if (stops) debugger_stop();
 }
 
 namespace {

@@ -37,6 +37,7 @@ struct DebuggerView {
   Time stop_at_time = Time::max();                  ///< the first event then or later
   std::uint64_t stop_at_task = 0;                   ///< the next event of the task with this id
   std::uint64_t checkpoint_at = ~std::uint64_t{0};  ///< the first event from this one on
+  bool restarted = false;                           ///< the process goes on from a checkpoint
 
   // Read by it.
   std::uint64_t events = 0;  ///< seen by now, of all runs

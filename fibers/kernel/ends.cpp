@@ -30,7 +30,7 @@ bool Scheduler::count_end(const Task& task) {
   if (--task.robot->live_tasks == 0) {
     task.robot->ended = true;
     task.robot->lane = &unheard_;
-    task.robot->end_time = now_;
+    task.robot->end_time = agenda_.now;
   }
   return --live_tasks_ == 0;
 }
@@ -52,13 +52,12 @@ void Scheduler::end_task(Task& task) {
 void Scheduler::unwind() {
   WAITPOINT_CHECK(running == nullptr, "unwind() is called from within a task");
   unwinding_ = interrupted_ = true;
-  may_stay_ = may_stay_alone_ = ordinary_ = false;
+  free_pass_.forbid();
+  ordinary_ = false;
   paused_ = nullptr;
   // Timers may outlive the run: they must not find themselves in its list. Objects that tasks wait for are not touched:
   // they may be gone with the frames that own them, and read as fresh in the next run.
-  while (!events_.empty()) events_.pop();
-  ready_.clear();
-  present_.clear();
+  agenda_.clear();
   // Each entry ends its task, which unlinks it.
   while (last_task_ != nullptr) {
     Task& task = *last_task_;
@@ -70,10 +69,7 @@ void Scheduler::unwind() {
 void Scheduler::end_in_place(Task& task) {
   WAITPOINT_CHECK(&task != running && task.state != TaskState::running, "a task that runs is ended by another");
   if (paused_ == &task) paused_ = nullptr;
-  if (task.event.place == EventNode::ready)
-    is_explored() ? ready_.remove(task) : present_.remove(task);
-  else if (task.event.in_list())
-    events_.remove(task.event);
+  agenda_.remove(task);
   if (task.state == TaskState::blocked) remove_waiter(task);
   while (task.held != nullptr) {
     Object& object = *task.held;
@@ -86,8 +82,7 @@ void Scheduler::end_in_place(Task& task) {
 }
 
 void Scheduler::keep_running_task_only() {
-  ready_.clear();
-  present_.clear();
+  agenda_.clear_present();
   for (Task *task = first_task_, *next = nullptr; task != nullptr; task = next) {
     next = task->next;
     if (task != running) end_in_place(*task);

@@ -34,47 +34,47 @@ ReadySet::~ReadySet() {
 }
 
 void Scheduler::set_decisions(Decisions& decisions) {
-  WAITPOINT_CHECK(chooser_.order() == Order::explored, "only in the explored order somebody else decides");
-  if (chooser_.decisions() == nullptr) ready_.reserve(tasks_max);
-  chooser_.set_decisions(decisions);
+  WAITPOINT_CHECK(agenda_.chooser.order() == Order::explored, "only in the explored order somebody else decides");
+  if (agenda_.chooser.decisions() == nullptr) agenda_.ready.reserve(tasks_max);
+  agenda_.chooser.set_decisions(decisions);
 }
-
-bool Scheduler::is_due_later() const { return !events_.empty() && events_.least().key.time < until_; }
 
 // Those that are ready go on at the instant of the next event.
 void Scheduler::let_time_pass() {
   WAITPOINT_CHECK(is_due_later(), "nothing is due later, for which time could pass");
-  const Time next = events_.least().key.time;
-  while (!ready_.empty()) {
-    Task& task = ready_.take(0);
+  const Time next = agenda_.events.least().key.time;
+  while (!agenda_.ready.empty()) {
+    Task& task = agenda_.ready.take(0);
     set_local_time(task, next);
-    events_.insert(task.event, key(task, next));
+    agenda_.events.insert(task.event, agenda_.key(task, next));
   }
 }
 
 Fiber& Scheduler::next_explored() {
   for (;;) {
-    if (ready_.empty() || (!events_.empty() && is_before_tasks_at(events_.least().key, now_))) {
-      EventNode* node = events_.pop_before(until_);
+    if (agenda_.ready.empty() ||
+        (!agenda_.events.empty() && is_before_tasks_at(agenda_.events.least().key, agenda_.now))) {
+      EventNode* node = agenda_.events.pop_before(agenda_.until);
       if (node == nullptr) return outside(pending_events() == 0 ? RunState::idle : RunState::reached);
-      now_ = events_.present();
+      agenda_.now = agenda_.events.present();
       if (node->fire != nullptr) {
         node->fire(*node);
         continue;
       }
       Task& task = task_of(*node);
       if (task.phase != Phase::tasks) return go(task).fiber;
-      ready_.add(task);
-      while (is_of_tasks(events_.least().key) && events_.least().key.time == now_) ready_.add(task_of(events_.pop()));
+      agenda_.ready.add(task);
+      while (is_of_tasks(agenda_.events.least().key) && agenda_.events.least().key.time == agenda_.now)
+        agenda_.ready.add(task_of(agenda_.events.pop()));
     }
-    if (now_ >= until_) return outside(RunState::reached);
-    const std::uint32_t chosen = chooser_.decisions()->next(ready_.tasks(), ready_.size());
+    if (agenda_.now >= agenda_.until) return outside(RunState::reached);
+    const std::uint32_t chosen = agenda_.chooser.decisions()->next(agenda_.ready.tasks(), agenda_.ready.size());
     if (cause_ != StopCause::none) return outside(RunState::stopped);
     if (__builtin_expect(chosen == Decisions::later, 0)) {
       let_time_pass();
       continue;
     }
-    return go(ready_.take(chosen)).fiber;
+    return go(agenda_.ready.take(chosen)).fiber;
   }
 }
 

@@ -51,7 +51,7 @@ void compute(Task& task, Duration least, Duration greatest) {
 
 Duration Scheduler::choose(Task& task, Duration least, Duration greatest) {
   if (least == greatest) return least;
-  return pass(task, chooser_.computing(task, least, greatest));
+  return pass(task, agenda_.chooser.computing(task, least, greatest));
 }
 
 Duration Scheduler::pass(const Task& task, Duration cost) {

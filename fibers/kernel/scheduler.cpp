@@ -8,7 +8,6 @@
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/kernel/fetch.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/sanitizer.hpp"
@@ -28,49 +27,16 @@ void copy_name(char (&to)[name_size], const char* from) {
   to[name_size - 1] = '\0';
 }
 
-// A parked task's registers, and the frames from its switch up to its own code.
-constexpr int stack_lines_fetched = 5;
-// Of a task's record, what waking it touches; of its robot's, where its events are hashed.
-constexpr int record_lines_fetched = 4, robot_lines_fetched = 2;
-
-void fetch_lines(const void* from, std::ptrdiff_t count) {
-  for (std::ptrdiff_t line = 0; line < count; ++line) fetch(static_cast<const char*>(from) + 64 * line);
-}
-
-// Of the tasks that come next, in three steps, each of which reads what the one before it has fetched: the record; the
-// stack, and what else the task works on; that. Any of them may be null.
-void prepare(const Task* next, const Task* second, const Task* third) {
-  if (third != nullptr) fetch_lines(third, record_lines_fetched);
-  if (second != nullptr) {
-    fetch_lines(second->fiber.context, stack_lines_fetched);
-    fetch_lines(second->robot, robot_lines_fetched);
-    const std::size_t listed = second->working_set_size * sizeof(CacheLines);
-    fetch_lines(second->working_set, static_cast<std::ptrdiff_t>((listed + 63) / 64));
-  }
-  if (next == nullptr) return;
-  for (std::uint32_t i = 0; i < next->working_set_size; ++i) {
-    const CacheLines& lines = next->working_set[i];
-    fetch_lines(reinterpret_cast<const void*>(lines.first * CacheLines::bytes), lines.count);
-  }
-}
-
 }  // namespace
 
-Scheduler::Scheduler(Order order, std::uint64_t seed) : events_(events_max), chooser_(order, seed), epoch_(++runs) {
-  allow_free_passes();
+Scheduler::Scheduler(Order order, std::uint64_t seed) : agenda_(order, seed), epoch_(++runs) {
+  free_pass_.allow(agenda_.chooser.order());
   set_watch(nullptr);
   if (sanitizer::present) sanitizer::begin_run();
 }
 
-// The short way through a waitpoint is inline, in code that ThreadSanitizer may look at: it would take what tasks write
-// to the scheduler for races.
-void Scheduler::allow_free_passes() {
-  may_stay_ = chooser_.order() == Order::fifo && !sanitizer::present;
-  may_stay_alone_ = chooser_.order() == Order::seeded && !sanitizer::present;
-}
-
 // The run goes on, in its usual order: nobody wants it to stop, or the tasks to do anything else than their own.
-void Scheduler::allow_short_ways() { ordinary_ = may_stay_ && !interrupted_; }
+void Scheduler::allow_short_ways() { ordinary_ = free_pass_.may_stay() && !interrupted_; }
 
 Scheduler::~Scheduler() {
   WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
@@ -81,10 +47,8 @@ Scheduler::~Scheduler() {
 
 void Scheduler::restart(std::uint64_t seed) {
   WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "a run begins before the one before it is unwound");
-  events_.restart();
-  chooser_.restart(seed);
+  agenda_.restart(seed);
   epoch_ = ++runs;
-  now_ = until_ = Time();
   lookahead_ = Duration::max();
   first_robot_ = last_robot_ = nullptr;
   culprit_ = nullptr;
@@ -94,7 +58,7 @@ void Scheduler::restart(std::uint64_t seed) {
   state_ = RunState::idle;
   cause_ = StopCause::none;
   unheard_ = PairDigest();
-  allow_free_passes();
+  free_pass_.allow(agenda_.chooser.order());
   unwinding_ = interrupted_ = false;
   if (sanitizer::present) {
     sanitizer::end_run();
@@ -115,7 +79,7 @@ void Scheduler::add(Robot& robot, const char* name) {
 }
 
 Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument) {
-  const Time start = running != nullptr ? kernel::local_time(*running) : now_;
+  const Time start = running != nullptr ? kernel::local_time(*running) : agenda_.now;
   if (unwinding_ || tasks_ >= most_tasks_) return nullptr;
   Stack stack;
   // Sanitizers make frames larger, and put a report together on the stack of the task that is found out.
@@ -148,8 +112,8 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
     ++live_tasks_;
     ++robot.live_tasks;
   }
-  place(task, task.local_time);
-  if (task.local_time <= now_) note_present_event(task.phase);
+  agenda_.place(task, task.local_time);
+  if (task.local_time <= agenda_.now) free_pass_.note_present_event(task.phase);
   return &task;
 }
 
@@ -159,19 +123,19 @@ RunState Scheduler::run_before(Time until) {
   WAITPOINT_CHECK(running == nullptr, "run_before() is called from within a task");
   WAITPOINT_CHECK(!unwinding_, "a run that is over is run");
   tell_debugger(*this);
-  until_ = until;
+  agenda_.until = until;
   allow_short_ways();
   if (cause_ != StopCause::none) return RunState::stopped;
   if (paused_ != nullptr) {
     Task& task = *paused_;
-    if (precedes(task, next_key())) {
-      if (task.local_time >= until_) return RunState::reached;
+    if (agenda_.precedes(task, agenda_.next_key())) {
+      if (task.local_time >= agenda_.until) return RunState::reached;
       paused_ = nullptr;
       switch_to(task);
       return state_;
     }
     paused_ = nullptr;
-    events_.insert(task.event, key(task, task.local_time));
+    agenda_.events.insert(task.event, agenda_.key(task, task.local_time));
   }
   enter_run(next_fiber());
   return state_;
@@ -180,56 +144,40 @@ RunState Scheduler::run_before(Time until) {
 // Takes the least event out, and what is not a task's until one is: the fiber that goes on. Where the window or the run
 // ends, that of the context outside. To be left for at once.
 Fiber& Scheduler::next_fiber() {
-  if (__builtin_expect(is_explored(), 0)) return next_explored();
+  if (__builtin_expect(agenda_.is_explored(), 0)) return next_explored();
   for (;;) {
-    if (!present_.empty() && now_ < until_ && !(events_.least().key < EventKey{now_, present_.order()})) {
-      Task& task = present_.take();
-      if (present_.size() >= many_ready) prepare_ready();
+    if (!agenda_.present.empty() && agenda_.now < agenda_.until &&
+        !(agenda_.events.least().key < EventKey{agenda_.now, agenda_.present.order()})) {
+      Task& task = agenda_.present.take();
+      if (agenda_.present.size() >= many_ready) fetch_coming(agenda_.present);
       resume(task);
       return task.fiber;
     }
-    EventNode* node = events_.pop_before(until_);
+    EventNode* node = agenda_.events.pop_before(agenda_.until);
     if (node == nullptr) return outside(pending_events() == 0 ? RunState::idle : RunState::reached);
-    if (Task* task = due(*node, events_.present())) return task->fiber;
+    if (Task* task = due(*node, agenda_.events.present())) return task->fiber;
   }
 }
 
 // The task whose event it is, which is running now; null for others, which are done with.
 inline Task* Scheduler::due(EventNode& node, Time time) {
-  now_ = time;
+  agenda_.now = time;
   if (__builtin_expect(node.fire != nullptr, 0)) {
     node.fire(node);
     return nullptr;
   }
-  if (events_.is_large()) prepare_coming();
+  if (agenda_.events.is_large()) fetch_coming(agenda_.events);
   return &go(task_of(node));
-}
-
-// With many tasks, each one's record and stack are out of the cache by the time it is due: they are fetched while the
-// ones before it run.
-inline void Scheduler::prepare_coming() const {
-  const EventNode* const third = events_.coming(2);
-  prepare(as_task(events_.coming(0)), as_task(events_.coming(1)), reinterpret_cast<const Task*>(third));
-}
-
-[[gnu::noinline]] void Scheduler::prepare_ready() const {
-  const Task* const next = present_.first();
-  const Task* const second = next->next_waiter;
-  prepare(next, second, second != nullptr ? second->next_waiter : nullptr);
-}
-
-inline const Task* Scheduler::as_task(const EventNode* node) {
-  return node == nullptr || node->fire != nullptr ? nullptr : reinterpret_cast<const Task*>(node);
 }
 
 Time Scheduler::next_event_time() const {
   if (paused_ != nullptr) return paused_->local_time;
-  return ready_.empty() ? next_key().time : now_;
+  return agenda_.next_time();
 }
 
 void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
   task.attention = static_cast<std::uint8_t>(needed ? task.attention | reason : task.attention & ~reason);
-  if (&task == running) end_free_passes();
+  if (&task == running) free_pass_.end();
 }
 
 Fiber& Scheduler::outside(RunState state) {
@@ -247,12 +195,12 @@ void Scheduler::leave_to_main(RunState state) {
   state_ = state;
   if (running == nullptr) return;
   Fiber& from = running->fiber;
-  end_free_passes();
+  free_pass_.end();
   leave(from, outside(state));
 }
 
 void Scheduler::leave_for_next(Task& task) {
-  end_free_passes();
+  free_pass_.end();
   leave(task.fiber, next_fiber());
 }
 
@@ -269,9 +217,9 @@ void Scheduler::stop_between_events(StopCause cause, Task& culprit) {
 }
 
 void Scheduler::pause() {
-  until_ = Time();  // no event is before it
+  agenda_.until = Time();  // no event is before it
   ordinary_ = false;
-  if (running != nullptr) end_free_passes();
+  if (running != nullptr) free_pass_.end();
 }
 
 void Scheduler::reclaim_ended() {
@@ -284,20 +232,20 @@ void Scheduler::reclaim_ended() {
 // The least event of the list is before the task's, and none of the present instant: the fiber to leave for.
 Fiber& Scheduler::give_way(Task& task, const EventEntry& least) {
   task.state = TaskState::ready;
-  const EventKey own = key(task, task.local_time);
+  const EventKey own = agenda_.key(task, task.local_time);
   const Time time = least.key.time;
-  if (time >= until_) {
-    events_.insert(task.event, own);
+  if (time >= agenda_.until) {
+    agenda_.events.insert(task.event, own);
     return outside(RunState::reached);
   }
-  Task* next = due(events_.exchange(least, task.event, own), time);
+  Task* next = due(agenda_.events.exchange(least, task.event, own), time);
   return next != nullptr ? next->fiber : next_fiber();
 }
 
 // The same where some of the present instant are.
 Fiber& Scheduler::give_way_to_present(Task& task) {
   task.state = TaskState::ready;
-  events_.insert(task.event, key(task, task.local_time));
+  agenda_.events.insert(task.event, agenda_.key(task, task.local_time));
   return next_fiber();
 }
 

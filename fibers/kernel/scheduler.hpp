@@ -15,62 +15,17 @@
 #include <cstdint>
 
 #include "core/time.hpp"
-#include "fibers/kernel/chooser.hpp"
-#include "fibers/kernel/event_list.hpp"
-#include "fibers/kernel/present_queue.hpp"
-#include "fibers/kernel/ready_set.hpp"
+#include "fibers/kernel/agenda.hpp"
+#include "fibers/kernel/departure.hpp"
+#include "fibers/kernel/free_pass.hpp"
+#include "fibers/kernel/limits.hpp"
+#include "fibers/kernel/run_state.hpp"
+#include "fibers/kernel/spawn_options.hpp"
 #include "fibers/kernel/stack_arena.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/kernel/watch.hpp"
 
 namespace waitpoint::kernel {
-
-/// How run_before() came back.
-enum class RunState : std::uint8_t {
-  reached,  ///< the time asked for; more events may follow
-  idle,     ///< no event is left; tasks may be blocked
-  stopped,  ///< see StopCause
-};
-
-enum class StopCause : std::uint8_t {
-  none,
-  ended,        ///< no task remains but services
-  deadlock,     ///< a cycle of owners without finite timeouts
-  no_progress,  ///< virtual time stands still while tasks spin
-  requested,    ///< by a task
-};
-
-/// One executed event, as a watch sees it.
-struct EventRecord {
-  Time time;
-  const Task* task;
-  Operation operation;
-  const Object* object;  ///< null for start, end, yield and sleep
-};
-
-/// Hangs on the waitpoint: tracing and recording. Costs one predictable branch when there is none.
-struct Watch {
-  void (*event)(Watch&, const EventRecord&) = nullptr;
-};
-
-struct SpawnOptions {
-  const char* name = "task";  ///< cut to 47 characters
-  StackSize stack = StackSize::medium;
-  Phase phase = Phase::tasks;
-  bool service = false;
-  LocalClock* clock = nullptr;  ///< must outlive the task; null: only what it declares moves its local time
-  Seat* seat = nullptr;         ///< on the processor that it shares; null: it has one of its own
-};
-
-inline constexpr std::uint32_t tasks_max = 1u << 20;
-/// Of tasks and timers, and messages under way.
-inline constexpr std::uint32_t events_max = 2 * tasks_max;
-/// Waitpoints that a task may pass at one instant before its ties get a turn.
-inline constexpr std::uint32_t turns_max = 1000;
-/// Turns at one instant, and turns_max more a task, after which a run makes no progress: some tens of millions of
-/// waitpoints, which a test that gives its computing no cost may well pass.
-inline constexpr std::uint64_t idle_turns_max = 20'000;
-/// Calls that a task may make while it is unwound: one that makes more does not leave, and is abandoned.
-inline constexpr std::uint32_t refusals_max = 10'000;
 
 class Scheduler {
  public:
@@ -135,7 +90,7 @@ class Scheduler {
   }
   /// The same where nothing can come between, and nobody watches; else false, with nothing done.
   [[gnu::always_inline]] bool waitpoint_at_once(Task& task, Operation operation, Object& object) {
-    if (__builtin_expect(!passes_freely(task) || object.epoch != epoch_ || watched_, 0)) return false;
+    if (__builtin_expect(!free_pass_.holds_for(task) || object.epoch != epoch_ || watched_, 0)) return false;
     ++task.turns;
     task.operation = operation;
     task.at = &object;
@@ -146,7 +101,7 @@ class Scheduler {
   /// turn after as many looks as waitpoints at one instant. False when the run is over.
   bool look_at_clock(Time& local) {
     Task& task = *running;
-    if (__builtin_expect(!passes_freely(task), 0)) return look_at_clock_slowly(task, local);
+    if (__builtin_expect(!free_pass_.holds_for(task), 0)) return look_at_clock_slowly(task, local);
     ++task.turns;
     local = task.local_time;
     return true;
@@ -154,9 +109,15 @@ class Scheduler {
   /// As waitpoint, but behind all tasks of this instant; in the seeded order anywhere among them.
   bool yield();
   /// Moves the task to `time` (not before its local time) and waits there.
-  bool sleep_until(Time time);
+  [[gnu::always_inline]] bool sleep_until(Time time) {
+    const Departure away = start_sleeping(time);
+    return away.leads_away() ? end_sleeping(depart(away)) : away.wake() != Wake::unwinding;
+  }
   /// Blocks the running task on `object` until it is woken or `deadline` comes; Time::max() is for ever.
-  Wake block(Object& object, Time deadline);
+  [[gnu::always_inline]] Wake block(Object& object, Time deadline) {
+    const Departure away = start_blocking(object, deadline);
+    return away.leads_away() ? end_blocking(depart(away), object) : away.wake();
+  }
   /// Wakes one waiter of `object`, of the chooser's choice; null if there is none. The waiter's local time becomes the
   /// global.
   Task* wake_one(Object& object) { return object.first_waiter == nullptr ? nullptr : wake_a_waiter(object); }
@@ -192,7 +153,7 @@ class Scheduler {
 
   /// Puts a timer's event into the list, by default ahead of the tasks of that instant; `timer` has entered the run.
   void schedule(EventNode& node, Time time, const Object& timer, Phase phase = Phase::deliveries);
-  void cancel(EventNode& node) { events_.remove(node); }
+  void cancel(EventNode& node) { agenda_.events.remove(node); }
 
   // --- messages between robots ---
 
@@ -205,15 +166,15 @@ class Scheduler {
   Duration lookahead() const { return lookahead_; }
 
   /// Events in the list: those of tasks that can go on or wait with a finite timeout, and those of timers.
-  std::uint32_t pending_events() const { return events_.size() + ready_.size() + present_.size(); }
+  std::uint32_t pending_events() const { return agenda_.size(); }
 
   /// In the explored order, where tasks are ready: whether an event is due behind this instant, and in this window.
-  bool is_due_later() const;
+  bool is_due_later() const { return agenda_.is_due_later(); }
   /// When the next event is due; Time::max() if there is none.
   Time next_event_time() const;
 
-  Time global_time() const { return now_; }
-  Chooser& chooser() { return chooser_; }
+  Time global_time() const { return agenda_.now; }
+  Chooser& chooser() { return agenda_.chooser; }
   Task* first_task() const { return first_task_; }
   Robot* first_robot() const { return first_robot_; }
   /// Events executed so far, by tasks of all robots.
@@ -243,6 +204,9 @@ class Scheduler {
   /// What delivers a task's signals, at its next waitpoint after attention::signal is set; called in the task, it may
   /// compute and pass waitpoints itself.
   void set_delivery(void (*deliver)(Task&)) { deliver_ = deliver; }
+  /// What is asked when a task has blocked for ever in a cycle: whether the run goes on all the same. Null: it does
+  /// not.
+  void set_cycles(bool (*go_on)(Task&)) { go_on_in_cycle_ = go_on; }
   /// What the layer above hangs on the run.
   void set_client(void* client) { client_ = client; }
   void* client() const { return client_; }
@@ -270,7 +234,13 @@ class Scheduler {
   void stop_waiting(Task& task, Object& object);
   bool begin_segment(Task& task, Operation operation, Object* object);
   bool sleep_in_any_case(Time time);
-  Wake block_in_any_case(Object& object, Time deadline);
+  Departure start_blocking(Object& object, Time deadline);
+  Wake end_blocking(Arrival arrival, Object& object);
+  Departure block_in_any_case(Object& object, Time deadline);
+  Departure start_sleeping(Time time);
+  bool end_sleeping(Arrival arrival);
+  bool departs(Fiber& from, Fiber& to);
+  void arrive_from(const Arrival& arrival);
   bool stay_until(Task& task, const Object& object, Time deadline);
   Wake go_on(Task& task, Object& object);
   bool go_on_from_waitpoint(Task& task);
@@ -286,13 +256,11 @@ class Scheduler {
     ++task.sequence;
     std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
     if (object != nullptr) what ^= object->identity;
-    lane_->add(static_cast<std::uint64_t>(now_.ns()), task.id + what);
+    lane_->add(static_cast<std::uint64_t>(agenda_.now.ns()), task.id + what);
   }
   void show(Operation operation, const Object* object);
   bool give_turn(Task& task);
   void check_progress(Task& task);
-  EventKey key(const Task& task, Time time) { return {time, make_order(task.phase, chooser_.tie(task))}; }
-  bool precedes(const Task& task, const EventKey& other);
   Fiber& give_way(Task& task, const EventEntry& least);
   Fiber& give_way_to_present(Task& task);
   Fiber& wait_for_window(Task& task);
@@ -304,20 +272,8 @@ class Scheduler {
   static Task& task_of(EventNode& node) { return reinterpret_cast<Task&>(node); }  // the node is its first member
   Task* due(EventNode& node, Time time);
   Task& go(Task& task);
-  bool is_explored() const { return chooser_.order() == Order::explored; }
-  void place(Task& task, Time time);
-  void place_timeout(Task& task, Time time);
-  EventKey next_key() const;
-  void prepare_coming() const;
-  void prepare_ready() const;
-  static const Task* as_task(const EventNode* node);
   void resume(Task& task);
   void hash_events_of(Robot& robot);
-  void let_pass(const Task& task);
-  void end_free_passes();
-  bool passes_freely(const Task& task) const { return task.local_time == free_at_ && task.turns < turns_max; }
-  void note_present_event(Phase phase);
-  void allow_free_passes();
   void set_local_time(Task& task, Time time);
   void make_ready(Task& task);
   Task& make_first_ready(Object& object);
@@ -331,29 +287,22 @@ class Scheduler {
   void leave_for_next(Task& task);
   bool rest();
   void reclaim_ended();
-  void append_waiter(Object& object, Task& task);
-  void remove_waiter(Task& task);
-  static Task& remove_first_waiter(Object& object);
   bool closes_a_cycle(Task& task);
+  bool ends_in_cycle(Task& task);
 
-  static constexpr Time never = Time::from_ns(-1);
   // So many that are ready may be out of the cache.
   static constexpr std::uint32_t many_ready = 32;
 
-  EventList events_;
-  PresentQueue present_;  // of the events of the present instant: those put in at it, first-in-first-out
-  ReadySet ready_;        // or all, where somebody else decides
+  Agenda agenda_;
+  FreePass free_pass_;
   StackArena arena_;
-  Chooser chooser_;
   Fiber main_;
-  Time now_;
-  Time until_;
   Duration lookahead_ = Duration::max();
   Task* first_task_ = nullptr;
   Task* last_task_ = nullptr;
   Robot* first_robot_ = nullptr;
   Robot* last_robot_ = nullptr;
-  Task* paused_ = nullptr;  // its event is the least, but not before `until_`
+  Task* paused_ = nullptr;  // its event is the least, but not in this window
   Task* ended_ = nullptr;   // its stack is still underfoot until the next switch is done
   Task* culprit_ = nullptr;
   Task* first_abandoned_ = nullptr;
@@ -363,6 +312,7 @@ class Scheduler {
   const char* replay_ = "";
   void* client_ = nullptr;
   void (*deliver_)(Task&) = nullptr;
+  bool (*go_on_in_cycle_)(Task&) = nullptr;
   std::uint64_t epoch_;
   std::uint64_t searches_ = 0;
   std::uint64_t executed_ = 0;
@@ -375,14 +325,8 @@ class Scheduler {
   Time turns_given_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  // The present instant, if the running task passes its waitpoints there without a look at the event list: in the
-  // first-in-first-out order, as long as no event of an earlier phase was put in for this instant; in the seeded order,
-  // while there is none of this instant. Else never.
-  Time free_at_ = never;
   PairDigest* lane_ = nullptr;  // where the running task's events are hashed
   PairDigest unheard_;          // of robots that ended
-  bool may_stay_;               // it may have some, by its order
-  bool may_stay_alone_;         // it may where no other event is due at its instant
   bool ordinary_ = false;       // tasks may take the short ways of scheduler_steps.hpp
   bool unwinding_ = false;
   bool interrupted_ =

@@ -63,4 +63,11 @@ bool Scheduler::closes_a_cycle(Task& task) {
   return false;
 }
 
+bool Scheduler::ends_in_cycle(Task& task) {
+  if (!closes_a_cycle(task)) return false;
+  if (go_on_in_cycle_ == nullptr || !go_on_in_cycle_(task)) return true;
+  culprit_ = nullptr;
+  return false;
+}
+
 }  // namespace waitpoint::kernel

@@ -25,7 +25,7 @@ void Scheduler::adopt(Object& object) {
 
 // The task waits from now on: the fiber to leave for.
 Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
-  end_free_passes();
+  free_pass_.end();
   if (sanitizer::present) sanitizer::release(&object);
   append_waiter(object, task);
   if (needs_attention(task)) start_waiting(task, object);
@@ -45,10 +45,10 @@ Task* Scheduler::wake_a_waiter(Object& object) {
   if (__builtin_expect(ordinary_ && object.epoch == epoch_ && PresentQueue::is_for(chosen->phase), 1))
     return &make_first_ready(object);
   if (unwinding_ || object.epoch != epoch_) return nullptr;
-  if (chooser_.order() != Order::fifo) {
+  if (agenda_.chooser.order() != Order::fifo) {
     std::uint32_t count = 0;
     for (Task* t = chosen; t != nullptr && count < choice_of_waiters_max; t = t->next_waiter) ++count;
-    for (std::uint32_t i = chooser_.waiter(*running, count); i > 0; --i) chosen = chosen->next_waiter;
+    for (std::uint32_t i = agenda_.chooser.waiter(*running, count); i > 0; --i) chosen = chosen->next_waiter;
   }
   make_ready(*chosen);
   return chosen;

@@ -5,6 +5,7 @@
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
+#include "fibers/kernel/runtime_state.hpp"
 #include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
@@ -13,29 +14,29 @@ namespace waitpoint::kernel {
 
 // Goes on when the task's event is the least; false when the run is over.
 [[gnu::always_inline]] inline bool Scheduler::arrive(Task& task) {
-  if (__builtin_expect(is_explored(), 0)) {
+  if (__builtin_expect(agenda_.is_explored(), 0)) {
     task.state = TaskState::ready;
-    place(task, task.local_time);
+    agenda_.place(task, task.local_time);
     leave(task.fiber, next_fiber());
     return !interrupted_ || rest();
   }
-  const EventEntry& least = events_.least();
-  if (__builtin_expect(!present_.empty(), 0)) {
-    if (!precedes(task, next_key())) {
+  const EventEntry& least = agenda_.events.least();
+  if (__builtin_expect(!agenda_.present.empty(), 0)) {
+    if (!agenda_.precedes(task, agenda_.next_key())) {
       leave(task.fiber, give_way_to_present(task));
       return !interrupted_ || rest();
     }
-  } else if (!precedes(task, least.key)) {
+  } else if (!agenda_.precedes(task, least.key)) {
     leave(task.fiber, give_way(task, least));
     return !interrupted_ || rest();
   }
-  if (task.local_time >= until_) {
+  if (task.local_time >= agenda_.until) {
     leave(task.fiber, wait_for_window(task));
     if (interrupted_ && !rest()) return false;
   }
-  now_ = task.local_time;
-  events_.advance(now_);
-  if (may_stay_ || (may_stay_alone_ && now_ < least.key.time)) let_pass(task);
+  agenda_.now = task.local_time;
+  agenda_.events.advance(agenda_.now);
+  if (free_pass_.may_stay(agenda_.now < least.key.time)) free_pass_.give(task, agenda_.now);
   return true;
 }
 
@@ -47,7 +48,7 @@ inline bool Scheduler::take_place(Task& task, Operation operation, Object* objec
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
-  if (task.local_time != now_)
+  if (task.local_time != agenda_.now)
     task.turns = 1;
   else if (++task.turns > turns_max && !give_turn(task))
     return false;
@@ -55,7 +56,7 @@ inline bool Scheduler::take_place(Task& task, Operation operation, Object* objec
 }
 
 bool Scheduler::waitpoint_in_any_case(Task& task, Operation operation, Object* object) {
-  if (!passes_freely(task)) return waitpoint_in_the_list(task, operation, object);
+  if (!free_pass_.holds_for(task)) return waitpoint_in_the_list(task, operation, object);
   ++task.turns;
   task.operation = operation;
   task.at = object;
@@ -66,7 +67,7 @@ bool Scheduler::waitpoint_in_any_case(Task& task, Operation operation, Object* o
 
 bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
   if (unwinding_) return refuse();
-  end_free_passes();
+  free_pass_.end();
   if (needs_attention(task)) {
     if ((task.attention & attention::timer) != 0) return act_for_timer(task, operation, object);
     if (!end_segment(task)) return false;
@@ -92,7 +93,7 @@ bool Scheduler::look_at_clock_slowly(Task& task, Time& local) {
   const Time before = task.local_time;
   local = local_time(task);
   if ((task.attention & attention::timer) != 0) return true;
-  end_free_passes();
+  free_pass_.end();
   if (local != before)
     task.turns = 0;
   else if (++task.turns > turns_max && !unwinding_ && give_turn(task))
@@ -103,7 +104,7 @@ bool Scheduler::look_at_clock_slowly(Task& task, Time& local) {
 bool Scheduler::yield() {
   if (unwinding_) return refuse();
   Task& task = *running;
-  end_free_passes();
+  free_pass_.end();
   if (needs_attention(task)) {
     WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
     if (!end_segment(task)) return false;
@@ -111,10 +112,10 @@ bool Scheduler::yield() {
   }
   task.operation = Operation::yield;
   task.at = nullptr;
-  if (task.local_time != now_) task.turns = 0;
+  if (task.local_time != agenda_.now) task.turns = 0;
   check_progress(task);
   if (unwinding_) return false;
-  place(task, task.local_time);
+  agenda_.place(task, task.local_time);
   task.state = TaskState::ready;
   leave(task.fiber, next_fiber());
   if (interrupted_ && !rest()) return false;
@@ -123,35 +124,59 @@ bool Scheduler::yield() {
   return true;
 }
 
-bool Scheduler::sleep_until(Time time) {
+// Whether the caller is to depart for `to`; else all is done.
+[[gnu::always_inline]] inline bool Scheduler::departs(Fiber& from, Fiber& to) {
+  if (__builtin_expect(&to == &from || !can_switch_in_parts(from, to) || sanitizer::present, 0)) {
+    leave(from, to);
+    return false;
+  }
+  ++switches_;
+  return true;
+}
+
+[[gnu::always_inline]] inline void Scheduler::arrive_from(const Arrival& arrival) {
+  note_where_left(arrival);
+  if (__builtin_expect(ended_ != nullptr, 0)) reclaim_ended();
+}
+
+Departure Scheduler::start_sleeping(Time time) {
   Task& task = *running;
   // A task that only lets time pass, beside others that do, must be quick: what is rare is left to functions that are
   // called last, since each register that is kept over a call is saved first.
-  const bool is_plain = ordinary_ && task.attention == 0 && time > task.local_time && time < until_ && present_.empty();
-  if (__builtin_expect(!is_plain, 0)) return sleep_in_any_case(time);
+  const bool is_plain =
+      ordinary_ && task.attention == 0 && time > task.local_time && time < agenda_.until && agenda_.present.empty();
+  if (__builtin_expect(!is_plain, 0)) return Departure::none(sleep_in_any_case(time) ? Wake::woken : Wake::unwinding);
   task.local_time = time;
   task.operation = Operation::sleep;
   task.at = nullptr;
   task.turns = 1;
-  const EventEntry& least = events_.least();
-  if (precedes(task, least.key)) {
-    now_ = time;
-    events_.advance(time);
-    free_at_ = time;
-  } else {
-    end_free_passes();
-    leave(task.fiber, give_way(task, least));
+  const EventEntry& least = agenda_.events.least();
+  if (agenda_.precedes(task, least.key)) {
+    agenda_.now = time;
+    agenda_.events.advance(time);
+    free_pass_.give(task, time);
+    execute(task, Operation::sleep, nullptr);
+    return Departure::none(Wake::woken);
   }
-  Task& next = *running;
-  if (__builtin_expect(interrupted_ || next.attention != 0 || watched_, 0)) return go_on_from_waitpoint(next);
-  count(next, Operation::sleep, nullptr);
+  free_pass_.end();
+  Fiber& to = give_way(task, least);
+  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
+  return Departure::none(go_on_from_waitpoint(*running) ? Wake::woken : Wake::unwinding);
+}
+
+bool Scheduler::end_sleeping(Arrival arrival) {
+  arrive_from(arrival);
+  // Whoever comes back is running: it kept no register for that.
+  Task& task = *running;
+  if (__builtin_expect(interrupted_ || task.attention != 0 || watched_, 0)) return go_on_from_waitpoint(task);
+  count(task, Operation::sleep, nullptr);
   return true;
 }
 
 [[gnu::noinline]] bool Scheduler::sleep_in_any_case(Time time) {
   if (unwinding_) return refuse();
   Task& task = *running;
-  end_free_passes();
+  free_pass_.end();
   if (needs_attention(task)) {
     WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
     if (!end_segment(task)) return false;
@@ -179,8 +204,8 @@ void Scheduler::set_watch(Watch* watch) {
 void Scheduler::show(Operation operation, const Object* object) {
   // Every use of an object comes after all earlier ones; not so of memory.
   if (object != nullptr && object->kind != memory_kind && sanitizer::present) sanitizer::use(object);
-  if (watch_ != nullptr) watch_->event(*watch_, {now_, running, operation, object});
-  if (debugger_view.watching) show_debugger(now_, *running, operation, object);
+  if (watch_ != nullptr) watch_->event(*watch_, {agenda_.now, running, operation, object});
+  if (debugger_view.watching) show_debugger(agenda_.now, *running, operation, object);
 }
 
 void Scheduler::begin(Task& task) {
@@ -201,8 +226,8 @@ bool Scheduler::give_turn(Task& task) {
 
 // If all tasks of an instant do nothing but give each other turns, the run is stuck.
 void Scheduler::check_progress(Task& task) {
-  if (turns_given_at_ != now_) {
-    turns_given_at_ = now_;
+  if (turns_given_at_ != agenda_.now) {
+    turns_given_at_ = agenda_.now;
     turns_given_ = 0;
   }
   if (++turns_given_ <= idle_turns_max + std::uint64_t{turns_max} * tasks_) return;
@@ -214,28 +239,34 @@ void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
   if (!unwinding_) lane_->add(name, value);
 }
 
-Wake Scheduler::block(Object& object, Time deadline) {
+Departure Scheduler::start_blocking(Object& object, Time deadline) {
   Task& task = *running;
   if (__builtin_expect(!ordinary_ || task.attention != 0, 0)) return block_in_any_case(object, deadline);
-  end_free_passes();
+  free_pass_.end();
   append_waiter(object, task);
-  leave(task.fiber, stay_until(task, object, deadline) ? next_of_present() : outside(RunState::stopped));
-  // Whoever comes back is running: it kept no register for that.
-  Task& next = *running;
-  if (__builtin_expect(interrupted_ || next.attention != 0 || watched_, 0)) return go_on(next, object);
-  count(next, next.wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
-  return next.wake;
+  Fiber& to = stay_until(task, object, deadline) ? next_of_present() : outside(RunState::stopped);
+  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
+  return Departure::none(go_on(*running, object));
 }
 
-[[gnu::noinline]] Wake Scheduler::block_in_any_case(Object& object, Time deadline) {
+[[gnu::noinline]] Departure Scheduler::block_in_any_case(Object& object, Time deadline) {
   if (unwinding_) {
     refuse();
-    return Wake::unwinding;
+    return Departure::none(Wake::unwinding);
   }
   Task& task = *running;
   WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
-  leave(task.fiber, park(task, object, deadline));
-  return go_on(*running, object);
+  Fiber& to = park(task, object, deadline);
+  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
+  return Departure::none(go_on(*running, object));
+}
+
+Wake Scheduler::end_blocking(Arrival arrival, Object& object) {
+  arrive_from(arrival);
+  Task& task = *running;
+  if (__builtin_expect(interrupted_ || task.attention != 0 || watched_, 0)) return go_on(task, object);
+  count(task, task.wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
+  return task.wake;
 }
 
 [[gnu::noinline]] Wake Scheduler::go_on(Task& task, Object& object) {
@@ -250,7 +281,7 @@ Wake Scheduler::block(Object& object, Time deadline) {
 bool Scheduler::suspend(Object& object) {
   if (unwinding_) return false;
   Task& task = *running;
-  end_free_passes();
+  free_pass_.end();
   append_waiter(object, task);
   task.state = TaskState::blocked;
   task.finite_wait = false;

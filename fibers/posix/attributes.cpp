@@ -11,12 +11,16 @@
 #include <cstdarg>
 #include <cstring>
 
+#include "fibers/posix/argument_memory.hpp"
+#include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/signals.hpp"
 #include "fibers/posix/thread.hpp"
 
 namespace waitpoint::posix {
 namespace {
+
+char* end_of_page(char* address) { return address + (-reinterpret_cast<std::uintptr_t>(address) & 4095); }
 
 // Of those that the process may use; none of a set that is without any of them.
 cpu_set_t usable_of(const cpu_set_t& set) {
@@ -80,7 +84,8 @@ WAITPOINT_INTERPOSED int pthread_setname_np(pthread_t id, const char* name) noex
   if (thread == nullptr) return ESRCH;
   std::memcpy(thread->task->name, name, length + 1);  // in reports
   std::memcpy(thread->name, name, length + 1);
-  return 0;
+  // What the system shows of the process is its first thread's.
+  return thread->id == getpid() ? WAITPOINT_NEXT(prctl)(PR_SET_NAME, name, 0L, 0L, 0L) : 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_getname_np(pthread_t id, char* name, std::size_t size) noexcept {
@@ -92,7 +97,7 @@ WAITPOINT_INTERPOSED int pthread_getname_np(pthread_t id, char* name, std::size_
 }
 
 WAITPOINT_INTERPOSED int pthread_getattr_np(pthread_t id, pthread_attr_t* attributes) noexcept {
-  const Thread* const thread = find_running(id);
+  Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   const kernel::Stack& stack = thread->task->fiber.stack;
   pthread_attr_init(attributes);
@@ -102,13 +107,16 @@ WAITPOINT_INTERPOSED int pthread_getattr_np(pthread_t id, pthread_attr_t* attrib
   const sched_param parameters{thread->priority};
   pthread_attr_setschedparam(attributes, &parameters);
   if (thread->stack != nullptr) return pthread_attr_setstack(attributes, thread->stack, thread->stack_size);
+  // Whole pages, which programs map and protect: the top of a task's stack is shifted within its page.
   const std::size_t size = thread->told_stack_size != 0 ? thread->told_stack_size : kernel::bytes(stack.size);
-  return pthread_attr_setstack(attributes, stack.high - size, size);
+  thread->knows_stack = true;
+  return pthread_attr_setstack(attributes, end_of_page(stack.high) - size, size);
 }
 
 WAITPOINT_INTERPOSED int pthread_setaffinity_np(pthread_t id, std::size_t size, const cpu_set_t* set) noexcept {
   Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
+  if (!can_be_read(set)) return EFAULT;
   if (size > sizeof *set) size = sizeof *set;
   if (CPU_COUNT_S(size, set) == 0) return EINVAL;
   cpu_set_t whole{};
@@ -120,6 +128,7 @@ WAITPOINT_INTERPOSED int pthread_getaffinity_np(pthread_t id, std::size_t size, 
   const Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   if (!thread->has_processors) return sched_getaffinity(0, size, set) == 0 ? 0 : errno;
+  if (size % sizeof(long) != 0) return EINVAL;
   std::memset(set, 0, size);
   std::memcpy(set, &thread->processors, size < sizeof *set ? size : sizeof *set);
   return 0;
@@ -167,6 +176,7 @@ WAITPOINT_INTERPOSED int prctl(int option, ...) noexcept {
   if (is_simulated() && (option == PR_SET_NAME || option == PR_GET_NAME)) {
     Thread& thread = this_thread();
     char* const name = reinterpret_cast<char*>(words[0]);
+    if (option == PR_GET_NAME ? !can_be_written(name) : !can_be_read(name)) return fail(EFAULT);
     if (option == PR_GET_NAME) {
       std::memcpy(name, thread.name, sizeof thread.name);
       return 0;

@@ -13,12 +13,20 @@ void append(Record*& first, Record& added) {
   added.next = nullptr;
 }
 
+/// Takes out the first that is meant; null if none is.
+template <class Record, class IsMeant>
+Record* take_first(Record*& first, IsMeant is_meant) {
+  Record** link = &first;
+  while (*link != nullptr && !is_meant(**link)) link = &(*link)->next;
+  Record* const taken = *link;
+  if (taken != nullptr) *link = taken->next;
+  return taken;
+}
+
 /// Takes `gone` out, if it is among them.
 template <class Record>
 void remove(Record*& first, const Record& gone) {
-  Record** link = &first;
-  while (*link != nullptr && *link != &gone) link = &(*link)->next;
-  if (*link != nullptr) *link = gone.next;
+  (void)take_first(first, [&](const Record& each) { return &each == &gone; });
 }
 
 }  // namespace waitpoint::posix

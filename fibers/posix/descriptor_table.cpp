@@ -2,18 +2,22 @@
 //
 // Calls that make descriptors, copy them and close them: which of them only this program has.
 #include <fcntl.h>
+#include <linux/close_range.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdarg>
+#include <cstdio>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/file_locks.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/signal_descriptors.hpp"
+#include "fibers/posix/stream_links.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
 #include "fibers/posix/waiting.hpp"
 
@@ -38,18 +42,24 @@ int copy(int from, int made) {
   return made;
 }
 
+void forget(int closed) {
+  forget_timer_descriptor(closed);
+  forget_signal_descriptor(closed);
+  close_stream_over_link(closed);
+  note_inside(closed, false);
+}
+
 // What was there is closed.
 int replaced(int from, int to, int made) {
   if (made < 0 || from == to || !is_simulated()) return copy(from, made);
-  forget_timer_descriptor(to);
-  forget_signal_descriptor(to);
+  forget(to);
   copy(from, made);
   look_at_descriptors();
   return made;
 }
 
 int control(int descriptor, int command, void* argument) {
-  if (is_simulated() && (command == F_SETLKW || command == F_OFD_SETLKW))
+  if (is_simulated() && (command == F_SETLKW || command == F_OFD_SETLKW) && can_be_read(argument))
     return lock_waiting(descriptor, command, *static_cast<struct flock*>(argument));
   const int result = WAITPOINT_NEXT(fcntl)(descriptor, command, argument);
   return command == F_DUPFD || command == F_DUPFD_CLOEXEC ? copy(descriptor, result) : result;
@@ -111,10 +121,31 @@ int waitpoint_fcntl64(int descriptor, int command, ...) {
 WAITPOINT_INTERPOSED int close(int descriptor) {
   if (!is_simulated()) return WAITPOINT_NEXT(close)(descriptor);
   pass_cancellation_point();
-  forget_timer_descriptor(descriptor);
-  forget_signal_descriptor(descriptor);
+  forget(descriptor);
   const int result = WAITPOINT_NEXT(close)(descriptor);
-  note_inside(descriptor, false);
+  look_at_descriptors();
+  return result;
+}
+
+WAITPOINT_INTERPOSED int close_range(unsigned first, unsigned last, int flags) noexcept {
+  const int result = WAITPOINT_NEXT(close_range)(first, last, flags);
+  if (result != 0 || !is_simulated() || (static_cast<unsigned>(flags) & CLOSE_RANGE_CLOEXEC) != 0) return result;
+  const auto end = static_cast<unsigned>(known_descriptors_max);
+  for (unsigned closed = first; closed <= last && closed < end; ++closed) forget(static_cast<int>(closed));
+  look_at_descriptors();
+  return result;
+}
+WAITPOINT_INTERPOSED void closefrom(int first) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(closefrom)(first);
+  close_range(first > 0 ? static_cast<unsigned>(first) : 0, ~0U, 0);
+}
+
+WAITPOINT_INTERPOSED int fclose(FILE* stream) {
+  if (!is_simulated()) return WAITPOINT_NEXT(fclose)(stream);
+  pass_cancellation_point();
+  const int descriptor = fileno(stream);
+  const int result = WAITPOINT_NEXT(fclose)(stream);
+  if (descriptor >= 0) forget(descriptor);
   look_at_descriptors();
   return result;
 }

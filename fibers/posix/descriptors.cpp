@@ -16,13 +16,14 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/real_waits.hpp"
+#include "fibers/posix/stream_links.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
-constexpr int known_max = 65536;  // descriptors beyond are taken for outside ones
+constexpr int known_max = known_descriptors_max;
 std::uint64_t inside[known_max / 64];
 std::uint64_t waited_in_vain[known_max / 64];  // for a reader
 const Program* owners[known_max];              // of those that share a process
@@ -171,6 +172,7 @@ void close_descriptors_of(const Program& program) {
     if (owners[descriptor] != &program) continue;
     owners[descriptor] = nullptr;
     forget_timer_descriptor(descriptor);
+    close_stream_over_link(descriptor);
     close(descriptor);
   }
 }
@@ -283,6 +285,7 @@ bool wait_for_reader(int descriptor, int patience_ms) {
 }
 
 void look_at_descriptors() {
+  deliver_streams();
   if (first != nullptr) wake_ready(false);
 }
 

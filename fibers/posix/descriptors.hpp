@@ -23,6 +23,8 @@ struct Program;
 /// Threads that wait now: they are ready when the system says so of any of their descriptors.
 bool anybody_waits_outside();
 
+/// Descriptors from this on are taken for outside ones.
+inline constexpr int known_descriptors_max = 65536;
 /// A descriptor was made by this program for itself, or is another name of such a one; it is closed.
 void note_inside(int descriptor, bool inside);
 bool is_inside(int descriptor);

@@ -8,6 +8,8 @@
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
+#include "fibers/posix/futex_owners.hpp"
+#include "fibers/posix/futex_vectors.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/shared_futexes.hpp"
@@ -70,6 +72,7 @@ long wake(std::uint32_t* address, std::uint32_t most, std::uint32_t mask, Of of)
   if (mask == FUTEX_BITSET_MATCH_ANY) {
     for (kernel::Task* task = nullptr; woken < most && (task = wake_one(word.object)) != nullptr; ++woken)
       note_woken(*task);
+    if (woken < most) woken += wake_vectors(address, most - static_cast<std::uint32_t>(woken));
     if (of == Of::family && woken < most) woken += wake_others(address, most - static_cast<std::uint32_t>(woken), own);
     return woken;
   }
@@ -133,9 +136,9 @@ long futex(std::uint32_t* address, int operation, std::uint32_t value, const tim
   const auto count = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(timeout));
   const int what = operation & FUTEX_CMD_MASK;
   const Of of = (operation & FUTEX_PRIVATE_FLAG) != 0 ? Of::process : Of::family;
-  if ((what == FUTEX_WAIT || what == FUTEX_WAIT_BITSET) && timeout != nullptr &&
-      (!is_valid(*timeout) || timeout->tv_sec < 0))
-    return fail(EINVAL);
+  const bool has_timeout =
+      what == FUTEX_WAIT || what == FUTEX_WAIT_BITSET || what == FUTEX_LOCK_PI || what == FUTEX_LOCK_PI2;
+  if (has_timeout && timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
   if (reinterpret_cast<std::uintptr_t>(address) % sizeof *address != 0) return fail(EINVAL);
   if (address == nullptr) return fail(what <= FUTEX_WAKE_BITSET ? EFAULT : ENOSYS);
   switch (what) {
@@ -152,6 +155,10 @@ long futex(std::uint32_t* address, int operation, std::uint32_t value, const tim
       return requeue(address, value, count, second);
     case FUTEX_REQUEUE: return requeue(address, value, count, second);
     case FUTEX_WAKE_OP: return operate_and_wake(address, value, count, second, third, of);
+    case FUTEX_LOCK_PI: return lock_owned(address, timeout == nullptr ? Time::max() : when(CLOCK_REALTIME, *timeout));
+    case FUTEX_LOCK_PI2: return lock_owned(address, timeout == nullptr ? Time::max() : when(clock, *timeout));
+    case FUTEX_TRYLOCK_PI: return try_lock_owned(address);
+    case FUTEX_UNLOCK_PI: return unlock_owned(address);
     default: return fail(ENOSYS);
   }
 }

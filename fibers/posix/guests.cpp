@@ -8,12 +8,13 @@
 #include <cstring>
 #include <new>
 
-#include "fibers/posix/datagram_links.hpp"
+#include "fibers/posix/deadlock.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/members.hpp"
 #include "fibers/posix/named_objects.hpp"
 #include "fibers/posix/preload.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/robot_links.hpp"
 
 namespace waitpoint::posix {
 
@@ -57,6 +58,7 @@ Guest* load_guest(const char* name, int argc, const char* const* argv, Guests::E
 
 bool start_guest(Guest& guest, kernel::Scheduler& scheduler, kernel::Robot& robot) {
   guest.member.robot = &robot;
+  scheduler.set_cycles(goes_on_in_cycle);
   return start(guest.member, scheduler);
 }
 

@@ -16,13 +16,17 @@ namespace waitpoint::posix {
 /// A program in the host's process.
 struct Guest;
 
-/// What carries datagrams between guests of two robots: the host's network.
+/// What carries messages between guests of two robots: the host's network.
 struct Carrier {
+  using Carry = bool (*)(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes,
+                         void (*arrive)(void*), void (*drop)(void*), void* message);
+
   void* network;
   /// Sends a message of so many bytes: `arrive` is called when it arrives, by no task, if it does, and `drop` after
   /// that or when it is lost. False, with neither called, if there is no link between the two.
-  bool (*carry)(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes,
-                void (*arrive)(void*), void (*drop)(void*), void* message);
+  Carry carry;
+  /// The same, but it is not lost, and arrives after all that was sent so before.
+  Carry carry_in_order;
 };
 
 struct Guests {
@@ -44,7 +48,7 @@ struct Guests {
   /// Whether a task is a guest's, and what delivers its signals.
   bool (*is_guest)(const kernel::Task& task);
   void (*deliver_signals)(kernel::Task& task);
-  /// By which guests of different robots send datagrams to each other's sockets; null: they arrive at once.
+  /// By which guests of different robots send to each other's sockets; null: what they send arrives at once.
   void (*set_carrier)(const Carrier* carrier);
 };
 

@@ -113,12 +113,15 @@ WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size)
 
 WAITPOINT_INTERPOSED ssize_t readv(int descriptor, const iovec* pieces, int count) {
   if (is_simulated()) bring_up_to_date(descriptor);
-  const bool is_valid = count >= 0 && count <= IOV_MAX;
+  const bool is_valid = count > 0 && count <= IOV_MAX;
   return receive(descriptor, is_valid, [&] { return WAITPOINT_NEXT(readv)(descriptor, pieces, count); });
 }
 
 WAITPOINT_INTERPOSED ssize_t write(int descriptor, const void* bytes, std::size_t size) {
   const DescriptorClass of = class_of(descriptor);
+  // What is an eventfd beneath is none to the program.
+  if (of == DescriptorClass::other && (is_timer_descriptor(descriptor) || is_signal_descriptor(descriptor)))
+    return fail(EINVAL);
   if (size > 0 && of == DescriptorClass::socket && is_stream(descriptor))
     return send_to_stream(descriptor, bytes, size, 0);
   if (size > 0 && of == DescriptorClass::pipe && may_wait_for(descriptor, POLLOUT))

@@ -101,22 +101,22 @@ void tell_of_threads() {
   if (WAITPOINT_NEXT(pthread_create)(&id, nullptr, nothing, nullptr) == 0) WAITPOINT_NEXT(pthread_join)(id, nullptr);
 }
 
-}  // namespace
+bool can_be_told_from_others(LibraryRange range) {
+  return range.begin < range.end && high(range.begin) == high(range.end);
+}
 
-void trap_library_calls() {
-  tell_of_threads();
-  const LibraryRange range = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
-  if (range.begin >= range.end || high(range.begin) != high(range.end))
-    refuse("--trap-libc: the C library lies where its calls cannot be told from others");
+// Futexes, and if they are asked for, reads and writes, of code that lies there; false if the system does not allow it.
+bool trap(LibraryRange range, bool streams_too) {
   constexpr int load = BPF_LD | BPF_W | BPF_ABS, is = BPF_JMP | BPF_JEQ | BPF_K, is_least = BPF_JMP | BPF_JGE | BPF_K;
   constexpr std::uint32_t at = offsetof(seccomp_data, instruction_pointer);
+  const std::uint32_t reading = streams_too ? SYS_read : SYS_futex, writing = streams_too ? SYS_write : SYS_futex;
   sock_filter filter[] = {
       statement(load, offsetof(seccomp_data, arch)),
       jump(is, AUDIT_ARCH_X86_64, 0, 10),
       statement(load, offsetof(seccomp_data, nr)),
       jump(is, SYS_futex, 2, 0),
-      jump(is, SYS_read, 1, 0),
-      jump(is, SYS_write, 0, 6),
+      jump(is, reading, 1, 0),
+      jump(is, writing, 0, 6),
       statement(load, at + 4),
       jump(is, high(range.begin), 0, 4),
       statement(load, at),
@@ -128,10 +128,32 @@ void trap_library_calls() {
   const sock_fprog program{sizeof filter / sizeof *filter, filter};
   is_trapped = true;
   install(SIGSYS);
-  const bool is_done = WAITPOINT_NEXT(prctl)(PR_SET_NO_NEW_PRIVS, 1L, 0L, 0L, 0L) == 0 &&
-                       WAITPOINT_NEXT(prctl)(PR_SET_SECCOMP, static_cast<long>(SECCOMP_MODE_FILTER), &program) == 0;
-  if (!is_done) refuse("--trap-libc: the system does not let its calls be trapped");
+  return WAITPOINT_NEXT(prctl)(PR_SET_NO_NEW_PRIVS, 1L, 0L, 0L, 0L) == 0 &&
+         WAITPOINT_NEXT(prctl)(PR_SET_SECCOMP, static_cast<long>(SECCOMP_MODE_FILTER), &program) == 0;
 }
+
+}  // namespace
+
+void trap_library_calls() {
+  tell_of_threads();
+  const LibraryRange range = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
+  if (!can_be_told_from_others(range))
+    refuse("--trap-libc: the C library lies where its calls cannot be told from others");
+  if (!trap(range, true)) refuse("--trap-libc: the system does not let its calls be trapped");
+}
+
+void trap_open_mp() {
+  static bool is_done = false;
+  static unsigned long long loaded = 0;
+  if (is_done) return;
+  const unsigned long long now = libraries_loaded();
+  if (now == loaded) return;
+  loaded = now;
+  const LibraryRange range = range_of_library_named("libgomp.so");
+  is_done = can_be_told_from_others(range) && trap(range, false);
+}
+
+bool are_library_calls_trapped() { return is_trapped; }
 
 bool answer_library_call(const siginfo_t& information, void* context) {
   if (!is_trapped || information.si_code != 1) return false;  // SYS_SECCOMP

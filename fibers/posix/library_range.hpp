@@ -13,5 +13,9 @@ struct LibraryRange {
 
 /// Of that which has this address; empty if none has.
 LibraryRange range_of_library_with(const void* address);
+/// Of that whose file has a name that begins so.
+LibraryRange range_of_library_named(const char* beginning);
+/// How many libraries were ever loaded.
+unsigned long long libraries_loaded();
 
 }  // namespace waitpoint::posix

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -16,6 +17,7 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED int sendmmsg(int descriptor, mmsghdr* messages, unsigned count, int flags) {
   if (!is_simulated()) return WAITPOINT_NEXT(sendmmsg)(descriptor, messages, count, flags);
   for (unsigned i = 0; i < count; ++i) {
+    if (!can_be_written(&messages[i])) return i > 0 ? static_cast<int>(i) : fail(EFAULT);
     const ssize_t sent = sendmsg(descriptor, &messages[i].msg_hdr, flags);
     if (sent < 0) return i > 0 ? static_cast<int>(i) : -1;
     messages[i].msg_len = static_cast<unsigned>(sent);
@@ -29,6 +31,7 @@ WAITPOINT_INTERPOSED int recvmmsg(int descriptor, mmsghdr* messages, unsigned co
   if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
   const Time deadline = timeout == nullptr ? Time::max() : later(read_clock(), span(*timeout));
   for (unsigned i = 0; i < count; ++i) {
+    if (!can_be_written(&messages[i])) return i > 0 ? static_cast<int>(i) : fail(EFAULT);
     const bool waits = i == 0 || (flags & MSG_WAITFORONE) == 0;
     const ssize_t got =
         recvmsg(descriptor, &messages[i].msg_hdr, (flags & ~MSG_WAITFORONE) | (waits ? 0 : MSG_DONTWAIT));

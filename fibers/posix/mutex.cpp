@@ -9,7 +9,6 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
 #include "fibers/posix/shared_mutex.hpp"
-#include "fibers/posix/signal_timer.hpp"
 #include "fibers/posix/signals.hpp"
 
 namespace waitpoint::posix {
@@ -48,20 +47,14 @@ int lock_again(Mutex& mutex, int type) {
   return 0;
 }
 
-// A cycle of owners is for ever, but where a timer's signal may come, whose handler may leave it.
-Time end_of_wait(Time deadline) {
-  constexpr Duration years = Duration(std::chrono::hours(24 * 365));
-  return deadline == Time::max() && SignalTimer::any_is_set() ? later(kernel::running->local_time, years) : deadline;
-}
-
 int wait_and_lock(Mutex& mutex, int type, Time deadline) {
   if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running)
     if (const int result = lock_again(mutex, type); result >= 0) return result;
   while (mutex.object.owner != nullptr) {
     if (deadline <= kernel::running->local_time) return ETIMEDOUT;
-    const Wait ended = wait_on(mutex.object, end_of_wait(deadline));
-    if (ended == Wait::timed_out && deadline != Time::max()) return ETIMEDOUT;
+    const Wait ended = wait_on(mutex.object, deadline);
+    if (ended == Wait::timed_out) return ETIMEDOUT;
     if (ended == Wait::interrupted) handle_signals();
     if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
     if (ended == Wait::came) return enter(mutex);

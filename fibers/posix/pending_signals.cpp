@@ -23,18 +23,23 @@ bool PendingSignals::add(PendingSignal& signal) {
     let_go(signal);
     return false;
   }
-  PendingSignal** last = &first_;
-  while (*last != nullptr) last = &(*last)->next;
-  *last = &signal;
+  (last_ == nullptr ? first_ : last_->next) = &signal;
+  last_ = &signal;
   signal.next = nullptr;
   set_ |= only(number);
   return true;
 }
 
-void PendingSignals::count_again(int signal) {
-  set_ &= ~only(signal);
-  for (const PendingSignal* each = first_; each != nullptr; each = each->next)
-    if (each->information.si_signo == signal) set_ |= only(signal);
+PendingSignal& PendingSignals::take_out_behind(PendingSignal* before) {
+  PendingSignal*& link = before == nullptr ? first_ : before->next;
+  PendingSignal& found = *link;
+  link = found.next;
+  if (last_ == &found) last_ = before;
+  const int number = found.information.si_signo;
+  const PendingSignal* other = first_;
+  while (other != nullptr && other->information.si_signo != number) other = other->next;
+  if (other == nullptr) set_ &= ~only(number);
+  return found;
 }
 
 int PendingSignals::take(SignalSet set, siginfo_t& information) {
@@ -42,11 +47,9 @@ int PendingSignals::take(SignalSet set, siginfo_t& information) {
   if (among == 0) return 0;
   // What the processor raises comes first.
   const int number = __builtin_ctzll((among & faults) != 0 ? among & faults : among) + 1;
-  PendingSignal** link = &first_;
-  while ((*link)->information.si_signo != number) link = &(*link)->next;
-  PendingSignal& found = **link;
-  *link = found.next;
-  count_again(number);
+  PendingSignal* before = nullptr;
+  for (PendingSignal* each = first_; each->information.si_signo != number; each = each->next) before = each;
+  PendingSignal& found = take_out_behind(before);
   // A timer says then how often it has run out meanwhile.
   if (found.taken != nullptr) found.taken(found);
   information = found.information;
@@ -55,23 +58,21 @@ int PendingSignals::take(SignalSet set, siginfo_t& information) {
 }
 
 void PendingSignals::drop(SignalSet set) {
-  for (PendingSignal** link = &first_; *link != nullptr;) {
-    PendingSignal& each = **link;
-    if (!contains(set, each.information.si_signo)) {
-      link = &each.next;
-      continue;
-    }
-    *link = each.next;
-    let_go(each);
+  PendingSignal* before = nullptr;
+  for (PendingSignal *each = first_, *next = nullptr; each != nullptr; each = next) {
+    next = each->next;
+    if (contains(set, each->information.si_signo))
+      let_go(take_out_behind(before));
+    else
+      before = each;
   }
-  set_ &= ~set;
 }
 
 void PendingSignals::remove(const PendingSignal& signal) {
-  for (PendingSignal** link = &first_; *link != nullptr; link = &(*link)->next)
-    if (*link == &signal) {
-      *link = signal.next;
-      count_again(signal.information.si_signo);
+  PendingSignal* before = nullptr;
+  for (PendingSignal* each = first_; each != nullptr; before = each, each = each->next)
+    if (each == &signal) {
+      take_out_behind(before);
       return;
     }
 }

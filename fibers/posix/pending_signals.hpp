@@ -28,10 +28,12 @@ class PendingSignals {
   void remove(const PendingSignal& signal);
 
  private:
-  void count_again(int signal);
+  /// Takes out what is behind `before`; null: the first.
+  PendingSignal& take_out_behind(PendingSignal* before);
 
   SignalSet set_ = 0;
   PendingSignal* first_ = nullptr;
+  PendingSignal* last_ = nullptr;  ///< others may send thousands before one is taken
 };
 
 }  // namespace waitpoint::posix

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstring>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
@@ -26,15 +27,27 @@ Time deadline_in_ms(int timeout_ms) {
 }
 
 int wait(pollfd* descriptors, nfds_t count, Time deadline) {
+  // What the system refuses, it refuses at once: descriptors that cannot be read, and too many.
+  if (WAITPOINT_NEXT(poll)(descriptors, count, 0) < 0) return -1;
   const CancellationPoint point;
   const bool has_temporary_mask = this_thread().has_temporary_mask;
   pass(kernel::Operation::poll, nullptr);
   if (has_temporary_mask && !this_thread().has_temporary_mask) return fail(EINTR);
   const int ready = wait_for(descriptors, count, deadline, Restart::never);
+  // What pended before comes first, even if no time was waited.
+  if (ready == 0 && deliverable(this_thread()) != 0 && is_interrupted(Restart::never)) return fail(EINTR);
   // A loop that asks without waiting is to end.
   if (ready == 0) read_clock();
   leave_if_cancelled();
   return ready;
+}
+
+bool is_none_or_readable(const void* address) { return address == nullptr || can_be_read(address); }
+
+// 0, or what is wrong with it.
+int error_of(const timespec* timeout) {
+  if (!is_none_or_readable(timeout)) return EFAULT;
+  return timeout == nullptr || (is_valid(*timeout) && timeout->tv_sec >= 0) ? 0 : EINVAL;
 }
 
 // The descriptors of three sets, as poll() has them.
@@ -80,6 +93,8 @@ class Sets {
 };
 
 int select_before(int count, fd_set* readable, fd_set* writable, fd_set* urgent, Time deadline) {
+  for (const fd_set* set : {readable, writable, urgent})
+    if (count > 0 && !is_none_or_readable(set)) return fail(EFAULT);
   Sets sets(count, readable, writable, urgent);
   if (wait(sets.polled(), sets.size(), deadline) < 0) return -1;
   return sets.keep_ready();
@@ -112,7 +127,7 @@ WAITPOINT_INTERPOSED int poll(pollfd* descriptors, nfds_t count, int timeout_ms)
 
 WAITPOINT_INTERPOSED int ppoll(pollfd* descriptors, nfds_t count, const timespec* timeout, const sigset_t* mask) {
   if (!is_simulated()) return WAITPOINT_NEXT(ppoll)(descriptors, count, timeout, mask);
-  if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
+  if (const int error = error_of(timeout); error != 0) return fail(error);
   const TemporaryMask blocked(mask);
   return posix::wait(descriptors, count, timeout == nullptr ? Time::max() : deadline_in(span(*timeout)));
 }
@@ -120,6 +135,7 @@ WAITPOINT_INTERPOSED int ppoll(pollfd* descriptors, nfds_t count, const timespec
 WAITPOINT_INTERPOSED int select(int count, fd_set* __restrict readable, fd_set* __restrict writable,
                                 fd_set* __restrict urgent, timeval* __restrict timeout) {
   if (!is_simulated()) return WAITPOINT_NEXT(select)(count, readable, writable, urgent, timeout);
+  if (!is_none_or_readable(timeout)) return fail(EFAULT);
   if (count < 0 || (timeout != nullptr && (timeout->tv_sec < 0 || timeout->tv_usec < 0))) return fail(EINVAL);
   if (timeout == nullptr) return select_before(count, readable, writable, urgent, Time::max());
   // Linux leaves in it the time that was not waited.
@@ -135,7 +151,8 @@ WAITPOINT_INTERPOSED int pselect(int count, fd_set* __restrict readable, fd_set*
                                  fd_set* __restrict urgent, const timespec* __restrict timeout,
                                  const sigset_t* __restrict mask) {
   if (!is_simulated()) return WAITPOINT_NEXT(pselect)(count, readable, writable, urgent, timeout, mask);
-  if (count < 0 || (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0))) return fail(EINVAL);
+  if (const int error = error_of(timeout); error != 0) return fail(error);
+  if (count < 0) return fail(EINVAL);
   const TemporaryMask blocked(mask);
   return select_before(count, readable, writable, urgent,
                        timeout == nullptr ? Time::max() : deadline_in(span(*timeout)));
@@ -150,7 +167,7 @@ WAITPOINT_INTERPOSED int epoll_pwait(int descriptor, epoll_event* events, int mo
 WAITPOINT_INTERPOSED int epoll_pwait2(int descriptor, epoll_event* events, int most, const timespec* timeout,
                                       const sigset_t* mask) {
   if (!is_simulated()) return WAITPOINT_NEXT(epoll_pwait2)(descriptor, events, most, timeout, mask);
-  if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
+  if (const int error = error_of(timeout); error != 0) return fail(error);
   return epoll_before(descriptor, events, most, timeout == nullptr ? Time::max() : deadline_in(span(*timeout)), mask);
 }
 

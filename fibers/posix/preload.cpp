@@ -4,16 +4,19 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "fibers/posix/interposed.hpp"
+
 namespace waitpoint::posix {
 namespace {
 
+// By the C library's own functions: a program that has others of these names, as shells do, need not have begun.
 void take_first_away(const char* variable) {
-  const char* const all = std::getenv(variable);
+  const char* const all = WAITPOINT_NEXT(getenv)(variable);
   const char* const others = all == nullptr ? nullptr : std::strchr(all, ':');
   if (others == nullptr)
-    unsetenv(variable);
+    WAITPOINT_NEXT(unsetenv)(variable);
   else
-    setenv(variable, others + 1, 1);
+    WAITPOINT_NEXT(setenv)(variable, others + 1, 1);
 }
 
 }  // namespace

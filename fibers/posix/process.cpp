@@ -17,6 +17,7 @@
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/family.hpp"
+#include "fibers/posix/futex_vectors.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/interval_timers.hpp"
 #include "fibers/posix/named_objects.hpp"
@@ -69,6 +70,7 @@ void begin_as_child() {
   family::begin_as_child();
   system_v::inherit_memory(getppid());
   forget_waiters();
+  forget_vectors();
   leave_shared_mutexes();
   kernel::running->scheduler->keep_running_task_only();
   forget_interval_timers();
@@ -78,29 +80,6 @@ void begin_as_child() {
   forget_pending_signals();
   begin_again_as_first(this_thread());
   note_parent();
-}
-
-// Of the parent, at the same time.
-void before_fork() {
-  note_fork();
-  is_child = false;
-  // That a child has ended is looked for even if nothing handles its signal.
-  signals_of_program.ever_blocked |= only(SIGCHLD);
-  install(SIGCHLD);
-}
-
-pid_t fork_by(pid_t (*real)(), bool calls_handlers) {
-  pass(kernel::Operation::start, nullptr);
-  before_fork();
-  if (!calls_handlers) copy_record();
-  const pid_t child = real();
-  if (child == 0) begin_as_child();
-  if (child != 0) {
-    drop_copy();
-    family::note_child(child);
-  }
-  if (child > 0) note_child(child);
-  return child;
 }
 
 /// Whom a call waits for, and for what of them.
@@ -138,10 +117,42 @@ bool wait_for_news(const Awaited& awaited) {
 
 }  // namespace
 
+void before_child() {
+  pass(kernel::Operation::start, nullptr);
+  note_fork();
+  // That a child has ended is looked for even if nothing handles its signal.
+  signals_of_program.ever_blocked |= only(SIGCHLD);
+  install(SIGCHLD);
+}
+
+pid_t fork_by(pid_t (*real)(const void*), const void* argument, bool calls_handlers) {
+  before_child();
+  is_child = false;
+  if (!calls_handlers) copy_record();
+  const pid_t child = real(argument);
+  if (child == 0) begin_as_child();
+  if (child != 0) {
+    drop_copy();
+    family::note_child(child);
+  }
+  if (child > 0) note_child(child);
+  return child;
+}
+
+namespace {
+
+// The end of a child sends its signal before anybody is told of it.
+void handle_what_came() {
+  const ErrorNumberKept kept;
+  take_in_signals_from_outside();
+  if (deliverable(this_thread()) != 0) handle_signals();
+}
+
+}  // namespace
+
 // Nothing comes between these and the fork: of what is to be done before one, the first that was named is done last.
 void register_fork() { pthread_atfork(copy_record, drop_copy, begin_as_child); }
 
-// Whose process is a host's: a copy of that would be no process of the program's.
 bool is_guest() { return has_host && is_simulated(); }
 
 }  // namespace waitpoint::posix
@@ -151,11 +162,13 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED pid_t fork() noexcept {
   if (is_guest()) return fail(ENOSYS);
-  return is_simulated() ? fork_by(WAITPOINT_NEXT(fork), true) : WAITPOINT_NEXT(fork)();
+  if (!is_simulated()) return WAITPOINT_NEXT(fork)();
+  return fork_by([](const void*) { return WAITPOINT_NEXT(fork)(); }, nullptr, true);
 }
 WAITPOINT_INTERPOSED pid_t _Fork() noexcept {
   if (is_guest()) return fail(ENOSYS);
-  return is_simulated() ? fork_by(WAITPOINT_NEXT(_Fork), false) : WAITPOINT_NEXT(_Fork)();
+  if (!is_simulated()) return WAITPOINT_NEXT(_Fork)();
+  return fork_by([](const void*) { return WAITPOINT_NEXT(_Fork)(); }, nullptr, false);
 }
 
 // The child does not borrow its parent's memory, but the parent waits until it is done with it, as programs may expect.
@@ -193,7 +206,9 @@ WAITPOINT_INTERPOSED pid_t wait4(pid_t pid, int* status, int options, rusage* us
   } else if (!wait_for_news(awaited_by(pid, options))) {
     return -1;
   }
-  return WAITPOINT_NEXT(wait4)(pid, status, options | WNOHANG, usage);
+  const pid_t child = WAITPOINT_NEXT(wait4)(pid, status, options | WNOHANG, usage);
+  handle_what_came();
+  return child;
 }
 
 WAITPOINT_INTERPOSED pid_t waitpid(pid_t pid, int* status, int options) { return wait4(pid, status, options, nullptr); }
@@ -208,5 +223,7 @@ WAITPOINT_INTERPOSED int waitid(idtype_t type, id_t id, siginfo_t* information, 
     return WAITPOINT_NEXT(waitid)(type, id, information, options);
   }
   if (!wait_for_news({type, id, options & ~WNOWAIT})) return -1;
-  return WAITPOINT_NEXT(waitid)(type, id, information, options | WNOHANG);
+  const int result = WAITPOINT_NEXT(waitid)(type, id, information, options | WNOHANG);
+  handle_what_came();
+  return result;
 }

@@ -73,10 +73,10 @@ Time keep_pace(kernel::Scheduler& scheduler) {
 // The C library calls it before those of libraries that are made with threads: by then they must be simulated.
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
-  const char* const descriptor = std::getenv(record_variable);
+  const char* const descriptor = WAITPOINT_NEXT(getenv)(record_variable);
   if (descriptor == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
   map_record(std::atoi(descriptor));
-  unsetenv(record_variable);
+  WAITPOINT_NEXT(unsetenv)(record_variable);
   leave_preload();
   if (record->settings.instrumented) leave_library_path();
   inherit_signals();
@@ -126,6 +126,7 @@ kernel::Scheduler& begin_run() {
   kernel::Scheduler& scheduler =
       *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   scheduler.set_delivery(deliver_signals);
+  scheduler.set_cycles(goes_on_in_cycle);
   if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
   names_waitables =
       record->settings.traced ||

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -21,9 +22,31 @@ namespace {
 Thread* thread_with(pid_t id) {
   if (!is_simulated()) return nullptr;
   if (id == 0) return &this_thread();
-  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
-    if (is_thread(*task) && thread_of(*task).id == id) return &thread_of(*task);
-  return nullptr;
+  return thread_with_id(id);
+}
+
+constexpr int least_niceness = -20, greatest_niceness = 19;
+
+// Of a thread that is not the process's first, whose niceness the system keeps; else null.
+Thread* later_thread_with(__priority_which_t which, id_t id) {
+  if (which != PRIO_PROCESS) return nullptr;
+  Thread* const thread = thread_with(static_cast<pid_t>(id));
+  return thread != nullptr && thread->id != getpid() ? thread : nullptr;
+}
+
+int niceness_of_process() { return WAITPOINT_NEXT(getpriority)(PRIO_PROCESS, static_cast<id_t>(getpid())); }
+
+// What the process's first thread changes of its own is not the others'.
+template <class Call>
+int change_niceness_of_process(Call call) {
+  if (!is_simulated()) return call();
+  const int before = niceness_of_process();
+  const int result = call();
+  const ErrorNumberKept kept;
+  const int by = niceness_of_process() - before;
+  for (kernel::Task* task = first_task(); by != 0 && task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id != getpid()) thread_of(*task).niceness -= by;
+  return result;
 }
 
 bool is_priority_of(int policy, int priority) {
@@ -78,13 +101,41 @@ WAITPOINT_INTERPOSED int sched_getaffinity(pid_t id, std::size_t size, cpu_set_t
   return error == 0 ? 0 : fail(error);
 }
 
+WAITPOINT_INTERPOSED int getpriority(__priority_which_t which, id_t id) noexcept {
+  const Thread* const thread = later_thread_with(which, id);
+  return thread == nullptr ? WAITPOINT_NEXT(getpriority)(which, id) : niceness_of_process() + thread->niceness;
+}
+WAITPOINT_INTERPOSED int setpriority(__priority_which_t which, id_t id, int to) noexcept {
+  Thread* const thread = later_thread_with(which, id);
+  if (thread == nullptr) return change_niceness_of_process([&] { return WAITPOINT_NEXT(setpriority)(which, id, to); });
+  to = to < least_niceness ? least_niceness : to > greatest_niceness ? greatest_niceness : to;
+  const int of_process = niceness_of_process();
+  if (geteuid() != 0 && to < of_process + thread->niceness) return fail(EACCES);
+  thread->niceness = to - of_process;
+  return 0;
+}
+WAITPOINT_INTERPOSED int nice(int by) noexcept {
+  if (!is_simulated() || this_thread().id == getpid())
+    return change_niceness_of_process([&] { return WAITPOINT_NEXT(nice)(by); });
+  const id_t own = static_cast<id_t>(this_thread().id);
+  if (setpriority(PRIO_PROCESS, own, getpriority(PRIO_PROCESS, own) + by) != 0) return fail(EPERM);
+  return getpriority(PRIO_PROCESS, own);
+}
+
 // Always the same one: which it is for real is not of the seed.
 WAITPOINT_INTERPOSED int sched_getcpu() noexcept { return is_simulated() ? 0 : WAITPOINT_NEXT(sched_getcpu)(); }
+WAITPOINT_INTERPOSED int getcpu(unsigned* processor, unsigned* node) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(getcpu)(processor, node);
+  if (processor != nullptr) *processor = 0;
+  if (node != nullptr) *node = 0;
+  return 0;
+}
 
 // Processor time is virtual; what the system counts beside it is not of the seed, but for memory.
 WAITPOINT_INTERPOSED int getrusage(__rusage_who_t who, rusage* usage) noexcept {
   if (!is_simulated() || static_cast<int>(who) == RUSAGE_CHILDREN) return WAITPOINT_NEXT(getrusage)(who, usage);
   rusage real{};
+  if (!can_be_written(usage)) return fail(EFAULT);
   if (WAITPOINT_NEXT(getrusage)(who, &real) != 0) return -1;
   const clockid_t clock = static_cast<int>(who) == RUSAGE_SELF ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID;
   const timespec spent = to_timespec(reading_ns(clock, read_clock()));

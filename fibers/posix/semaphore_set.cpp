@@ -108,15 +108,8 @@ bool could_go_on(Set& set, Waiting& waiting) {
 
 // Calls of processes that were killed wait no longer.
 void drop_dead(Set& set) {
-  for (Waiting** link = &set.first; *link != nullptr;) {
-    Waiting* const each = *link;
-    if (each->caller.process == family::this_process() || family::lives(each->caller.process)) {
-      link = &each->next;
-      continue;
-    }
-    *link = each->next;
-    family::give(each);
-  }
+  take_out_dead(
+      set.first, [](const Waiting& each) { return each.caller.process; }, [](Waiting& each) { family::give(&each); });
 }
 
 bool is_done(const void* waiting) { return static_cast<const Waiting*>(waiting)->done; }
@@ -170,17 +163,9 @@ void end_all(Set& set, int error) {
 }
 
 bool undo_of_ended(Set& set) {
-  bool any = false;
-  for (Adjustments** link = &set.adjustments; *link != nullptr;) {
-    Adjustments* const each = *link;
-    if (each->of.process == family::this_process() || family::lives(each->of.process)) {
-      link = &each->next;
-      continue;
-    }
-    *link = each->next;
-    undo(set, *each);
-    any = true;
-  }
+  const bool any = take_out_dead(
+      set.adjustments, [](const Adjustments& each) { return each.of.process; },
+      [&](Adjustments& each) { undo(set, each); });
   if (any) let_go_on(set);
   return any;
 }
@@ -246,6 +231,7 @@ int wait_until_done(Set& set, Waiting& waiting, Time deadline) {
 int operate(int id, const sembuf* operations, std::size_t count, Time deadline) {
   if (count == 0) return fail(EINVAL);
   if (count > operations_a_call_max) return fail(E2BIG);
+  if (!can_be_read(operations)) return fail(EFAULT);
   const Use<Set> set([&] { return sets().find(id); });
   if (!set) return fail(EINVAL);
   bool alters = false;
@@ -276,15 +262,14 @@ void forget_semaphore_waiter(const kernel::Task& task) {
   const family::Section section;
   for (int slot = 0; slot < sets().end(); ++slot) {
     Set* const set = sets().in_slot(slot);
-    for (Waiting** link = set == nullptr ? nullptr : &set->first; link != nullptr && *link != nullptr;
-         link = &(*link)->next) {
-      Waiting* const each = *link;
-      if (each->task != &task || each->caller.process != family::this_process()) continue;
-      *link = each->next;
-      family::give(each);
-      --set->users;
-      return;
-    }
+    if (set == nullptr) continue;
+    Waiting* const waiter = take_first(set->first, [&](const Waiting& each) {
+      return each.task == &task && each.caller.process == family::this_process();
+    });
+    if (waiter == nullptr) continue;
+    family::give(waiter);
+    --set->users;
+    return;
   }
 }
 

@@ -3,6 +3,7 @@
 // What is done with signals: sigaction() and its kin, and what the system is told of it. Handlers are never the
 // system's: it knows one of ours, which keeps what comes from outside until a thread can handle it.
 #include <sys/syscall.h>
+#include <time.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -31,15 +32,34 @@ LibraryRange guarded[3];
 std::atomic<bool> has_rung = false;
 bool has_bell = false;
 
-// What has come and was not sent on yet. Written by a handler, with nothing of the system's blocked: it may be
-// interrupted by itself.
-constexpr unsigned kept_max = 1024;
+// What has come and was not sent on yet. Written by a handler, which another may interrupt where it lets what the
+// program asked for run.
+constexpr unsigned kept_max = 1024, held_back_from = kept_max - 16;
 struct Kept {
   std::atomic<bool> is_there;
   siginfo_t information;
 };
 Kept kept[kept_max];
 std::atomic<unsigned> next_kept = 0, next_taken = 0;
+
+// What the system blocks while ours runs: else what is queued would come all at once, each in front of the one before.
+constexpr SignalSet one_by_one = ~(faults | unblockable);
+// No more of it comes until what has come is sent on: the system keeps it.
+std::atomic<bool> is_held_back = false;
+
+void let_come() {
+  const sigset_t set = to_sigset(one_by_one);
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_UNBLOCK, &set, nullptr);
+}
+
+// Where our handler returns to.
+void hold_back(ucontext_t& interrupted) {
+  is_held_back.store(true);
+  SignalSet blocked = 0;
+  std::memcpy(&blocked, &interrupted.uc_sigmask, sizeof blocked);  // the system's is a word
+  blocked |= one_by_one & ~only(bell);
+  std::memcpy(&interrupted.uc_sigmask, &blocked, sizeof blocked);
+}
 
 void keep(const siginfo_t& information) {
   const unsigned at = next_kept.fetch_add(1);
@@ -65,6 +85,41 @@ bool may_handle_here(const ucontext_t& context) {
   const auto* const code = reinterpret_cast<const unsigned char*>(at);
   if (std::memcmp(code, system_call, 2) == 0) return true;  // it is made again after
   return std::memcmp(code - 2, system_call, 2) == 0 && context.uc_mcontext.gregs[REG_RAX] == -EINTR;
+}
+
+// The program may compute for long before its next waitpoint: what could not be handled where it came is tried again,
+// by a timer of the system's, which no child inherits.
+timer_t retry{};
+pid_t retry_is_of = 0;
+
+bool is_retry(const siginfo_t& information) {
+  return information.si_signo == bell && information.si_code == SI_TIMER && information.si_value.sival_ptr == &retry;
+}
+
+void try_again_soon() {
+  if (!is_simulated() || waits_really.load()) return;
+  if (retry_is_of != getpid()) {
+    struct sigevent event {};
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = bell;
+    event.sigev_value.sival_ptr = &retry;
+    if (WAITPOINT_NEXT(syscall)(SYS_timer_create, CLOCK_MONOTONIC, &event, &retry) != 0) return;
+    retry_is_of = getpid();
+    if (!has_bell) install_bell();
+  }
+  constexpr itimerspec in_a_millisecond{{0, 0}, {0, 1'000'000}};
+  WAITPOINT_NEXT(syscall)(SYS_timer_settime, retry, 0, &in_a_millisecond, nullptr);
+}
+
+void handle_what_has_come(ucontext_t& interrupted) {
+  if (may_handle_here(interrupted)) {
+    take_in_signals_from_outside();
+    if (deliverable(this_thread()) != 0) let_come();
+    handle_signals();
+    return;
+  }
+  if (next_kept.load() - next_taken.load() >= held_back_from) hold_back(interrupted);
+  try_again_soon();
 }
 
 // The processor raised it in the running thread: now or never.
@@ -100,13 +155,11 @@ void catch_signal(int signal, siginfo_t* information, void* context) {
   } else if (is_simulated() && from_itself && !waits_really.load()) {
     // By the C library, which raises what it means to have handled at once: abort() within it, for one.
     send(*information, &this_thread());
+    let_come();
     handle_signals();
   } else {
-    keep(*information);
-    if (may_handle_here(*static_cast<const ucontext_t*>(context))) {
-      take_in_signals_from_outside();
-      handle_signals();
-    }
+    if (!is_retry(*information)) keep(*information);
+    if (has_come_from_outside()) handle_what_has_come(*static_cast<ucontext_t*>(context));
   }
   errno = error;
 }
@@ -137,15 +190,17 @@ bool has_come_from_outside() {
 bool take_in_signals_from_outside() {
   bool any = false;
   has_rung.store(false);
-  while (next_taken.load() != next_kept.load()) {
+  // What comes meanwhile is for the next time: others may send as fast as they are taken in here.
+  for (const unsigned end = next_kept.load(); next_taken.load() != end;) {
     Kept& place = kept[next_taken.load() % kept_max];
-    if (!place.is_there.load()) return any;
+    if (!place.is_there.load()) break;
     const siginfo_t information = place.information;
     place.is_there.store(false);
     next_taken.fetch_add(1);
     if (!ring_by_signal(information)) send(information, nullptr);
     any = true;
   }
+  if (is_held_back.exchange(false)) let_come();
   return any;
 }
 
@@ -154,10 +209,11 @@ void install(int signal) {
   struct sigaction real {};
   real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
   real.sa_sigaction = catch_signal;
+  if (!contains(faults, signal)) real.sa_mask = to_sigset(one_by_one);
+  if (signal == bell) real.sa_flags |= SA_RESTART;  // who asked for none of it is not to see that it came
   const bool is_default = !is_handled(signal);
   const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) ||
-                                    (signal == SIGSYS && record != nullptr && record->settings.trap_library) ||
-                                    (signal == bell && has_bell);
+                                    (signal == SIGSYS && are_library_calls_trapped()) || (signal == bell && has_bell);
   const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
   if (is_default && action.sa_handler == SIG_IGN && !is_looked_for_always) {
     real.sa_flags &= ~SA_SIGINFO;

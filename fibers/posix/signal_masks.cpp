@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
@@ -141,6 +142,7 @@ WAITPOINT_INTERPOSED int sigprocmask(int how, const sigset_t* set, sigset_t* old
 
 WAITPOINT_INTERPOSED int sigpending(sigset_t* set) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(sigpending)(set);
+  if (!can_be_written(set)) return fail(EFAULT);
   take_in_signals_from_outside();
   const Thread& thread = this_thread();
   *set = to_sigset((thread.pending.set() | signals_of_program.pending.set()) & thread.blocked);
@@ -191,6 +193,7 @@ WAITPOINT_INTERPOSED int siggetmask() noexcept { return static_cast<int>(blocked
 // The system is told too, for what the processor raises: then the last that was named is used.
 WAITPOINT_INTERPOSED int sigaltstack(const stack_t* stack, stack_t* old) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(sigaltstack)(stack, old);
+  if ((stack != nullptr && !can_be_read(stack)) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);
   Thread& thread = this_thread();
   stack_t before = thread.alternate;
   const auto* const here = reinterpret_cast<const char*>(&before);

@@ -8,8 +8,14 @@
 #include <cerrno>
 #include <cstdlib>
 
+extern "C" {
+#include <sys/pidfd.h>  // says nothing of C++
+}
+
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/process_descriptors.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/signals.hpp"
 #include "fibers/posix/waiting.hpp"
@@ -47,12 +53,6 @@ int send_to_thread(Thread* thread, siginfo_t information) {
   return thread->ended ? 0 : send_here(information, thread);
 }
 
-Thread* thread_with_id(int id) {
-  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
-    if (is_thread(*task) && thread_of(*task).id == id) return &thread_of(*task);
-  return nullptr;
-}
-
 siginfo_t with_value(int signal, sigval value) {
   siginfo_t information = from_here(signal, SI_QUEUE);
   information.si_value = value;
@@ -67,6 +67,26 @@ bool is_queue_full() {
 }
 
 }  // namespace
+
+Thread* thread_with_id(int id) {
+  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id == id) return &thread_of(*task);
+  return nullptr;
+}
+
+int send_as_told(const siginfo_t& information) {
+  if (information.si_signo == 0) return 0;
+  if (!is_signal(information.si_signo)) return EINVAL;
+  if (is_queue_full()) return EAGAIN;
+  pass(kernel::Operation::signal, nullptr);
+  return send_here(information, nullptr);
+}
+
+int send_as_told(const siginfo_t& information, int id) {
+  if (id <= 0) return EINVAL;
+  return send_to_thread(thread_with_id(id), information);
+}
+
 }  // namespace waitpoint::posix
 
 using namespace waitpoint;
@@ -104,9 +124,15 @@ WAITPOINT_INTERPOSED int tgkill(pid_t process, pid_t thread, int signal) noexcep
 WAITPOINT_INTERPOSED int sigqueue(pid_t process, int signal, sigval value) noexcept {
   if (!is_simulated() || process != getpid() || !is_signal(signal))
     return WAITPOINT_NEXT(sigqueue)(process, signal, value);
-  if (is_queue_full()) return fail(EAGAIN);
-  pass(kernel::Operation::signal, nullptr);
-  const int error = send_here(with_value(signal, value), nullptr);
+  const int error = send_as_told(with_value(signal, value));
+  return error == 0 ? 0 : fail(error);
+}
+
+WAITPOINT_INTERPOSED int pidfd_send_signal(int process, int signal, siginfo_t* information, unsigned flags) noexcept {
+  const bool is_told = information == nullptr || (can_be_read(information) && information->si_signo == signal);
+  if (!is_simulated() || flags != 0 || !is_told || process_of(process) != getpid())
+    return WAITPOINT_NEXT(pidfd_send_signal)(process, signal, information, flags);
+  const int error = send_as_told(information != nullptr ? *information : from_here(signal, SI_USER));
   return error == 0 ? 0 : fail(error);
 }
 

@@ -9,7 +9,9 @@
 #include <cerrno>
 #include <csignal>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/error_number.hpp"
+#include "fibers/posix/interposed.hpp"
 #include "fibers/posix/signals.hpp"
 #include "fibers/posix/system_call_words.hpp"
 
@@ -36,6 +38,35 @@ struct SystemAction {
   void (*restorer)();
   SignalSet mask;
 };
+
+bool is_none_or_readable(long address) { return address == 0 || can_be_read(as<const void*>(address)); }
+bool is_none_or_writable(long address) { return address == 0 || can_be_written(as<void*>(address)); }
+
+// Of what is read and written here: 0, or an error number. The functions look at what they are given themselves.
+int error_of(long number, const CallWords& words) {
+  constexpr long size_of_set = sizeof(SignalSet);
+  const auto set_of_size = [&](int set, int size) {
+    return words.at[size] != size_of_set ? EINVAL : can_be_read(words.word<void*>(set)) ? 0 : EFAULT;
+  };
+  const auto mask_of_size = [&](int mask, int size) { return words.at[mask] == 0 ? 0 : set_of_size(mask, size); };
+  switch (number) {
+    case SYS_rt_sigaction:
+    case SYS_rt_sigprocmask:
+      if (words.at[3] != size_of_set) return EINVAL;
+      return is_none_or_readable(words.at[1]) && is_none_or_writable(words.at[2]) ? 0 : EFAULT;
+    case SYS_rt_sigpending:
+      if (words.at[1] > size_of_set) return EINVAL;
+      return can_be_written(words.word<void*>(0)) ? 0 : EFAULT;
+    case SYS_rt_sigsuspend: return set_of_size(0, 1);
+    case SYS_rt_sigtimedwait: return set_of_size(0, 3);
+    case SYS_signalfd:
+    case SYS_signalfd4: return set_of_size(1, 2);
+    case SYS_ppoll: return mask_of_size(3, 4);
+    case SYS_pselect6: return is_none_or_readable(words.at[5]) ? 0 : EFAULT;
+    case SYS_epoll_pwait: return mask_of_size(4, 5);
+    default: return 0;
+  }
+}
 
 long change_action(int signal, const SystemAction* to, SystemAction* old) {
   struct sigaction action {
@@ -65,32 +96,35 @@ long tell_pending(SignalSet* set) {
   return 0;
 }
 
-long queue_signal(pid_t process, const siginfo_t& information) {
-  return sigqueue(process, information.si_signo, information.si_value);
+// What the program says of the signal is told as it is. Of another process's threads the system knows more.
+long queue_signal(long number, const CallWords& words) {
+  const bool to_thread = number == SYS_rt_tgsigqueueinfo;
+  const auto told = words.word<const siginfo_t*>(to_thread ? 3 : 2);
+  if (!is_simulated() || words.word<pid_t>(0) != getpid())
+    return WAITPOINT_NEXT(syscall)(number, words.at[0], words.at[1], words.at[2], words.at[3]);
+  if (!can_be_read(told)) return fail(EFAULT);
+  siginfo_t information = *told;
+  information.si_signo = words.word<int>(to_thread ? 2 : 1);
+  const int error = to_thread ? send_as_told(information, words.word<int>(1)) : send_as_told(information);
+  return error == 0 ? 0 : fail(error);
 }
 
-// What has sets of signals, with their size behind them.
 }  // namespace
 
 long call_about_signals(long number, const CallWords& words) {
-  constexpr long size_of_set = sizeof(SignalSet);
   const auto set = words.word<const SignalSet*>(0);
+  if (const int error = is_simulated() ? error_of(number, words) : 0; error != 0) return fail(error);
   switch (number) {
     case SYS_rt_sigaction:
-      if (words.at[3] != size_of_set) return fail(EINVAL);
       return change_action(words.word<int>(0), words.word<const SystemAction*>(1), words.word<SystemAction*>(2));
     case SYS_rt_sigprocmask:
-      if (words.at[3] != size_of_set) return fail(EINVAL);
       return change_mask(words.word<int>(0), words.word<const SignalSet*>(1), words.word<SignalSet*>(2));
     case SYS_rt_sigpending: return tell_pending(words.word<SignalSet*>(0));
     case SYS_rt_sigsuspend: return sigsuspend(Mask(set).get());
     case SYS_rt_sigtimedwait:
       return sigtimedwait(Mask(set).get(), words.word<siginfo_t*>(1), words.word<const timespec*>(2));
-    case SYS_rt_sigqueueinfo: {
-      siginfo_t information = *words.word<const siginfo_t*>(2);
-      information.si_signo = words.word<int>(1);
-      return queue_signal(words.word<pid_t>(0), information);
-    }
+    case SYS_rt_sigqueueinfo:
+    case SYS_rt_tgsigqueueinfo: return queue_signal(number, words);
     case SYS_signalfd:
     case SYS_signalfd4:
       return signalfd(words.word<int>(0), Mask(words.word<const SignalSet*>(1)).get(),

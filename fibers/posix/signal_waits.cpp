@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
@@ -73,6 +74,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int sigtimedwait(const sigset_t* set, siginfo_t* information, const timespec* timeout) {
   if (!is_simulated()) return WAITPOINT_NEXT(sigtimedwait)(set, information, timeout);
+  if (!can_be_read(set) || (timeout != nullptr && !can_be_read(timeout))) return fail(EFAULT);
   if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
   const Time deadline = timeout == nullptr ? Time::max() : later(kernel::local_time(*kernel::running), span(*timeout));
   const int taken = take(to_set(*set), information, deadline);
@@ -94,7 +96,8 @@ WAITPOINT_INTERPOSED int sigwait(const sigset_t* set, int* signal) {
 }
 
 WAITPOINT_INTERPOSED int sigsuspend(const sigset_t* set) {
-  return is_simulated() ? suspend_with(to_set(*set)) : WAITPOINT_NEXT(sigsuspend)(set);
+  if (!is_simulated()) return WAITPOINT_NEXT(sigsuspend)(set);
+  return can_be_read(set) ? suspend_with(to_set(*set)) : fail(EFAULT);
 }
 
 WAITPOINT_INTERPOSED int pause() {

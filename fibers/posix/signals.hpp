@@ -43,6 +43,11 @@ void send(PendingSignal& signal, Thread* to);
 /// A signal with what is told of one that the program sends itself.
 siginfo_t from_here(int signal, int code);
 
+/// Sends to the process, or to the thread with this gettid(), what the program itself says of a signal: an error
+/// number.
+int send_as_told(const siginfo_t& information);
+int send_as_told(const siginfo_t& information, int id);
+
 /// The running thread handles all that it does not block.
 Handled handle_signals();
 /// Whether a call whose wait was ended by a signal ends with EINTR; if not, it waits again.

@@ -10,7 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/datagram_links.hpp"
@@ -18,6 +20,7 @@
 #include "fibers/posix/input_output.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
+#include "fibers/posix/stream_links.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -72,6 +75,33 @@ ssize_t receive_all(int descriptor, char* bytes, std::size_t size, int flags) {
   return received > 0 || size == 0 ? static_cast<ssize_t>(received) : -1;
 }
 
+// The same into the parts of a message; what goes beside the bytes comes with the first, or ends it.
+ssize_t receive_all_parts(int descriptor, msghdr& message, int flags) {
+  ssize_t received = -1;
+  for (std::size_t i = 0; i < message.msg_iovlen; ++i) {
+    const iovec& part = message.msg_iov[i];
+    if (part.iov_len == 0) continue;
+    std::size_t filled = 0;
+    if (received < 0) {
+      iovec* const parts = message.msg_iov;
+      const std::size_t count = std::exchange(message.msg_iovlen, 1);
+      message.msg_iov = &parts[i];
+      received = receive(descriptor, true,
+                         [&] { return WAITPOINT_NEXT(recvmsg)(descriptor, &message, flags & ~MSG_WAITALL); });
+      message.msg_iov = parts;
+      message.msg_iovlen = count;
+      if (received <= 0 || message.msg_controllen > 0) return received;
+      filled = static_cast<std::size_t>(received);
+      if (filled == part.iov_len) continue;
+    }
+    const std::size_t left = part.iov_len - filled;
+    const ssize_t more = receive_all(descriptor, static_cast<char*>(part.iov_base) + filled, left, flags);
+    if (more > 0) received += more;
+    if (more < static_cast<ssize_t>(left)) return received;
+  }
+  return received < 0 ? 0 : received;
+}
+
 // What is no socket is refused at once, and for what is beside the stream nobody waits.
 bool may_block(int descriptor, int flags) {
   return (flags & (MSG_DONTWAIT | MSG_OOB | MSG_ERRQUEUE)) == 0 && class_of(descriptor) == DescriptorClass::socket;
@@ -99,6 +129,18 @@ ssize_t send_message(int descriptor, int flags, Call call) {
     if (!point.wait_until(later(kernel::local_time(*kernel::running), pause))) return fail(EINTR);
     if (pause < longest_pause) pause = pause + pause;
   }
+}
+
+ssize_t send_parts_over_link(int descriptor, const msghdr& message) {
+  ssize_t all = 0;
+  for (std::size_t i = 0; i < message.msg_iovlen; ++i) {
+    const iovec& part = message.msg_iov[i];
+    const ssize_t sent = part.iov_len == 0 ? 0 : send_stream_over_link(descriptor, part.iov_base, part.iov_len);
+    if (sent < 0) return all > 0 ? all : -1;
+    all += sent;
+    if (static_cast<std::size_t>(sent) < part.iov_len) break;
+  }
+  return all;
 }
 
 // Piece by piece of its parts; what goes beside the bytes goes with the first.
@@ -156,9 +198,8 @@ int connect_and_wait(int descriptor, const sockaddr* address, socklen_t length) 
   const int ready = wait_for(descriptor, POLLOUT, Time::max(), Restart::if_asked);
   leave_if_cancelled();
   if (ready < 0) return -1;
-  const int error = option_of(descriptor, SO_ERROR);
-  look_at_descriptors();
-  return error == 0 ? 0 : fail(error);
+  // What has become of it is told as to who waited, and the socket is as if that one had.
+  return done([&] { return connect_at_once(descriptor, address, length); });
 }
 
 }  // namespace
@@ -166,6 +207,7 @@ int connect_and_wait(int descriptor, const sockaddr* address, socklen_t length) 
 bool is_stream(int descriptor) { return option_of(descriptor, SO_TYPE) == SOCK_STREAM; }
 
 ssize_t send_to_stream(int descriptor, const void* bytes, std::size_t size, int flags) {
+  if (goes_over_link(descriptor)) return send_stream_over_link(descriptor, bytes, size);
   if ((flags & MSG_DONTWAIT) != 0 || !blocks(descriptor))
     return send_all_at_once(descriptor, false, [&] { return WAITPOINT_NEXT(send)(descriptor, bytes, size, flags); });
   const auto take = [&](const char* at, std::size_t left) {
@@ -188,11 +230,20 @@ WAITPOINT_INTERPOSED ssize_t recv(int descriptor, void* bytes, std::size_t size,
 WAITPOINT_INTERPOSED ssize_t recvfrom(int descriptor, void* __restrict bytes, std::size_t size, int flags,
                                       sockaddr* __restrict address, socklen_t* __restrict length) {
   if (address == nullptr) return recv(descriptor, bytes, size, flags);
-  return receive(descriptor, may_block(descriptor, flags),
-                 [&] { return WAITPOINT_NEXT(recvfrom)(descriptor, bytes, size, flags, address, length); });
+  const bool waits = waits_for_all(descriptor, flags);
+  const int now = waits ? flags & ~MSG_WAITALL : flags;
+  const ssize_t received = receive(descriptor, may_block(descriptor, flags), [&] {
+    return WAITPOINT_NEXT(recvfrom)(descriptor, bytes, size, now, address, length);
+  });
+  if (!waits || received <= 0 || static_cast<std::size_t>(received) == size) return received;
+  const auto before = static_cast<std::size_t>(received);
+  const ssize_t more = receive_all(descriptor, static_cast<char*>(bytes) + before, size - before, flags);
+  return more > 0 ? received + more : received;
 }
 
 WAITPOINT_INTERPOSED ssize_t recvmsg(int descriptor, msghdr* message, int flags) {
+  if (waits_for_all(descriptor, flags) && can_be_read(message) && has_bytes(*message))
+    return receive_all_parts(descriptor, *message, flags);
   return receive(descriptor, may_block(descriptor, flags),
                  [&] { return WAITPOINT_NEXT(recvmsg)(descriptor, message, flags); });
 }
@@ -214,7 +265,11 @@ WAITPOINT_INTERPOSED ssize_t sendto(int descriptor, const void* bytes, std::size
 }
 
 WAITPOINT_INTERPOSED ssize_t sendmsg(int descriptor, const msghdr* message, int flags) {
+  if (!can_be_read(message)) return WAITPOINT_NEXT(sendmsg)(descriptor, message, flags);
   if (is_forbidden(static_cast<const sockaddr*>(message->msg_name))) return -1;
+  std::size_t size = 0;
+  if (send_over_link(descriptor, *message, size)) return static_cast<ssize_t>(size);
+  if (goes_over_link(descriptor)) return send_parts_over_link(descriptor, *message);
   if (class_of(descriptor) == DescriptorClass::socket && is_stream(descriptor) && has_bytes(*message) &&
       (flags & MSG_DONTWAIT) == 0 && blocks(descriptor))
     return send_parts(descriptor, *message, flags);
@@ -238,6 +293,10 @@ WAITPOINT_INTERPOSED int accept(int descriptor, sockaddr* __restrict address, so
 WAITPOINT_INTERPOSED int shutdown(int descriptor, int how) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(shutdown)(descriptor, how);
   pass(kernel::Operation::close, nullptr);
+  if ((how == SHUT_WR || how == SHUT_RDWR) && end_stream_over_link(descriptor)) {
+    if (how == SHUT_WR) return 0;
+    how = SHUT_RD;
+  }
   return done([&] { return WAITPOINT_NEXT(shutdown)(descriptor, how); });
 }
 

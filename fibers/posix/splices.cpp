@@ -11,6 +11,7 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/input_output.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/stream_links.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -34,6 +35,7 @@ bool can_move(int from, int to, int pipes) {
 template <class Call>
 ssize_t move_between(int from, int to, int pipes, unsigned flags, Call call) {
   if (!is_simulated()) return call(flags);
+  if (goes_over_link(to)) return fail(EINVAL);
   const bool may_block = (flags & SPLICE_F_NONBLOCK) == 0 && can_move(from >= 0 ? from : to, to, pipes);
   for (;;) {
     if (from >= 0 && !prepare_end(from, POLLIN, may_block)) return -1;
@@ -69,6 +71,7 @@ WAITPOINT_INTERPOSED ssize_t vmsplice(int pipe, const iovec* pieces, std::size_t
 
 // A piece at a time, which what is ready takes.
 WAITPOINT_INTERPOSED ssize_t sendfile64(int to, int from, off64_t* at, std::size_t size) noexcept {
+  if (goes_over_link(to)) return fail(EINVAL);
   const DescriptorClass of = class_of(to);
   if (of == DescriptorClass::file || !blocks(to))
     return send_all_at_once(to, false, [&] { return WAITPOINT_NEXT(sendfile64)(to, from, at, size); });

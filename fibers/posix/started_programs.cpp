@@ -14,6 +14,7 @@
 
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/library_calls.hpp"
 #include "fibers/posix/program.hpp"
 
 namespace waitpoint::posix {
@@ -84,7 +85,7 @@ StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
 // Traps of system calls, which go by where the C library is, come to programs that are started too, but nobody there
 // answers them before their main(), if then: their C library is to be elsewhere.
 void StartEnvironment::place_at_random() {
-  if (!record->settings.trap_library) return;
+  if (!are_library_calls_trapped()) return;
   persona_ = personality(0xFFFFFFFF);
   if (persona_ >= 0) personality(static_cast<unsigned long>(persona_) & ~static_cast<unsigned long>(ADDR_NO_RANDOMIZE));
 }

@@ -31,10 +31,16 @@
 #include <csignal>
 #include <cstdarg>
 
+extern "C" {
+#include <sys/pidfd.h>  // says nothing of C++
+}
+
 #include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/clocks.hpp"
+#include "fibers/posix/clones.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/futex.hpp"
+#include "fibers/posix/futex_vectors.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/system_call_words.hpp"
@@ -68,12 +74,18 @@ long make_timer(clockid_t clock, sigevent* event, int* number) {
   return 0;
 }
 
+long call_system(long number, const CallWords& words) {
+  return WAITPOINT_NEXT(syscall)(number, words.at[0], words.at[1], words.at[2], words.at[3], words.at[4], words.at[5]);
+}
+
 long simulated_call(long number, const CallWords& words) {
   const auto timer = reinterpret_cast<timer_t>(static_cast<std::uintptr_t>(words.at[0]));
   switch (number) {
     case SYS_futex: return words.call(futex);
+    case SYS_futex_waitv: return is_simulated() ? wait_for_any_futex(words) : call_system(number, words);
     case SYS_gettid: return gettid();
     case SYS_kill: return words.call(kill);
+    case SYS_pidfd_send_signal: return words.call(pidfd_send_signal);
     case SYS_tgkill: return words.call(tgkill);
     case SYS_tkill: return words.at[0] <= 0 ? fail(EINVAL) : tgkill(getpid(), words.word<pid_t>(0), words.word<int>(1));
     case SYS_rt_sigaction:
@@ -82,6 +94,7 @@ long simulated_call(long number, const CallWords& words) {
     case SYS_rt_sigsuspend:
     case SYS_rt_sigtimedwait:
     case SYS_rt_sigqueueinfo:
+    case SYS_rt_tgsigqueueinfo:
     case SYS_signalfd:
     case SYS_signalfd4:
     case SYS_ppoll:
@@ -91,6 +104,9 @@ long simulated_call(long number, const CallWords& words) {
     case SYS_pause: return pause();
 
     case SYS_sched_yield: return sched_yield();
+    case SYS_setpriority:
+      return setpriority(static_cast<__priority_which_t>(words.at[0]), words.word<id_t>(1), words.word<int>(2));
+    case SYS_getcpu: return words.call(getcpu);
     case SYS_getrandom: return words.call(getrandom);
     case SYS_getrusage: return getrusage(static_cast<__rusage_who_t>(words.at[0]), words.word<rusage*>(1));
 
@@ -144,8 +160,12 @@ long simulated_call(long number, const CallWords& words) {
                               : mq_receive(words.word<mqd_t>(0), words.word<char*>(1), words.word<std::size_t>(2),
                                            words.word<unsigned*>(3));
 
-    case SYS_fork:
-    case SYS_vfork: return fork();
+    case SYS_fork: return fork();
+    case SYS_vfork: return vfork();
+    case SYS_clone:
+    case SYS_clone3:
+    case SYS_exit:
+    case SYS_set_tid_address: return is_simulated() ? call_about_clones(number, words) : call_system(number, words);
     case SYS_wait4: return words.call(wait4);
     case SYS_waitid:
       return waitid(static_cast<idtype_t>(words.at[0]), words.word<id_t>(1), words.word<siginfo_t*>(2),
@@ -158,6 +178,7 @@ long simulated_call(long number, const CallWords& words) {
     case SYS_fcntl: return fcntl(words.word<int>(0), words.word<int>(1), words.at[2]);
     case SYS_flock: return words.call(flock);
     case SYS_close: return words.call(close);
+    case SYS_close_range: return words.call(close_range);
     case SYS_dup: return words.call(dup);
     case SYS_dup2: return words.call(dup2);
     case SYS_dup3: return words.call(dup3);
@@ -194,9 +215,7 @@ long simulated_call(long number, const CallWords& words) {
     case SYS_sendmsg: return words.call(sendmsg);
     case SYS_recvmsg: return words.call(recvmsg);
     case SYS_shutdown: return words.call(shutdown);
-    default:
-      return WAITPOINT_NEXT(syscall)(number, words.at[0], words.at[1], words.at[2], words.at[3], words.at[4],
-                                     words.at[5]);
+    default: return call_system(number, words);
   }
 }
 
@@ -211,11 +230,7 @@ WAITPOINT_INTERPOSED long syscall(long number, ...) noexcept {
   CallWords words;
   for (long& word : words.at) word = va_arg(more, long);
   va_end(more);
-  if (is_host_code())
-    return WAITPOINT_NEXT(syscall)(number, words.at[0], words.at[1], words.at[2], words.at[3], words.at[4],
-                                   words.at[5]);
-  // To the system, a child that shares nothing is a fork.
-  if (number == SYS_clone && words.at[0] == SIGCHLD && words.at[1] == 0) return fork();
+  if (is_host_code()) return call_system(number, words);
   const CancellationDisabled disabled;
   return simulated_call(number, words);
 }

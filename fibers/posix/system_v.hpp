@@ -14,6 +14,7 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/family.hpp"
 #include "fibers/posix/program.hpp"
@@ -164,6 +165,31 @@ template <class T>
 T* make_object(std::size_t size = sizeof(T)) {
   void* const memory = family::take(size);
   return memory == nullptr ? nullptr : new (memory) T();
+}
+
+/// Whether a command of shmctl() and its kin, one that `tells` something or another, can write that, or read what it
+/// sets.
+inline bool has_memory(int command, bool tells, void* status) {
+  return command == IPC_SET ? can_be_read(status) : !tells || can_be_written(status);
+}
+
+/// Takes out of a list what belongs to processes that were killed, and gives each to `drop`; whether there was any.
+/// Within the section.
+template <class T, class ProcessOf, class Drop>
+bool take_out_dead(T*& first, ProcessOf process_of, Drop drop) {
+  bool any = false;
+  for (T** link = &first; *link != nullptr;) {
+    T* const each = *link;
+    const pid_t process = process_of(*each);
+    if (process == family::this_process() || family::lives(process)) {
+      link = &each->next;
+      continue;
+    }
+    *link = each->next;
+    drop(*each);
+    any = true;
+  }
+  return any;
 }
 
 /// The table of a kind, within the section.

@@ -251,12 +251,14 @@ WAITPOINT_INTERPOSED int shmdt(const void* address) noexcept {
 WAITPOINT_INTERPOSED int shmctl(int id, int command, shmid_ds* status) noexcept {
   if (command < 0 || id < 0) return fail(EINVAL);
   if (command == IPC_INFO || command == SHM_INFO) {
+    if (!has_memory(command, true, status)) return fail(EFAULT);
     const family::Section section;
     return command == IPC_INFO ? tell_limits(status) : tell_use(status);
   }
   const bool by_slot = command == SHM_STAT || command == SHM_STAT_ANY;
   const Use<Segment> segment([&] { return by_slot ? segments().in_slot(id) : segments().find(id); });
   if (!segment) return fail(EINVAL);
+  if (!has_memory(command, by_slot || command == IPC_STAT, status)) return fail(EFAULT);
   if (by_slot) {
     if (command == SHM_STAT && !is_allowed(*segment, 4)) return fail(EACCES);
     tell_status(*segment, status);

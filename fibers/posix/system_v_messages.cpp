@@ -94,6 +94,7 @@ WAITPOINT_INTERPOSED int msgget(key_t key, int flags) noexcept {
 
 WAITPOINT_INTERPOSED int msgsnd(int id, const void* message, std::size_t size, int flags) {
   long type = 0;
+  if (!can_be_read(message)) return fail(EFAULT);
   std::memcpy(&type, message, sizeof type);
   if (size > bytes_a_message_max || type < 1) return fail(EINVAL);
   int result = 0;
@@ -116,6 +117,7 @@ WAITPOINT_INTERPOSED ssize_t msgrcv(int id, void* to, std::size_t size, long typ
     const Use<Queue> queue([&] { return queues().find(id); });
     if (!queue) return fail(EINVAL);
     if (!is_allowed(*queue, 4)) return fail(EACCES);
+    if (!can_be_written(to)) return fail(EFAULT);
     result = take_message(*queue, {type, size, flags}, to);
   }
   if (result < 0 && is_simulated()) leave_if_cancelled();
@@ -125,12 +127,14 @@ WAITPOINT_INTERPOSED ssize_t msgrcv(int id, void* to, std::size_t size, long typ
 WAITPOINT_INTERPOSED int msgctl(int id, int command, msqid_ds* status) noexcept {
   if (id < 0 || command < 0) return fail(EINVAL);
   if (command == IPC_INFO || command == MSG_INFO) {
+    if (!has_memory(command, true, status)) return fail(EFAULT);
     const family::Section section;
     return tell_limits(status, command == MSG_INFO);
   }
   const bool by_slot = command == MSG_STAT || command == MSG_STAT_ANY;
   const Use<Queue> queue([&] { return by_slot ? queues().in_slot(id) : queues().find(id); });
   if (!queue) return fail(EINVAL);
+  if (!has_memory(command, by_slot || command == IPC_STAT, status)) return fail(EFAULT);
   if (by_slot) {
     if (command == MSG_STAT && !is_allowed(*queue, 4)) return fail(EACCES);
     tell_status(*queue, status);

@@ -58,15 +58,9 @@ void end_receiving(Queue& queue, Receiving& receiving, Message* message, int err
 
 // Calls of processes that were killed wait no longer.
 void drop_dead(Queue& queue) {
-  for (Receiving** link = &queue.first_receiving; *link != nullptr;) {
-    Receiving* const each = *link;
-    if (each->process == family::this_process() || family::lives(each->process)) {
-      link = &each->next;
-      continue;
-    }
-    *link = each->next;
-    family::give(each);
-  }
+  take_out_dead(
+      queue.first_receiving, [](const Receiving& each) { return each.process; },
+      [](Receiving& each) { family::give(&each); });
 }
 
 // To one of those that wait for such a message, of the chooser's choice. Whose room is too small ends with an error.
@@ -238,15 +232,14 @@ void forget_message_waiter(const kernel::Task& task) {
   const family::Section section;
   for (int slot = 0; slot < queues().end(); ++slot) {
     Queue* const queue = queues().in_slot(slot);
-    for (Receiving** link = queue == nullptr ? nullptr : &queue->first_receiving; link != nullptr && *link != nullptr;
-         link = &(*link)->next) {
-      Receiving* const each = *link;
-      if (each->task != &task || each->process != family::this_process()) continue;
-      *link = each->next;
-      family::give(each);
-      --queue->users;
-      return;
-    }
+    if (queue == nullptr) continue;
+    Receiving* const waiter = take_first(queue->first_receiving, [&](const Receiving& each) {
+      return each.task == &task && each.process == family::this_process();
+    });
+    if (waiter == nullptr) continue;
+    family::give(waiter);
+    --queue->users;
+    return;
   }
 }
 

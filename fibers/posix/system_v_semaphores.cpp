@@ -146,6 +146,7 @@ WAITPOINT_INTERPOSED int semop(int id, sembuf* operations, std::size_t count) no
 
 WAITPOINT_INTERPOSED int semtimedop(int id, sembuf* operations, std::size_t count, const timespec* timeout) noexcept {
   if (timeout == nullptr || !is_simulated()) return operate(id, operations, count, Time::max());
+  if (!can_be_read(timeout)) return fail(EFAULT);
   if (!is_valid(*timeout) || timeout->tv_sec < 0) return fail(EINVAL);
   return operate(id, operations, count, later(kernel::local_time(*kernel::running), span(*timeout)));
 }
@@ -157,12 +158,15 @@ WAITPOINT_INTERPOSED int semctl(int id, int number, int command, ...) noexcept {
   va_end(more);
   if (id < 0) return fail(EINVAL);
   if (command == IPC_INFO || command == SEM_INFO) {
+    if (!has_memory(command, true, argument.information)) return fail(EFAULT);
     const family::Section section;
     return tell_limits(argument.information, command == SEM_INFO);
   }
   const bool by_slot = command == SEM_STAT || command == SEM_STAT_ANY;
   const Use<Set> set([&] { return by_slot ? sets().in_slot(id) : sets().find(id); });
   if (!set) return fail(EINVAL);
+  if ((command == GETALL || command == SETALL) && !can_be_read(argument.array)) return fail(EFAULT);
+  if (!has_memory(command, by_slot || command == IPC_STAT, argument.status)) return fail(EFAULT);
   if (by_slot) {
     if (command == SEM_STAT && !is_allowed(*set, 4)) return fail(EACCES);
     tell_status(*set, argument.status);

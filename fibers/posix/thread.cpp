@@ -2,6 +2,7 @@
 #include "fibers/posix/thread.hpp"
 
 #include <limits.h>
+#include <linux/futex.h>
 #include <setjmp.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -16,8 +17,11 @@
 #include "fibers/posix/children.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/futex.hpp"
+#include "fibers/posix/futex_vectors.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/keys.hpp"
+#include "fibers/posix/library_calls.hpp"
 #include "fibers/posix/members.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
@@ -206,6 +210,7 @@ void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
     next = task->next;
     if (task == kernel::running || !is_thread(*task) || thread_of(*task).program != &program) continue;
     forget_waiter(*task);
+    forget_vector(*task);
     forget_worker(*task);
     system_v::forget_waiter(*task);
     scheduler.end_in_place(*task);
@@ -216,6 +221,7 @@ void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
 
 int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument) {
   if (!is_simulated()) refuse("a thread is made before main() begins");
+  trap_open_mp();
   pass(kernel::Operation::start, nullptr);
   Thread* const thread = make_thread(this_program());
   if (thread == nullptr) return EAGAIN;
@@ -224,6 +230,7 @@ int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, 
   thread->argument = argument;
   thread->detached = is_detached(attributes);
   std::memcpy(thread->name, this_thread().name, sizeof thread->name);
+  thread->niceness = this_thread().niceness;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   if (const int error = take_attributes(*thread, attributes); error != 0) {
     free_thread(*thread);
@@ -279,9 +286,24 @@ void end_thread(Thread& thread) {
   end_running_thread();
 }
 
+namespace {
+
+// The task's stack is whole for the next thread on it, which may be told of another size.
+void unprotect_stack(const Thread& thread) {
+  const kernel::Stack& stack = thread.task->fiber.stack;
+  if (!thread.knows_stack || thread.stack != nullptr) return;
+  mprotect(stack.low, static_cast<std::size_t>(stack.high - stack.low), PROT_READ | PROT_WRITE);
+}
+
+}  // namespace
+
 // From the last waitpoint on nobody else runs before the task has ended: its area can be freed by the next that ends.
 void end_running_thread() {
   Thread& thread = this_thread();
+  if (std::uint32_t* const word = thread.cleared_at_end; word != nullptr) {
+    *word = 0;
+    futex(word, FUTEX_WAKE, 1, nullptr, nullptr, 0);
+  }
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   pass(kernel::Operation::release, &thread.end);
   {
@@ -289,6 +311,7 @@ void end_running_thread() {
     scheduler.waitpoint(kernel::Operation::end, nullptr);
   }
   thread.ended = true;
+  unprotect_stack(thread);
   drop_signals(thread);
   thread.end.owner = nullptr;
   thread.task = nullptr;

@@ -42,13 +42,17 @@ struct Thread {
   bool owns_stack = false;  ///< the program gave only its size
   /// What is told of it: less than that of its task, if that was asked for.
   std::size_t told_stack_size = 0, guard_size = 4096;
-  int id = 0;  ///< what gettid() says
+  bool knows_stack = false;  ///< the program was told where it is, and may have protected some of its pages
+  int id = 0;                ///< what gettid() says
   kernel::Object end{"thread"};
+  /// What is zero, and whoever waits for it woken, when it has ended: as set_tid_address() says.
+  std::uint32_t* cleared_at_end = nullptr;
 
   // What programs may write and read again; it changes nothing.
   char name[16] = {};
   int policy = SCHED_OTHER;
   int priority = 0;
+  int niceness = 0;  ///< added to that of the process, which is its first thread's
   cpu_set_t processors{};
   bool has_processors = false;  ///< of its own: else those of the process
 
@@ -142,6 +146,9 @@ inline Thread* find_running(pthread_t id) {
   Thread* const thread = find(id);
   return thread != nullptr && thread->task != nullptr ? thread : nullptr;
 }
+
+/// The thread with this gettid(); null without one.
+Thread* thread_with_id(int id);
 
 /// The processor time of the thread with this gettid(); none if it has ended.
 Duration spent_by(int id);

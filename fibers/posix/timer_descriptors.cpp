@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
@@ -96,6 +97,8 @@ void bring_up_to_date(int descriptor) {
   await(*timer);
 }
 
+bool is_timer_descriptor(int descriptor) { return timer_of(descriptor) != nullptr; }
+
 }  // namespace waitpoint::posix
 
 using namespace waitpoint;
@@ -120,6 +123,7 @@ WAITPOINT_INTERPOSED int timerfd_create(clockid_t clock, int flags) noexcept {
 WAITPOINT_INTERPOSED int timerfd_settime(int descriptor, int flags, const itimerspec* to, itimerspec* old) noexcept {
   TimerDescriptor* const timer = timer_of(descriptor);
   if (timer == nullptr) return WAITPOINT_NEXT(timerfd_settime)(descriptor, flags, to, old);
+  if (!can_be_read(to) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);
   if ((flags & ~(TFD_TIMER_ABSTIME | TFD_TIMER_CANCEL_ON_SET)) != 0) return fail(EINVAL);
   if (!is_valid(to->it_value) || !is_valid(to->it_interval) || to->it_value.tv_sec < 0 || to->it_interval.tv_sec < 0)
     return fail(EINVAL);
@@ -144,6 +148,7 @@ WAITPOINT_INTERPOSED int timerfd_settime(int descriptor, int flags, const itimer
 WAITPOINT_INTERPOSED int timerfd_gettime(int descriptor, itimerspec* time) noexcept {
   const TimerDescriptor* const timer = timer_of(descriptor);
   if (timer == nullptr) return WAITPOINT_NEXT(timerfd_gettime)(descriptor, time);
+  if (!can_be_written(time)) return fail(EFAULT);
   *time = {to_timespec(timer->interval.ns()), left_of(*timer)};
   return 0;
 }

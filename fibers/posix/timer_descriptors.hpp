@@ -11,4 +11,6 @@ void forget_timer_descriptor(int descriptor);
 /// Before it is read: all expirations up to now are in its count, and the next one is awaited.
 void bring_up_to_date(int descriptor);
 
+bool is_timer_descriptor(int descriptor);
+
 }  // namespace waitpoint::posix

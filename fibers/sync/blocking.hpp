@@ -28,17 +28,24 @@ inline void unwind() {
   if (std::uncaught_exceptions() == 0) throw Unwind();
 }
 
-/// A waitpoint before an operation that may block. When the run is over it throws Unwind, or in a destructor that runs
-/// then, returns false: nothing is to be done.
-inline bool before_blocking(kernel::Operation operation, kernel::Object& object) {
-  const bool goes_on = running_task().scheduler->waitpoint(operation, &object);
-  if (!goes_on) unwind();
-  return goes_on;
-}
+/// As before_releasing(), in the library: what the kernel reads there is nothing of the user's.
+bool waitpoint_unseen(kernel::Operation operation, kernel::Object& object);
 
 /// A waitpoint before an operation that does not block; false when the run is over, and then nothing is to be done.
 inline bool before_releasing(kernel::Operation operation, kernel::Object& object) {
+#ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
+  return waitpoint_unseen(operation, object);
+#else
   return running_task().scheduler->waitpoint(operation, &object);
+#endif
+}
+
+/// A waitpoint before an operation that may block. When the run is over it throws Unwind, or in a destructor that runs
+/// then, returns false: nothing is to be done.
+inline bool before_blocking(kernel::Operation operation, kernel::Object& object) {
+  const bool goes_on = before_releasing(operation, object);
+  if (!goes_on) unwind();
+  return goes_on;
 }
 
 /// Blocks the running task on `object`; false if the deadline came first. Throws Unwind when the run is over.

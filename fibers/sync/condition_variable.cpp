@@ -13,8 +13,8 @@ void condition_variable::notify_all() {
   if (sync::before_releasing(kernel::Operation::notify_all, object_)) kernel::running->scheduler->wake_all(object_);
 }
 
-bool condition_variable::wait_before(std::unique_lock<mutex>& lock, Time deadline) {
-  if (!sync::before_blocking(kernel::Operation::wait, object_)) return false;
+condition_variable::Start condition_variable::start_waiting(std::unique_lock<mutex>& lock) {
+  if (!sync::before_blocking(kernel::Operation::wait, object_)) return Start::over;
   WAITPOINT_CHECK(lock.owns_lock() && lock.mutex()->core_.is_owned_by_caller(),
                   sync::about(object_, "a task waits on a condition variable without holding the lock"));
   WAITPOINT_CHECK(object_.first_waiter == nullptr || mutex_ == lock.mutex(),
@@ -23,10 +23,7 @@ bool condition_variable::wait_before(std::unique_lock<mutex>& lock, Time deadlin
   // An unlock without a waitpoint of its own.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&lock.mutex()->core_.object());
   lock.mutex()->core_.release();
-  const bool woken =
-      kernel::running->scheduler->chooser().is_spurious(*kernel::running) || sync::block(object_, deadline);
-  lock.mutex()->lock();
-  return woken;
+  return kernel::running->scheduler->chooser().is_spurious(*kernel::running) ? Start::spurious : Start::waits;
 }
 
 }  // namespace waitpoint

@@ -53,7 +53,15 @@ class condition_variable {
 
  private:
   // False if the deadline came first. The lock is held again in both cases.
-  bool wait_before(std::unique_lock<mutex>& lock, Time deadline);
+  bool wait_before(std::unique_lock<mutex>& lock, Time deadline) {
+    const Start start = start_waiting(lock);
+    if (start == Start::over) return false;
+    const bool woken = start == Start::spurious || sync::block(object_, deadline);
+    lock.mutex()->lock();
+    return woken;
+  }
+  enum class Start { waits, spurious, over };
+  Start start_waiting(std::unique_lock<mutex>& lock);
   template <class Predicate>
   bool wait_before(std::unique_lock<mutex>& lock, Time deadline, Predicate ready) {
     while (!ready())

@@ -15,6 +15,12 @@ namespace waitpoint::sync {
   return scheduler.waitpoint(operation, &object_);
 }
 
+inline bool SemaphoreCore::take() {
+  if (count_ == 0) return false;
+  --count_;
+  return true;
+}
+
 void SemaphoreCore::release(std::ptrdiff_t units) {
   kernel::Task& task = running_task();
   if (!pass(task, kernel::Operation::release)) return;
@@ -24,23 +30,16 @@ void SemaphoreCore::release(std::ptrdiff_t units) {
   count_ += units;
 }
 
-bool SemaphoreCore::take() {
-  if (count_ == 0) return false;
-  --count_;
-  return true;
-}
-
 bool SemaphoreCore::try_acquire() {
   if (!pass(running_task(), kernel::Operation::try_acquire)) unwind();
   return take();
 }
 
-bool SemaphoreCore::acquire_before(Time deadline) {
+SemaphoreCore::Outcome SemaphoreCore::acquire_now(Time deadline) {
   kernel::Task& task = running_task();
   if (!pass(task, kernel::Operation::acquire)) unwind();
-  if (take()) return true;
-  if (deadline <= task.local_time) return false;
-  return block(object_, deadline);
+  if (take()) return Outcome::acquired;
+  return deadline <= task.local_time ? Outcome::too_late : Outcome::must_wait;
 }
 
 }  // namespace waitpoint::sync

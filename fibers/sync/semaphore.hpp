@@ -8,6 +8,7 @@
 
 #include <cstddef>
 
+#include "fibers/sync/blocking.hpp"
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/misuse.hpp"
 
@@ -27,10 +28,16 @@ class SemaphoreCore {
   }
 
   void release(std::ptrdiff_t units);
-  bool acquire_before(Time deadline);
+  bool acquire_before(Time deadline) {
+    const Outcome outcome = acquire_now(deadline);
+    return outcome == Outcome::must_wait ? block(object_, deadline) : outcome == Outcome::acquired;
+  }
   bool try_acquire();
 
  private:
+  enum class Outcome { acquired, too_late, must_wait };
+
+  Outcome acquire_now(Time deadline);
   bool take();
   bool pass(kernel::Task& task, kernel::Operation operation);
   bool pass_in_the_list(kernel::Operation operation);

@@ -33,6 +33,8 @@ struct thread_attributes {
   processor* on = nullptr;
   int priority = 0;
 };
+/// Of a thread of which nothing else was said.
+inline constexpr thread_attributes plain_thread;
 
 enum class signal_sent : std::uint8_t;
 
@@ -96,7 +98,7 @@ class thread {
   requires(!std::is_same_v<std::remove_cvref_t<Function>, thread> &&
            !std::is_same_v<std::remove_cvref_t<Function>, thread_attributes>) explicit thread(Function&& function,
                                                                                               Arguments&&... arguments)
-      : thread(thread_attributes{}, std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
+      : thread(plain_thread, std::forward<Function>(function), std::forward<Arguments>(arguments)...) {}
   template <class Function, class... Arguments>
   thread(const thread_attributes& attributes, Function&& function, Arguments&&... arguments)
       : state_(start(attributes,

@@ -175,7 +175,7 @@ void RobotBridge::add_laser_command(Row& row, Laser& laser) {
 void RobotBridge::add_laser_reading(Row& row, Laser& laser) {
   laser.poster = &create_poster<posters::LaserReading>(row);
   row.exchange = [this, &laser](Time date) {
-    if (!laser.on || !due(laser.period)) return;
+    if (!laser.on || !laser.due) return;
     posters::LaserReading& reading = laser.reading;
     ++reading.number;
     world_.scan(body_, laser.number, reading.number, laser.scan);
@@ -221,6 +221,15 @@ void RobotBridge::exchange(Time date) {
   for (const Row& row : rows_)
     if (row.exchange != nullptr && powered()) row.exchange(date);
   ++step_;
+  expect_scans();
+}
+
+void RobotBridge::expect_scans() {
+  for (Laser& laser : lasers_) {
+    laser.due = due(laser.period);
+    if (laser.on && laser.due && laser.poster != nullptr && powered())
+      world_.expect_scan(body_, laser.number, laser.reading.number + 1);
+  }
 }
 
 bool RobotBridge::powered() const { return !has_battery_ || !world_.battery(body_).empty_at; }
@@ -249,9 +258,9 @@ void RobotBridge::wait_for_step() {
 
 // What an exchange touches as a rule, but of what there may be much, only the beginning.
 void RobotBridge::find_working_set() {
-  constexpr std::size_t beams_known = 32, of_stack = 1200;
+  constexpr std::size_t beams_known = 32, of_stack = 768;
   working_set_.add_stack_below(of_stack);
-  working_set_.add(*this);
+  working_set_.add_between(this, &robot_);
   working_set_.add(rows_.data(), rows_.size() * sizeof(Row));
   for (const Row& row : rows_) row.poster->add_to(working_set_);
   for (const Laser& laser : lasers_) {

@@ -64,6 +64,7 @@ class RobotBridge {
     std::size_t number;
     Duration period;
     bool on = false;
+    bool due = true;  // at the next exchange
     ScanLine line;
     genom::Poster<posters::LaserReading>* poster = nullptr;
     world::LaserScan scan;
@@ -102,6 +103,7 @@ class RobotBridge {
   genom::Poster<T>& create_poster(Row& row);
   template <class T, class Take>
   void read_command(Row& row, Take take);
+  void expect_scans();
   void fire_sonars();
   bool powered() const;
   std::int64_t times_due(Duration period) const;

@@ -17,12 +17,13 @@ void deliver_signals(kernel::Task& task) {
   guests()->is_guest(task) ? guests()->deliver_signals(task) : sync::deliver_signals(task);
 }
 
+template <void (io::Link::*send)(std::size_t bytes, io::Link::Arrival arrival)>
 bool carry(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes, void (*arrive)(void*),
            void (*drop)(void*), void* message) {
   const std::shared_ptr<io::Node> node = static_cast<io::Network*>(network)->node(from.name);
   io::Link* const link = node != nullptr ? node->link_to(to.name) : nullptr;
   if (link == nullptr) return false;
-  link->send_datagram(bytes, [arrive, kept = std::shared_ptr<void>(message, drop)] { arrive(kept.get()); });
+  (link->*send)(bytes, [arrive, kept = std::shared_ptr<void>(message, drop)] { arrive(kept.get()); });
   return true;
 }
 
@@ -36,7 +37,7 @@ bool has_programs(const Scenario& scenario) {
 bool can_load_programs() { return guests() != nullptr; }
 
 void RobotPrograms::set_network(io::Network& network) {
-  carrier_ = {&network, carry};
+  carrier_ = {&network, carry<&io::Link::send_datagram>, carry<&io::Link::send_in_order>};
   if (can_load_programs()) guests()->set_carrier(&carrier_);
 }
 

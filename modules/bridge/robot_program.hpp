@@ -23,8 +23,8 @@ bool can_load_programs();
 class RobotPrograms {
  public:
   explicit RobotPrograms(kernel::Scheduler& scheduler) : scheduler_(scheduler) {}
-  /// By which programs of different robots send datagrams to each other, in place of at once. It stays until they are
-  /// taken away.
+  /// By which what programs of different robots send to each other arrives, in place of at once. It stays until they
+  /// are taken away.
   void set_network(io::Network& network);
   ~RobotPrograms() { take_away(); }
   RobotPrograms(const RobotPrograms&) = delete;

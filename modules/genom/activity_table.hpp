@@ -5,8 +5,8 @@
 // kept beside them: a slot is two kilobytes, and every wake-up of every task goes through those in use.
 #pragma once
 
-#include <array>
 #include <bit>
+#include <vector>
 
 #include "modules/genom/activity.hpp"
 
@@ -73,7 +73,8 @@ class ActivityTable {
 
   std::uint32_t used_ = 0;  // a bit for each slot
   std::size_t next_ = 0;
-  std::array<Activity, activities_max> slots_;
+  // Apart from what else a module has, which many tasks touch at every wake-up: together that lies on few pages.
+  std::vector<Activity> slots_ = std::vector<Activity>(activities_max);
 };
 
 }  // namespace waitpoint::genom

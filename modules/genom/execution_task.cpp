@@ -8,7 +8,7 @@
 namespace waitpoint::genom {
 
 ExecutionTask::ExecutionTask(Module& module, std::string name, TaskOptions options, TaskComputing computing)
-    : module_(module), name_(std::move(name)), options_(options), computing_(computing) {}
+    : module_(module), options_(options), name_(std::move(name)), computing_(computing) {}
 
 void ExecutionTask::signal() {
   if (periodic() || signalled_) return;
@@ -18,7 +18,10 @@ void ExecutionTask::signal() {
 
 // Its own, what it gives, and of the module what all its tasks touch.
 void ExecutionTask::find_working_set() {
-  working_set_.add(*this);
+  if (periodic())
+    working_set_.add_between(this, &missed_deadlines_);
+  else
+    working_set_.add_between(this, &start_);
   module_.add_to(working_set_);
   for (const OutputPosterBase* poster : posters_) poster->add_to(working_set_);
   threads::this_thread::set_working_set(working_set_);

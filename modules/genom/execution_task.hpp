@@ -81,20 +81,22 @@ class ExecutionTask {
   bool step(Activity& activity);
   void after_codel(Duration cost);
 
+  // What every wake-up of a periodic task touches comes first.
   Module& module_;
-  std::string name_;
   TaskOptions options_;
-  TaskComputing computing_;
-  std::function<void()> permanent_, second_permanent_, start_, end_;
-  std::vector<OutputPosterBase*> posters_;
-  std::optional<threads::periodic_timer> timer_;
-  threads::counting_semaphore<> event_{0, "task event"};
   bool signalled_ = false;  // and not yet awake
-  std::int64_t missed_periods_ = 0;
-  std::int64_t missed_deadlines_ = 0;
-  Duration greatest_lateness_;
   bool suspended_ = false;
   bool ended_ = false;
+  std::int64_t missed_periods_ = 0;
+  std::vector<OutputPosterBase*> posters_;
+  std::function<void()> permanent_, second_permanent_;
+  std::optional<threads::periodic_timer> timer_;
+  std::int64_t missed_deadlines_ = 0;
+  Duration greatest_lateness_;
+  threads::counting_semaphore<> event_{0, "task event"};
+  std::function<void()> start_, end_;
+  std::string name_;
+  TaskComputing computing_;
   WorkingSet working_set_;
 };
 

@@ -27,10 +27,11 @@ ExecutionTask& Module::add_task(const std::string& name, TaskOptions options) {
 
 // The locks, the links, and what a class of its own adds, of which little is touched if it is large.
 void Module::add_to(WorkingSet& set) const {
-  constexpr std::size_t of_own_max = 1024;
+  constexpr std::size_t of_own_max = 512;
   set.add(control_data_);
   set.add(functional_data_);
-  set.add(&control_, sizeof control_);
+  set.add(control_);
+  set.add(&activities_, 1);
   for (const Link& link : links_) link.poster->add_to(set);
   set.add(reinterpret_cast<const char*>(this) + sizeof(Module), std::min(size_ - sizeof(Module), of_own_max));
 }

@@ -9,6 +9,7 @@ namespace waitpoint::posters {
 
 void OdometryTrail::add(Time date, const Pose& pose) {
   if (count_ > 0 && date <= back(0).date) return;
+  if (ring_.empty()) ring_.resize(capacity);
   ring_[next_] = {date, pose};
   next_ = (next_ + 1) % capacity;
   count_ = std::min(count_ + 1, capacity);

@@ -2,8 +2,8 @@
 // Where odometry had the robot lately: a ring of dated poses, to place a scan that is dated in the past.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/pose.hpp"
 #include "core/time.hpp"
@@ -31,7 +31,7 @@ class OdometryTrail {
   /// The i-th newest.
   const Dated& back(std::size_t i) const { return ring_[(next_ + capacity - 1 - i) % capacity]; }
 
-  std::array<Dated, capacity> ring_{};
+  std::vector<Dated> ring_;  // none before the first pose
   std::size_t next_ = 0, count_ = 0;
 };
 

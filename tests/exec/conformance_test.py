@@ -55,7 +55,8 @@ NOT_MISSED = (
         "the C library's leaves the same bytes; it is here so that this does not depend on them",
     )
     | dict.fromkeys(
-        "dup dup2 dup3 epoll_create epoll_create1 epoll_ctl eventfd fcntl fcntl64 pipe pipe2 socketpair popen".split(),
+        """dup dup2 dup3 epoll_create epoll_create1 epoll_ctl eventfd fcntl fcntl64 pidfd_getfd pipe pipe2 socketpair
+        popen""".split(),
         "says that only this program has a descriptor: deadlocks are told by it (debian_test.py, Deadlocks)",
     )
     | dict.fromkeys(
@@ -81,6 +82,7 @@ NOT_MISSED = (
         "clock_settime": "natively it would set the machine's date (debian_test.py, Options)",
         "settimeofday": "natively it would set the machine's date",
         "socket": "says whose it is, among several programs (several_test.py)",
+        "getcpu": "any processor is as good",
         "sched_getcpu": "any processor is as good",
         "vfork": "a child that does nothing but become a program does not show whose memory it has",
         "tss_delete": "as pthread_key_delete",

@@ -241,6 +241,14 @@ class Ends(Exec):
         self.assertIn("thread 1 waits for mutex left, held by main\n", text)
         self.assertIn("replay: waitpoint exec --seed 1 --", text)
 
+    def test_as_it_would_while_some_wait_for_each_other(self):
+        status, _, text = self.end("cycle")
+        self.assertEqual(status, 5, text)
+        self.assertIn("deadlock at 4.000000000 s of virtual time, of some: the others go on\n"
+                      "  thread 2 waits for mutex right, held by thread 1\n"
+                      "  thread 1 waits for mutex left, held by thread 2\n", text)
+        self.assertEqual(text.count("waits for"), 2)
+
 
 class Clocks(Exec):
     """What a program's code costs, if it is to cost anything."""

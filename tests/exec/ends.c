@@ -27,6 +27,13 @@ static void* end(void* unused) {
   return NULL;
 }
 
+static void* lock_left_first(void* unused) {
+  pthread_mutex_lock(&left);
+  sleep(4);
+  pthread_mutex_lock(&right);
+  return unused;
+}
+
 int main(int argc, char** argv) {
   way = argc > 1 ? argv[1] : "";
   pthread_t other;
@@ -35,6 +42,13 @@ int main(int argc, char** argv) {
     pthread_mutex_lock(&left);
     sleep(4);
     pthread_mutex_lock(&right);
+  }
+  if (strcmp(way, "cycle") == 0) {
+    way = "deadlock";
+    pthread_t one;
+    pthread_create(&one, NULL, lock_left_first, NULL);
+    sleep(9);
+    return 5;
   }
   if (strcmp(way, "main leaves") == 0) pthread_exit(NULL);
   pthread_join(other, NULL);

@@ -74,7 +74,8 @@ class Exploring(ExecCase):
     def test_tells_how_a_run_ended_and_what_its_threads_did_last(self):
         program = self.compile("ends.c", "-rdynamic")
         for way, expected in (("exit", "exit status 3"), ("_exit", "exit status 4"), ("crash", "ended by signal 11"),
-                              ("abort", "ended by signal 6"), ("kill", "ended by signal 9"), ("deadlock", "deadlock")):
+                              ("abort", "ended by signal 6"), ("kill", "ended by signal 9"), ("deadlock", "deadlock"),
+                              ("cycle", "deadlock")):
             done = explore("--", program, way)
             self.assertEqual(done.returncode, 1, way)
             self.assertRegex(done.stdout, rf"the default order failed at [24]\.000000000 s: {expected}")

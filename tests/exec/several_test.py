@@ -98,35 +98,52 @@ world: {{shapes: [{{corners_m: [0, 0, 1, 1]}}]}}
 robot_types: {{include: {types}}}
 {medium}
 robots:
-  - {{name: ada, type: rackham, start: [5, 5, 0], programs: [{{name: sender, file: {file}, arguments: [send, {port}]}}]}}
-  - {{name: bea, type: rackham, start: [9, 5, 0], programs: [{{name: receiver, file: {file}, arguments: [receive, {port}]}}]}}
+  - {{name: ada, type: rackham, start: [5, 5, 0], programs: [{{name: sender, file: {file}, arguments: [{sends}, {port}]}}]}}
+  - {{name: bea, type: rackham, start: [9, 5, 0], programs: [{{name: receiver, file: {file}, arguments: [{receives}, {port}]}}]}}
 """
 
 
 class Links(unittest.TestCase):
-    """Datagrams between programs of two robots."""
+    """What programs of two robots send to each other."""
 
-    def heard(self, medium, *options):
+    def heard(self, program, medium, *options, sends="send", receives="receive"):
         port = random.randrange(20000, 60000)
         with tempfile.TemporaryDirectory() as folder:
             scenario = pathlib.Path(folder) / "two.yaml"
             scenario.write_text(TWO_ROBOTS.format(types=SCENARIO.parent / "rackham.yaml", medium=medium, port=port,
-                                                  file=PROGRAMS / "datagrams.so"))
+                                                  file=PROGRAMS / program, sends=sends, receives=receives))
             run = subprocess.run([WAITPOINT, "run", scenario, *options], capture_output=True, text=True, timeout=60)
             self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
-            return [line for line in run.stdout.splitlines() if line.startswith("number ")]
+            return [line for line in run.stdout.splitlines() if line.startswith(("number ", "record ", "bulk ", "end "))]
 
-    def test_take_the_time_of_the_medium(self):
-        at_once = self.heard("")
+    def test_datagrams_take_the_time_of_the_medium(self):
+        at_once = self.heard("datagrams.so", "")
         self.assertEqual(at_once, [f"number {i} after 0 ms" for i in range(10)])
-        self.assertEqual(self.heard("medium: {latency_ms: 7}"), [f"number {i} after 7 ms" for i in range(10)])
+        delayed = self.heard("datagrams.so", "medium: {latency_ms: 7}")
+        self.assertEqual(delayed, [f"number {i} after 7 ms" for i in range(10)])
 
-    def test_are_lost_as_the_medium_says_and_the_seed_draws(self):
+    def test_datagrams_are_lost_as_the_medium_says_and_the_seed_draws(self):
         medium = "medium: {latency_ms: [2, 6], loss: 0.5}"
-        runs = [self.heard(medium, "--seed", seed) for seed in ("1", "1", "2")]
+        runs = [self.heard("datagrams.so", medium, "--seed", seed) for seed in ("1", "1", "2")]
         self.assertTrue(0 < len(runs[0]) < 10, runs[0])
         self.assertEqual(runs[0], runs[1])
         self.assertNotEqual(runs[0], runs[2])
+
+    def test_streams_take_the_time_of_the_medium_and_lose_nothing(self):
+        def expected(ms):
+            return [*(f"record {i} after {ms} ms" for i in range(5)), "bulk of 1000000 bytes", f"end 5 after {ms} ms"]
+
+        self.assertEqual(self.heard("streams.so", ""), expected(0))
+        self.assertEqual(self.heard("streams.so", "medium: {latency_ms: 7}"), expected(7))
+        self.assertEqual(self.heard("streams.so", "medium: {latency_ms: 7, loss: 0.9}"), expected(7))
+
+    def test_streams_go_both_ways_and_arrive_after_their_sender_has_ended(self):
+        said = self.heard("streams.so", "medium: {latency_ms: 7}", sends="leave", receives="meet")
+        self.assertEqual(said, [*(f"record {i} after 7 ms" for i in range(3)), "end 2 after 7 ms"])
+
+    def test_streams_take_the_time_that_their_bytes_are_on_the_air(self):
+        slow = self.heard("streams.so", "medium: {latency_ms: 1, bandwidth_bit_s: 12800}")
+        self.assertEqual(slow[:5], [f"record {i} after 11 ms" for i in range(5)])
 
 
 class Instances(unittest.TestCase):

@@ -151,6 +151,13 @@ class Looking(unittest.TestCase):
             self.assertIn(expected, text)
 
 
+    def test_the_innermost_frames_of_the_running_fiber_are_the_users_too(self):
+        told = of_clock_makers("break-time 0.001", "run", "fiber apply all bt 1", "fiber apply all nosuch")
+        self.assertRegex(told[2], r"(?s)Fiber 2, master [^\n]*, running\n#\d+ [^\n]*make_clock")
+        self.assertIn('Undefined command: "nosuch"', told[3])
+        self.assertNotIn("Python Exception", told[3])
+
+
 class Stepping(unittest.TestCase):
     def test_goes_from_event_to_event_of_all_tasks_or_of_one(self):
         told = of_clock_makers("break-time 1ms", "break-time 500ms", "run", "next-event", "next-event 3",
@@ -195,6 +202,16 @@ class Back(unittest.TestCase):
         self.assertEqual(everything.count("springs: no"), 2, "what a replay writes is thrown away")
         self.assertEqual(digest(told[12]), plain_digest())
         self.assertIn("exited normally", told[12])
+
+    def test_goes_back_where_every_event_was_asked_for(self):
+        told = of_clock_makers("break-time 0", "run", "next-event", "next-event", "back", "back", "virtual-time", "back",
+                               "next-event", "continue")
+        self.assertIn("event 2 at", told[4])
+        self.assertIn("event 1 at", told[5])
+        self.assertEqual(told[6].split(";")[0], "0.000000000 s, event 1")
+        self.assertIn("there is no event before", told[7])
+        self.assertIn("event 2 at", told[8])
+        self.assertEqual(digest(told[9]), plain_digest())
 
     def test_goes_to_the_beginning_of_the_event_from_within(self):
         told = of_clock_makers("break 'clock_makers.cpp':50", "run", "virtual-time", "back", "back", "continue",

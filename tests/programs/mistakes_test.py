@@ -39,6 +39,16 @@ class LatePom(Installed):
             self.assertIn("the same run", replayed.stdout, replayed.stderr)
         self.assertIn(digest, replayed.stdout)
 
+        # As of a run that went another way from the third of its marks on.
+        token = re.search(r"--replay (wx1\S+)", found.stdout).group(1)
+        begin, marks, end = re.fullmatch(r"(wx1\.0\.)[0-9a-f]{8}-(\w+)(\..*)", token).groups()
+        for mark, which in (5, r"at one of its events \d+ to \d+"), (1, r"at one of its events 1 to \d+"):
+            other = marks[:mark] + ("z" if marks[mark] != "z" else "y") + marks[mark + 1:]
+            refused = self.explore("--replay", f"{begin}00000001-{other}{end}")
+            self.assertEqual(refused.returncode, 2)
+            self.assertRegex(refused.stderr, rf"^waitpoint: --replay: this is not the run of the record: it had \d+ events and "
+                                             rf"a digest that .*: it left the record {which}\n$")
+
     def test_is_stepped_through_in_gdb(self):
         if shutil.which("gdb") is None or "exited normally" not in self.gdb("-ex", "run", "--", "true"):
             self.skipTest("no process may be debugged here")
@@ -207,12 +217,12 @@ class LostLetter(Installed):
 
         # A token of a call that the test does not have is no test that passes.
         other = re.search(r"wx1\.1\.(\S+)", line)[1]
-        for which in "MendedLetter.*", "*":
+        for which in "MendedLetter.*", "*", "No.Such":
             refused = subprocess.run([program, f"--gtest_filter={which}"], capture_output=True, text=True,
                                      env={**os.environ, "WAITPOINT_REPLAY": f"wx1.7.{other}"})
             self.assertEqual((refused.returncode, refused.stderr),
                              (2, f"waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.7.{other}': "
-                                 "the test has no such call\n"))
+                                 "no test that was run has such a call\n"))
             self.assertNotIn("PASSED", refused.stdout)
 
     def test_a_process_that_dies_says_how_to_repeat_it(self):

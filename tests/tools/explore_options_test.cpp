@@ -117,6 +117,9 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
   EXPECT_EQ(refusal({"a", "--from", "20", "--until", "10"}), "--from: expected a time before --until, found '20'");
   EXPECT_EQ(refusal({"a", "--iterations", "-1"}), "--iterations: expected a positive whole number, found '-1'");
   EXPECT_EQ(refusal({"a", "--iterations", "0"}), "--iterations: expected a positive whole number, found '0'");
+  EXPECT_EQ(explore({"a", "--schedule-limit", "0"}).schedule_limit_s, 0.0);
+  EXPECT_EQ(refusal({"a", "--schedule-limit", "-1"}),
+            "--schedule-limit: expected a number of seconds, 0 for no limit, found '-1'");
   EXPECT_EQ(refusal({"a", "--time-limit", "0"}),
             "--time-limit: expected a positive number of seconds (where it is not given there is no limit), found '0'");
   EXPECT_FALSE(refusal({"a", "--strategy", "best"}).find("dpor") != std::string::npos);
@@ -128,9 +131,9 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
 
 TEST_F(ExploreCommandLine, help_names_options_strategies_and_exit_statuses) {
   const std::string help = std::get<ShownText>(read(words({"--help"}))).text;
-  for (const char* word : {"--strategy", "--iterations", "--time-limit", "--jobs", "--seed", "--property", "--until",
-                           "--from", "--set", "--shard", "--results", "--replay", "--schedule", "--trace",
-                           "--no-minimize", "portfolio, fifo, random, pct:D", "Exit status: 0"})
+  for (const char* word : {"--strategy", "--iterations", "--time-limit", "--schedule-limit", "--jobs", "--seed",
+                           "--property", "--until", "--from", "--set", "--shard", "--results", "--replay", "--schedule",
+                           "--trace", "--no-minimize", "portfolio, fifo, random, pct:D", "Exit status: 0"})
     EXPECT_NE(help.find(word), std::string::npos) << word;
 }
 

@@ -202,6 +202,7 @@ Specimens atomicities() {
           {"wrong lock", wrong_lock<false>, wrong_lock<true>, 1, "atomicity"},
           {"two-stage", two_stage<false, 0>, two_stage<true, 0>, 1, "atomicity"},
           {"two-stage among 20", two_stage<false, 18>, two_stage<true, 18>, 1, "atomicity"},
+          {"two-stage among 50", two_stage<false, 48>, two_stage<true, 48>, 1, "atomicity"},
           {"two-stage among 100", two_stage<false, 98>, two_stage<true, 98>, 1, "atomicity"},
           {"double-checked locking", double_checked_locking<false>, double_checked_locking<true>, 1, "atomicity"},
           {"alternation", alternation<false>, alternation<true>, 4, "atomicity"},

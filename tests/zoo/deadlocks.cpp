@@ -156,6 +156,7 @@ Specimens deadlocks() {
           {"crossing of 3", crossing<false, 3>, crossing<true, 3>, 1, "deadlock"},
           {"crossing of 5", crossing<false, 5>, crossing<true, 5>, 2, "deadlock"},
           {"crossing of 8", crossing<false, 8>, crossing<true, 8>, 4, "deadlock"},
+          {"crossing of 12", crossing<false, 12>, crossing<true, 12>, 6, "deadlock"},
           {"philosophers", philosophers<false>, philosophers<true>, 2, "deadlock"},
           {"callback under lock", callback_under_lock<false>, callback_under_lock<true>, 1, "deadlock"},
           {"join under lock", join_under_lock<false>, join_under_lock<true>, 1, "deadlock"},

@@ -38,7 +38,7 @@ void reorder() {
 // enough, usually.
 template <bool mended, int threads>
 void last_before_first() {
-  constexpr int parameters = 8;
+  constexpr int parameters = 12;
   atomic<int> table(0), parameter(0);
   latch made(1);
   Crew crew;
@@ -100,7 +100,7 @@ void late_subscriber() {
 // be noticed.
 template <bool mended>
 void half_the_route() {
-  constexpr int points = 10;
+  constexpr int points = 14;
   mutex route;
   int sent = 0, heard = 0;
   bool follows = false;

@@ -14,12 +14,15 @@
 #include <cstring>
 #include <system_error>
 
+#include "fibers/explore/process_ticks.hpp"
+#include "tools/progress.hpp"
 #include "tools/signal_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 constexpr std::size_t errors_max = 4096;
+constexpr double between_looks_s = 0.5;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
@@ -65,7 +68,8 @@ void Children::start(std::uint64_t number, const std::function<std::string()>& w
   close(errors[1]);
   fcntl(bytes[0], F_SETFL, O_NONBLOCK);
   fcntl(errors[0], F_SETFL, O_NONBLOCK);
-  running_.push_back({process, bytes[0], errors[0], {number, 0, "", ""}});
+  const double now_s = wall_clock_s();
+  running_.push_back({process, bytes[0], errors[0], {number, 0, "", ""}, now_s, now_s});
 }
 
 void Children::drain(int pipe, std::string& to, std::size_t most, bool& at_end) {
@@ -97,7 +101,9 @@ std::optional<Children::Ended> Children::wait(int timeout_ms) {
     pipes.push_back({running.bytes_pipe, POLLIN, 0});
     pipes.push_back({running.errors_pipe, POLLIN, 0});
   }
-  if (poll(pipes.data(), pipes.size(), timeout_ms) <= 0) return std::nullopt;
+  const int ready = poll(pipes.data(), pipes.size(), timeout_ms);
+  end_those_beyond_limits();
+  if (ready <= 0) return std::nullopt;
   for (std::size_t i = 0; i < running_.size(); ++i) {
     bool at_end = false, errors_end = false;
     if (pipes[2 * i + 1].revents != 0)
@@ -106,6 +112,26 @@ std::optional<Children::Ended> Children::wait(int timeout_ms) {
     if (at_end) return reap(i);
   }
   return std::nullopt;
+}
+
+// Now and then: there may be hundreds of short ones a second. What is killed is seen to end by the next wait().
+void Children::end_those_beyond_limits() {
+  const double now_s = wall_clock_s();
+  if (now_s < next_look_s_) return;
+  next_look_s_ = now_s + between_looks_s;
+  for (Running& running : running_) {
+    if (!running.so_far.killed_for.empty()) continue;
+    const std::optional<std::uint64_t> ticks = exploration::ticks_of(running.process);
+    if (!limits_.computes || !ticks || *ticks != running.ticks) running.looked_s = now_s;
+    running.ticks = ticks.value_or(running.ticks);
+    if (now_s - running.looked_s >= exploration::idle_s_max)
+      running.so_far.killed_for = "it waited for " + std::to_string(exploration::idle_s_max) +
+                                  " s for something that is not simulated, a real lock or input: its process is ended";
+    else if (limits_.wall_s > 0 && now_s - running.started_s >= limits_.wall_s)
+      running.so_far.killed_for = "it went on for " + std::to_string(static_cast<long>(limits_.wall_s)) +
+                                  " s, the most that one may (--schedule-limit): its process is ended";
+    if (!running.so_far.killed_for.empty()) kill(running.process, SIGKILL);
+  }
 }
 
 void Children::kill_from(std::uint64_t number) {
@@ -117,7 +143,8 @@ void Children::kill_from(std::uint64_t number) {
 }
 
 std::string death_of(const Children::Ended& ended) {
-  std::string text;
+  std::string text = ended.killed_for;
+  if (!text.empty()) return text;
   if (WIFSIGNALED(ended.status))
     text = "the process was killed by " + signal_in_words(WTERMSIG(ended.status));
   else if (WEXITSTATUS(ended.status) != 0 || ended.bytes.empty())

@@ -72,11 +72,18 @@ std::string sum(const Target& target, const Search& search, double seconds) {
                      search.interrupted() ? "; stopped by a signal" : "", scope);
 }
 
+// What takes longer than this, and so many times what the default order takes, is taken for endless.
+constexpr double least_limit_s = 60, usual_times_max = 10;
+
 int search(Target& target, Files& files) {
   heed_signals();
   target.prepare();
   SearchProgress progress(stderr, isatty(STDERR_FILENO) != 0);
+  target.set_limit(target.options().schedule_limit_s.value_or(0));
+  const double usual_start_s = progress.seconds();
   std::optional<Finding> usual = run_apart(target, {.drawn = false}, {.profile = true});
+  const double usual_s = progress.seconds() - usual_start_s;
+  target.set_limit(target.options().schedule_limit_s.value_or(least_limit_s + usual_times_max * usual_s));
   if (usual && !usual->passed() && !files.has_results()) {
     tell(report_default(target, *usual), files);
     return 1;

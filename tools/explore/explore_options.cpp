@@ -98,6 +98,9 @@ ExploreArguments::ExploreArguments(CLI::App& app)
   add("--iterations", iterations_, "N",
       "schedules, at most (default: $WAITPOINT_ITERATIONS, or 1000, or no end\nwhere there is a time limit)");
   add("--time-limit", time_limit_, "SECONDS", "no schedule is begun after that (default: $WAITPOINT_TIME_LIMIT)");
+  add("--schedule-limit", schedule_limit_, "SECONDS",
+      "of the wall clock: a schedule that takes longer has failed, 0 for no limit\n"
+      "(default: $WAITPOINT_SCHEDULE_LIMIT, or a minute and ten times the default order's)");
   add("--jobs", jobs_, "J", "so many processes at once (default: 1)");
   add("--seed", seed_, "N", "from which all else follows (default: $WAITPOINT_SEED, or 1)");
   add_all("--property", properties_,
@@ -167,6 +170,10 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   take("--time-limit", "WAITPOINT_TIME_LIMIT", time_limit_,
        "a positive number of seconds (where it is not given there is no limit)", std::numeric_limits<double>::min(),
        options.time_limit_s);
+  double schedule_limit_s = -1;
+  take("--schedule-limit", "WAITPOINT_SCHEDULE_LIMIT", schedule_limit_, "a number of seconds, 0 for no limit", 0.0,
+       schedule_limit_s);
+  if (schedule_limit_s >= 0) options.schedule_limit_s = schedule_limit_s;
   if (options.time_limit_s > 0) options.iterations = ~std::uint64_t{0};
   take<std::uint64_t>("--iterations", "WAITPOINT_ITERATIONS", iterations_, "a positive whole number", 1,
                       options.iterations);

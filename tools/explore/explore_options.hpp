@@ -29,12 +29,13 @@ struct ExploreOptions {
   std::vector<std::string> properties;   ///< of --property: "collisions=0"
   std::string strategy = "portfolio";
   std::uint64_t seed = 1;
-  bool seed_is_asked = false;       ///< and not the default
-  std::uint64_t iterations = 1000;  ///< schedules, at most, of all shards
-  double time_limit_s = 0;          ///< of the wall clock; 0: none
-  std::uint32_t jobs = 1;           ///< processes at once
-  std::optional<Duration> until;    ///< instead of the scenario's
-  std::optional<Duration> from;     ///< to where all schedules are one
+  bool seed_is_asked = false;                   ///< and not the default
+  std::uint64_t iterations = 1000;              ///< schedules, at most, of all shards
+  double time_limit_s = 0;                      ///< of the wall clock; 0: none
+  std::optional<double> schedule_limit_s = {};  ///< of one schedule; 0: none; else by what the default order takes
+  std::uint32_t jobs = 1;                       ///< processes at once
+  std::optional<Duration> until;                ///< instead of the scenario's
+  std::optional<Duration> from;                 ///< to where all schedules are one
   Shard shard;
   std::optional<std::filesystem::path> results, trace, schedule;  ///< to write
   std::string replay;                                             ///< a token or a file's name: that one alone
@@ -61,7 +62,7 @@ class ExploreArguments {
   void check_exhaustive(const std::string& where, const ExploreOptions& options) const;
 
   CLI::App* command_;
-  std::string scenario_, seed_, strategy_, iterations_, time_limit_, jobs_, until_, from_, shard_;
+  std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
   std::string results_, trace_, schedule_, replay_;
   std::vector<std::string> assignments_, properties_;
   ConditionArguments conditions_;

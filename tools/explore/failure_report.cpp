@@ -23,7 +23,18 @@ constexpr std::uint64_t runs_to_minimize = 2000, runs_to_explain = 200;
 constexpr double seconds_to_minimize = 90, seconds_to_explain = 60;
 constexpr Duration traced = std::chrono::seconds(2);
 
+// Of the run by this plan; nothing where it takes another process's events, or begins in mid-run.
+exploration::Trail trail_of(Target& target, const Plan& plan, const Finding& finding) {
+  exploration::Trail trail;
+  const ExploreOptions& options = target.options();
+  if (!options.program.empty() || options.from || finding.kind == Finding::Kind::killed) return trail;
+  const auto told = run_apart(target, plan, {.trail = exploration::log_spacing_for(finding.events)});
+  if (told && told->digest == finding.digest) (void)exploration::read_trail(told->trail, trail);
+  return trail;
+}
+
 std::string headline(const std::string& which, const Finding& finding) {
+  if (finding.kind == Finding::Kind::killed) return fmt::format("{} failed: {}\n", which, finding.words);
   return fmt::format("{} failed at {} s: {}\n", which, to_string(finding.end), finding.words);
 }
 
@@ -61,12 +72,18 @@ FailureReport report_default(Target& target, const Finding& finding) {
   const ExploreOptions& options = target.options();
   report.text =
       headline(target.has_noise() ? "the default order, with the scenario's own noise," : "the default order", finding);
-  report.schedule = {target.fingerprint(), "fifo", options.seed, 0, Time() + options.from.value_or(Duration()),
-                     finding.digest,       {}};
+  report.schedule = {target.fingerprint(),
+                     "fifo",
+                     options.seed,
+                     0,
+                     Time() + options.from.value_or(Duration()),
+                     finding.digest,
+                     {},
+                     trail_of(target, {.drawn = false}, finding)};
   tell_run(target, {.drawn = false}, finding, report);
-  report.text += "digest: " + digest_text(finding.digest) + "\n";
+  if (finding.digest != 0) report.text += "digest: " + digest_text(finding.digest) + "\n";
   const Token token{0, token_digest(finding.digest), "", 0, 0, {}};
-  report.text += "replay: " + replay_command(options, to_text(token)) + "\n";
+  report.text += "replay: " + replay_command(options, to_text_with(token, report.schedule.trail)) + "\n";
   return report;
 }
 
@@ -82,7 +99,8 @@ FailureReport report(Target& target, SearchProgress& progress, const Search::Fai
     found = {0, found.digest, "", 0, 0, failed.finding.deviations};
     plan = {.drawn = false, .switches = {}, .deviations = failed.finding.deviations};
   }
-  std::string token = to_text(found);
+  Token token = found;
+  const Plan found_plan = plan;
   Finding least = failed.finding;
   if (options.minimize) {
     Budget budget(runs_to_minimize, seconds_to_minimize);
@@ -102,8 +120,8 @@ FailureReport report(Target& target, SearchProgress& progress, const Search::Fai
     if (fewer.is_noise() || fewer.repeats()) {
       least = fewer.least();
       plan = {.number = fewer.number(), .drawn = false, .switches = {}, .deviations = least.deviations};
-      const std::string deviating = to_text(Token{0, token_digest(least.digest), "", 0, 0, least.deviations});
-      if (fewer.number() == 0 && deviating.size() <= exploration::token_length_max) token = deviating;
+      const Token deviating{0, token_digest(least.digest), "", 0, 0, least.deviations};
+      if (fewer.number() == 0 && to_text(deviating).size() <= exploration::token_length_max) token = deviating;
     }
     Budget explaining(runs_to_explain, seconds_to_explain);
     const LeastFailure failure{plan.number, least};
@@ -112,12 +130,19 @@ FailureReport report(Target& target, SearchProgress& progress, const Search::Fai
                      reversed_events(target, progress, explaining, failure, *choice);
   }
   progress.finish();
-  report.schedule = {
-      target.fingerprint(), options.strategy, options.seed, plan.number, Time() + options.from.value_or(Duration()),
-      least.digest,         least.switches};
+  report.schedule = {target.fingerprint(),
+                     options.strategy,
+                     options.seed,
+                     plan.number,
+                     Time() + options.from.value_or(Duration()),
+                     least.digest,
+                     least.switches,
+                     trail_of(target, plan, least)};
+  const exploration::Trail trail =
+      token == found ? trail_of(target, found_plan, failed.finding) : report.schedule.trail;
   if (failed.finding.kind != Finding::Kind::killed) tell_run(target, plan, least, report);
-  report.text += "digest: " + digest_text(least.digest) + "\n";
-  report.text += "replay: " + replay_command(options, token) + "\n";
+  if (least.digest != 0) report.text += "digest: " + digest_text(least.digest) + "\n";
+  report.text += "replay: " + replay_command(options, to_text_with(token, trail)) + "\n";
   if (options.schedule) report.text += "replay: " + replay_command(options, options.schedule->string()) + "\n";
   return report;
 }

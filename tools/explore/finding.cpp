@@ -90,6 +90,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.last_events);
   pass(finding.trace);
   pass(finding.log);
+  pass(finding.trail);
   pass(finding.profile.steps);
   pass(finding.profile.shared);
   pass(finding.profile.code);

@@ -35,6 +35,7 @@ struct Finding {
   std::string last_events;                         ///< where asked for, in words
   std::string trace;                               ///< where asked for
   std::vector<exploration::DoneEvent> log;         ///< where asked for
+  std::string trail;                               ///< where asked for
   exploration::Profile profile;                    ///< where asked for
 
   bool passed() const { return kind == Kind::passed; }

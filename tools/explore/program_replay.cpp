@@ -47,7 +47,7 @@ int replay_program(const ExploreOptions& asked) {
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
   const exploration::Profile profile = take_profile(files, options, record.plan);
-  const Target::Request request{.words = !record.plan.switches.empty(), .places = true, .events = trace.has_value()};
+  const Target::Request request{.words = !record.plan.drawn, .places = true, .events = trace.has_value()};
   RunMemory memory(settings_of(options), files.programs);
   ask_for_run(memory, options, record.plan, request, profile);
   const ProgramRun run(files, memory);

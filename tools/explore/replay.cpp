@@ -27,8 +27,9 @@ int replay(const ExploreOptions& asked, const bridge::Scenario& scenario, std::s
   }
   const double start_s = wall_clock_s();
   scene.prepare();
-  const Finding finding = scene.run(
-      record.plan, {.words = !record.plan.switches.empty(), .places = true, .events = options.trace.has_value()});
+  Target::Request request{.words = !record.plan.drawn, .places = true, .events = options.trace.has_value()};
+  if (!request.events && !record.trail.marks.empty()) request.trail = record.trail.log_spacing;
+  const Finding finding = scene.run(record.plan, request);
   check_is_run_of(record, {scene.schedule(), scene.switches(), finding}, options.replay);
   bridge::RunResult result = scene.result();
   result.seed = options.seed;  // not that of the schedule's noise, which follows from it

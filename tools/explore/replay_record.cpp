@@ -31,6 +31,7 @@ ReplayRecord of_token(ExploreOptions& options) {
   ReplayRecord record;
   record.digest = std::uint64_t{token.digest} << 32;
   record.digest_bits = token.digest == 0 ? 0 : 32;
+  record.trail = token.trail;
   if (token.strategy.empty()) {
     record.plan = {.drawn = false, .deviations = token.deviations};
   } else {
@@ -56,8 +57,22 @@ ReplayRecord of_file(ExploreOptions& options, std::uint64_t fingerprint) {
   take_seed(options, record.stored.seed);
   record.digest = record.stored.digest;
   record.digest_bits = record.digest == 0 ? 0 : 64;
+  record.trail = record.stored.trail;
   record.plan = {.number = record.stored.number, .drawn = false, .switches = record.stored.switches};
+  // Of a process that was ended nothing is known but what drew its schedule.
+  if (record.digest == 0 && record.stored.switches.empty()) {
+    options.strategy = record.stored.strategy;
+    record.plan = {.number = record.stored.number};
+    if (exploration::make_strategy(options.strategy)->is_exhaustive())
+      throw BadInput(options.replay, 3, "expected a strategy that draws its schedules, where no digest is known");
+  }
   return record;
+}
+
+/// How far the run was that of the record, which left it at the record's switch number `i`.
+std::string known_before(const Replayed& run, std::size_t i) {
+  if (i == 0 || run.told.size() < i) return "no switch of the record was come to before";
+  return fmt::format("the run was the record's up to event {}", run.told[i - 1].event);
 }
 
 /// Where the run left the record, in words; empty if it did not.
@@ -69,18 +84,18 @@ std::string parting(const ReplayRecord& record, const Replayed& run) {
   for (std::size_t i = 0; i < record.plan.switches.size(); ++i) {
     const Switch& change = record.plan.switches[i];
     if (std::binary_search(met.begin(), met.end(), change)) continue;
-    const std::vector<exploration::Told>& told = run.told;
-    const std::string known = i == 0 || told.size() < i
-                                  ? "no switch of the record was come to before"
-                                  : fmt::format("the run was the record's up to event {}", told[i - 1].event);
     return fmt::format("line {}: event {} of task {:016x} did not come to a choice that has this switch; {}",
-                       line_of_switch(i), change.usual.sequence, change.usual.task, known);
+                       line_of_switch(i), change.usual.sequence, change.usual.task, known_before(run, i));
   }
-  for (const auto& deviation : record.plan.deviations)
-    if (deviation.decision >= run.schedule.decisions.size())
-      return fmt::format("choice {} was never come to: the run was over {}", deviation.decision, where);
-  if (finding.parted) return "a choice had fewer alternatives than the one taken; the run was over " + where;
-  return "";
+  for (std::size_t i = 0; i < record.plan.deviations.size(); ++i) {
+    const auto& [number, chosen] = record.plan.deviations[i];
+    if (number >= run.schedule.decisions.size())
+      return fmt::format("choice {} was never come to: the run was over {}", number, where);
+    if (const std::uint32_t count = run.schedule.decisions[number].count; chosen >= count)
+      return fmt::format("choice {} has only {} alternatives, none of the number {}; {}", number, count, chosen,
+                         known_before(run, i));
+  }
+  return finding.parted ? "a choice had fewer alternatives than the one taken; the run was over " + where : "";
 }
 
 }  // namespace
@@ -92,14 +107,19 @@ ReplayRecord read_replay_record(ExploreOptions& options, std::uint64_t fingerpri
 void check_is_run_of(const ReplayRecord& record, const Replayed& run, const std::string& name) {
   const int shift = 64 - record.digest_bits;
   const std::string where = parting(record, run);
-  const bool is_same = record.digest_bits == 0 ? where.empty() : run.finding.digest >> shift == record.digest >> shift;
-  if (is_same) return;
-  const std::string digests =
+  const bool is_known = record.digest_bits != 0;
+  if (is_known ? run.finding.digest >> shift == record.digest >> shift : where.empty() && !run.finding.passed()) return;
+  const std::string source = exploration::is_token(name) ? "--replay" : name;
+  if (!is_known && where.empty())
+    throw BadInput(source, "this is not the run of the record: that one ended its process, this one passed");
+  std::string digests =
       fmt::format("it had {} events and a digest that begins with {}, the record says {}", run.finding.events,
                   exploration::digest_text(exploration::token_digest(run.finding.digest)),
                   exploration::digest_text(exploration::token_digest(record.digest)));
-  throw BadInput(exploration::is_token(name) ? "--replay" : name,
-                 "this is not the run of the record: " + (where.empty() ? digests : where));
+  exploration::Trail met;
+  if (!record.trail.marks.empty() && exploration::read_trail(run.finding.trail, met))
+    digests += ": it left the record " + exploration::parting(record.trail, met);
+  throw BadInput(source, "this is not the run of the record: " + (where.empty() ? digests : where));
 }
 
 }  // namespace waitpoint::tools

@@ -14,6 +14,7 @@ struct ReplayRecord {
   Plan plan;
   std::uint64_t digest = 0;  ///< 0: not known
   int digest_bits = 0;       ///< so many of the upper ones are known
+  exploration::Trail trail;  ///< where it is known
   StoredSchedule stored;     ///< of a file
 };
 

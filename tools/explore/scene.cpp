@@ -10,6 +10,7 @@
 #include "fibers/explore/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/explore/timeline_recorder.hpp"
+#include "fibers/explore/trail_recorder.hpp"
 #include "fibers/sync/source_lines.hpp"
 #include "modules/bridge/expectation.hpp"
 
@@ -114,6 +115,9 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   exploration::Timeline timeline;
   if (request.events) scheduler.set_watch(&recorder.emplace(timeline, &stage_->explorer, request.events_from));
   if (request.log_from) scheduler.set_watch(&log.emplace(finding.log, stage_->explorer, *request.log_from));
+  exploration::Trail trail{request.trail.value_or(0), {}};
+  std::optional<exploration::TrailRecorder> trail_recorder;
+  if (request.trail) scheduler.set_watch(&trail_recorder.emplace(trail, simulation));
   if (request.words || request.decision) scheduler.set_decisions(narrator);
   if (request.decision) narrator.ask_for(*request.decision);
   if (request.stop_before)
@@ -125,6 +129,7 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   if (profiling) finding.profile.finish(stage_->explorer.steps());
   finding.tell(narrator, request.decision.has_value(), request.words);
   if (request.events) finding.tell(timeline, options_.trace.has_value());
+  finding.trail = to_text(trail);
   if (request.stop_before) tell_stop(finding);
 }
 

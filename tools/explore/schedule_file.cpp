@@ -22,6 +22,8 @@ using kernel::Choice;
 
 constexpr std::string_view choices[] = {"task", "waiter", "spurious", "loss", "computing"};
 constexpr std::size_t words_of_task = 5, words_of_other = 4;
+constexpr std::string_view digest_prefix = "wp1:";
+constexpr std::size_t digest_digits = 16;
 
 class Lines {
  public:
@@ -84,9 +86,11 @@ Switch read_switch(const Lines& line) {
 }  // namespace
 
 std::string to_text(const StoredSchedule& schedule) {
-  std::string text = fmt::format("waitpoint schedule 1\nscenario {:016x}\ndrawn {} {} {}\nfrom {}\ndigest {}\n",
+  std::string text = fmt::format("waitpoint schedule 1\nscenario {:016x}\ndrawn {} {} {}\nfrom {}\ndigest {}",
                                  schedule.fingerprint, schedule.strategy, schedule.seed, schedule.number,
                                  to_string(schedule.from), digest_text(schedule.digest));
+  if (!schedule.trail.marks.empty()) text += " " + to_text(schedule.trail);
+  text += "\n";
   for (const Switch& change : schedule.switches) {
     text += fmt::format("{} {:016x} {} ", choices[static_cast<std::size_t>(change.choice)], change.usual.task,
                         change.usual.sequence);
@@ -113,10 +117,14 @@ StoredSchedule read_schedule(const std::filesystem::path& file) {
   if (!parse_number(lines.words[1], from_s) || !(from_s >= 0 && from_s <= 1e9))
     lines.refuse("'from' and a time in seconds");
   schedule.from = Time() + Duration::from_seconds(from_s);
-  lines.expect("digest", 2, "'digest' and the digest of the run");
-  if (!lines.words[1].starts_with("wp1:")) lines.refuse("a digest that begins with wp1:");
-  lines.words[1].erase(0, 4);
-  schedule.digest = lines.number(1, 16, "'digest' and the digest of the run");
+  const std::string digest = "'digest', the digest of the run, and its trail where that is known";
+  if (!lines.next() || lines.words.front() != "digest" || lines.words.size() < 2 || lines.words.size() > 3)
+    lines.refuse(digest);
+  if (!lines.words[1].starts_with(digest_prefix)) lines.refuse("a digest that begins with wp1:");
+  lines.words[1].erase(0, digest_prefix.size());
+  if (lines.words[1].size() != digest_digits) lines.refuse("sixteen digits of a digest behind wp1:");
+  schedule.digest = lines.number(1, 16, digest);
+  if (lines.words.size() == 3 && !exploration::read_trail(lines.words[2], schedule.trail)) lines.refuse(digest);
   while (lines.next()) schedule.switches.push_back(read_switch(lines));
   return schedule;
 }

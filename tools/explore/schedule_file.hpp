@@ -5,7 +5,7 @@
 //   scenario 9f3a2c1b00112233                     of all that its files and the options say
 //   drawn portfolio 1 17                          strategy, seed, number: whose noise it is
 //   from 0.000000000                              up to there all was in the default order
-//   digest wp1:0123456789abcdef                   of the run
+//   digest wp1:0123456789abcdef 4Fx0s             of the run; its trail, where that is known
 //   task 00000000000000aa 12 00000000000000bb 7   in place of event 12 of task aa comes event 7 of task bb
 //   computing 00000000000000aa 13 62              what event 13 of task aa chooses is alternative 62
 //
@@ -20,6 +20,7 @@
 
 #include "core/time.hpp"
 #include "fibers/explore/schedule.hpp"
+#include "fibers/explore/trail.hpp"
 
 namespace waitpoint::tools {
 
@@ -30,6 +31,7 @@ struct StoredSchedule {
   Time from;
   std::uint64_t digest = 0;
   std::vector<exploration::Switch> switches;
+  exploration::Trail trail = {};
 };
 
 /// The line of the file, counted from 1, on which switch number `index` stands.

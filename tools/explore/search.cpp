@@ -21,10 +21,18 @@ Finding outcome_of(const Children::Ended& ended) {
   return finding;
 }
 
+// A scenario's run has nothing to wait for; a program's is a process of its own, for which ours waits.
+Children::Limits limits_of(const Target& target) {
+  return {.wall_s = target.limit_s(), .computes = target.options().program.empty()};
+}
+
 }  // namespace
 
+Search::Search(Target& target, SearchProgress& progress)
+    : target_(target), progress_(progress), children_(limits_of(target)) {}
+
 std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request) {
-  Children children;
+  Children children(limits_of(target));
   children.start(0, [&] { return to_bytes(target.run(plan, request)); });
   while (interruption() == 0)
     if (const auto ended = children.wait(look_around_ms)) return outcome_of(*ended);

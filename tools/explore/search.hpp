@@ -31,7 +31,7 @@ class Search {
     Finding finding;
   };
 
-  Search(Target& target, SearchProgress& progress) : target_(target), progress_(progress) {}
+  Search(Target& target, SearchProgress& progress);
 
   /// Tries the schedules that its options ask for. With `all`, failures do not end it.
   void run(bool all);

@@ -26,6 +26,7 @@ class Target {
     Time events_from = Time();
     std::optional<std::size_t> decision = {};  ///< what was chosen there
     std::optional<std::size_t> log_from = {};  ///< the events behind this decision
+    std::optional<std::uint32_t> trail = {};   ///< of a scenario: a mark behind each 2^N events; not beside the above
     /// It ends before this event: what its task is about to do, and where it stands.
     std::optional<exploration::EventOf> stop_before = {};
   };
@@ -46,9 +47,16 @@ class Target {
   /// How the default order goes from there: for strategies that are to know.
   virtual void set_profile(exploration::Profile profile) = 0;
 
+  /// Of each run from now on, by the wall clock; 0: none.
+  void set_limit(double seconds) { limit_s_ = seconds; }
+  double limit_s() const { return limit_s_; }
+
   /// One run, by the plan: in a process that does nothing else.
   virtual Finding run(const Plan& plan, const Request& request) = 0;
   Finding run(const Plan& plan) { return run(plan, Request()); }
+
+ private:
+  double limit_s_ = 0;
 };
 
 /// Whether schedules that a strategy draws depend on how the default order goes.

@@ -2,7 +2,9 @@
 // What can be asked of threads and told to them: names, stacks, priorities, processors.
 #include "tests/exec/conformance/harness.h"
 
+#include <stdatomic.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 
 #include <limits.h>
 #include <sched.h>
@@ -270,6 +272,45 @@ CASE(what_was_used_is_told) {
   EXPECT_IS(getrusage(RUSAGE_CHILDREN, &usage), 0);
   EXPECT_IS(usage.ru_utime.tv_sec, 0);
   EXPECT_FAILS(getrusage((__rusage_who_t)77, &usage), EINVAL);
+}
+CASE(the_processor_it_runs_on_is_told) {
+  unsigned processor = ~0U, node = ~0U;
+  EXPECT_IS(getcpu(&processor, &node), 0);
+  EXPECT(processor < CPU_SETSIZE && node < CPU_SETSIZE);
+  EXPECT_IS(syscall(SYS_getcpu, &processor, NULL, NULL), 0);
+}
+static atomic_int nice_id, nice_ready;
+static int nice_at_first;
+static int nicer_by(int more) { return nice_at_first + more < 19 ? nice_at_first + more : 19; }
+static void* be_nice(void* unused) {
+  EXPECT_IS(getpriority(PRIO_PROCESS, 0), nicer_by(1));
+  EXPECT_IS(nice(2), nicer_by(3));
+  nice_id = gettid();
+  while (!nice_ready) sched_yield();
+  EXPECT_IS(getpriority(PRIO_PROCESS, 0), 19);
+  return unused;
+}
+CASE(each_thread_is_as_nice_as_it_was_made) {
+  nice_at_first = getpriority(PRIO_PROCESS, 0);
+  EXPECT_IS(nice(1), nicer_by(1));
+  const pthread_t id = start(be_nice, NULL);
+  while (!nice_id) sched_yield();
+  EXPECT_IS(getpriority(PRIO_PROCESS, (id_t)nice_id), nicer_by(3));
+  EXPECT_IS(getpriority(PRIO_PROCESS, 0), nicer_by(1));
+  EXPECT_IS(setpriority(PRIO_PROCESS, (id_t)nice_id, 100), 0);
+  EXPECT_IS(nice(4), nicer_by(5));
+  nice_ready = 1;
+  join(id);
+  EXPECT_IS(getpriority(PRIO_PROCESS, 0), nicer_by(5));
+  EXPECT_FAILS(getpriority(PRIO_PROCESS, 0x3FFFFFF0), ESRCH);
+  EXPECT_FAILS(setpriority((__priority_which_t)77, 0, 5), EINVAL);
+}
+CASE(the_first_threads_name_is_that_of_the_process) {
+  char name[16] = {0};
+  EXPECT_IS(pthread_setname_np(pthread_self(), "another"), 0);
+  FILE* const file = fopen("/proc/self/comm", "r");
+  EXPECT(fgets(name, sizeof name, file) != NULL);
+  EXPECT_IS(strcmp(name, "another\n"), 0);
 }
 
 static void* ask_by_number(void* unused) {

@@ -128,6 +128,13 @@ CASE(time_tells_seconds_of_the_realtime_clock) {
   EXPECT(before - 1 <= said && said <= after);  // the second may come a tick later there
   EXPECT(time(NULL) >= said);
 }
+CASE(gettimeofday_tells_what_is_asked_for) {
+  struct timeval* volatile no_time = NULL;
+  struct timezone zone = {1, 1};
+  EXPECT_IS(gettimeofday(no_time, &zone), 0);
+  EXPECT_IS(zone.tz_dsttime, 0);
+  EXPECT_IS(gettimeofday(no_time, NULL), 0);
+}
 CASE(gettimeofday_tells_microseconds_of_the_realtime_clock) {
   struct timeval said = {-1, -1};
   const long long before = now_ns(CLOCK_REALTIME);

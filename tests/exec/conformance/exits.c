@@ -176,3 +176,34 @@ CASE(what_a_thread_has_opened_stays_open_after_its_end) {
   pthread_join(thread, NULL);
   EXPECT_IS(close(descriptor), 0);
 }
+
+static pthread_mutex_t left = PTHREAD_MUTEX_INITIALIZER, right = PTHREAD_MUTEX_INITIALIZER;
+static void* lock_left_first(void* unused) {
+  pthread_mutex_lock(&left);
+  sleep_ms(5);
+  pthread_mutex_lock(&right);
+  return unused;
+}
+static void* lock_right_first(void* unused) {
+  pthread_mutex_lock(&right);
+  sleep_ms(5);
+  pthread_mutex_lock(&left);
+  return unused;
+}
+CASE_ENDING_WITH(3, threads_that_wait_for_each_other_keep_nobody) {
+  start(lock_left_first, NULL);
+  start(lock_right_first, NULL);
+  sleep_ms(20);
+  EXPECT_IS(pthread_mutex_trylock(&left), EBUSY);
+  exit(3);
+}
+static void* lock_twice(void* unused) {
+  pthread_mutex_lock(&left);
+  pthread_mutex_lock(&left);
+  return unused;
+}
+CASE_ENDING_WITH(4, a_thread_that_waits_for_itself_keeps_nobody) {
+  start(lock_twice, NULL);
+  sleep_ms(20);
+  exit(4);
+}

@@ -1,59 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls that wait while a signal comes: which end with EINTR, which go on, and which do so if SA_RESTART asks for it.
-#include "tests/exec/conformance/harness.h"
+// Signals that come while a thread waits for primitives or time: what ends, and what goes on.
+#include "tests/exec/conformance/interruptions.h"
 
-#include <fcntl.h>
 #include <linux/futex.h>
-#include <poll.h>
 #include <semaphore.h>
-#include <signal.h>
-#include <stdatomic.h>
-#include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <sys/msg.h>
-#include <sys/select.h>
 #include <sys/sem.h>
-#include <sys/socket.h>
 #include <sys/syscall.h>
-#include <sys/uio.h>
-#include <sys/wait.h>
 
-static atomic_int handled, done;
-static pthread_t main_id;
-static void handle(int signal) {
-  (void)signal;
-  atomic_fetch_add(&handled, 1);
-}
-static void act(int flags) {
-  struct sigaction action;
-  memset(&action, 0, sizeof action);
-  action.sa_handler = handle;
-  action.sa_flags = flags;
-  EXPECT_IS(sigaction(SIGUSR1, &action, NULL), 0);
-  main_id = pthread_self();
-}
-
-// Sends the signal to the thread that waits, then does what it waits for.
-static void (*then)(void);
-static void* disturb(void* unused) {
-  sleep_ms(10);
-  EXPECT_IS(pthread_kill(main_id, SIGUSR1), 0);
-  sleep_ms(10);
-  if (then != NULL) then();
-  return unused;
-}
-static pthread_t begin(int flags, void (*after)(void)) {
-  act(flags);
-  then = after;
-  return start(disturb, NULL);
-}
-static void end(pthread_t id) {
-  EXPECT_IS(handled, 1);
-  join(id);
-}
-
+static atomic_int done;
 static sem_t semaphore;
 static void post(void) { sem_post(&semaphore); }
+
 CASE(sem_wait_ends) {
   sem_init(&semaphore, 0, 0);
   const pthread_t id = begin(0, NULL);
@@ -120,6 +78,7 @@ static pthread_cond_t condition = PTHREAD_COND_INITIALIZER;
 static pthread_rwlock_t lock = PTHREAD_RWLOCK_INITIALIZER;
 static pthread_barrier_t barrier;
 static atomic_int is_true;
+
 static void* hold_mutex(void* unused) {
   pthread_mutex_lock(&mutex);
   atomic_fetch_add(&done, 1);
@@ -144,6 +103,7 @@ CASE(a_mutex_is_waited_for_on_until_its_time) {
   end(id);
   join(holder);
 }
+
 static void make_true(void) {
   pthread_mutex_lock(&mutex);
   is_true = 1;
@@ -165,6 +125,7 @@ CASE(a_timed_condition_gives_no_EINTR) {
   pthread_mutex_unlock(&mutex);
   end(id);
 }
+
 static void* hold_lock(void* unused) {
   pthread_rwlock_wrlock(&lock);
   atomic_fetch_add(&done, 1);
@@ -188,6 +149,7 @@ CASE(a_lock_is_waited_for_on_to_write) {
   end(id);
   join(holder);
 }
+
 static void arrive(void) { pthread_barrier_wait(&barrier); }
 CASE(a_barrier_is_waited_at_on) {
   pthread_barrier_init(&barrier, NULL, 2);
@@ -202,7 +164,9 @@ CASE(a_join_goes_on) {
   EXPECT_IS(pthread_join(holder, NULL), 0);
   end(id);
 }
+
 static int word;
+
 static void wake_word(void) {
   word = 1;
   syscall(SYS_futex, &word, FUTEX_WAKE, 1, NULL, NULL, 0);
@@ -216,167 +180,6 @@ CASE(a_futex_goes_on_if_asked) {
   const pthread_t id = begin(SA_RESTART, wake_word);
   EXPECT_IS(syscall(SYS_futex, &word, FUTEX_WAIT, 0, NULL, NULL, 0), 0);
   end(id);
-}
-
-static int ends[2];
-static void write_one(void) { EXPECT_IS(write(ends[1], "x", 1), 1); }
-static void read_all(void) {
-  static char bytes[1 << 20];
-  EXPECT(read(ends[0], bytes, sizeof bytes) > 0);
-}
-CASE(read_ends) {
-  EXPECT_IS(pipe(ends), 0);
-  char byte;
-  const pthread_t id = begin(0, NULL);
-  EXPECT_FAILS(read(ends[0], &byte, 1), EINTR);
-  end(id);
-}
-CASE(read_goes_on_if_asked) {
-  EXPECT_IS(pipe(ends), 0);
-  char byte;
-  const pthread_t id = begin(SA_RESTART, write_one);
-  EXPECT_IS(read(ends[0], &byte, 1), 1);
-  end(id);
-}
-CASE(readv_ends) {
-  EXPECT_IS(pipe(ends), 0);
-  char byte;
-  const struct iovec piece = {&byte, 1};
-  const pthread_t id = begin(0, NULL);
-  EXPECT_FAILS(readv(ends[0], &piece, 1), EINTR);
-  end(id);
-}
-static void fill(int descriptor) {
-  static const char bytes[4096];
-  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
-  while (write(descriptor, bytes, sizeof bytes) > 0) {
-  }
-  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
-}
-CASE(write_ends) {
-  EXPECT_IS(pipe(ends), 0);
-  fill(ends[1]);
-  const pthread_t id = begin(0, NULL);
-  EXPECT_FAILS(write(ends[1], "x", 1), EINTR);
-  end(id);
-}
-CASE(write_goes_on_if_asked) {
-  EXPECT_IS(pipe(ends), 0);
-  fill(ends[1]);
-  const pthread_t id = begin(SA_RESTART, read_all);
-  EXPECT_IS(write(ends[1], "x", 1), 1);
-  end(id);
-}
-CASE(write_that_was_begun_tells_how_much) {
-  EXPECT_IS(pipe(ends), 0);
-  static char bytes[1 << 20];
-  const pthread_t id = begin(0, NULL);
-  const ssize_t written = write(ends[1], bytes, sizeof bytes);
-  EXPECT(written > 0 && written < (ssize_t)sizeof bytes);
-  end(id);
-}
-CASE(recv_ends) {
-  EXPECT_IS(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
-  char byte;
-  const pthread_t id = begin(0, NULL);
-  EXPECT_FAILS(recv(ends[0], &byte, 1, 0), EINTR);
-  end(id);
-}
-CASE(recv_goes_on_if_asked) {
-  EXPECT_IS(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
-  char byte;
-  const pthread_t id = begin(SA_RESTART, write_one);
-  EXPECT_IS(recv(ends[0], &byte, 1, 0), 1);
-  end(id);
-}
-CASE(recv_with_a_timeout_ends_whatever_is_asked) {
-  EXPECT_IS(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
-  const struct timeval timeout = {5, 0};
-  EXPECT_IS(setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout), 0);
-  char byte;
-  const pthread_t id = begin(SA_RESTART, NULL);
-  EXPECT_FAILS(recv(ends[0], &byte, 1, 0), EINTR);
-  end(id);
-}
-CASE(an_eventfd_ends) {
-  const int descriptor = eventfd(0, 0);
-  eventfd_t value;
-  const pthread_t id = begin(0, NULL);
-  EXPECT_FAILS(read(descriptor, &value, sizeof value), EINTR);
-  end(id);
-}
-CASE(poll_ends_whatever_is_asked) {
-  EXPECT_IS(pipe(ends), 0);
-  struct pollfd one = {ends[0], POLLIN, 0};
-  const pthread_t id = begin(SA_RESTART, NULL);
-  EXPECT_FAILS(poll(&one, 1, -1), EINTR);
-  end(id);
-}
-CASE(poll_with_a_timeout_ends) {
-  EXPECT_IS(pipe(ends), 0);
-  struct pollfd one = {ends[0], POLLIN, 0};
-  const pthread_t id = begin(0, NULL);
-  EXPECT_FAILS(poll(&one, 1, 5000), EINTR);
-  end(id);
-}
-CASE(select_ends) {
-  EXPECT_IS(pipe(ends), 0);
-  fd_set set;
-  FD_ZERO(&set);
-  FD_SET(ends[0], &set);
-  const pthread_t id = begin(SA_RESTART, NULL);
-  EXPECT_FAILS(select(ends[0] + 1, &set, NULL, NULL, NULL), EINTR);
-  end(id);
-}
-CASE(epoll_ends) {
-  EXPECT_IS(pipe(ends), 0);
-  const int descriptor = epoll_create1(0);
-  struct epoll_event event = {.events = EPOLLIN};
-  EXPECT_IS(epoll_ctl(descriptor, EPOLL_CTL_ADD, ends[0], &event), 0);
-  const pthread_t id = begin(SA_RESTART, NULL);
-  EXPECT_FAILS(epoll_wait(descriptor, &event, 1, -1), EINTR);
-  end(id);
-}
-CASE(ppoll_waits_with_its_mask) {
-  act(0);
-  sigset_t set, none;
-  sigemptyset(&none);
-  sigemptyset(&set);
-  sigaddset(&set, SIGUSR1);
-  pthread_sigmask(SIG_BLOCK, &set, NULL);
-  const struct timespec none_at_all = {0, 0};
-  raise(SIGUSR1);
-  EXPECT_IS(ppoll(NULL, 0, &none_at_all, NULL), 0);
-  EXPECT_IS(handled, 0);
-  EXPECT_FAILS(ppoll(NULL, 0, NULL, &none), EINTR);
-  EXPECT_IS(handled, 1);
-  sigset_t now;
-  pthread_sigmask(SIG_BLOCK, NULL, &now);
-  EXPECT_IS(sigismember(&now, SIGUSR1), 1);
-}
-CASE(pselect_waits_with_its_mask) {
-  act(0);
-  sigset_t set, none;
-  sigemptyset(&none);
-  sigemptyset(&set);
-  sigaddset(&set, SIGUSR1);
-  pthread_sigmask(SIG_BLOCK, &set, NULL);
-  raise(SIGUSR1);
-  EXPECT_FAILS(pselect(0, NULL, NULL, NULL, NULL, &none), EINTR);
-  EXPECT_IS(handled, 1);
-}
-CASE(epoll_pwait_waits_with_its_mask) {
-  act(0);
-  const int descriptor = epoll_create1(0);
-  struct epoll_event event;
-  sigset_t set, none;
-  sigemptyset(&none);
-  sigemptyset(&set);
-  sigaddset(&set, SIGUSR1);
-  pthread_sigmask(SIG_BLOCK, &set, NULL);
-  raise(SIGUSR1);
-  EXPECT_FAILS(epoll_pwait(descriptor, &event, 1, -1, &none), EINTR);
-  EXPECT_IS(handled, 1);
 }
 CASE(semop_ends_whatever_is_asked) {
   const int set = semget(IPC_PRIVATE, 1, 0600);

@@ -1,43 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pipes, named ones too, counters of events and timers as descriptors, copies of descriptors, locks of files.
+// Pipes, and copies of their ends.
 #include "tests/exec/conformance/harness.h"
 
-#include <fcntl.h>
 #include <limits.h>
-#include <poll.h>
 #include <signal.h>
 #include <stdatomic.h>
-#include <stdint.h>
-#include <sys/eventfd.h>
 #include <sys/file.h>
-#include <sys/stat.h>
-#include <sys/timerfd.h>
 #include <sys/uio.h>
 
 static int ends[2];
 static atomic_int done, handled;
 static char big[300000];
-
 static void make_pipe(void) { EXPECT_IS(pipe(ends), 0); }
+
 static void set_nonblocking(int descriptor) {
   EXPECT_IS(fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK), 0);
 }
+
 static void* write_one(void* unused) {
   let_others_wait();
   atomic_fetch_add(&done, 1);
   EXPECT_IS(write(ends[1], "x", 1), 1);
   return unused;
 }
+
 static void* close_writer(void* unused) {
   let_others_wait();
   EXPECT_IS(close(ends[1]), 0);
   return unused;
 }
+
 static void* close_reader(void* unused) {
   let_others_wait();
   EXPECT_IS(close(ends[0]), 0);
   return unused;
 }
+
 static void* read_big(void* unused) {
   static char read_bytes[sizeof big];
   size_t count = 0;
@@ -50,14 +48,15 @@ static void* read_big(void* unused) {
   EXPECT_IS(memcmp(read_bytes, big, sizeof big), 0);
   return unused;
 }
+
 static void fill_big(void) {
   for (size_t i = 0; i < sizeof big; ++i) big[i] = (char)(i * 7 + i / 1000);
 }
+
 static void count_signal(int signal) {
   (void)signal;
   atomic_fetch_add(&handled, 1);
 }
-
 CASE(read_waits_for_what_is_written) {
   make_pipe();
   char byte = 0;
@@ -145,12 +144,15 @@ CASE_ENDING_WITH(-13, writing_without_readers_ends_the_process) {
   close(ends[0]);
   write(ends[1], "x", 1) == 1 ? _exit(1) : _exit(2);
 }
+
 static atomic_int pipe_signal_of;
 static pthread_t sender;
+
 static void note_thread(int signal) {
   (void)signal;
   pipe_signal_of = pthread_equal(pthread_self(), sender) ? 1 : 2;
 }
+
 static void* write_in_vain(void* unused) {
   sender = pthread_self();
   EXPECT_FAILS(write(ends[1], "x", 1), EPIPE);
@@ -171,7 +173,9 @@ CASE(a_waiting_writer_learns_that_nobody_reads) {
   EXPECT(written > 0 ? written < (ssize_t)sizeof big : errno == EPIPE);
   join(id);
 }
+
 static long long ended_ns;
+
 static void* read_to_the_end(void* unused) {
   char byte;
   EXPECT_IS(read(ends[0], &byte, 1), 0);
@@ -204,6 +208,7 @@ CASE(what_is_not_open_is_refused) {
   volatile int less_than_none = -1;
   EXPECT_FAILS(readv(ends[0], &piece, less_than_none), EINVAL);
 }
+
 static void* read_once(void* unused) {
   char byte;
   EXPECT_IS(read(ends[0], &byte, 1), 1);
@@ -223,9 +228,6 @@ CASE(each_byte_goes_to_one_of_several_readers) {
   }
   for (int i = 0; i < 3; ++i) join(ids[i]);
 }
-
-// Copies.
-
 CASE(copies_are_of_the_same_pipe) {
   make_pipe();
   char byte;
@@ -245,6 +247,7 @@ CASE(copies_are_of_the_same_pipe) {
   EXPECT_FAILS(dup3(ends[0], ends[0], 0), EINVAL);
   EXPECT_IS(dup2(ends[0], ends[0]), ends[0]);
 }
+
 static void* write_to_60(void* unused) {
   let_others_wait();
   EXPECT_IS(write(60, "x", 1), 1);
@@ -257,226 +260,4 @@ CASE(a_copy_wakes_who_reads) {
   const pthread_t id = start(write_to_60, NULL);
   EXPECT_IS(read(ends[0], &byte, 1), 1);
   join(id);
-}
-
-// Named pipes.
-
-// Headers give these names to others.
-extern int plain_open(const char* path, int flags, ...) __asm__("open");
-extern int plain_openat(int folder, const char* path, int flags, ...) __asm__("openat");
-
-static char path[64];
-static void make_fifo(void) {
-  snprintf(path, sizeof path, "/tmp/conformance-fifo-%d", (int)getpid());
-  unlink(path);
-  EXPECT_IS(mkfifo(path, 0600), 0);
-}
-static void* open_to_write(void* unused) {
-  let_others_wait();
-  atomic_fetch_add(&done, 1);
-  const int descriptor = open(path, O_WRONLY);
-  EXPECT(descriptor >= 0);
-  EXPECT_IS(write(descriptor, "named", 5), 5);
-  close(descriptor);
-  return unused;
-}
-CASE(opening_to_read_waits_for_a_writer) {
-  make_fifo();
-  const pthread_t id = start(open_to_write, NULL);
-  const int descriptor = plain_open(path, O_RDONLY);
-  EXPECT(descriptor >= 0);
-  EXPECT_IS(done, 1);
-  EXPECT_IS(fcntl(descriptor, F_GETFL) & O_NONBLOCK, 0);
-  char text[8] = "";
-  EXPECT_IS(read(descriptor, text, 7), 5);
-  EXPECT_IS(strcmp(text, "named"), 0);
-  EXPECT_IS(read(descriptor, text, 7), 0);
-  join(id);
-  unlink(path);
-}
-static void* open_to_read(void* unused) {
-  let_others_wait();
-  atomic_fetch_add(&done, 1);
-  const int descriptor = open(path, O_RDONLY);
-  EXPECT(descriptor >= 0);
-  char byte;
-  EXPECT_IS(read(descriptor, &byte, 1), 1);
-  return unused;
-}
-CASE(opening_to_write_waits_for_a_reader) {
-  make_fifo();
-  const pthread_t id = start(open_to_read, NULL);
-  const int descriptor = plain_openat(AT_FDCWD, path, O_WRONLY);
-  EXPECT(descriptor >= 0);
-  EXPECT_IS(done, 1);
-  EXPECT_IS(write(descriptor, "x", 1), 1);
-  join(id);
-  unlink(path);
-}
-CASE(openat64_waits_for_a_writer) {
-  make_fifo();
-  const pthread_t id = start(open_to_write, NULL);
-  const int descriptor = openat64(AT_FDCWD, path, O_RDONLY);
-  EXPECT(descriptor >= 0);
-  char text[8] = "";
-  EXPECT_IS(read(descriptor, text, 7), 5);
-  join(id);
-  unlink(path);
-}
-CASE(without_blocking_opening_does_not_wait) {
-  make_fifo();
-  EXPECT_FAILS(open(path, O_WRONLY | O_NONBLOCK), ENXIO);
-  const int reader = open(path, O_RDONLY | O_NONBLOCK);
-  EXPECT(reader >= 0);
-  char byte;
-  EXPECT_IS(read(reader, &byte, 1), 0);
-  const int writer = open(path, O_WRONLY | O_NONBLOCK);
-  EXPECT(writer >= 0);
-  EXPECT_FAILS(read(reader, &byte, 1), EAGAIN);
-  unlink(path);
-}
-CASE(other_names_open_too) {
-  int (*const opens[])(const char*, int, ...) = {plain_open, open64};
-  for (int i = 0; i < 2; ++i) {
-    const int descriptor = opens[i]("/dev/null", O_RDONLY);
-    EXPECT(descriptor >= 0);
-    EXPECT_FAILS(opens[i]("/nonexistent/file", O_RDONLY), ENOENT);
-    close(descriptor);
-  }
-  const int descriptor = openat64(AT_FDCWD, "/dev/null", O_RDONLY);
-  EXPECT(descriptor >= 0);
-  snprintf(path, sizeof path, "/tmp/conformance-file-%d", (int)getpid());
-  const int made = open(path, O_CREAT | O_EXCL | O_WRONLY, 0640);
-  struct stat of;
-  EXPECT_IS(fstat(made, &of), 0);
-  EXPECT_IS(of.st_mode & 0600, 0600);
-  unlink(path);
-}
-
-// Locks of files.
-
-static int first_lock, second_lock;
-static void* unlock_file(void* unused) {
-  let_others_wait();
-  atomic_fetch_add(&done, 1);
-  EXPECT_IS(flock(first_lock, LOCK_UN), 0);
-  return unused;
-}
-CASE(flock_waits_for_another_opening) {
-  snprintf(path, sizeof path, "/tmp/conformance-lock-%d", (int)getpid());
-  first_lock = open(path, O_CREAT | O_RDWR, 0600);
-  second_lock = open(path, O_RDWR);
-  EXPECT_IS(flock(first_lock, LOCK_EX), 0);
-  EXPECT_FAILS(flock(second_lock, LOCK_EX | LOCK_NB), EWOULDBLOCK);
-  const pthread_t id = start(unlock_file, NULL);
-  EXPECT_IS(flock(second_lock, LOCK_EX), 0);
-  EXPECT_IS(done, 1);
-  join(id);
-  EXPECT_FAILS(flock(999, LOCK_EX), EBADF);
-  unlink(path);
-}
-
-// Counters of events.
-
-static int counter;
-static void* add_5(void* unused) {
-  let_others_wait();
-  EXPECT_IS(eventfd_write(counter, 5), 0);
-  return unused;
-}
-CASE(a_counter_is_read_and_zero_again) {
-  counter = eventfd(3, 0);
-  uint64_t value = 0;
-  EXPECT_IS(read(counter, &value, sizeof value), 8);
-  EXPECT_IS(value, 3);
-  const pthread_t id = start(add_5, NULL);
-  EXPECT_IS(read(counter, &value, sizeof value), 8);
-  EXPECT_IS(value, 5);
-  join(id);
-}
-CASE(a_counter_may_give_ones) {
-  counter = eventfd(2, EFD_SEMAPHORE | EFD_NONBLOCK);
-  uint64_t value = 0;
-  EXPECT_IS(read(counter, &value, sizeof value), 8);
-  EXPECT_IS(value, 1);
-  EXPECT_IS(read(counter, &value, sizeof value), 8);
-  EXPECT_FAILS(read(counter, &value, sizeof value), EAGAIN);
-  EXPECT_FAILS(read(counter, &value, 4), EINVAL);
-  value = UINT64_MAX;
-  EXPECT_FAILS(write(counter, &value, sizeof value), EINVAL);
-}
-static void* take_counter(void* unused) {
-  uint64_t value;
-  let_others_wait();
-  atomic_fetch_add(&done, 1);
-  EXPECT_IS(read(counter, &value, sizeof value), 8);
-  return unused;
-}
-CASE(adding_waits_while_the_counter_would_overflow) {
-  counter = eventfd(0, 0);
-  uint64_t value = UINT64_MAX - 1;
-  EXPECT_IS(write(counter, &value, sizeof value), 8);
-  const pthread_t id = start(take_counter, NULL);
-  value = 1;
-  EXPECT_IS(write(counter, &value, sizeof value), 8);
-  EXPECT_IS(done, 1);
-  join(id);
-}
-
-// Timers as descriptors.
-
-CASE(a_timer_is_read_when_it_has_run_out) {
-  const int timer = timerfd_create(CLOCK_MONOTONIC, 0);
-  const struct itimerspec time = {{0, 0}, {0, 20000000}};
-  const long long begin = now_ns(CLOCK_MONOTONIC);
-  EXPECT_IS(timerfd_settime(timer, 0, &time, NULL), 0);
-  uint64_t count = 0;
-  EXPECT_IS(read(timer, &count, sizeof count), 8);
-  EXPECT_IS(count, 1);
-  EXPECT(now_ns(CLOCK_MONOTONIC) - begin >= 20000000);
-}
-CASE(a_timer_counts_how_often_it_ran_out) {
-  const int timer = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
-  const struct itimerspec time = {{0, 10000000}, {0, 10000000}};
-  uint64_t count = 0;
-  EXPECT_IS(timerfd_settime(timer, 0, &time, NULL), 0);
-  EXPECT_FAILS(read(timer, &count, sizeof count), EAGAIN);
-  const struct timespec span = {0, 55000000};
-  nanosleep(&span, NULL);
-  struct pollfd one = {timer, POLLIN, 0};
-  EXPECT_IS(poll(&one, 1, 0), 1);
-  EXPECT_IS(read(timer, &count, sizeof count), 8);
-  EXPECT(count >= 5);
-}
-CASE(a_timer_may_have_a_date) {
-  const int timer = timerfd_create(CLOCK_REALTIME, 0);
-  const struct itimerspec time = {{0, 0}, in_ms(CLOCK_REALTIME, 20)};
-  EXPECT_IS(timerfd_settime(timer, TFD_TIMER_ABSTIME, &time, NULL), 0);
-  uint64_t count = 0;
-  EXPECT_IS(read(timer, &count, sizeof count), 8);
-  EXPECT_IS(count, 1);
-}
-CASE(a_timer_tells_what_is_left) {
-  const int timer = timerfd_create(CLOCK_MONOTONIC, 0);
-  const struct itimerspec time = {{0, 7}, {100, 0}}, none = {{0, 0}, {0, 0}};
-  struct itimerspec now;
-  EXPECT_IS(timerfd_settime(timer, 0, &time, NULL), 0);
-  EXPECT_IS(timerfd_gettime(timer, &now), 0);
-  EXPECT(now.it_value.tv_sec == 99 || now.it_value.tv_sec == 100);
-  EXPECT_IS(now.it_interval.tv_nsec, 7);
-  EXPECT_IS(timerfd_settime(timer, 0, &none, &now), 0);
-  EXPECT(now.it_value.tv_sec == 99 || now.it_value.tv_sec == 100);
-  EXPECT_IS(timerfd_gettime(timer, &now), 0);
-  EXPECT(now.it_value.tv_sec == 0 && now.it_value.tv_nsec == 0);
-}
-CASE(timers_refuse_what_they_are_not) {
-  const int timer = timerfd_create(CLOCK_MONOTONIC, 0);
-  struct itimerspec time = {{0, 0}, {0, 1000000000}};
-  EXPECT_FAILS(timerfd_create(CLOCK_PROCESS_CPUTIME_ID, 0), EINVAL);
-  EXPECT_FAILS(timerfd_create(CLOCK_MONOTONIC, 0x1234), EINVAL);
-  EXPECT_FAILS(timerfd_settime(timer, 0, &time, NULL), EINVAL);
-  time.it_value.tv_nsec = 1;
-  EXPECT_FAILS(timerfd_settime(timer, 0x1234, &time, NULL), EINVAL);
-  EXPECT_FAILS(timerfd_settime(999, 0, &time, NULL), EBADF);
-  EXPECT_FAILS(timerfd_gettime(0, &time), EINVAL);
 }

@@ -185,6 +185,30 @@ CASE(stack_of_the_program) {
 }
 CASE(default_stack_takes_7_mb) { join(start(recursive, (void*)1700)); }
 CASE_ENDING_WITH(-SIGSEGV, overflow_of_a_stack_is_a_fault) { join(start(recursive, (void*)100000)); }
+/// As some runtimes guard the low end of a stack, and leave it so.
+static void* protecting(void* p) {
+  pthread_attr_t b;
+  size_t z;
+  void* s;
+  EXPECT_IS(pthread_getattr_np(pthread_self(), &b), 0);
+  EXPECT_IS(pthread_attr_getstack(&b, &s, &z), 0);
+  EXPECT_IS((size_t)s % 4096, 0);
+  EXPECT(mmap(s, 16384, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == s);
+  return p;
+}
+CASE(getattr_tells_whole_pages) {
+  for (int i = 0; i < 8; ++i) join(start(protecting, NULL));
+}
+CASE(pages_that_a_thread_protected_are_not_the_next_ones) {
+  pthread_t t;
+  pthread_attr_init(&a);
+  EXPECT_IS(pthread_attr_setstacksize(&a, 1 << 20), 0);
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_IS(pthread_create(&t, &a, protecting, NULL), 0);
+    join(t);
+  }
+  join(start(recursive, (void*)1700));
+}
 CASE(create_with_bad_stack) {
   pthread_attr_init(&a);
   EXPECT_IS(pthread_attr_setstacksize(&a, (size_t)1 << 46), 0);

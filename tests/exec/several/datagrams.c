@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// datagrams send PORT: ten datagrams with the time, one each 100 ms; datagrams receive PORT: prints how late each came.
+// datagrams send PORT: ten datagrams with the time, one each 100 ms, every second in two parts; datagrams receive PORT:
+// prints how late each came.
 #include <netinet/in.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,7 +37,13 @@ int main(int argc, char** argv) {
   for (; strcmp(argv[1], "send") == 0 && datagram.number < 10; ++datagram.number) {
     usleep(100000);
     datagram.sent_ns = now_ns();
-    sendto(descriptor, &datagram, sizeof datagram, 0, (struct sockaddr*)&address, sizeof address);
+    struct iovec parts[] = {{&datagram, 4}, {(char*)&datagram + 4, sizeof datagram - 4}};
+    const struct msghdr message = {
+        .msg_name = &address, .msg_namelen = sizeof address, .msg_iov = parts, .msg_iovlen = 2};
+    if (datagram.number % 2 != 0)
+      sendmsg(descriptor, &message, 0);
+    else
+      sendto(descriptor, &datagram, sizeof datagram, 0, (struct sockaddr*)&address, sizeof address);
   }
   return 0;
 }

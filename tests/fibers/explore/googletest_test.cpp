@@ -42,5 +42,23 @@ TEST(ExploreWithGoogleTest, ABodyThatSkipsTheTestSkipsItOnce) {
   EXPECT_NE(std::string(told.GetTestPartResult(0).message()).find("there is no device"), std::string::npos);
 }
 
+TEST(ExploreWithGoogleTest, AScheduleThatSkipsOnlyLeavesWhereTheDefaultOrderDoesNot) {
+  testing::TestPartResultArray told;
+  ExploreReport report;
+  {
+    testing::ScopedFakeTestPartResultReporter test(
+        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &told);
+    report = explore([] {
+      atomic<int> turn{0};
+      thread other([&] { turn.store(1); });
+      const bool is_late = turn.load() == 1;
+      other.join();
+      if (is_late) GTEST_SKIP() << "too late";
+    });
+  }
+  EXPECT_EQ(told.size(), 0);
+  EXPECT_TRUE(report.passed) << report;
+}
+
 }  // namespace
 }  // namespace waitpoint

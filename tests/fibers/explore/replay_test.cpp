@@ -8,6 +8,8 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/explore.hpp"
+#include "fibers/explore/token.hpp"
+#include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/explore/faulty_bodies.hpp"
 
@@ -43,7 +45,8 @@ TEST(Explore, ATokenOfAnotherProgramIsKnownAsSuch) {
   // Choices that the run does not have, and a number that no loop may count up to.
   for (const char* unfit : {"wx1.3.00000000.=9999-1", "wx1.4.00000000.=0-99"})
     EXPECT_TRUE(contains(explore(lose_a_wake_up, {.replay = unfit}).text, "this is not the run of the token")) << unfit;
-  EXPECT_TRUE(explore([] {}, {.replay = "wx1.5.00000000.random.1.18446744073709551615"}).passed);
+  const ExploreReport greatest = explore([] {}, {.replay = "wx1.5.00000000.random.1.18446744073709551615"});
+  EXPECT_TRUE(contains(greatest.text, "that one ended its process, this one passed")) << greatest;
 }
 
 TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
@@ -67,6 +70,8 @@ TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
             "replay: expected numbers of choices that ascend in the token 'wx1.1.00000000.=5-0,2-1'");
   EXPECT_EQ(message({.replay = "wx1.1.12"}),
             "replay: expected eight hexadecimal digits of a digest, not '12', in the token 'wx1.1.12'");
+  EXPECT_EQ(message({.replay = "wx1.1.01234567-4abc!.="}),
+            "replay: expected letters and digits of a trail, not '4abc!', in the token 'wx1.1.01234567-4abc!.='");
   EXPECT_EQ(message({.replay = "wx1.1.00000000.random.7.x"}),
             "replay: expected the number of a schedule, a whole number, not 'x', in the token "
             "'wx1.1.00000000.random.7.x'");
@@ -109,8 +114,8 @@ TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusT
   };
   EXPECT_EXIT(
       replay_of_another_call(), status_two,
-      "^waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.9.00000000.=': the test has no "
-      "such call\n$");
+      "^waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.9.00000000.=': no test that was run "
+      "has such a call\n$");
 }
 
 // A test that keeps a token in its code has failed where that is wrong or fits no more; the other tests go on.
@@ -121,6 +126,8 @@ TEST(Explore, OptionsInCodeThatAreWrongAreTheTestsOwnFailure) {
   EXPECT_FALSE(report.passed);
   EXPECT_TRUE(report.text.starts_with("this is not the run of the token: it had ")) << report;
   EXPECT_FALSE(contains(report.text, "\n")) << report;
+  EXPECT_THROW(explore([] {}, {.iterations = 0}), BadInput);
+  EXPECT_THROW(explore([] {}, {.time_limit_s = -1}), BadInput);
 }
 
 TEST(ExploreDeathTest, ATokenThatDoesNotFitEndsTheProgramAndSaysWhereTheRunLeftIt) {
@@ -134,8 +141,40 @@ TEST(ExploreDeathTest, ATokenThatDoesNotFitEndsTheProgramAndSaysWhereTheRunLeftI
               "before its end, behind event [0-9]+, at 0.000000000 s; the program or the test is another one\n$");
   EXPECT_EXIT(replay("wx1.1.00000000.=1-7"), status_two,
               "choice 1 has only 2 alternatives, none of the number 7: it left the record at event [0-9]+, at 0.0");
+  EXPECT_EXIT(replay("wx1.1.00000000.="), status_two,
+              "this is not the run of the token: that one ended its process, this one passed; the program or the test");
   EXPECT_EXIT(replay("wx1.1.00000001.="), status_two,
               "it had [0-9]+ events, and its digest begins with [0-9a-f]{8}, the token's with 00000001; ");
+}
+
+// Two tasks, of which the second does forty times the same, but for one time, and fails.
+void fail_having_differed_at(int round) {
+  mutex first, second;
+  thread other([&] {
+    for (int i = 0; i < 40; ++i) {
+      mutex& used = i == round ? second : first;
+      used.lock();
+      used.unlock();
+    }
+    check(false);
+  });
+  other.join();
+}
+
+TEST(Explore, ATokenOfAnotherRunSaysAtWhichEventsThisOneLeavesIt) {
+  constexpr int never = -1;
+  exploration::Token token = exploration::read_token(explore([] { fail_having_differed_at(never); }).replay);
+  EXPECT_LE(to_text(token).size(), 80u);
+  const auto replay_with = [&](int round) {
+    ++token.call;  // as many as there are in this test
+    return explore([round] { fail_having_differed_at(round); }, {.replay = to_text(token)}).text;
+  };
+  EXPECT_FALSE(contains(replay_with(never), "is not the run")) << to_text(token);
+  // Some eighty events, with a mark behind each sixteenth of them; round 3 begins with event 10, round 20 with
+  // event 44.
+  const std::string early = replay_with(3), late = replay_with(20);
+  EXPECT_TRUE(contains(early, ": it left the record at one of its events 1 to 16;")) << early;
+  EXPECT_TRUE(contains(late, ": it left the record at one of its events 33 to 48;")) << late;
 }
 
 }  // namespace

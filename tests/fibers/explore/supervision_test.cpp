@@ -43,6 +43,20 @@ TEST(Explore, AScheduleThatGoesOnForLongIsToldAndAtItsLimitEndedWithItsToken) {
               "replay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n$");
 }
 
+TEST(Explore, AReplayThatDoesNotEndIsEndedWithItsToken) {
+  const auto compute_for_ever = [] {
+    explore(
+        [] {
+          for (;;) asm volatile("");
+        },
+        {.schedule_limit_s = 2, .replay = "wx1.1.01234567.=3-1"});
+    std::exit(0);
+  };
+  EXPECT_EXIT(compute_for_ever(), testing::ExitedWithCode(1),
+              "^waitpoint: the replayed schedule has gone on for 2 s, the most that one may: the process is ended\n"
+              "replay: WAITPOINT_REPLAY=wx1.1.01234567.=3-1 .*\n$");
+}
+
 TEST(Explore, AScheduleThatWaitsForWhatIsNotSimulatedIsEndedWithItsToken) {
   const auto lock_a_real_lock_twice = [] {
     explore([] {

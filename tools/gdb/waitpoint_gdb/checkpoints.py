@@ -130,9 +130,11 @@ def restart_before(event):
     processes, left = listed()
     before = [made for made, (number, process) in kept.items() if made <= event and processes.get(number) == process]
     if not before:
-        raise gdb.GdbError("there is no checkpoint before that event: gdb did not watch the process then")
+        why = "gdb did not watch the process then" if wanted() else "none are made (show waitpoint-checkpoints)"
+        raise gdb.GdbError(f"there is no checkpoint before that event: {why}")
     nearest = max(before)
     gdb.execute(f"restart {kept[nearest][0]}", to_string=True)
+    records.write_view("restarted", 1)
     kept[nearest] = fork()
     delete(left, processes[left])
     delete_after(event)
@@ -145,6 +147,7 @@ def adopt_current(event):
         if process == gdb.selected_inferior().pid:
             del kept[made]
             print(f"The process that was here is gone; this is a checkpoint of it, of event {made}.")
+            records.write_view("restarted", 1)
             if event == made:
                 kept[event] = fork()
 

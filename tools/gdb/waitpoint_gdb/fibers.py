@@ -8,8 +8,8 @@ from . import records
 
 HOLDERS_SHOWN = 4
 # Where a part of the event list has its entries, each of which begins with the time: see event.hpp and event_list.hpp.
-PARTS = {0: ("events_.heap_.entries_", "EventEntry"), 1: ("events_.run_", "EventEntry"),
-         2: ("events_.calendar_.slots_", "Calendar::Slot")}
+PARTS = {0: ("agenda_.events.heap_.entries_", "EventEntry"), 1: ("agenda_.events.run_", "EventEntry"),
+         2: ("agenda_.events.calendar_.slots_", "Calendar::Slot")}
 
 
 RUN = 1  # the part in whose entries a node may have been moved up since it was told where it is
@@ -102,7 +102,7 @@ def due(task, scheduler):
     """When the event of a task that is not running is due."""
     location = task.number("event.place")
     if location == READY:
-        return scheduler.number("now_.ns_")
+        return scheduler.number("agenda_.now.ns_")
     if location >> 30 not in PARTS:
         return records.NO_TIME
     path, name = PARTS[location >> 30]

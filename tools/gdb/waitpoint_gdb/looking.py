@@ -103,6 +103,8 @@ def apply(words):
             selection.select(task)
             print(f"\n{header(task, scheduler)}")
             gdb.execute(" ".join(words))
+    except gdb.error as error:
+        raise gdb.GdbError(str(error))
     finally:
         selection.shown.of_many = False
         selection.parked.select(before) if before else selection.parked.deselect()
@@ -120,7 +122,7 @@ class VirtualTime(gdb.Command):
 
     def invoke(self, argument, from_tty):
         scheduler = records.scheduler()
-        text = f"{records.seconds(scheduler.number('now_.ns_'))} s, event {scheduler.number('executed_')}"
+        text = f"{records.seconds(scheduler.number('agenda_.now.ns_'))} s, event {scheduler.number('executed_')}"
         if task := records.running():
             task = fibers.Task(task)
             text += f"; {task.describe()} is at {records.seconds(task.number('local_time.ns_'))} s"

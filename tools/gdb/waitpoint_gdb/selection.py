@@ -84,10 +84,7 @@ class FibersFrames:
     of_many = False
 
     def filter(self, frames):
-        if not parked.context:
-            yield from frames
-            return
-        begun, first, inner = False, parked.resumes_at(), []
+        begun, first, inner = not parked.context, parked.context and parked.resumes_at(), []
         for frame in frames:
             begun = begun or (frame.inferior_frame().pc() == first and frame.inferior_frame().level() > 0)
             if not begun:

@@ -105,7 +105,7 @@ def at_an_event():
 def describe_event():
     """The event now executing."""
     scheduler = records.scheduler()
-    where = f"event {scheduler.number('executed_')} at {records.seconds(scheduler.number('now_.ns_'))} s"
+    where = f"event {scheduler.number('executed_')} at {records.seconds(scheduler.number('agenda_.now.ns_'))} s"
     if not (address := records.running()):
         return where
     task = fibers.Task(address)

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A switch of fibers in the frame of who calls a primitive, and not in one of the library's.
+//
+// A processor foresees where a function returns to from the calls that it has seen, and those were made by the fiber
+// that is left. Where two tasks run different code, the return from the library to the one's would be foreseen to lead
+// into the other's, and to find out takes as long as all the rest of a hand-over. So the library returns before the
+// switch, and is called again behind it:
+//
+//   if (Departure away = start(...); away.leads_away()) end(depart(away), ...);
+#pragma once
+
+#include <cstdint>
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::kernel {
+
+/// What a call that may block came to: a fiber to go on in, or how the wait ended.
+struct Departure {
+  void* context;            ///< where that fiber goes on; null without one
+  std::uintptr_t how_else;  ///< the fiber that is left; or a Wake
+
+  bool leads_away() const { return context != nullptr; }
+  Wake wake() const { return static_cast<Wake>(how_else); }
+  static Departure none(Wake wake) { return {nullptr, static_cast<std::uintptr_t>(wake)}; }
+};
+
+/// Seen by who goes on: the fiber that was left for it, and where that one goes on.
+struct Arrival {
+  void* context;
+  void* left;
+};
+
+// jump_fcontext comes back by a jump. Were it called, the processor's stack of return addresses would be one too deep
+// after each switch, and would mispredict every return from there on. Entered by a jump, it keeps that stack as deep as
+// the fibers' own. Who contains this calls functions too, and so has no red zone below its stack.
+#ifdef __x86_64__
+[[gnu::always_inline]] inline Arrival depart(Departure away) {
+  Arrival arrival;
+  asm volatile(
+      "leaq 1f(%%rip), %%rax\n\t"
+      "pushq %%rax\n\t"
+      "jmp waitpoint_jump@PLT\n"
+      "1:"
+      : "=a"(arrival.context), "=d"(arrival.left), "+D"(away.context), "+S"(away.how_else)
+      :
+      : "rcx", "r8", "r9", "r10", "r11", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9",
+        "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15",
+#ifdef __AVX512F__
+        "xmm16", "xmm17", "xmm18", "xmm19", "xmm20", "xmm21", "xmm22", "xmm23", "xmm24", "xmm25", "xmm26", "xmm27",
+        "xmm28", "xmm29", "xmm30", "xmm31", "k1", "k2", "k3", "k4", "k5", "k6", "k7",
+#endif
+        "st", "st(1)", "st(2)", "st(3)", "st(4)", "st(5)", "st(6)", "st(7)", "memory", "cc");
+  return arrival;
+}
+#else
+Arrival depart(Departure away);
+#endif
+
+}  // namespace waitpoint::kernel

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The first part of a switch: what the C++ runtime and the C library know of the running thread is exchanged for what
+// they are to know of the fiber that goes on. For the kernel's own sources.
+#pragma once
+
+#include "fibers/kernel/departure.hpp"
+#include "fibers/kernel/fiber.hpp"
+
+namespace waitpoint::kernel {
+
+/// Of the thread that runs the fibers: looking it up costs as much as the switch.
+struct RuntimeState {
+  // The Itanium C++ ABI fixes the first two members of the record that __cxa_get_globals returns.
+  struct Exceptions {
+    void* caught;
+    unsigned int uncaught;
+  };
+
+  Exceptions* exceptions = nullptr;
+  int* error_number = nullptr;
+
+  void save(Fiber& fiber) const { fiber.thread_state = {exceptions->caught, exceptions->uncaught, *error_number}; }
+  void restore(const Fiber& fiber) const {
+    exceptions->caught = fiber.thread_state.caught_exceptions;
+    exceptions->uncaught = fiber.thread_state.uncaught_exceptions;
+    *error_number = fiber.thread_state.error_number;
+  }
+  void exchange(Fiber& from, const Fiber& to) const {
+    save(from);
+    restore(to);
+  }
+};
+extern RuntimeState runtime_state;
+
+inline Departure departure(Fiber& from, Fiber& to) {
+  void* const context = to.context;
+  to.context = nullptr;
+  return {context, reinterpret_cast<std::uintptr_t>(&from)};
+}
+
+/// A switch in two parts, see departure.hpp: for fibers that find their thread-local variables at one place, and
+/// without a sanitizer.
+inline bool can_switch_in_parts(const Fiber& from, const Fiber& to) { return from.thread_pointer == to.thread_pointer; }
+inline Departure start_switch(Fiber& from, Fiber& to) {
+  runtime_state.exchange(from, to);
+  return departure(from, to);
+}
+
+/// Behind a switch: who was left. Only who goes on knows where that one does.
+inline Fiber& note_where_left(const Arrival& arrival) {
+  Fiber& left = *static_cast<Fiber*>(arrival.left);
+  left.context = arrival.context;
+  return left;
+}
+
+}  // namespace waitpoint::kernel

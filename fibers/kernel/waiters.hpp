@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who waits for an object: a list through the tasks, in the order of their coming.
+#pragma once
+
+#include "fibers/kernel/task.hpp"
+
+namespace waitpoint::kernel {
+
+inline void append_waiter(Object& object, Task& task) {
+  task.blocked_on = &object;
+  task.next_waiter = nullptr;
+  task.previous_waiter = object.last_waiter;
+  (object.last_waiter == nullptr ? object.first_waiter : object.last_waiter->next_waiter) = &task;
+  object.last_waiter = &task;
+}
+
+/// There must be one.
+inline Task& remove_first_waiter(Object& object) {
+  Task& task = *object.first_waiter;
+  object.first_waiter = task.next_waiter;
+  (object.first_waiter == nullptr ? object.last_waiter : object.first_waiter->previous_waiter) = nullptr;
+  task.blocked_on = nullptr;
+  return task;
+}
+
+/// `task` must wait for something.
+inline void remove_waiter(Task& task) {
+  Object& object = *task.blocked_on;
+  (task.previous_waiter == nullptr ? object.first_waiter : task.previous_waiter->next_waiter) = task.next_waiter;
+  (task.next_waiter == nullptr ? object.last_waiter : task.next_waiter->previous_waiter) = task.previous_waiter;
+  task.blocked_on = nullptr;
+}
+
+}  // namespace waitpoint::kernel
