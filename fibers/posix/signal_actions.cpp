@@ -12,6 +12,7 @@
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/library_calls.hpp"
 #include "fibers/posix/library_range.hpp"
+#include "fibers/posix/library_return.hpp"
 #include "fibers/posix/notification_threads.hpp"
 #include "fibers/posix/processor_counter.hpp"
 #include "fibers/posix/program.hpp"
@@ -28,6 +29,7 @@ namespace {
 
 // Where a handler must not be run on the spot: in here, in the C library, in the dynamic linker.
 LibraryRange guarded[3];
+const LibraryRange& c_library = guarded[1];
 
 std::atomic<bool> has_rung = false;
 bool has_bell = false;
@@ -74,13 +76,17 @@ bool is_handled(int signal) {
   return (action.sa_flags & SA_SIGINFO) != 0 || (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN);
 }
 
+bool is_of_program(std::uintptr_t at) {
+  bool is_guarded = false;
+  for (const LibraryRange& range : guarded) is_guarded = is_guarded || range.contains(at);
+  return !is_guarded;
+}
+
 // A handler may run at once where the program itself is, or where the C library waits for it.
 bool may_handle_here(const ucontext_t& context) {
   if (!is_simulated() || waits_really.load()) return false;
   const auto at = static_cast<std::uintptr_t>(context.uc_mcontext.gregs[REG_RIP]);
-  bool is_guarded = false;
-  for (const LibraryRange& range : guarded) is_guarded = is_guarded || range.contains(at);
-  if (!is_guarded) return true;
+  if (is_of_program(at)) return true;
   constexpr unsigned char system_call[2] = {0x0F, 0x05};
   const auto* const code = reinterpret_cast<const unsigned char*>(at);
   if (std::memcmp(code, system_call, 2) == 0) return true;  // it is made again after
@@ -88,9 +94,12 @@ bool may_handle_here(const ucontext_t& context) {
 }
 
 // The program may compute for long before its next waitpoint: what could not be handled where it came is tried again,
-// by a timer of the system's, which no child inherits.
+// by a timer of the system's, which no child inherits. Where that always meets it in the C library, whose calls may
+// take nearly all of its time, it is handled when such a call returns.
 timer_t retry{};
 pid_t retry_is_of = 0;
+unsigned tries = 0;
+constexpr unsigned tries_max = 10;
 
 bool is_retry(const siginfo_t& information) {
   return information.si_signo == bell && information.si_code == SI_TIMER && information.si_value.sival_ptr == &retry;
@@ -111,15 +120,21 @@ void try_again_soon() {
   WAITPOINT_NEXT(syscall)(SYS_timer_settime, retry, 0, &in_a_millisecond, nullptr);
 }
 
+void handle_here() {
+  tries = 0;
+  take_in_signals_from_outside();
+  if (deliverable(this_thread()) != 0) let_come();
+  handle_signals();
+}
+
 void handle_what_has_come(ucontext_t& interrupted) {
-  if (may_handle_here(interrupted)) {
-    take_in_signals_from_outside();
-    if (deliverable(this_thread()) != 0) let_come();
-    handle_signals();
-    return;
-  }
+  if (may_handle_here(interrupted)) return handle_here();
   if (next_kept.load() - next_taken.load() >= held_back_from) hold_back(interrupted);
   try_again_soon();
+  const auto at = static_cast<std::uintptr_t>(interrupted.uc_mcontext.gregs[REG_RIP]);
+  if (is_simulated() && ++tries > tries_max && c_library.contains(at) &&
+      call_after_return(at, c_library, is_of_program, handle_here))
+    tries = 0;
 }
 
 // The processor raised it in the running thread: now or never.

@@ -77,7 +77,8 @@ struct Thread {
   bool has_temporary_mask = false;
   bool in_wait = false;  ///< that a signal ends
   bool woken_by_signal = false;
-  bool delivery_due = false;  ///< told of a signal when its wait had ended otherwise
+  bool delivery_due = false;              ///< told of a signal when its wait had ended otherwise
+  std::uintptr_t library_returns_to = 0;  ///< see library_return.hpp
 
   /// Primitives used, and looks at clocks and turns given away, since virtual time was last moved for that: see
   /// waiting.hpp.

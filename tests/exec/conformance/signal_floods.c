@@ -2,6 +2,7 @@
 // Signals that another process sends: thousands at once, and to a thread that computes.
 #include "tests/exec/conformance/signals.h"
 
+#include <setjmp.h>
 #include <sys/wait.h>
 
 enum { signals = 2000 };
@@ -47,20 +48,59 @@ CASE(all_are_handled_where_a_thread_makes_no_call_that_waits) {
   EXPECT_IS(handled, signals);
 }
 
+static pid_t begin_late_sender(int signal) {
+  const pid_t here = getpid(), child = fork();
+  EXPECT(child >= 0);
+  if (child != 0) return child;
+  sleep_ms(20);
+  _exit(kill(here, signal));
+}
+
+// Calls of the C library that take nearly all of the time.
 static void* (*volatile fill)(void*, int, size_t) = memset;
+static long double (*volatile number)(const char*, char**) = strtold;
+enum { size = 16 << 20 };
 
 CASE(one_is_handled_where_a_thread_computes_in_the_c_library) {
-  enum { size = 16 << 20 };
   char* const bytes = malloc(size);
   EXPECT(bytes != NULL);
   act(SIGUSR1, handle, 0);
-  const pid_t here = getpid(), child = fork();
-  EXPECT(child >= 0);
-  if (child == 0) {
-    sleep_ms(20);
-    _exit(kill(here, SIGUSR1));
-  }
-  while (handled == 0) fill(bytes, 1, size);
+  const pid_t child = begin_late_sender(SIGUSR1);
+  while (handled == 0) EXPECT(fill(bytes, 1, size) == bytes);
   end(child);
+  free(bytes);
+}
+
+CASE(one_that_is_handled_there_changes_no_result) {
+  char* const text = malloc(size);
+  EXPECT(text != NULL);
+  memset(text, '0', size);
+  strcpy(text + size - 5, "1.25");
+  act(SIGUSR1, handle, 0);
+  for (int i = 1; i <= 5; ++i) {
+    const pid_t child = begin_late_sender(SIGUSR1);
+    char* rest = NULL;
+    while (handled < i) EXPECT(number(text, &rest) == 1.25L && rest == text + size - 1);
+    end(child);
+  }
+  free(text);
+}
+
+static sigjmp_buf before;
+static void leave(int signal) {
+  (void)signal;
+  siglongjmp(before, 1);
+}
+
+CASE(one_that_comes_there_has_a_handler_that_does_not_return) {
+  char* const bytes = malloc(size);
+  EXPECT(bytes != NULL);
+  act(SIGUSR1, leave, 0);
+  for (int i = 0; i < 5; ++i) {
+    const pid_t child = begin_late_sender(SIGUSR1);
+    if (sigsetjmp(before, 1) == 0)
+      for (;;) fill(bytes, 1, size);
+    end(child);
+  }
   free(bytes);
 }
