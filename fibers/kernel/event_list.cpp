@@ -36,7 +36,7 @@ EventList::EventList(std::uint32_t capacity)
 
 bool EventList::has_address_space(std::uint32_t capacity) {
   const std::size_t size = entries(capacity) * sizeof(EventEntry) + Calendar::bytes(capacity);
-  void* memory = mmap(nullptr, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (memory == MAP_FAILED) return false;
   munmap(memory, size);
   return true;

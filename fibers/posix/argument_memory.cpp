@@ -2,6 +2,7 @@
 #include "fibers/posix/argument_memory.hpp"
 
 #include <signal.h>
+#include <sys/random.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -29,6 +30,11 @@ bool can_be_written(void* address) {
   const ErrorNumberKept kept;
   if (address == nullptr) return false;
   return WAITPOINT_NEXT(syscall)(SYS_rt_sigprocmask, SIG_BLOCK, nullptr, address, mask_size) == 0;
+}
+
+bool can_be_written(void* address, std::size_t size) {
+  const ErrorNumberKept kept;
+  return WAITPOINT_NEXT(syscall)(SYS_getrandom, address, size, GRND_INSECURE) == static_cast<long>(size);
 }
 
 }  // namespace waitpoint::posix

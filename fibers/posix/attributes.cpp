@@ -92,6 +92,7 @@ WAITPOINT_INTERPOSED int pthread_getname_np(pthread_t id, char* name, std::size_
   const Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   if (size < 16) return ERANGE;
+  if (!can_be_written(name, size)) return EFAULT;
   std::memcpy(name, thread->name, sizeof thread->name);
   return 0;
 }

@@ -47,4 +47,23 @@ class CancellationPoint {
   bool wait_until(Time time) const;
 };
 
+/// While it lasts, a call is no cancellation point, whatever it does.
+class CancellationDisabled {
+ public:
+  CancellationDisabled() : thread_(is_simulated() ? &this_thread() : nullptr) {
+    if (thread_ == nullptr) return;
+    before_ = thread_->cancel_disabled;
+    thread_->cancel_disabled = true;
+  }
+  ~CancellationDisabled() {
+    if (thread_ != nullptr) thread_->cancel_disabled = before_;
+  }
+  CancellationDisabled(const CancellationDisabled&) = delete;
+  CancellationDisabled& operator=(const CancellationDisabled&) = delete;
+
+ private:
+  Thread* thread_;
+  bool before_ = false;
+};
+
 }  // namespace waitpoint::posix

@@ -16,6 +16,7 @@
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/file_locks.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/loopback.hpp"
 #include "fibers/posix/signal_descriptors.hpp"
 #include "fibers/posix/stream_links.hpp"
 #include "fibers/posix/timer_descriptors.hpp"
@@ -38,7 +39,7 @@ int one(int descriptor) {
 }
 
 int copy(int from, int made) {
-  if (made >= 0) note_inside(made, is_inside(from));
+  if (made >= 0) note_inside(made, is_inside(from)), copy_delay(from, made);
   return made;
 }
 
@@ -77,6 +78,7 @@ WAITPOINT_INTERPOSED int socketpair(int domain, int type, int protocol, int* end
 WAITPOINT_INTERPOSED int socket(int domain, int type, int protocol) noexcept {
   const int made = WAITPOINT_NEXT(socket)(domain, type, protocol);
   note_owner(made);
+  if (is_simulated()) send_at_once(made);
   return made;
 }
 WAITPOINT_INTERPOSED int eventfd(unsigned count, int flags) noexcept {

@@ -11,6 +11,7 @@
 
 #include <cerrno>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
@@ -137,6 +138,7 @@ WAITPOINT_INTERPOSED ssize_t writev(int descriptor, const iovec* pieces, int cou
   const bool in_pieces = of == DescriptorClass::pipe || (of == DescriptorClass::socket && is_stream(descriptor));
   if (!in_pieces || !blocks(descriptor) || count < 0 || count > IOV_MAX)
     return send_all_at_once(descriptor, true, [&] { return WAITPOINT_NEXT(writev)(descriptor, pieces, count); });
+  if (count > 0 && !can_be_read(pieces)) return fail(EFAULT);
   ssize_t all = 0;
   for (int i = 0; i < count; ++i) {
     if (pieces[i].iov_len == 0) continue;

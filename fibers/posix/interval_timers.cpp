@@ -8,6 +8,7 @@
 
 #include <cerrno>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -68,13 +69,16 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED int setitimer(__itimer_which_t which, const itimerval* to, itimerval* old) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(setitimer)(which, to, old);
   const int number = static_cast<int>(which);
+  if (to != nullptr && !can_be_read(to)) return fail(EFAULT);
   if (number < 0 || number > 2) return fail(EINVAL);
   if (to != nullptr && (!is_valid_time(to->it_value) || !is_valid_time(to->it_interval))) return fail(EINVAL);
   pass(kernel::Operation::timer_start, nullptr);
   const itimerval before = state_of(timers[number]);
   start(number, to == nullptr ? Duration() : span_of(to->it_value),
         to == nullptr ? Duration() : span_of(to->it_interval));
-  if (old != nullptr) *old = before;
+  if (old == nullptr) return 0;
+  if (!can_be_written(old)) return fail(EFAULT);
+  *old = before;
   return 0;
 }
 
@@ -82,6 +86,7 @@ WAITPOINT_INTERPOSED int getitimer(__itimer_which_t which, itimerval* state) noe
   if (!is_simulated()) return WAITPOINT_NEXT(getitimer)(which, state);
   const int number = static_cast<int>(which);
   if (number < 0 || number > 2) return fail(EINVAL);
+  if (!can_be_written(state)) return fail(EFAULT);
   read_clock();
   *state = state_of(timers[number]);
   return 0;

@@ -28,6 +28,7 @@ WAITPOINT_INTERPOSED int sendmmsg(int descriptor, mmsghdr* messages, unsigned co
 // The time is looked at behind each message, as Linux does: who waits for the first may wait longer.
 WAITPOINT_INTERPOSED int recvmmsg(int descriptor, mmsghdr* messages, unsigned count, int flags, timespec* timeout) {
   if (!is_simulated()) return WAITPOINT_NEXT(recvmmsg)(descriptor, messages, count, flags, timeout);
+  if (timeout != nullptr && !can_be_read(timeout)) return fail(EFAULT);
   if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
   const Time deadline = timeout == nullptr ? Time::max() : later(read_clock(), span(*timeout));
   for (unsigned i = 0; i < count; ++i) {

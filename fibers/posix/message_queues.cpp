@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/descriptors.hpp"
@@ -37,6 +38,7 @@ bool waits(mqd_t queue) {
 // `call` does not wait: with a time that is past it fails with ETIMEDOUT where it would.
 template <class Call>
 ssize_t transfer(mqd_t queue, short events, const timespec* deadline, Call call) {
+  if (deadline != nullptr && !can_be_read(deadline)) return fail(EFAULT);
   if (deadline != nullptr && (!is_valid(*deadline) || deadline->tv_sec < 0)) return fail(EINVAL);
   const CancellationPoint point;
   pass(events == POLLIN ? kernel::Operation::receive : kernel::Operation::send, nullptr);
@@ -59,9 +61,12 @@ ssize_t receive_before(mqd_t queue, char* bytes, std::size_t size, unsigned* pri
 }
 
 int send_before(mqd_t queue, const char* bytes, std::size_t size, unsigned priority, const timespec* deadline) {
-  return static_cast<int>(transfer(queue, POLLOUT, deadline, [&] {
+  const ssize_t result = transfer(queue, POLLOUT, deadline, [&] {
     return static_cast<ssize_t>(WAITPOINT_NEXT(mq_timedsend)(queue, bytes, size, priority, &long_ago));
-  }));
+  });
+  // The signal by which mq_notify() has it told comes within the call, and so is handled before it returns.
+  if (result == 0 && take_in_signals_from_outside()) handle_signals();
+  return static_cast<int>(result);
 }
 
 }  // namespace

@@ -152,6 +152,7 @@ WAITPOINT_INTERPOSED int pselect(int count, fd_set* __restrict readable, fd_set*
                                  const sigset_t* __restrict mask) {
   if (!is_simulated()) return WAITPOINT_NEXT(pselect)(count, readable, writable, urgent, timeout, mask);
   if (const int error = error_of(timeout); error != 0) return fail(error);
+  if (mask != nullptr && !can_be_read(mask)) return fail(EFAULT);
   if (count < 0) return fail(EINVAL);
   const TemporaryMask blocked(mask);
   return select_before(count, readable, writable, urgent,

@@ -123,6 +123,8 @@ kernel::Scheduler& begin_run() {
   family::begin();
   const Asked* const asked = record->settings.asked;
   record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
+  if (!kernel::Scheduler::has_address_space())
+    refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
   kernel::Scheduler& scheduler =
       *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   scheduler.set_delivery(deliver_signals);

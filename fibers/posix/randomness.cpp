@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "core/digest.hpp"
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/program.hpp"
@@ -57,12 +58,14 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED ssize_t getrandom(void* buffer, std::size_t size, unsigned flags) {
   constexpr unsigned of_either = GRND_RANDOM | GRND_INSECURE;
   if ((flags & ~(GRND_NONBLOCK | of_either)) != 0 || (flags & of_either) == of_either) return fail(EINVAL);
+  if (size > 0 && !can_be_written(buffer, size)) return fail(EFAULT);
   fill_with_random(buffer, size);
   return static_cast<ssize_t>(size);
 }
 
 WAITPOINT_INTERPOSED int getentropy(void* buffer, std::size_t size) {
   if (size > 256) return fail(EIO);
+  if (size > 0 && !can_be_written(buffer, size)) return fail(EFAULT);
   fill_with_random(buffer, size);
   return 0;
 }

@@ -64,7 +64,9 @@ WAITPOINT_INTERPOSED int sched_setscheduler(pid_t id, int policy, const sched_pa
   Thread* const thread = thread_with(id);
   if (thread == nullptr) return WAITPOINT_NEXT(sched_setscheduler)(id, policy, parameters);
   const int plain = policy & ~SCHED_RESET_ON_FORK;
-  if (parameters == nullptr || !is_priority_of(plain, parameters->sched_priority)) return fail(EINVAL);
+  if (parameters == nullptr) return fail(EINVAL);
+  if (!can_be_read(parameters)) return fail(EFAULT);
+  if (!is_priority_of(plain, parameters->sched_priority)) return fail(EINVAL);
   if (geteuid() != 0 && parameters->sched_priority > 0) return fail(EPERM);
   thread->policy = plain;
   thread->priority = parameters->sched_priority;
@@ -83,7 +85,17 @@ WAITPOINT_INTERPOSED int sched_getparam(pid_t id, sched_param* parameters) noexc
   const Thread* const thread = thread_with(id);
   if (thread == nullptr) return WAITPOINT_NEXT(sched_getparam)(id, parameters);
   if (parameters == nullptr) return fail(EINVAL);
+  if (!can_be_written(parameters, sizeof *parameters)) return fail(EFAULT);
   *parameters = {thread->priority};
+  return 0;
+}
+
+// Of those that take turns; of the others what the system says of its own.
+WAITPOINT_INTERPOSED int sched_rr_get_interval(pid_t id, timespec* interval) noexcept {
+  const Thread* const thread = thread_with(id);
+  if (thread == nullptr || thread->policy != SCHED_RR) return WAITPOINT_NEXT(sched_rr_get_interval)(id, interval);
+  if (!can_be_written(interval, sizeof *interval)) return fail(EFAULT);
+  *interval = {0, 100'000'000};
   return 0;
 }
 

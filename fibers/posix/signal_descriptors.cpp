@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -107,6 +108,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int signalfd(int descriptor, const sigset_t* set, int flags) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(signalfd)(descriptor, set, flags);
+  if (!can_be_read(set)) return fail(EFAULT);
   if ((flags & ~(SFD_NONBLOCK | SFD_CLOEXEC)) != 0) return fail(EINVAL);
   const SignalSet signals = to_set(*set) & ~unblockable;
   SignalDescriptor* known = find_descriptor(descriptor);

@@ -31,6 +31,7 @@ void block_from_now_on(SignalSet blocked) {
 
 int change_mask(int how, const sigset_t* set, sigset_t* old) {
   const SignalSet before = blocked_now();
+  if (set != nullptr && !can_be_read(set)) return EFAULT;
   if (set != nullptr) {
     const SignalSet given = to_set(*set);
     switch (how) {
@@ -40,7 +41,9 @@ int change_mask(int how, const sigset_t* set, sigset_t* old) {
       default: return EINVAL;
     }
   }
-  if (old != nullptr) *old = to_sigset(before);
+  if (old == nullptr) return 0;
+  if (!can_be_written(old)) return EFAULT;
+  *old = to_sigset(before);
   return 0;
 }
 

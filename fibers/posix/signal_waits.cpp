@@ -88,6 +88,7 @@ WAITPOINT_INTERPOSED int sigwaitinfo(const sigset_t* set, siginfo_t* information
 
 WAITPOINT_INTERPOSED int sigwait(const sigset_t* set, int* signal) {
   if (!is_simulated()) return WAITPOINT_NEXT(sigwait)(set, signal);
+  if (!can_be_read(set)) return EFAULT;
   int taken = 0;
   while ((taken = take(to_set(*set), nullptr, Time::max())) < 0) {
   }

@@ -19,6 +19,7 @@
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/input_output.hpp"
 #include "fibers/posix/interposed.hpp"
+#include "fibers/posix/loopback.hpp"
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/stream_links.hpp"
 
@@ -281,7 +282,7 @@ WAITPOINT_INTERPOSED int accept4(int descriptor, sockaddr* __restrict address, s
   const bool is_valid = (flags & ~(SOCK_NONBLOCK | SOCK_CLOEXEC)) == 0 && option_of(descriptor, SO_ACCEPTCONN) == 1;
   const int made =
       receive(descriptor, is_valid, [&] { return WAITPOINT_NEXT(accept4)(descriptor, address, length, flags); });
-  if (made >= 0) note_inside(made, is_inside(descriptor));
+  if (made >= 0) note_inside(made, is_inside(descriptor)), copy_delay(descriptor, made);
   note_owner(made);
   return made;
 }

@@ -8,6 +8,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/error_number.hpp"
 #include "fibers/posix/input_output.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -69,12 +70,17 @@ WAITPOINT_INTERPOSED ssize_t vmsplice(int pipe, const iovec* pieces, std::size_t
   return move_between(-1, pipe, 1, flags, call);
 }
 
-// A piece at a time, which what is ready takes.
+// A pipe takes what it has room for; a socket all, a piece at a time.
 WAITPOINT_INTERPOSED ssize_t sendfile64(int to, int from, off64_t* at, std::size_t size) noexcept {
   if (goes_over_link(to)) return fail(EINVAL);
   const DescriptorClass of = class_of(to);
   if (of == DescriptorClass::file || !blocks(to))
     return send_all_at_once(to, false, [&] { return WAITPOINT_NEXT(sendfile64)(to, from, at, size); });
+  const CancellationDisabled undisturbed;
+  if (of == DescriptorClass::pipe) {
+    if (!prepare(to, of, kernel::Operation::send, POLLOUT, true)) return -1;
+    return done([&] { return WAITPOINT_NEXT(sendfile64)(to, from, at, size); });
+  }
   std::size_t sent = 0;
   while (sent < size) {
     if (!prepare(to, of, kernel::Operation::send, POLLOUT, true)) break;

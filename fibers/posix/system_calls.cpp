@@ -36,6 +36,7 @@ extern "C" {
 }
 
 #include "fibers/posix/argument_memory.hpp"
+#include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/clones.hpp"
 #include "fibers/posix/error_number.hpp"
@@ -48,25 +49,6 @@ extern "C" {
 namespace waitpoint::posix {
 namespace {
 
-/// The call itself is no cancellation point, whatever it does.
-class CancellationDisabled {
- public:
-  CancellationDisabled() : thread_(is_simulated() ? &this_thread() : nullptr) {
-    if (thread_ == nullptr) return;
-    before_ = thread_->cancel_disabled;
-    thread_->cancel_disabled = true;
-  }
-  ~CancellationDisabled() {
-    if (thread_ != nullptr) thread_->cancel_disabled = before_;
-  }
-  CancellationDisabled(const CancellationDisabled&) = delete;
-  CancellationDisabled& operator=(const CancellationDisabled&) = delete;
-
- private:
-  Thread* thread_;
-  bool before_ = false;
-};
-
 long make_timer(clockid_t clock, sigevent* event, int* number) {
   timer_t made = nullptr;
   if (timer_create(clock, event, &made) != 0) return -1;
@@ -77,6 +59,8 @@ long make_timer(clockid_t clock, sigevent* event, int* number) {
 long call_system(long number, const CallWords& words) {
   return WAITPOINT_NEXT(syscall)(number, words.at[0], words.at[1], words.at[2], words.at[3], words.at[4], words.at[5]);
 }
+
+bool may_be_written(void* address) { return address == nullptr || can_be_written(address); }
 
 long simulated_call(long number, const CallWords& words) {
   const auto timer = reinterpret_cast<timer_t>(static_cast<std::uintptr_t>(words.at[0]));
@@ -121,9 +105,10 @@ long simulated_call(long number, const CallWords& words) {
       if (!can_be_written(words.word<void*>(1))) return fail(EFAULT);
       return read_clock(words.word<clockid_t>(0), *words.word<timespec*>(1));
     }
-    case SYS_gettimeofday: return words.call(gettimeofday);
-    case SYS_time: return words.call(time);
-    case SYS_times: return words.call(times);
+    // By their names they do not come to the system, which looks at addresses.
+    case SYS_gettimeofday: return may_be_written(words.word<void*>(0)) ? words.call(gettimeofday) : fail(EFAULT);
+    case SYS_time: return may_be_written(words.word<void*>(0)) ? words.call(time) : fail(EFAULT);
+    case SYS_times: return may_be_written(words.word<void*>(0)) ? words.call(times) : fail(EFAULT);
     case SYS_alarm: return words.call(alarm);
     case SYS_setitimer:
       return setitimer(static_cast<__itimer_which_t>(words.at[0]), words.word<const itimerval*>(1),

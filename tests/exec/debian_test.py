@@ -212,6 +212,7 @@ class Ends(Exec):
             status, _, text = self.end(way)
             self.assertEqual(status, expected, way)
             self.assertGreaterEqual(Summary(text).seconds, 2)
+            self.assertEqual("waitpoint: replay: waitpoint exec --seed 1 --" in text, status != 0, text)
 
     def test_by_a_signal(self):
         for way, expected in (("abort", -6), ("crash", -11), ("kill", -9), ("overflow", -11)):
@@ -336,6 +337,16 @@ class Deadlocks(Exec):
         self.assertEqual(done.returncode, 1, done.stderr)
 
 
+class Loopback(Exec):
+    def test_is_no_matter_of_the_wall_clock(self):
+        runs = [execute(seed, self.compile("loopback.c")) for seed in (1, 1, 1, 2)]
+        for status, _, text in runs:
+            self.assertEqual(status, 0, text)
+            self.assertLess(Summary(text).seconds, 0.02)
+        digests = [Summary(text).digest for _, _, text in runs]
+        self.assertEqual((len(set(digests[:3])), len(set(digests))), (1, 2))
+
+
 class Seeds(Exec):
     """A campaign ends at the first seed that fails, and says how to see it again."""
 
@@ -380,8 +391,9 @@ class Refusals(Exec):
     def test_of_programs_that_nothing_can_be_preloaded_into(self):
         static = self.folder / "static"
         (self.folder / "empty.c").write_text("int main(void) { return 0; }\n")
-        subprocess.run(["gcc", "-static", self.folder / "empty.c", "-o", static], check=True)
-        self.assertIn("is linked statically", self.refused("--", str(static)))
+        for option in "-static-pie", "-static":
+            subprocess.run(["gcc", option, self.folder / "empty.c", "-o", static], check=True)
+            self.assertIn("is linked statically", self.refused("--", str(static)))
         static.chmod(0o4755)
         self.assertIn("changes its user or group", self.refused("--", str(static)))
         text = self.folder / "text"

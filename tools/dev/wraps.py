@@ -56,7 +56,10 @@ def download(packages, folder):
          "Origin: Debian"], check=True, capture_output=True, text=True).stdout
     if not targets:
         raise SystemExit("dev: apt has no lists of Debian's packages yet: run apt-get update")
-    (folder / "sources.list").write_text("".join(sorted(set(targets.splitlines(keepends=True)))))
+    # A release's own archives are always there; those of its security updates, not at each mirror. What upstream
+    # made of a package is the same in both.
+    suites = {line for line in targets.splitlines(keepends=True) if "-" not in line.split()[2]}
+    (folder / "sources.list").write_text("".join(sorted(suites)))
     apt(folder, "update")
     apt(folder, "source", "--download-only", *packages)
 

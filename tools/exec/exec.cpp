@@ -126,16 +126,18 @@ int exec(const ExecOptions& options) {
   const RunMemory memory(settings_of(options, options.seed), files.programs);
   const ProgramRun run(files, memory);
   const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
-  if (trace) write_trace_of(memory.record(), *trace);
   if (memory.record().began) {
     std::fputs(races_of(memory.record()).c_str(), stderr);
     if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());
-    if (failed) print_failure(options, memory.record(), run.signal(), options.seed);
+    // Of any other status, only the program's users know whether it is a failure.
+    if (failed || (!options.quiet && run.exit_status() != 0))
+      print_failure(options, memory.record(), run.signal(), options.seed);
     if (!files.programs.is_one_program() && (!options.quiet || run.exit_status() != 0))
       std::fprintf(stderr, "waitpoint: %s\n", ends_of_programs(memory.record()).c_str());
   }
   if (!memory.record().began && run.signal() != 0)
     std::fprintf(stderr, "waitpoint: it was ended by %s, before its main()\n", signal_in_words(run.signal()).c_str());
+  if (trace) write_trace_of(memory.record(), *trace);
   if (run.signal() != 0) end_by(run.signal());
   return run.exit_status();
 }

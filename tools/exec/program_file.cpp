@@ -3,6 +3,7 @@
 
 #include <elf.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -55,31 +56,44 @@ std::string trouble_of_script(std::ifstream& file) {
   return cannot_be_simulated(interpreter);
 }
 
-// The names of the libraries that it loads; none of what is no ELF file.
-std::vector<std::string> libraries_of(std::ifstream& file) {
+// What the dynamic linker reads of it: none of what is no ELF file, or is cut off.
+struct Dynamic {
   std::vector<Elf64_Phdr> parts;
   std::vector<Elf64_Dyn> entries;
+
+  std::uint64_t value(std::int64_t tag) const {
+    for (const Elf64_Dyn& entry : entries)
+      if (entry.d_tag == tag) return entry.d_un.d_val;
+    return 0;
+  }
+};
+Dynamic dynamic_of(std::ifstream& file) {
+  Dynamic dynamic;
   Elf64_Ehdr header{};
   if (!read(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return {};
   for (int i = 0; i < header.e_phnum; ++i)
-    if (!read(file, header.e_phoff + static_cast<std::uint64_t>(i) * sizeof(Elf64_Phdr), parts.emplace_back()))
+    if (!read(file, header.e_phoff + static_cast<std::uint64_t>(i) * sizeof(Elf64_Phdr), dynamic.parts.emplace_back()))
       return {};
-  std::uint64_t names = 0;
-  for (const Elf64_Phdr& part : parts) {
+  for (const Elf64_Phdr& part : dynamic.parts) {
     if (part.p_type != PT_DYNAMIC) continue;
-    for (std::uint64_t at = 0; at + sizeof(Elf64_Dyn) <= part.p_filesz; at += sizeof(Elf64_Dyn)) {
-      if (!read(file, part.p_offset + at, entries.emplace_back())) return {};
-      if (entries.back().d_tag == DT_STRTAB) names = entries.back().d_un.d_ptr;
-    }
+    for (std::uint64_t at = 0; at + sizeof(Elf64_Dyn) <= part.p_filesz; at += sizeof(Elf64_Dyn))
+      if (!read(file, part.p_offset + at, dynamic.entries.emplace_back())) return {};
   }
+  return dynamic;
+}
+
+// The names of the libraries that it loads.
+std::vector<std::string> libraries_of(std::ifstream& file) {
+  const Dynamic dynamic = dynamic_of(file);
+  std::uint64_t names = dynamic.value(DT_STRTAB);
   // Where that address is in the file.
-  for (const Elf64_Phdr& part : parts)
+  for (const Elf64_Phdr& part : dynamic.parts)
     if (part.p_type == PT_LOAD && names >= part.p_vaddr && names < part.p_vaddr + part.p_filesz) {
       names = names - part.p_vaddr + part.p_offset;
       break;
     }
   std::vector<std::string> libraries;
-  for (const Elf64_Dyn& entry : entries) {
+  for (const Elf64_Dyn& entry : dynamic.entries) {
     if (entry.d_tag != DT_NEEDED) continue;
     file.clear();
     file.seekg(static_cast<std::streamoff>(names + entry.d_un.d_val));
@@ -101,18 +115,21 @@ std::filesystem::path find_program(const std::string& name) {
   return "";
 }
 
-// Those of a static program that the system places where it likes are of the same type, but need no other object.
+// A static program that the system places where it likes has no interpreter either, but says what it is.
 bool is_shared_object(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   Elf64_Ehdr header;
   return read(file, 0, header) && std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 && is_x86_64(header) &&
-         header.e_type == ET_DYN && has_part(file, header, PT_DYNAMIC) && !has_part(file, header, PT_INTERP);
+         header.e_type == ET_DYN && has_part(file, header, PT_DYNAMIC) && !has_part(file, header, PT_INTERP) &&
+         (dynamic_of(file).value(DT_FLAGS_1) & DF_1_PIE) == 0;
 }
 
 std::string cannot_be_simulated(const std::filesystem::path& program) {
   struct stat of {};
   if (stat(program.c_str(), &of) == 0 && (of.st_mode & (S_ISUID | S_ISGID)) != 0)
     return "changes its user or group: the system preloads nothing into it";
+  if (getuid() != 0 && getxattr(program.c_str(), "security.capability", nullptr, 0) > 0)
+    return "has capabilities that its user has not: the system preloads nothing into it";
   std::ifstream file(program, std::ios::binary);
   char magic[4] = {};
   if (!file.read(magic, sizeof magic)) return "cannot be read";

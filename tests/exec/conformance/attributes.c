@@ -239,6 +239,13 @@ CASE(scheduling_can_be_asked_for_by_number) {
   EXPECT_FAILS(sched_getscheduler(0x3FFFFFF0), ESRCH);
   EXPECT_FAILS(sched_getparam(0x3FFFFFF0, &parameters), ESRCH);
 }
+CASE(who_takes_turns_has_a_length_of_them) {
+  const struct sched_param parameters = {.sched_priority = 1};
+  if (sched_setscheduler(0, SCHED_RR, &parameters) != 0) return;  // for want of privileges
+  struct timespec interval = {0, 0};
+  EXPECT_IS(sched_rr_get_interval(0, &interval), 0);
+  EXPECT(interval.tv_sec > 0 || interval.tv_nsec > 0);
+}
 CASE(affinity_can_be_asked_for_by_number) {
   cpu_set_t set, one;
   EXPECT(sched_getaffinity(0, sizeof set, &set) >= 0);

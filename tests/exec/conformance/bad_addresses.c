@@ -9,13 +9,17 @@
 #include <sys/epoll.h>
 #include <sys/msg.h>
 #include <sys/prctl.h>
+#include <sys/random.h>
 #include <sys/resource.h>
 #include <sys/select.h>
 #include <sys/sem.h>
 #include <sys/shm.h>
+#include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
+#include <sys/time.h>
 #include <sys/timerfd.h>
+#include <sys/uio.h>
 
 // Volatile: a compiler that sees it warns.
 static void* volatile nowhere = (void*)8;
@@ -33,6 +37,7 @@ CASE(of_descriptors_to_be_polled) {
   EXPECT_IS(epoll_ctl(watch, EPOLL_CTL_ADD, ends[0], &event), 0);
   EXPECT_IS(write(ends[1], "x", 1), 1);
   EXPECT_FAILS(epoll_wait(watch, nowhere, 1, 0), EFAULT);
+  EXPECT_FAILS(pselect(0, NULL, NULL, NULL, NULL, nowhere), EFAULT);
   EXPECT_FAILS(epoll_pwait2(watch, &event, 1, nowhere, NULL), EFAULT);
 }
 CASE(of_messages) {
@@ -46,12 +51,35 @@ CASE(of_messages) {
   EXPECT_FAILS(recvmsg(ends[0], nowhere, 0), EFAULT);
   EXPECT_FAILS(recvmsg(ends[0], nowhere, MSG_WAITALL), EFAULT);
   EXPECT_FAILS(recvmmsg(ends[0], nowhere, 1, 0, NULL), EFAULT);
+  struct mmsghdr message = {0};
+  EXPECT_FAILS(recvmmsg(ends[0], &message, 1, 0, nowhere), EFAULT);
+  EXPECT_IS(pipe(ends), 0);
+  EXPECT_FAILS(writev(ends[1], nowhere, 1), EFAULT);
 }
 CASE(of_timers_and_locks) {
   const int timer = timerfd_create(CLOCK_REALTIME, 0);
   EXPECT_FAILS(timerfd_settime(timer, 0, nowhere, NULL), EFAULT);
   EXPECT_FAILS(timerfd_gettime(timer, nowhere), EFAULT);
   EXPECT_FAILS(fcntl(open("/dev/null", O_RDWR), F_SETLKW, nowhere), EFAULT);
+  EXPECT_FAILS(setitimer(ITIMER_REAL, nowhere, NULL), EFAULT);
+  struct itimerval none = {{0, 0}, {0, 0}};
+  EXPECT_FAILS(setitimer(ITIMER_REAL, &none, nowhere), EFAULT);
+  EXPECT_FAILS(getitimer(ITIMER_REAL, nowhere), EFAULT);
+}
+CASE(of_clocks) {
+  EXPECT_FAILS(clock_gettime(CLOCK_PROCESS_CPUTIME_ID, nowhere), EFAULT);
+  EXPECT_FAILS(clock_gettime(CLOCK_THREAD_CPUTIME_ID, nowhere), EFAULT);
+  EXPECT_FAILS(syscall(SYS_gettimeofday, nowhere, NULL), EFAULT);
+  EXPECT_FAILS(syscall(SYS_times, nowhere), EFAULT);
+  EXPECT_FAILS(syscall(SYS_time, nowhere), EFAULT);
+}
+CASE(of_random_bytes) {
+  EXPECT_FAILS(getrandom(nowhere, 8, 0), EFAULT);
+  EXPECT_FAILS(getrandom(nowhere, 1, 0), EFAULT);
+  EXPECT_FAILS(getentropy(nowhere, 8), EFAULT);
+  char bytes[4] = {0, 0, 0, 1};
+  EXPECT_IS(getrandom(bytes, 3, 0), 3);
+  EXPECT_IS(bytes[3], 1);
 }
 CASE(of_what_is_asked_about_a_thread) {
   cpu_set_t set;
@@ -62,6 +90,11 @@ CASE(of_what_is_asked_about_a_thread) {
   EXPECT_IS(sched_getaffinity(0, sizeof set, &set), 0);
   EXPECT_IS(sched_setaffinity(0, sizeof set, &set), 0);
   EXPECT_FAILS(sched_getaffinity(0, 4, &set), EINVAL);
+  EXPECT_FAILS(sched_getparam(0, nowhere), EFAULT);
+  EXPECT_FAILS(sched_setparam(0, nowhere), EFAULT);
+  EXPECT_FAILS(sched_setscheduler(0, SCHED_OTHER, nowhere), EFAULT);
+  EXPECT_FAILS(sched_rr_get_interval(0, nowhere), EFAULT);
+  EXPECT_IS(pthread_getname_np(pthread_self(), nowhere, 16), EFAULT);
 }
 CASE(of_signals) {
   const long size = 8;
@@ -69,6 +102,11 @@ CASE(of_signals) {
   EXPECT_FAILS(sigpending(nowhere), EFAULT);
   EXPECT_FAILS(sigsuspend(nowhere), EFAULT);
   EXPECT_FAILS(sigwaitinfo(nowhere, NULL), EFAULT);
+  int taken = 0;
+  EXPECT_IS(sigwait(nowhere, &taken), EFAULT);
+  EXPECT_FAILS(sigprocmask(SIG_BLOCK, NULL, nowhere), EFAULT);
+  EXPECT_IS(pthread_sigmask(SIG_BLOCK, NULL, nowhere), EFAULT);
+  EXPECT_FAILS(signalfd(-1, nowhere, 0), EFAULT);
   EXPECT_FAILS(syscall(SYS_rt_sigprocmask, SIG_BLOCK, nowhere, NULL, size), EFAULT);
   EXPECT_FAILS(syscall(SYS_rt_sigprocmask, SIG_BLOCK, NULL, nowhere, size), EFAULT);
   EXPECT_FAILS(syscall(SYS_rt_sigaction, SIGUSR1, nowhere, NULL, size), EFAULT);

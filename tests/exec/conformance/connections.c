@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/un.h>
 
@@ -66,6 +67,47 @@ CASE(a_stream_waits_for_room) {
   const pthread_t id = start(receive_big, &ends[0]);
   EXPECT_IS(send(ends[1], big, sizeof big, 0), (long long)sizeof big);
   join(id);
+}
+static void connect_both(int listening) {
+  ends[1] = socket(AF_INET, SOCK_STREAM, 0);
+  EXPECT_IS(connect(ends[1], (struct sockaddr*)&address, sizeof address), 0);
+  ends[0] = accept(listening, NULL, NULL);
+  EXPECT(ends[0] >= 0);
+}
+CASE(small_pieces_come_one_after_the_other) {
+  connect_both(listen_on(SOCK_STREAM));
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_IS(write(ends[1], "a", 1), 1);
+    EXPECT_IS(write(ends[1], "b", 1), 1);
+    for (int j = 0; j < 2; ++j) {
+      char byte = 0;
+      EXPECT_IS(poll(&(struct pollfd){ends[0], POLLIN, 0}, 1, 1000), 1);
+      EXPECT_IS(read(ends[0], &byte, 1), 1);
+      EXPECT_IS(byte, "ab"[j]);
+    }
+  }
+}
+static int has_no_delay(int descriptor) {
+  int value = -1;
+  socklen_t size = sizeof value;
+  EXPECT_IS(getsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &value, &size), 0);
+  return value;
+}
+CASE(whether_pieces_are_delayed_is_as_was_asked_for) {
+  const int listening = listen_on(SOCK_STREAM), on = 1, off = 0;
+  connect_both(listening);
+  EXPECT_IS(has_no_delay(ends[0]), 0);
+  EXPECT_IS(has_no_delay(ends[1]), 0);
+  EXPECT_IS(setsockopt(listening, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on), 0);
+  EXPECT_IS(setsockopt(ends[1], IPPROTO_TCP, TCP_NODELAY, &on, sizeof on), 0);
+  EXPECT_IS(has_no_delay(dup(ends[1])), 1);
+  EXPECT_IS(setsockopt(ends[1], IPPROTO_TCP, TCP_NODELAY, &off, sizeof off), 0);
+  EXPECT_IS(has_no_delay(ends[1]), 0);
+  connect_both(listening);
+  EXPECT_IS(has_no_delay(ends[0]), 1);
+  EXPECT_FAILS(setsockopt(ends[1], IPPROTO_TCP, TCP_NODELAY, &on, 1), EINVAL);
+  EXPECT_FAILS(setsockopt(ends[1], IPPROTO_TCP, TCP_NODELAY, NULL, sizeof on), EFAULT);
+  EXPECT_FAILS(setsockopt(socket(AF_UNIX, SOCK_STREAM, 0), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on), EOPNOTSUPP);
 }
 CASE(nobody_listens) {
   const int listening = listen_on(SOCK_STREAM);

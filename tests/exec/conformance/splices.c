@@ -128,6 +128,38 @@ CASE(sendfile_waits_for_room) {
   join(id);
   EXPECT_NOTED("rw");
 }
+static int filled_file(void) {
+  const int f = temp();
+  EXPECT_IS(ftruncate(f, 100000), 0);
+  return f;
+}
+CASE(sendfile_into_a_pipe_moves_what_has_room) {
+  EXPECT_IS(pipe(others), 0);
+  off_t o = 0;
+  EXPECT_IS(sendfile(others[1], filled_file(), &o, 100000), 65536);
+  EXPECT_IS(o, 65536);
+}
+static void* send_file(void* unused) {
+  off_t o = 0;
+  EXPECT_IS(sendfile(others[1], filled_file(), &o, 6), 6);
+  note("s");
+  pthread_testcancel();
+  return unused;
+}
+CASE(sendfile_is_no_cancellation_point) {
+  EXPECT_IS(pipe(others), 0);
+  EXPECT_IS(write(others[1], bytes, 65536), 65536);
+  const pthread_t id = start(send_file, NULL);
+  let_others_wait();
+  EXPECT_IS(pthread_cancel(id), 0);
+  let_others_wait();
+  EXPECT_NOTED("");
+  EXPECT_IS(read(others[0], bytes, 65536), 65536);
+  void* result = NULL;
+  EXPECT_IS(pthread_join(id, &result), 0);
+  EXPECT(result == PTHREAD_CANCELED);
+  EXPECT_NOTED("s");
+}
 CASE(preadv2_of_a_pipe_waits) {
   EXPECT_IS(pipe(ends), 0);
   pthread_t id = start(write_later, NULL);
