@@ -39,7 +39,7 @@ int one(int descriptor) {
 }
 
 int copy(int from, int made) {
-  if (made >= 0) note_inside(made, is_inside(from)), copy_delay(from, made);
+  if (made >= 0) note_inside(made, is_inside(from)), copy_asked(from, made);
   return made;
 }
 
@@ -78,7 +78,7 @@ WAITPOINT_INTERPOSED int socketpair(int domain, int type, int protocol, int* end
 WAITPOINT_INTERPOSED int socket(int domain, int type, int protocol) noexcept {
   const int made = WAITPOINT_NEXT(socket)(domain, type, protocol);
   note_owner(made);
-  if (is_simulated()) send_at_once(made);
+  begin_as_asked(made);
   return made;
 }
 WAITPOINT_INTERPOSED int eventfd(unsigned count, int flags) noexcept {

@@ -57,6 +57,13 @@ WAITPOINT_INTERPOSED int fsync(int descriptor) {
 WAITPOINT_INTERPOSED int fdatasync(int descriptor) {
   return at_cancellation_point([&] { return WAITPOINT_NEXT(fdatasync)(descriptor); });
 }
+WAITPOINT_INTERPOSED int sync_file_range(int descriptor, off64_t at, off64_t size, unsigned flags) {
+  return at_cancellation_point([&] { return WAITPOINT_NEXT(sync_file_range)(descriptor, at, size, flags); });
+}
+WAITPOINT_INTERPOSED int fallocate64(int descriptor, int mode, off64_t at, off64_t size) {
+  return at_cancellation_point([&] { return WAITPOINT_NEXT(fallocate64)(descriptor, mode, at, size); });
+}
+WAITPOINT_SAME_AS(fallocate64) int waitpoint_fallocate(int, int, off64_t, off64_t) __asm__("fallocate");
 WAITPOINT_INTERPOSED int msync(void* memory, std::size_t size, int flags) {
   return at_cancellation_point([&] { return WAITPOINT_NEXT(msync)(memory, size, flags); });
 }

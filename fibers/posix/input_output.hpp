@@ -9,6 +9,7 @@
 #include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/descriptors.hpp"
+#include "fibers/posix/loopback.hpp"
 #include "fibers/posix/waiting.hpp"
 
 namespace waitpoint::posix {
@@ -37,6 +38,7 @@ auto done(Call call) {
   const auto result = call();
   if (kernel::sanitizer::present) kernel::sanitizer::acquire(&all_descriptors);
   look_at_descriptors();
+  handle_what_came_with_a_call();
   return result;
 }
 
@@ -45,7 +47,9 @@ auto receive(int descriptor, bool may_block, Call call) {
   const DescriptorClass of = class_of(descriptor);
   if (of == DescriptorClass::file) return at_cancellation_point(call);
   if (!prepare(descriptor, of, kernel::Operation::receive, POLLIN, may_block)) return static_cast<decltype(call())>(-1);
-  return done(call);
+  const auto received = done(call);
+  acknowledge(descriptor);
+  return received;
 }
 
 template <class Call>

@@ -23,6 +23,12 @@ Function next(Function& known, const char* name) {
   return known;
 }
 
+/// The C library's own, whatever library has one too: see lookups.cpp.
+template <class Function>
+Function of_c_library(Function, const char* name) {
+  return reinterpret_cast<Function>(dlsym(dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD), name));
+}
+
 }  // namespace waitpoint::posix
 
 /// A call of the C library's own function of this name.

@@ -98,7 +98,8 @@ constexpr std::uint32_t high(std::uintptr_t address) { return static_cast<std::u
 void tell_of_threads() {
   pthread_t id = 0;
   const auto nothing = [](void* unused) { return unused; };
-  if (WAITPOINT_NEXT(pthread_create)(&id, nullptr, nothing, nullptr) == 0) WAITPOINT_NEXT(pthread_join)(id, nullptr);
+  const auto create = of_c_library(&pthread_create, "pthread_create");
+  if (create(&id, nullptr, nothing, nullptr) == 0) WAITPOINT_NEXT(pthread_join)(id, nullptr);
 }
 
 bool can_be_told_from_others(LibraryRange range) {

@@ -5,9 +5,6 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
-#include <algorithm>
-#include <bitset>
-
 #include "fibers/posix/argument_memory.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/error_number.hpp"
@@ -16,11 +13,17 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr int longest_queue = 4096;    // of connections; the system has none that is longer
-constexpr int least_buffer = 1 << 16;  // bytes: a segment of the loopback fits
+constexpr int longest_queue = 4096;  // of connections; the system has none that is longer
+// Bytes. What is sent and not acknowledged fits into what is received and not read, and is few segments: so the system
+// has no occasion to measure, and to adapt how much it sends at once.
+constexpr int sent_most = 1 << 15, received_most = 1 << 16;
 
-// Whether the program itself asked for no delay, by descriptor.
-constinit std::bitset<known_descriptors_max> asked_for_none;
+struct Stream {
+  bool is_at_once : 1;  ///< the system puts nothing off
+  bool asked_for : 1;   ///< by the program itself
+};
+// By descriptor.
+constinit Stream streams[known_descriptors_max]{};
 
 bool is_known(int descriptor) { return descriptor >= 0 && descriptor < known_descriptors_max; }
 
@@ -32,26 +35,35 @@ bool is_tcp(int descriptor) {
          protocol == IPPROTO_TCP;
 }
 
-bool is_about_delay(int descriptor, int level, int option) {
-  return level == IPPROTO_TCP && option == TCP_NODELAY && is_known(descriptor) && is_tcp(descriptor);
-}
-
-bool is_about_buffer(int descriptor, int level, int option) {
-  return level == SOL_SOCKET && (option == SO_RCVBUF || option == SO_SNDBUF) && is_tcp(descriptor);
+bool is_about_delay(int level, int option) { return level == IPPROTO_TCP && option == TCP_NODELAY; }
+bool is_about_buffer(int level, int option) {
+  return level == SOL_SOCKET && (option == SO_RCVBUF || option == SO_SNDBUF);
 }
 
 }  // namespace
 
 void send_at_once(int descriptor) {
   if (!is_known(descriptor) || !is_tcp(descriptor)) return;
-  asked_for_none[static_cast<std::size_t>(descriptor)] = false;
+  streams[descriptor].is_at_once = true;
   constexpr int on = 1;
   WAITPOINT_NEXT(setsockopt)(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  WAITPOINT_NEXT(setsockopt)(descriptor, SOL_SOCKET, SO_SNDBUF, &sent_most, sizeof sent_most);
+  WAITPOINT_NEXT(setsockopt)(descriptor, SOL_SOCKET, SO_RCVBUF, &received_most, sizeof received_most);
 }
 
-void copy_delay(int from, int made) {
-  if (is_known(from) && is_known(made))
-    asked_for_none[static_cast<std::size_t>(made)] = asked_for_none[static_cast<std::size_t>(from)];
+void acknowledge(int descriptor) {
+  if (!is_known(descriptor) || !streams[descriptor].is_at_once) return;
+  const ErrorNumberKept kept;
+  constexpr int on = 1;
+  WAITPOINT_NEXT(setsockopt)(descriptor, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+}
+
+void begin_as_asked(int descriptor) {
+  if (is_known(descriptor)) streams[descriptor] = {};
+}
+
+void copy_asked(int from, int made) {
+  if (is_known(from) && is_known(made)) streams[made] = streams[from];
 }
 
 }  // namespace waitpoint::posix
@@ -60,26 +72,25 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int listen(int descriptor, int most) noexcept {
-  return WAITPOINT_NEXT(listen)(descriptor, is_simulated() && is_tcp(descriptor) ? longest_queue : most);
+  if (!is_simulated() || !is_tcp(descriptor)) return WAITPOINT_NEXT(listen)(descriptor, most);
+  send_at_once(descriptor);
+  return WAITPOINT_NEXT(listen)(descriptor, longest_queue);
 }
 
 WAITPOINT_INTERPOSED int setsockopt(int descriptor, int level, int option, const void* value, socklen_t size) noexcept {
-  const bool has_number = is_simulated() && size >= sizeof(int) && can_be_read(value);
-  if (has_number && is_about_delay(descriptor, level, option)) {
-    asked_for_none[static_cast<std::size_t>(descriptor)] = *static_cast<const int*>(value) != 0;
-    return 0;
+  const bool has_number = is_simulated() && size >= sizeof(int) && can_be_read(value) && is_known(descriptor);
+  if (has_number && is_about_delay(level, option) && is_tcp(descriptor)) {
+    streams[descriptor].asked_for = *static_cast<const int*>(value) != 0;
+    if (streams[descriptor].is_at_once) return 0;
   }
-  if (has_number && is_about_buffer(descriptor, level, option)) {
-    const int bytes = std::max(*static_cast<const int*>(value), least_buffer);
-    return WAITPOINT_NEXT(setsockopt)(descriptor, level, option, &bytes, sizeof bytes);
-  }
+  if (has_number && streams[descriptor].is_at_once && is_about_buffer(level, option)) return 0;
   return WAITPOINT_NEXT(setsockopt)(descriptor, level, option, value, size);
 }
 
 WAITPOINT_INTERPOSED int getsockopt(int descriptor, int level, int option, void* __restrict value,
                                     socklen_t* __restrict size) noexcept {
   const int result = WAITPOINT_NEXT(getsockopt)(descriptor, level, option, value, size);
-  if (result == 0 && is_simulated() && *size == sizeof(int) && is_about_delay(descriptor, level, option))
-    *static_cast<int*>(value) = asked_for_none[static_cast<std::size_t>(descriptor)] ? 1 : 0;
+  if (result == 0 && is_simulated() && *size == sizeof(int) && is_known(descriptor) && is_about_delay(level, option))
+    *static_cast<int*>(value) = streams[descriptor].asked_for ? 1 : 0;
   return result;
 }

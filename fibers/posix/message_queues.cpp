@@ -64,8 +64,7 @@ int send_before(mqd_t queue, const char* bytes, std::size_t size, unsigned prior
   const ssize_t result = transfer(queue, POLLOUT, deadline, [&] {
     return static_cast<ssize_t>(WAITPOINT_NEXT(mq_timedsend)(queue, bytes, size, priority, &long_ago));
   });
-  // The signal by which mq_notify() has it told comes within the call, and so is handled before it returns.
-  if (result == 0 && take_in_signals_from_outside()) handle_signals();
+  handle_what_came_with_a_call();
   return static_cast<int>(result);
 }
 

@@ -42,13 +42,13 @@ bool take_one(Bytes& bytes, std::uint32_t& changes) {
 
 int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
+  if (!is_valid_deadline) return fail(EINVAL);
   Bytes& bytes = bytes_of(semaphore);
   Semaphore& known = bytes.waitable();
   const CancellationPoint point;
   pass(kernel::Operation::acquire, &known.object);
   for (std::uint32_t changes = 0;;) {
     if (take_one(bytes, changes)) return 0;
-    if (!is_valid_deadline) return fail(EINVAL);
     if (deadline <= kernel::running->local_time) return fail(ETIMEDOUT);
     Wait ended = Wait::interrupted;
     if (!bytes.is_shared())

@@ -107,6 +107,7 @@ int try_lock(pthread_mutex_t& bytes) {
   Bytes& words = words_of(bytes);
   Mutex& mutex = mutex_of(&bytes);
   if (is_mine(words) && type_of(bytes) == PTHREAD_MUTEX_RECURSIVE_NP) return lock_again(words, type_of(bytes));
+  if (is_mine(words) && type_of(bytes) == PTHREAD_MUTEX_ERRORCHECK_NP && mutex.is_robust) return EDEADLK;
   std::uint32_t changes = 0;
   const int result = take_or_tell(words, mutex, changes);
   if (result == 0 || result == EOWNERDEAD) note_owner(mutex);

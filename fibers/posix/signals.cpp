@@ -173,6 +173,12 @@ Handled handle_signals() {
   return handled;
 }
 
+void handle_what_came_with_a_call() {
+  if (!has_come_from_outside()) return;
+  const ErrorNumberKept kept;
+  if (is_simulated() && take_in_signals_from_outside()) handle_signals();
+}
+
 bool is_interrupted(Restart restart) {
   const Handled handled = handle_signals();
   return handled.any && !(handled.restart && restart == Restart::if_asked);

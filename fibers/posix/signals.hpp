@@ -74,6 +74,9 @@ void install_bell();
 bool take_in_signals_from_outside();
 /// Whether something has come. Quick.
 bool has_come_from_outside();
+/// A signal that the system sends for what a call of the program's does (SIGIO, what mq_notify() asked for) comes
+/// within the call, and its handler is to have run when that returns. `errno` stays.
+void handle_what_came_with_a_call();
 /// The system is told what to do with a signal: as `signals_of_program` says.
 void install(int signal);
 /// Ends or stops the process as the system does by default.

@@ -71,6 +71,7 @@ ssize_t receive_all(int descriptor, char* bytes, std::size_t size, int flags) {
     if (count < 0 && errno == EAGAIN) continue;
     if (count < 0) break;
     if (count == 0) return static_cast<ssize_t>(received);
+    acknowledge(descriptor);
     received += static_cast<std::size_t>(count);
   }
   return received > 0 || size == 0 ? static_cast<ssize_t>(received) : -1;
@@ -282,7 +283,7 @@ WAITPOINT_INTERPOSED int accept4(int descriptor, sockaddr* __restrict address, s
   const bool is_valid = (flags & ~(SOCK_NONBLOCK | SOCK_CLOEXEC)) == 0 && option_of(descriptor, SO_ACCEPTCONN) == 1;
   const int made =
       receive(descriptor, is_valid, [&] { return WAITPOINT_NEXT(accept4)(descriptor, address, length, flags); });
-  if (made >= 0) note_inside(made, is_inside(descriptor)), copy_delay(descriptor, made);
+  if (made >= 0) note_inside(made, is_inside(descriptor)), copy_asked(descriptor, made);
   note_owner(made);
   return made;
 }
@@ -304,6 +305,7 @@ WAITPOINT_INTERPOSED int shutdown(int descriptor, int how) noexcept {
 WAITPOINT_INTERPOSED int connect(int descriptor, const sockaddr* address, socklen_t length) {
   if (!is_simulated()) return WAITPOINT_NEXT(connect)(descriptor, address, length);
   if (is_forbidden(address)) return -1;
+  if (can_be_read(address) && !leaves(address)) send_at_once(descriptor);
   pass(kernel::Operation::connect, nullptr);
   if (class_of(descriptor) == DescriptorClass::socket && blocks(descriptor))
     return connect_and_wait(descriptor, address, length);

@@ -355,7 +355,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int pthread_create(pthread_t* id, const pthread_attr_t* attributes, void* (*start)(void*),
                                         void* argument) noexcept {
-  if (is_host_code()) return WAITPOINT_NEXT(pthread_create)(id, attributes, start, argument);
+  if (is_host_code()) return of_c_library(&pthread_create, "pthread_create")(id, attributes, start, argument);
   return create(id, attributes, {.posix = start}, false, argument);
 }
 

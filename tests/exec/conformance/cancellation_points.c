@@ -128,6 +128,9 @@ CANCELLED_BEFORE(pwritev64v2, struct iovec v = {bytes, 1}; pwritev64v2(file, &v,
 CANCELLED_BEFORE(lockf64, (void)!lockf64(file, F_LOCK, 0))
 CANCELLED_BEFORE(fsync, fsync(file))
 CANCELLED_BEFORE(fdatasync, fdatasync(file))
+CANCELLED_BEFORE(sync_file_range, sync_file_range(file, 0, 1, 0))
+CANCELLED_BEFORE(fallocate, fallocate(file, 0, 0, 1))
+CANCELLED_BEFORE(fallocate64, fallocate64(file, 0, 0, 1))
 CANCELLED_BEFORE(msync, void* m = mmap(0, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
                  msync(m, 4096, MS_SYNC))
 CANCELLED_BEFORE(open, open("/dev/null", O_RDONLY))

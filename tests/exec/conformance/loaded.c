@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loaded while threads run: it has variables of each thread.
+// Loaded while threads run: it has variables of each thread, and makes one by what it finds behind itself.
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <pthread.h>
+
 static __thread int counter = 40;
 static __thread char zeros[10000];
 
@@ -10,3 +14,10 @@ char* address_of_zeros(void);
 int* address_of_counter(void) { return &counter; }
 int next_count(void) { return ++counter; }
 char* address_of_zeros(void) { return zeros; }
+
+int start_thread(pthread_t* id, void* (*function)(void*), void* argument);
+int start_thread(pthread_t* id, void* (*function)(void*), void* argument) {
+  int (*create)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*) = NULL;
+  *(void**)&create = dlsym(RTLD_NEXT, "pthread_create");
+  return create(id, NULL, function, argument);
+}

@@ -230,3 +230,17 @@ CASE(a_robust_mutex_is_held_until_after_the_destructors_of_keys) {
   EXPECT_NOTED("held");
   EXPECT_IS(pthread_mutex_trylock(&mutex), EOWNERDEAD);
 }
+CASE(trying_ones_own_checked_mutex_is_told) {
+  for (int shared = PTHREAD_PROCESS_PRIVATE; shared <= PTHREAD_PROCESS_SHARED; ++shared) {
+    pthread_mutexattr_t attributes;
+    pthread_mutexattr_init(&attributes);
+    EXPECT_IS(pthread_mutexattr_setrobust(&attributes, PTHREAD_MUTEX_ROBUST), 0);
+    EXPECT_IS(pthread_mutexattr_settype(&attributes, PTHREAD_MUTEX_ERRORCHECK), 0);
+    EXPECT_IS(pthread_mutexattr_setpshared(&attributes, shared), 0);
+    EXPECT_IS(pthread_mutex_init(&mutex, &attributes), 0);
+    EXPECT_IS(pthread_mutex_lock(&mutex), 0);
+    EXPECT_IS(pthread_mutex_trylock(&mutex), EDEADLK);
+    EXPECT_IS(pthread_mutex_unlock(&mutex), 0);
+    EXPECT_IS(pthread_mutex_destroy(&mutex), 0);
+  }
+}

@@ -2,6 +2,9 @@
 // Signals among threads, and waiting for signals.
 #include "tests/exec/conformance/signals.h"
 
+#include <fcntl.h>
+#include <sys/socket.h>
+
 static void* look_at_blocked(void* unused) {
   (void)unused;
   EXPECT_IS(is_blocked(SIGUSR1), 1);
@@ -228,4 +231,14 @@ CASE(waits_for_signals_are_cancellation_points) {
     EXPECT_IS(pthread_cancel(id), 0);
     EXPECT(join(id) == PTHREAD_CANCELED);
   }
+}
+CASE(what_a_thread_writes_is_told_before_the_call_returns) {
+  int pair[2];
+  EXPECT_IS(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
+  act(SIGIO, handle, 0);
+  EXPECT_IS(fcntl(pair[0], F_SETOWN, getpid()), 0);
+  EXPECT_IS(fcntl(pair[0], F_SETFL, O_ASYNC), 0);
+  EXPECT_IS(write(pair[1], "a", 1), 1);
+  EXPECT_IS(handled, 1);
+  EXPECT_IS(last, SIGIO);
 }

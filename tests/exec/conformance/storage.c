@@ -128,6 +128,27 @@ CASE(a_library_loaded_by_another_thread_serves_all) {
   join(start(load_there, NULL));
   EXPECT_IS(next_count(), 41);
 }
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t is_up = PTHREAD_COND_INITIALIZER;
+static int up = 0;
+static void* come_up(void* unused) {
+  pthread_mutex_lock(&lock);
+  up = 1;
+  pthread_cond_signal(&is_up);
+  pthread_mutex_unlock(&lock);
+  return unused;
+}
+CASE(a_library_makes_threads_by_the_function_behind_its_own) {
+  load();
+  int (*start_thread)(pthread_t*, void* (*)(void*), void*) = NULL;
+  *(void**)&start_thread = dlsym(library, "start_thread");
+  pthread_t id;
+  pthread_mutex_lock(&lock);
+  EXPECT_IS(start_thread(&id, come_up, NULL), 0);
+  while (up == 0) pthread_cond_wait(&is_up, &lock);
+  pthread_mutex_unlock(&lock);
+  join(id);
+}
 CASE(a_library_loaded_again_begins_anew) {
   for (int i = 0; i < 5; ++i) {
     load();
