@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What tests of programs under waitpoint have in common. The first argument of the test program is the build folder."""
 
+import hashlib
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,6 +12,25 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 WAITPOINT = BUILD / "tools/waitpoint"
+
+
+class Summary:
+    """The line about a run."""
+
+    def __init__(self, text):
+        found = re.search(r"waitpoint: (\S+): (\d+) threads, (\d+) at once, (\d+) events, (\d+) switches, "
+                          r"([0-9.]+) s of virtual time, digest (wp1:[0-9a-f]{16})", text)
+        if not found:
+            raise AssertionError(f"no line about the run in: {text}")
+        self.at_once, self.switches = int(found[3]), int(found[5])
+        self.seconds, self.digest = float(found[6]), found[7]
+
+
+def execute(seed, *command, stdin=None):
+    """Returns the exit status, a hash of standard output, and what was said on the error stream."""
+    words = [WAITPOINT, "exec", "--seed", seed, "--", *command]
+    done = subprocess.run([str(word) for word in words], stdin=stdin, capture_output=True, timeout=300)
+    return done.returncode, hashlib.sha256(done.stdout).hexdigest(), done.stderr.decode(errors="replace")
 
 
 class ExecCase(unittest.TestCase):
