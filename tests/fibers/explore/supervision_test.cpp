@@ -66,6 +66,9 @@ TEST(Explore, AReplayThatDoesNotEndIsEndedWithItsToken) {
 }
 
 TEST(Explore, AScheduleThatWaitsForWhatIsNotSimulatedIsEndedWithItsToken) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "ThreadSanitizer tells of the real lock too";
+#endif
   const auto lock_a_real_lock_twice = [] {
     explore([] {
       atomic<bool> first{false};
