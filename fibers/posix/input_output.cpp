@@ -69,8 +69,9 @@ bool may_wait_for(int descriptor, short events) {
 bool prepare(int descriptor, DescriptorClass of, kernel::Operation operation, short events, bool may_block) {
   const CancellationPoint point;
   pass(operation, nullptr);
-  if (may_block && events == POLLOUT && !is_inside(descriptor) && wait_for_reader(descriptor, patience_with_readers_ms))
-    return true;
+  // Of a stream over the loopback the reader is a thread, mostly, which has to have its turn.
+  const int patience_ms = sends_at_once(descriptor) ? 0 : patience_with_readers_ms;
+  if (may_block && events == POLLOUT && !is_inside(descriptor) && wait_for_reader(descriptor, patience_ms)) return true;
   bool is_ready = true;
   if (may_block && may_wait_for(descriptor, events)) {
     const Patience patience = patience_of(descriptor, of, events);

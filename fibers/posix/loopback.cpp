@@ -51,8 +51,10 @@ void send_at_once(int descriptor) {
   WAITPOINT_NEXT(setsockopt)(descriptor, SOL_SOCKET, SO_RCVBUF, &received_most, sizeof received_most);
 }
 
+bool sends_at_once(int descriptor) { return is_known(descriptor) && streams[descriptor].is_at_once; }
+
 void acknowledge(int descriptor) {
-  if (!is_known(descriptor) || !streams[descriptor].is_at_once) return;
+  if (!sends_at_once(descriptor)) return;
   const ErrorNumberKept kept;
   constexpr int on = 1;
   WAITPOINT_NEXT(setsockopt)(descriptor, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);

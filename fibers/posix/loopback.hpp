@@ -14,6 +14,9 @@ void send_at_once(int descriptor);
 /// Something was received from it: the other side is told at once.
 void acknowledge(int descriptor);
 
+/// Whether it is such a socket.
+bool sends_at_once(int descriptor);
+
 /// A socket was made.
 void begin_as_asked(int descriptor);
 /// `made` is another name of `from`, or was accepted by it: the program is told what it asked `from` for.
