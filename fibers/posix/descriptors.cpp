@@ -261,8 +261,9 @@ Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(cons
   waiter.shared = true;
   add(waiter);
   if (waiter.outside) task.scheduler->pause();
-  // From here on other processes ring; what was changed before is seen now.
-  const Wait ended = waiter.outside && is_ready(what) ? Wait::came : wait_on(object, deadline);
+  // From here on other processes ring; what was changed before is seen now, and what the last of them did that has just
+  // ended, or its end.
+  const Wait ended = family::had_others() && is_ready(what) ? Wait::came : wait_on(object, deadline);
   remove(waiter);
   return ended;
 }

@@ -132,6 +132,8 @@ bool has_others() {
   return false;
 }
 
+bool had_others() { return own != nullptr; }
+
 void* take(std::size_t bytes) {
   void* const memory = joined().arena.take(bytes);
   if (memory != nullptr) std::memset(memory, 0, bytes);

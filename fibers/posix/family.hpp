@@ -24,6 +24,8 @@ void begin_as_child();
 
 /// Whether any other process of the family lives.
 bool has_others();
+/// Whether one may have lived.
+bool had_others();
 /// Whether the process lives: one that has ended and was not waited for does not.
 bool lives(pid_t process);
 /// Its number; asking the system takes longer.
