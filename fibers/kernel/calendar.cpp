@@ -5,23 +5,25 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
+#include <utility>
 
 #include "core/error.hpp"
-#include "fibers/kernel/fetch.hpp"
 
 namespace waitpoint::kernel {
 namespace {
 
+// So many, and fewer, are sorted without being dealt out before.
+constexpr std::uint32_t few = 6;
+// A part of a bucket with more is sorted by itself.
+constexpr std::uint32_t crowd = 16;
+
 bool earlier(const EventEntry& a, const EventEntry& b) { return a.key < b.key; }
 
-// Newest first, as a bucket's list has them. Events put in for one instant came in their order, mostly.
-void sort(EventEntry* first, EventEntry* last) {
-  std::reverse(first, last);
-  if (last - first > 24) {
-    if (!std::is_sorted(first, last, earlier)) std::sort(first, last, earlier);
-    return;
-  }
+// Quick where each entry is near its place.
+void sort_nearly_sorted(EventEntry* first, EventEntry* last) {
   for (EventEntry* next = first + 1; next < last; ++next) {
+    if (!(next->key < next[-1].key)) continue;
     const EventEntry entry = *next;
     EventEntry* at = next;
     for (; at > first && entry.key < at[-1].key; --at) *at = at[-1];
@@ -29,51 +31,90 @@ void sort(EventEntry* first, EventEntry* last) {
   }
 }
 
+// Events put in for one instant came in their order, mostly.
+void sort_crowd(EventEntry* first, EventEntry* last) {
+  if (!std::is_sorted(first, last, earlier)) std::sort(first, last, earlier);
+}
+
 }  // namespace
 
 Calendar::Calendar(std::uint32_t capacity) : reserved_(bytes(capacity)) {
-  const std::size_t slots = slots_bytes(capacity);
   void* memory = mmap(nullptr, reserved_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   WAITPOINT_CHECK(memory != MAP_FAILED, "no address space for the event list");
-  slots_ = static_cast<Slot*>(memory);
-  heads_ = reinterpret_cast<std::uint32_t*>(static_cast<char*>(memory) + slots);
-  occupied_ = reinterpret_cast<std::uint64_t*>(static_cast<char*>(memory) + slots + heads_bytes);
+  chunks_ = static_cast<Chunk*>(memory);
+  buckets_ = reinterpret_cast<Bucket*>(chunks_ + chunks(capacity));
+  occupied_ = reinterpret_cast<std::uint64_t*>(reinterpret_cast<char*>(buckets_) + heads_bytes);
+  ends_ = reinterpret_cast<std::uint32_t*>(occupied_ + buckets_max / 64);
 }
 
-Calendar::~Calendar() { munmap(slots_, reserved_); }
+Calendar::~Calendar() { munmap(chunks_, reserved_); }
 
-void Calendar::unlink(std::uint32_t slot) {
-  const Slot& gone = slots_[slot];
-  const std::uint64_t number = bucket_of(gone.key);
-  --(number < limit_ ? in_ring_ : in_far_);
-  if (gone.next != none) slots_[gone.next].previous = gone.previous;
-  if ((gone.previous & first_tag) == 0) {
-    slots_[gone.previous].next = gone.next;
-    return;
+void Calendar::add_chunk(Bucket& to, std::uint32_t bucket) {
+  std::uint32_t chunk = free_;
+  if (chunk != none)
+    free_ = chunks_[chunk].next;
+  else
+    chunk = ++opened_;
+  if (to.newest != none)
+    chunks_[to.newest].filled = chunk_size;
+  else if (bucket != far_bucket)
+    mark(bucket);
+  chunks_[chunk].next = to.newest;
+  to = {chunk, 0};
+}
+
+void Calendar::remove(const EventNode& node) {
+  const std::uint64_t number = bucket_of(entry_at(node.index()).key);
+  const bool is_far = number >= limit_;
+  --(is_far ? in_far_ : in_ring_);
+  take_out(is_far ? far_bucket : static_cast<std::uint32_t>(number) & mask_, node.index());
+}
+
+// The last entry takes its place: all chunks but the newest stay full.
+void Calendar::take_out(std::uint32_t bucket, std::uint32_t place) {
+  Bucket& from = buckets_[bucket];
+  EventEntry& gone = entry_at(place);
+  const EventEntry& last = chunks_[from.newest].entries[--from.filled];
+  if (&gone != &last) {
+    gone = last;
+    gone.node->place = EventNode::in_calendar(place);
   }
-  const std::uint32_t bucket = gone.previous & ~first_tag;
-  heads_[bucket] = gone.next;
-  if (gone.next == none && bucket != far_bucket) clear(bucket);
+  if (from.filled > 0) return;
+  const std::uint32_t older = chunks_[from.newest].next;
+  release(from.newest);
+  from = {older, older != none ? chunk_size : 0};
+  if (older == none && bucket != far_bucket) clear(bucket);
+}
+
+std::uint32_t Calendar::detach(std::uint32_t bucket) {
+  Bucket& from = buckets_[bucket];
+  if (from.newest != none) chunks_[from.newest].filled = from.filled;
+  std::uint32_t chain = none;
+  for (std::uint32_t chunk = from.newest; chunk != none;) {
+    const std::uint32_t older = chunks_[chunk].next;
+    chunks_[chunk].next = chain;
+    chain = chunk;
+    chunk = older;
+  }
+  from = {none, 0};
+  if (bucket != far_bucket) clear(bucket);
+  return chain;
 }
 
 std::uint32_t Calendar::detach_all() {
-  std::uint32_t chain = none;
-  const auto take = [&](std::uint32_t bucket) {
-    for (std::uint32_t slot = heads_[bucket]; slot != none;) {
-      const std::uint32_t next = slots_[slot].next;
-      slots_[slot].next = chain;
-      chain = slot;
-      slot = next;
+  std::uint32_t all = detach(far_bucket);
+  for (std::uint32_t word = 0; word <= mask_ / 64; ++word) {
+    while (occupied_[word] != 0) {
+      const std::uint32_t chain = detach(word * 64 + static_cast<std::uint32_t>(std::countr_zero(occupied_[word])));
+      std::uint32_t last = chain;
+      while (chunks_[last].next != none) last = chunks_[last].next;
+      chunks_[last].next = all;
+      all = chain;
     }
-    heads_[bucket] = none;
-  };
-  for (std::uint32_t word = 0; word <= mask_ / 64; ++word)
-    for (; occupied_[word] != 0; occupied_[word] &= occupied_[word] - 1)
-      take(word * 64 + static_cast<std::uint32_t>(std::countr_zero(occupied_[word])));
-  take(far_bucket);
+  }
   in_ring_ = in_far_ = 0;
   far_least_ = ~std::uint64_t{0};
-  return chain;
+  return all;
 }
 
 std::uint64_t Calendar::next_occupied(std::uint64_t number) const {
@@ -89,15 +130,25 @@ void Calendar::move_limit() {
   limit_ = (cursor_ / half + 2) * half;
 }
 
-void Calendar::sort_far_out() {
-  std::uint32_t slot = heads_[far_bucket];
-  heads_[far_bucket] = none;
-  in_far_ = 0;
+// Those that stay are not written to, and their nodes not looked at. The last ones come first: whatever takes the place
+// of one that goes has been looked at, and stays.
+void Calendar::take_near_ones_out_of_far() {
   far_least_ = ~std::uint64_t{0};
-  while (slot != none) {
-    const std::uint32_t next = slots_[slot].next;
-    link(slot);
-    slot = next;
+  std::uint32_t filled = buckets_[far_bucket].filled;
+  for (std::uint32_t chunk = buckets_[far_bucket].newest; chunk != none; filled = chunk_size) {
+    const std::uint32_t older = chunks_[chunk].next;
+    for (std::uint32_t i = filled; i-- > 0;) {
+      const EventEntry entry = chunks_[chunk].entries[i];
+      const std::uint64_t number = bucket_of(entry.key);
+      if (number >= limit_) {
+        far_least_ = std::min(far_least_, number);
+        continue;
+      }
+      take_out(far_bucket, chunk << chunk_index_bits | i);
+      --in_far_;
+      insert(*entry.node, entry.key);
+    }
+    chunk = older;
   }
 }
 
@@ -107,36 +158,57 @@ std::uint32_t Calendar::take_next(EventEntry* to) {
   while (in_ring_ == 0) {
     if (far_least_ > cursor_) cursor_ = far_least_;
     move_limit();
-    sort_far_out();
+    take_near_ones_out_of_far();
   }
   cursor_ = next_occupied(cursor_);
-  const std::uint32_t bucket = static_cast<std::uint32_t>(cursor_) & mask_;
-  std::uint32_t count = 0;
-  for (std::uint32_t slot = heads_[bucket]; slot != none; ++count) {
-    to[count] = {slots_[slot].key, slots_[slot].node};
-    slots_[slot].previous = taken;
-    slot = slots_[slot].next;
+  const std::uint32_t first = detach(static_cast<std::uint32_t>(cursor_) & mask_);
+  const std::uint32_t count = copy_sorted(first, to);
+  for (std::uint32_t chunk = first; chunk != none;) {
+    const std::uint32_t next = chunks_[chunk].next;
+    release(chunk);
+    chunk = next;
   }
-  heads_[bucket] = none;
-  clear(bucket);
   in_ring_ -= count;
   ++cursor_;
   horizon_ = cursor_ << shift_;
   if (limit_ - cursor_ < mask_ / 2 + 1) {
     move_limit();
-    sort_far_out();
+    take_near_ones_out_of_far();
   }
-  sort(to, to + count);
   return count;
 }
 
-void Calendar::prepare_next(std::uint32_t buckets) const {
-  std::uint64_t number = cursor_;
-  for (std::uint32_t i = 0; i < buckets; ++i, ++number) {
-    number = next_occupied(number);
-    if (number == limit_) return;
-    fetch(&slots_[heads_[static_cast<std::uint32_t>(number) & mask_]]);
+// Dealt out to as many equal parts of the bucket's span as there are events, about; the rest is little.
+std::uint32_t Calendar::copy_sorted(std::uint32_t first, EventEntry* to) {
+  std::uint32_t count = 0;
+  for (std::uint32_t chunk = first; chunk != none; chunk = chunks_[chunk].next) count += chunks_[chunk].filled;
+  if (count <= few) {
+    std::copy_n(chunks_[first].entries, count, to);
+    sort_nearly_sorted(to, to + count);
+    return count;
   }
+  const unsigned parts_log2 = std::min({static_cast<unsigned>(std::bit_width(count)), parts_log2_max, shift_});
+  const std::uint32_t parts = 1u << parts_log2;
+  const auto part_of = [shift = shift_ - parts_log2, mask = parts - 1](const EventEntry& entry) {
+    return static_cast<std::uint32_t>(entry.key.due_ns() >> shift) & mask;
+  };
+  std::uint32_t* const ends = ends_;
+  std::memset(ends, 0, parts * sizeof *ends);
+  for (std::uint32_t chunk = first; chunk != none; chunk = chunks_[chunk].next)
+    for (std::uint32_t i = 0; i < chunks_[chunk].filled; ++i) ++ends[part_of(chunks_[chunk].entries[i])];
+  std::uint32_t sum = 0, most = 0;
+  for (std::uint32_t part = 0; part < parts; ++part) {
+    most = std::max(most, ends[part]);
+    sum += std::exchange(ends[part], sum);
+  }
+  for (std::uint32_t chunk = first; chunk != none; chunk = chunks_[chunk].next)
+    for (std::uint32_t i = 0; i < chunks_[chunk].filled; ++i)
+      to[ends[part_of(chunks_[chunk].entries[i])]++] = chunks_[chunk].entries[i];
+  if (most > crowd)
+    for (std::uint32_t part = 0, begin = 0; part < parts; begin = ends[part++])
+      if (ends[part] - begin > crowd) sort_crowd(to + begin, to + ends[part]);
+  sort_nearly_sorted(to, to + count);
+  return count;
 }
 
 }  // namespace waitpoint::kernel

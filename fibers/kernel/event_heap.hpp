@@ -21,6 +21,7 @@ class EventHeap {
   /// `entries` is zeroed memory for the capacity and the margin.
   explicit EventHeap(EventEntry* entries) : entries_(entries) { bound(0); }
 
+  std::uint32_t size() const { return size_; }
   /// The least entry; never due if there is none.
   const EventEntry& least() const { return entries_[0]; }
 

@@ -22,8 +22,16 @@ EventEntry* reserve(std::size_t entries) {
 // The heap's entries, then the run's: room for two runs, so that a bucket fits behind what is left of the one before.
 std::size_t entries(std::uint32_t capacity) { return std::size_t{capacity} * 4 + EventHeap::margin + 1; }
 
-// Buckets that hold one event or two each.
-unsigned ideal_width_log2(std::uint64_t gap_ns) { return static_cast<unsigned>(std::bit_width(gap_ns)) + 2; }
+// About the square root, a power of two.
+std::uint32_t root(std::uint32_t size) { return 1u << std::bit_width(size) / 2; }
+
+// As many events in a bucket as buckets for all: see calendar.hpp.
+unsigned ideal_width_log2(std::uint64_t gap_ns, std::uint32_t size) {
+  constexpr std::uint64_t longest_gap_ns = std::uint64_t{1} << 40;
+  return static_cast<unsigned>(std::bit_width(std::min(gap_ns, longest_gap_ns) * root(size)));
+}
+// And room for some events that are due far later than the others.
+std::uint32_t ideal_buckets(std::uint32_t size) { return 8 * root(size); }
 
 }  // namespace
 
@@ -59,14 +67,7 @@ void EventList::remove(EventNode& node) {
   switch (node.part()) {
     case EventNode::Part::heap: heap_.remove(node.index()); break;
     case EventNode::Part::run: remove_from_run(find_from(node.index(), node)); break;
-    case EventNode::Part::calendar:
-      if (!calendar_.was_taken(node)) {
-        calendar_.remove(node);
-        break;
-      }
-      remove_from_run(find_in_run(node));
-      calendar_.release(node);
-      break;
+    case EventNode::Part::calendar: calendar_.remove(node); break;
   }
   node.place = EventNode::absent;
   --size_;
@@ -76,12 +77,6 @@ void EventList::remove(EventNode& node) {
 void EventList::remove_from_run(std::uint32_t index) {
   run_[index].node = nullptr;
   if (run_ + index == head_) pass_gaps();
-}
-
-std::uint32_t EventList::find_in_run(const EventNode& node) const {
-  const EventEntry* entry = std::lower_bound(
-      head_, end_, calendar_.key(node), [](const EventEntry& entry, const EventKey& key) { return entry.key < key; });
-  return find_from(index_of(*entry), node);
 }
 
 // A node knows where it was put; since then it may have been moved up, once by each that came before it near the end.
@@ -130,7 +125,7 @@ void EventList::refill() {
   if (size_ < few) return close_calendar();
   // What is left is little, and would wander through the memory.
   if (head_ >= run_ + run_length_min) move_run_down();
-  const EventEntry* const known = end_;
+  EventEntry* const known = end_;
   do {
     const std::uint32_t count = calendar_.take_next(end_);
     if (count == 0) break;
@@ -138,11 +133,10 @@ void EventList::refill() {
   } while (end_ < head_ + lookahead_ + batch);
   passed_ += static_cast<std::uint32_t>(end_ - known);
   end_->key = EventKey::never();
-  // Each is in a page of its own, which the processor has not seen for long. The looks for where the pages are take the
-  // time of one only where they follow each other closely.
+  // Each node is in a page of its own, which the processor has not seen for long. The looks for where the pages are
+  // take the time of one only where they follow each other closely.
   for (const EventEntry* entry = known; entry < end_; ++entry) fetch(entry->node);
-  for (const EventEntry* entry = known; entry < end_; ++entry) fetch(reinterpret_cast<const char*>(entry->node) + 64);
-  calendar_.prepare_next(buckets_prepared);
+  for (const EventEntry* entry = known; entry < end_; ++entry) note_place_in_run(*entry);
 }
 
 void EventList::keep_up() {
@@ -163,13 +157,18 @@ void EventList::calibrate() {
 }
 
 void EventList::open_calendar(std::uint64_t gap_ns) {
-  const unsigned width = ideal_width_log2(gap_ns);
-  const std::uint32_t buckets = std::bit_ceil(size_) * 2;
-  if (calendar_.is_open()) {
+  const unsigned width = ideal_width_log2(gap_ns, size_);
+  const std::uint32_t buckets = ideal_buckets(size_);
+  if (calendar_.is_open() && heap_.size() <= size_ / heap_share_max) {
     const int wider = static_cast<int>(calendar_.width_log2()) - static_cast<int>(width);
     if (wider >= -1 && wider <= 1 && calendar_.buckets() >= buckets / 2 && calendar_.buckets() <= buckets * 2) return;
   }
-  // All of the run stays ahead of the horizon.
+  // What stays in the run is ahead of the horizon; of one that reaches far, little does.
+  while (end_ > head_ + lookahead + batch) {
+    const EventEntry& last = *--end_;
+    if (last.node != nullptr) heap_.insert(last);
+  }
+  end_->key = EventKey::never();
   std::uint64_t bound_ns = present_ns_;
   if (head_ < end_ && end_[-1].key.due_ns() > bound_ns) bound_ns = end_[-1].key.due_ns();
   calendar_.open(bound_ns, width, buckets, [&](const EventEntry& early) { heap_.insert(early); });

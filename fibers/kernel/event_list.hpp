@@ -81,13 +81,13 @@ class EventList {
   void advance(Time time) { present_ns_ = static_cast<std::uint64_t>(time.ns()); }
 
  private:
-  static constexpr std::uint32_t few = 12;       // events below which a calendar is given up
-  static constexpr std::uint32_t many = 32;      // from which on one is taken
-  static constexpr std::uint32_t lookahead = 8;  // where there is a calendar, events that are known ahead at least
-  static constexpr std::uint32_t batch = 8;      // and how many more are made known at once then
-  static constexpr std::uint32_t buckets_prepared = 2;  // that come next then
-  static constexpr std::uint32_t reach = 12;            // entries of the run that an event may come before
-  static constexpr std::uint32_t run_length_min = 64;   // the run begins anew when so much was passed
+  static constexpr std::uint32_t few = 12;            // events below which a calendar is given up
+  static constexpr std::uint32_t many = 32;           // from which on one is taken
+  static constexpr std::uint32_t lookahead = 8;       // where there is a calendar, events that are known ahead at least
+  static constexpr std::uint32_t batch = 8;           // and how many more are made known at once then
+  static constexpr std::uint32_t heap_share_max = 4;  // a quarter of the events: there the horizon is too far away
+  static constexpr std::uint32_t reach = 12;          // entries of the run that an event may come before
+  static constexpr std::uint32_t run_length_min = 64;  // the run begins anew when so much was passed
   static constexpr std::uint32_t calibration_period_min = 512;
 
   static void check_insertion(const EventNode& node) {
@@ -103,14 +103,10 @@ class EventList {
     // Those that are moved up are not told: see find_from().
     for (; at != head_ && key < at[-1].key; --at) *at = at[-1];
     *at = {key, &node};
-    node.place = EventNode::in_run(index_of(*at));
+    note_place_in_run(*at);
     ++end_;
   }
-  // Events that came from the calendar keep their places there.
-  void note_place_in_run(const EventEntry& entry) {
-    if (entry.node != nullptr && entry.node->part() == EventNode::Part::run)
-      entry.node->place = EventNode::in_run(index_of(entry));
-  }
+  void note_place_in_run(const EventEntry& entry) { entry.node->place = EventNode::in_run(index_of(entry)); }
   std::uint32_t index_of(const EventEntry& entry) const { return static_cast<std::uint32_t>(&entry - run_); }
   [[gnu::noinline]] void put_elsewhere(EventNode& node, EventKey key);
   [[gnu::always_inline]] EventNode& take(const EventEntry& least) {
@@ -132,7 +128,6 @@ class EventList {
   // What is left to do when the run's head was taken.
   [[gnu::always_inline]] EventNode& taken(EventNode& node) {
     --size_;
-    if (node.place >= EventNode::in_calendar(0)) calendar_.release(node);
     node.place = EventNode::absent;
     if (__builtin_expect(head_->node == nullptr, 0)) pass_gaps();  // behind the end it may be anything
     if (__builtin_expect(--until_upkeep_ == 0 || end_ < head_ + lookahead_, 0)) keep_up();
@@ -148,7 +143,6 @@ class EventList {
   void set_bound();
   void tidy_run();
   void remove_from_run(std::uint32_t index);
-  std::uint32_t find_in_run(const EventNode& node) const;
   std::uint32_t find_from(std::uint32_t index, const EventNode& node) const;
   void refill();
   void keep_up();

@@ -12,8 +12,9 @@
 
 namespace waitpoint::kernel {
 
-// A parked task's registers, and the frames from its switch up to its own code.
-inline constexpr int stack_lines_fetched = 5;
+// A parked task's registers, and the frames from its switch up to its own code; and below, where the kernel's frames
+// will be when it parks again: to write to a line that is not there holds up all that is written after.
+inline constexpr int stack_lines_above = 4, stack_lines_below = 3;
 // Of a task's record, what waking it touches; of its robot's, where its events are hashed.
 inline constexpr int record_lines_fetched = 4, robot_lines_fetched = 2;
 
@@ -26,7 +27,8 @@ inline void fetch_lines(const void* from, std::ptrdiff_t count) {
 inline void fetch_ahead(const Task* next, const Task* second, const Task* third) {
   if (third != nullptr) fetch_lines(third, record_lines_fetched);
   if (second != nullptr) {
-    fetch_lines(second->fiber.context, stack_lines_fetched);
+    const char* const top = static_cast<const char*>(second->fiber.context);
+    fetch_lines(top - 64 * stack_lines_below, stack_lines_below + stack_lines_above);
     fetch_lines(second->robot, robot_lines_fetched);
     const std::size_t listed = second->working_set_size * sizeof(CacheLines);
     fetch_lines(second->working_set, static_cast<std::ptrdiff_t>((listed + 63) / 64));
@@ -38,13 +40,14 @@ inline void fetch_ahead(const Task* next, const Task* second, const Task* third)
   }
 }
 
-/// Of those that are due next. What comes third may be no task: it is only fetched.
+/// Of those that are due next: so far ahead that memory has answered one step before the next asks for more. What comes
+/// last may be no task: it is only fetched.
 inline void fetch_coming(const EventList& events) {
   const auto as_task = [](const EventNode* node) {
     return node == nullptr || node->fire != nullptr ? nullptr : reinterpret_cast<const Task*>(node);
   };
-  const EventNode* const third = events.coming(2);
-  fetch_ahead(as_task(events.coming(0)), as_task(events.coming(1)), reinterpret_cast<const Task*>(third));
+  const EventNode* const last = events.coming(7);
+  fetch_ahead(as_task(events.coming(1)), as_task(events.coming(4)), reinterpret_cast<const Task*>(last));
 }
 
 /// Of those that go on at the present instant; there must be one.

@@ -7,12 +7,11 @@ import gdb
 from . import records
 
 HOLDERS_SHOWN = 4
-# Where a part of the event list has its entries, each of which begins with the time: see event.hpp and event_list.hpp.
-PARTS = {0: ("agenda_.events.heap_.entries_", "EventEntry"), 1: ("agenda_.events.run_", "EventEntry"),
-         2: ("agenda_.events.calendar_.slots_", "Calendar::Slot")}
-
-
+# Where a part of the event list has its entries: see event.hpp and event_list.hpp.
+PARTS = {0: "agenda_.events.heap_.entries_", 1: "agenda_.events.run_", 2: "agenda_.events.calendar_.chunks_"}
 RUN = 1  # the part in whose entries a node may have been moved up since it was told where it is
+CALENDAR = 2  # the one that has them in chunks: see Calendar::entry_at()
+CHUNK_INDEX_BITS = 5
 READY = 0xFFFFFFFE  # the place of an event that is due now: see ready_set.hpp and present_queue.hpp
 
 
@@ -105,14 +104,17 @@ def due(task, scheduler):
         return scheduler.number("agenda_.now.ns_")
     if location >> 30 not in PARTS:
         return records.NO_TIME
-    path, name = PARTS[location >> 30]
-    size = records.record_type(name).sizeof
-    entry = scheduler.number(path) + (location & (2**30 - 1)) * size
-    if location >> 30 == RUN:
-        offset, width, _ = records.place(name, "node")
+    part, index = location >> 30, location & (2**30 - 1)
+    entry, size = scheduler.number(PARTS[part]), records.record_type("EventEntry").sizeof
+    if part == CALENDAR:
+        entry += (index >> CHUNK_INDEX_BITS) * records.record_type("Calendar::Chunk").sizeof
+        index &= 2**CHUNK_INDEX_BITS - 1
+    entry += index * size
+    if part == RUN:
+        offset, width, _ = records.place("EventEntry", "node")
         while int.from_bytes(records.memory(entry + offset, width), "little") != task.address:
             entry += size
-    offset, width, _ = records.place(name, "key.time.ns_")
+    offset, width, _ = records.place("EventEntry", "key.time.ns_")
     return int.from_bytes(records.memory(entry + offset, width), "little")
 
 
