@@ -37,6 +37,7 @@ class Calendar {
   /// Only events due at the horizon or later belong here; none while it is closed.
   std::uint64_t horizon() const { return horizon_; }
   std::uint32_t size() const { return in_ring_ + in_far_; }
+  std::uint32_t far_size() const { return in_far_; }
   unsigned width_log2() const { return shift_; }
   std::uint32_t buckets() const { return mask_ + 1; }
   bool is_open() const { return horizon_ != closed; }

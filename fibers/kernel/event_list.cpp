@@ -25,12 +25,12 @@ std::size_t entries(std::uint32_t capacity) { return std::size_t{capacity} * 4 +
 // About the square root, a power of two.
 std::uint32_t root(std::uint32_t size) { return 1u << std::bit_width(size) / 2; }
 
-// As many events in a bucket as buckets for all: see calendar.hpp.
-unsigned ideal_width_log2(std::uint64_t gap_ns, std::uint32_t size) {
+// As many events in a bucket as buckets for all that are near: see calendar.hpp.
+unsigned ideal_width_log2(std::uint64_t gap_ns, std::uint32_t near) {
   constexpr std::uint64_t longest_gap_ns = std::uint64_t{1} << 40;
-  return static_cast<unsigned>(std::bit_width(std::min(gap_ns, longest_gap_ns) * root(size)));
+  return static_cast<unsigned>(std::bit_width(std::min(gap_ns, longest_gap_ns) * root(near)));
 }
-// And room for some events that are due far later than the others.
+// And so many that those which are far are seldom gone through.
 std::uint32_t ideal_buckets(std::uint32_t size) { return 8 * root(size); }
 
 }  // namespace
@@ -157,7 +157,7 @@ void EventList::calibrate() {
 }
 
 void EventList::open_calendar(std::uint64_t gap_ns) {
-  const unsigned width = ideal_width_log2(gap_ns, size_);
+  const unsigned width = ideal_width_log2(gap_ns, size_ - calendar_.far_size());
   const std::uint32_t buckets = ideal_buckets(size_);
   if (calendar_.is_open() && heap_.size() <= size_ / heap_share_max) {
     const int wider = static_cast<int>(calendar_.width_log2()) - static_cast<int>(width);
