@@ -163,15 +163,11 @@ void EventList::open_calendar(std::uint64_t gap_ns) {
     const int wider = static_cast<int>(calendar_.width_log2()) - static_cast<int>(width);
     if (wider >= -1 && wider <= 1 && calendar_.buckets() >= buckets / 2 && calendar_.buckets() <= buckets * 2) return;
   }
-  // What stays in the run is ahead of the horizon; of one that reaches far, little does.
-  while (end_ > head_ + lookahead + batch) {
-    const EventEntry& last = *--end_;
-    if (last.node != nullptr) heap_.insert(last);
-  }
-  end_->key = EventKey::never();
-  std::uint64_t bound_ns = present_ns_;
-  if (head_ < end_ && end_[-1].key.due_ns() > bound_ns) bound_ns = end_[-1].key.due_ns();
-  calendar_.open(bound_ns, width, buckets, [&](const EventEntry& early) { heap_.insert(early); });
+  // The run may reach far. The horizon does not, or most events would be before it, in the heap.
+  for (const EventEntry* entry = head_; entry < end_; ++entry)
+    if (entry->node != nullptr) heap_.insert(*entry);
+  empty_run();
+  calendar_.open(present_ns_, width, buckets, [&](const EventEntry& early) { heap_.insert(early); });
   heap_.drain_from(calendar_.horizon(), [&](const EventEntry& late) { calendar_.insert(*late.node, late.key); });
   lookahead_ = lookahead;
   refill();
