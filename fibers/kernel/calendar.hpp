@@ -71,7 +71,7 @@ class Calendar {
  private:
   static constexpr std::uint64_t closed = ~std::uint64_t{0};
   static constexpr std::uint32_t none = 0;  // chunks are numbered from 1, so that fresh memory reads as empty
-  static constexpr std::uint32_t buckets_max = 1u << 15;
+  static constexpr std::uint32_t buckets_max = 1u << 14;
   static constexpr unsigned parts_log2_max = 10;
   static constexpr std::uint32_t parts_max = 1u << parts_log2_max;
   static constexpr std::uint32_t chunk_size = 21, chunk_index_bits = 5;
@@ -86,8 +86,9 @@ class Calendar {
     std::uint32_t filled;  // entries of it; 0 only where there is none
   };
   static constexpr std::size_t heads_bytes = (std::size_t{buckets_max} + 1) * sizeof(Bucket) + 56;
+  // Full ones, and one of each bucket that is not; while a calendar is opened anew, of the old buckets and the new.
   static constexpr std::size_t chunks(std::uint32_t capacity) {
-    return std::size_t{capacity} / chunk_size + buckets_max + 3;
+    return std::size_t{capacity} / chunk_size + 2 * std::size_t{buckets_max} + 3;
   }
   static constexpr std::uint32_t far_bucket = buckets_max;
 
