@@ -175,7 +175,7 @@ void Rflex::show_sonars(const posters::BaseReading& report) {
   Bounded<SonarRing, 4> rings = parameters_.sonar_rings;
   if (rings.empty())
     rings.push_back({static_cast<std::uint32_t>(report.sonar_m.size()), parameters_.sonar_ring_radius_m});
-  sonars_.write(sonar_echoes(report, rings));
+  sonars_.write(sonar_echoes(report, {rings.begin(), rings.size()}));
 }
 
 void Rflex::take_bumpers() {
