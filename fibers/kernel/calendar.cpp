@@ -105,9 +105,9 @@ std::uint32_t Calendar::detach_all() {
   std::uint32_t all = detach(far_bucket);
   for (std::uint32_t word = 0; word <= mask_ / 64; ++word) {
     while (occupied_[word] != 0) {
-      const std::uint32_t chain = detach(word * 64 + static_cast<std::uint32_t>(std::countr_zero(occupied_[word])));
-      std::uint32_t last = chain;
-      while (chunks_[last].next != none) last = chunks_[last].next;
+      const std::uint32_t bucket = word * 64 + static_cast<std::uint32_t>(std::countr_zero(occupied_[word]));
+      const std::uint32_t last = buckets_[bucket].newest;
+      const std::uint32_t chain = detach(bucket);
       chunks_[last].next = all;
       all = chain;
     }
@@ -161,13 +161,12 @@ std::uint32_t Calendar::take_next(EventEntry* to) {
     take_near_ones_out_of_far();
   }
   cursor_ = next_occupied(cursor_);
-  const std::uint32_t first = detach(static_cast<std::uint32_t>(cursor_) & mask_);
+  const std::uint32_t bucket = static_cast<std::uint32_t>(cursor_) & mask_;
+  const std::uint32_t last = buckets_[bucket].newest;
+  const std::uint32_t first = detach(bucket);
   const std::uint32_t count = copy_sorted(first, to);
-  for (std::uint32_t chunk = first; chunk != none;) {
-    const std::uint32_t next = chunks_[chunk].next;
-    release(chunk);
-    chunk = next;
-  }
+  chunks_[last].next = free_;
+  free_ = first;
   in_ring_ -= count;
   ++cursor_;
   horizon_ = cursor_ << shift_;
