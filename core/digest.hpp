@@ -50,7 +50,7 @@ class Digest {
 /// changed word is lost with a chance of 2^-64.
 class PairDigest {
  public:
-  constexpr void add(std::uint64_t first, std::uint64_t second) {
+  [[gnu::always_inline]] constexpr void add(std::uint64_t first, std::uint64_t second) {
     std::uint64_t key = ++pairs_ * 0x9E3779B97F4A7C15u;
     key ^= key >> 32;  // else the keys would be an arithmetic progression, and sums over it
     const Product product = static_cast<Product>(first ^ key) * (second + std::rotl(key, 19));

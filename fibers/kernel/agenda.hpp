@@ -54,7 +54,7 @@ struct Agenda {
   void place(Task& task, Time time) {
     if (time <= now) {
       if (chooser.order() == Order::fifo && PresentQueue::is_for(task.phase))
-        return present.add(task, key(task, time).order);
+        return present.add(task, chooser.tie(task));
       if (is_explored() && task.phase == Phase::tasks) return ready.add(task);
     }
     events.insert(task.event, key(task, time));

@@ -38,9 +38,11 @@ class Chooser {
 
   /// The tie of an event that `task` puts into the list now.
   std::uint64_t tie(const Task& task) {
-    if (order_ != Order::seeded) return ++insertions_;
+    if (order_ != Order::seeded) return tie_of_next();
     return Digest::mix(seed_ ^ Digest::mix(task.id + task.sequence * 0x9E3779B97F4A7C15u));
   }
+  /// The same where it is known that the order is not the seeded one: behind all that were put in before.
+  std::uint64_t tie_of_next() { return ++insertions_; }
   /// The tie of a timer's event: timers fire in the order of their numbers within a robot, robots by their names' hash.
   static std::uint64_t tie(const Object& timer) {
     return (timer.robot->id & 0x7FFFFFFF) << 28 | (timer.number & 0x0FFFFFFF);

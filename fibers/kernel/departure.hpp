@@ -57,4 +57,11 @@ struct Arrival {
 Arrival depart(Departure away);
 #endif
 
+/// Behind a switch: who was left. Only who goes on knows where that one does.
+inline Fiber& note_where_left(const Arrival& arrival) {
+  Fiber& left = *static_cast<Fiber*>(arrival.left);
+  left.context = arrival.context;
+  return left;
+}
+
 }  // namespace waitpoint::kernel

@@ -57,6 +57,23 @@ class EventList {
   }
   /// `node` must be in the list.
   void remove(EventNode& node);
+  /// The same where nothing else is to be done for it, as mostly with few events; else false, with nothing done.
+  bool remove_at_once(EventNode& node) {
+    EventEntry& entry = run_[node.index()];
+    if (is_large() || node.part() != EventNode::Part::run || entry.node != &node) return false;
+    entry.node = nullptr;
+    node.place = EventNode::absent;
+    --size_;
+    if (&entry == head_) skip_gaps();
+    return true;
+  }
+  /// As insert(), where its place is near the end of the run; else false, with nothing done.
+  bool insert_at_once(EventNode& node, EventKey key) {
+    if (size_ >= capacity_ || node.in_list() || !belongs_near_end(key)) return false;
+    ++size_;
+    put_near_end(node, key);
+    return true;
+  }
   /// The list must not be empty.
   EventNode& pop() {
     WAITPOINT_CHECK(size_ > 0, "the event list is empty");
@@ -95,10 +112,15 @@ class EventList {
   }
   // Into its place in the run, if that is near its end; else to the others.
   [[gnu::always_inline]] void put(EventNode& node, EventKey key) {
+    if (__builtin_expect(!belongs_near_end(key), 0)) return put_elsewhere(node, key);
+    put_near_end(node, key);
+  }
+  [[gnu::always_inline]] bool belongs_near_end(const EventKey& key) const {
+    const bool is_far = end_ > head_ + reach && key < end_[-std::ptrdiff_t{reach}].key;
+    return !is_far && key.due_ns() < calendar_.horizon() && end_ < bound_;
+  }
+  [[gnu::always_inline]] void put_near_end(EventNode& node, EventKey key) {
     EventEntry* at = end_;
-    const bool is_far = at > head_ + reach && key < at[-std::ptrdiff_t{reach}].key;
-    if (__builtin_expect(is_far || key.due_ns() >= calendar_.horizon() || at >= bound_, 0))
-      return put_elsewhere(node, key);
     at[1].key = EventKey::never();
     // Those that are moved up are not told: see find_from().
     for (; at != head_ && key < at[-1].key; --at) *at = at[-1];
@@ -138,6 +160,9 @@ class EventList {
     end_->key = EventKey::never();
   }
   // The head of the run is an event that was not removed; an empty run begins at the beginning.
+  void skip_gaps() {
+    while (head_ < end_ && head_->node == nullptr) ++head_;
+  }
   [[gnu::noinline]] void pass_gaps();
   void move_run_down();
   void set_bound();

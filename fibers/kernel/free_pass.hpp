@@ -29,9 +29,25 @@ class FreePass {
   bool may_stay(bool alone) const { return may_stay_ || (may_stay_alone_ && alone); }
 
   bool holds_for(const Task& task) const { return task.local_time == at_ && task.turns < turns_max; }
-  /// To the running task, for the instant `now`.
-  void give(const Task& task, Time now) { at_ = task.attention == 0 ? now : never; }
-  void end() { at_ = never; }
+  /// Whether it does for the running task, which nobody watches, at an object of this epoch.
+  [[gnu::always_inline]] bool holds_unseen(const Task& task, std::uint64_t epoch) const {
+    return __builtin_expect(epoch == unseen_in_, 1) && __builtin_expect(task.turns < turns_max, 1);
+  }
+  /// Whether its last event before a switch left it so.
+  [[gnu::always_inline]] bool is_unseen() const { return __builtin_expect(unseen_in_ != no_epoch, 1); }
+
+  /// To the running task, for the instant `now`; `unseen_in`: the epoch of the run if nobody watches, else no_epoch.
+  void give(const Task& task, Time now, std::uint64_t unseen_in) {
+    if (task.attention != 0) return end();
+    at_ = now;
+    unseen_in_ = unseen_in;
+  }
+  void end() {
+    at_ = never;
+    unseen_in_ = no_epoch;
+  }
+  static constexpr std::uint64_t no_epoch = ~std::uint64_t{0};
+
   /// An event of this phase was put in for the present instant.
   void note_present_event(Phase phase) {
     if (running != nullptr && (!may_stay_ || phase < running->phase)) end();
@@ -41,6 +57,7 @@ class FreePass {
   static constexpr Time never = Time::from_ns(-1);
 
   Time at_ = never;
+  std::uint64_t unseen_in_ = no_epoch;
   bool may_stay_ = false;
   bool may_stay_alone_ = false;
 };

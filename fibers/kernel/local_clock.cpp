@@ -23,20 +23,24 @@ Time local_time_by_clock(Task& task) {
 }
 
 void consume(Task& task, Duration cost) {
-  if (task.seat != nullptr)
+  if (task.seat != nullptr) {
     use_processor(task, cost);
-  else
+  } else {
+    task.scheduler->end_free_pass();
     task.local_time += cost;
+  }
 }
 
 void access_hardware(Task& task, Duration latency) {
   WAITPOINT_CHECK(latency >= Duration(), "an access to hardware has a negative latency");
   if (latency == Duration() || task.scheduler->unwinding()) return;
   const Time after = local_time(task) + latency;
-  if (task.seat != nullptr)
+  if (task.seat != nullptr) {
     task.scheduler->sleep_until(after);  // others use the processor meanwhile
-  else
+  } else {
+    task.scheduler->end_free_pass();
     task.local_time = after;
+  }
 }
 
 void compute(Task& task, Duration least, Duration greatest) {

@@ -60,7 +60,7 @@ void compute(Task& task, Duration least, Duration greatest);
 inline void compute(Task& task, Duration cost) {
   if (__builtin_expect(task.attention != 0, 0)) return compute(task, cost, cost);
   WAITPOINT_CHECK(cost >= Duration(), "computing takes no negative time");
-  task.local_time += cost;
+  consume(task, cost);
 }
 
 }  // namespace waitpoint::kernel

@@ -18,7 +18,7 @@ inline void own(Object& object, Task& task) {
 inline void disown(Object& object, Task& owner) {
   // Locks are mostly given up in the reverse order of their taking: the first link is the right one.
   Object** link = &owner.held;
-  while (*link != &object) link = &(*link)->next_held;
+  while (__builtin_expect(*link != &object, 0)) link = &(*link)->next_held;
   *link = object.next_held;
   object.owner = nullptr;
 }

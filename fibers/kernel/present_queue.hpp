@@ -16,6 +16,10 @@ namespace waitpoint::kernel {
 
 class PresentQueue {
  public:
+  PresentQueue() = default;
+  PresentQueue(const PresentQueue&) = delete;
+  PresentQueue& operator=(const PresentQueue&) = delete;
+
   /// Whether tasks run in that phase.
   static bool is_for(Phase phase) { return phase == Phase::tasks || phase == Phase::world; }
 
@@ -24,25 +28,26 @@ class PresentQueue {
   /// The first, and from there on by Task::next_waiter the others; null if there is none.
   const Task* first() const { return first_; }
   /// The place of the first among the events of its instant; there must be one.
-  std::uint64_t order() const { return first_->queue_order; }
+  std::uint64_t order() const { return make_order(first_->phase, first_->queue_tie); }
 
   /// `task`, of such a phase, must be neither here nor in the event list, and come behind all of its phase
   /// that are here.
-  void add(Task& task, std::uint64_t order) {
+  void add(Task& task, std::uint64_t tie) {
     WAITPOINT_CHECK(!task.event.in_list(), "a task becomes ready twice");
     task.event.place = EventNode::ready;
-    task.queue_order = order;
+    task.queue_tie = tie;
     ++size_;
     if (__builtin_expect(task.phase == Phase::world, 0)) return add_of_world(task);
     task.next_waiter = nullptr;
-    (first_ == nullptr ? first_ : last_->next_waiter) = &task;
-    last_ = &task;
+    *end_ = &task;
+    end_ = &task.next_waiter;
   }
   /// Takes out the first; there must be one.
   Task& take() {
     Task& task = *first_;
     first_ = task.next_waiter;
-    if (last_of_world_ == &task) last_of_world_ = nullptr;
+    if (__builtin_expect(first_ == nullptr, 1)) end_ = &first_;
+    if (__builtin_expect(last_of_world_ == &task, 0)) last_of_world_ = nullptr;
     task.event.place = EventNode::absent;
     --size_;
     return task;
@@ -52,7 +57,7 @@ class PresentQueue {
     Task* before = nullptr;
     for (Task* other = first_; other != &task; other = other->next_waiter) before = other;
     (before == nullptr ? first_ : before->next_waiter) = task.next_waiter;
-    if (last_ == &task) last_ = before;
+    if (task.next_waiter == nullptr) end_ = before == nullptr ? &first_ : &before->next_waiter;
     if (last_of_world_ == &task) last_of_world_ = before;
     task.event.place = EventNode::absent;
     --size_;
@@ -67,11 +72,11 @@ class PresentQueue {
     task.next_waiter = link;
     link = &task;
     last_of_world_ = &task;
-    if (task.next_waiter == nullptr) last_ = &task;
+    if (task.next_waiter == nullptr) end_ = &task.next_waiter;
   }
 
   Task* first_ = nullptr;
-  Task* last_ = nullptr;  // while there is a first
+  Task** end_ = &first_;  // where the next one is linked to
   Task* last_of_world_ = nullptr;
   std::uint32_t size_ = 0;
 };

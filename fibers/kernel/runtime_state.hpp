@@ -46,11 +46,4 @@ inline Departure start_switch(Fiber& from, Fiber& to) {
   return departure(from, to);
 }
 
-/// Behind a switch: who was left. Only who goes on knows where that one does.
-inline Fiber& note_where_left(const Arrival& arrival) {
-  Fiber& left = *static_cast<Fiber*>(arrival.left);
-  left.context = arrival.context;
-  return left;
-}
-
 }  // namespace waitpoint::kernel

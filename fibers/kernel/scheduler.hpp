@@ -90,7 +90,7 @@ class Scheduler {
   }
   /// The same where nothing can come between, and nobody watches; else false, with nothing done.
   [[gnu::always_inline]] bool waitpoint_at_once(Task& task, Operation operation, Object& object) {
-    if (__builtin_expect(!free_pass_.holds_for(task) || object.epoch != epoch_ || watched_, 0)) return false;
+    if (!free_pass_.holds_unseen(task, object.epoch)) return false;
     ++task.turns;
     task.operation = operation;
     task.at = &object;
@@ -106,6 +106,8 @@ class Scheduler {
     local = task.local_time;
     return true;
   }
+  /// The running task's local time moves on: it is not of the present instant any more.
+  void end_free_pass() { free_pass_.end(); }
   /// As waitpoint, but behind all tasks of this instant; in the seeded order anywhere among them.
   bool yield();
   /// Moves the task to `time` (not before its local time) and waits there.
@@ -115,8 +117,9 @@ class Scheduler {
   }
   /// Blocks the running task on `object` until it is woken or `deadline` comes; Time::max() is for ever.
   [[gnu::always_inline]] Wake block(Object& object, Time deadline) {
-    const Departure away = start_blocking(object, deadline);
-    return away.leads_away() ? end_blocking(depart(away), object) : away.wake();
+    const bool is_finite = deadline != Time::max();
+    const Departure away = is_finite ? start_blocking_until(object, deadline) : start_blocking(object);
+    return away.leads_away() ? end_blocking(depart(away), object, is_finite) : away.wake();
   }
   /// Wakes one waiter of `object`, of the chooser's choice; null if there is none. The waiter's local time becomes the
   /// global.
@@ -233,19 +236,39 @@ class Scheduler {
   void start_waiting(Task& task, Object& object);
   void stop_waiting(Task& task, Object& object);
   bool begin_segment(Task& task, Operation operation, Object* object);
-  bool sleep_in_any_case(Time time);
-  Departure start_blocking(Object& object, Time deadline);
-  Wake end_blocking(Arrival arrival, Object& object);
+  Departure sleep_in_any_case(Time time);
+  bool sleep_slowly(Time time);
+  Departure leave_sleeping(Task& task, const EventEntry& least);
+  Departure start_blocking(Object& object);
+  Departure start_blocking_until(Object& object, Time deadline);
+  [[gnu::always_inline]] Wake end_blocking(const Arrival& arrival, Object& object, bool is_finite) {
+    note_where_left(arrival);
+    Task& task = *running;
+    if (!free_pass_.is_unseen()) return go_on(task, object);
+    const Wake wake = is_finite ? task.wake : Wake::woken;
+    count(task, wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
+    return wake;
+  }
+  // In which run's objects the task that goes on passes unseen: nobody watches, and nothing is to be done first.
+  std::uint64_t unseen_in() const {
+    return watched_ || interrupted_ || ended_ != nullptr ? FreePass::no_epoch : epoch_;
+  }
   Departure block_in_any_case(Object& object, Time deadline);
   Departure start_sleeping(Time time);
-  bool end_sleeping(Arrival arrival);
+  [[gnu::always_inline]] bool end_sleeping(const Arrival& arrival) {
+    note_where_left(arrival);
+    Task& task = *running;
+    if (!free_pass_.is_unseen()) return go_on_from_waitpoint(task);
+    count(task, Operation::sleep, nullptr);
+    return true;
+  }
   bool departs(Fiber& from, Fiber& to);
-  void arrive_from(const Arrival& arrival);
   bool stay_until(Task& task, const Object& object, Time deadline);
   Wake go_on(Task& task, Object& object);
   bool go_on_from_waitpoint(Task& task);
   bool act_for_timer(Task& task, Operation operation, Object* object);
   Task* wake_a_waiter(Object& object);
+  Task* choose_waiter(Object& object);
   // The task's event is executed: counted, and hashed.
   [[gnu::always_inline]] void execute(Task& task, Operation operation, const Object* object) {
     count(task, operation, object);
@@ -276,8 +299,8 @@ class Scheduler {
   void hash_events_of(Robot& robot);
   void set_local_time(Task& task, Time time);
   void make_ready(Task& task);
-  Task& make_first_ready(Object& object);
-  Fiber& next_of_present();
+  bool can_hand_over(const Task& task) const;
+  Departure hand_over(Task& task);
   void allow_short_ways();
   void put(EventNode& node, const EventKey& key);
   void leave(Fiber& from, Fiber& to);

@@ -4,6 +4,7 @@
 
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/fetch_ahead.hpp"
+#include "fibers/kernel/runtime_state.hpp"
 #include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/waiters.hpp"
@@ -49,7 +50,7 @@ inline void Scheduler::resume(Task& task) {
   task.state = TaskState::running;
   running = &task;
   hash_events_of(*task.robot);
-  if (free_pass_.may_stay()) free_pass_.give(task, agenda_.now);
+  if (free_pass_.may_stay()) free_pass_.give(task, agenda_.now, unseen_in());
 }
 
 // The task's event is next: it runs.
@@ -95,25 +96,23 @@ inline void Scheduler::make_ready(Task& task) {
 
 // --- in the ordinary case: first in, first out, and the run goes on ---
 
-// As next_fiber(), mostly by one of the present instant.
-inline Fiber& Scheduler::next_of_present() {
-  if (agenda_.present.empty() || agenda_.events.is_due(agenda_.now)) return next_fiber();
-  Task& task = agenda_.present.take();
-  if (__builtin_expect(agenda_.present.size() >= many_ready, 0)) fetch_coming(agenda_.present);
-  resume(task);
-  return task.fiber;
+// Whether `task`, were it blocked, could be left for the first of the present instant without more ado.
+inline bool Scheduler::can_hand_over(const Task& task) const {
+  if (!ordinary_ || watched_ || task.attention != 0 || agenda_.present.size() - 1 >= many_ready) return false;
+  const Task& next = *agenda_.present.first();
+  return __builtin_expect(!agenda_.events.is_due(agenda_.now), 1) &&
+         __builtin_expect(can_switch_in_parts(task.fiber, next.fiber), 1) && StackArena::intact(next.fiber.stack);
 }
 
-// As make_ready() of the first that waits for `object`; there must be one.
-inline Task& Scheduler::make_first_ready(Object& object) {
-  Task& task = remove_first_waiter(object);
-  if (task.finite_wait) agenda_.events.remove(task.event);
-  task.wake = Wake::woken;
-  task.state = TaskState::ready;
-  set_local_time(task, agenda_.now);
-  agenda_.present.add(task, agenda_.key(task, agenda_.now).order);
-  free_pass_.note_present_event(task.phase);
-  return task;
+// `task` is blocked and can_hand_over().
+[[gnu::always_inline]] inline Departure Scheduler::hand_over(Task& task) {
+  Task& next = agenda_.present.take();
+  next.state = TaskState::running;
+  running = &next;
+  hash_events_of(*next.robot);
+  free_pass_.give(next, agenda_.now, epoch_);
+  ++switches_;
+  return start_switch(task.fiber, next.fiber);
 }
 
 }  // namespace waitpoint::kernel

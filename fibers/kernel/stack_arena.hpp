@@ -51,7 +51,9 @@ class StackArena {
   void give_back(const Stack& stack);
 
   /// True while nothing has run over the low end; only stacks under a canary can tell.
-  static bool intact(const Stack& stack) { return stack.guard == Guard::page || canary(stack) == canary_word; }
+  static bool intact(const Stack& stack) {
+    return __builtin_expect(stack.guard == Guard::page, 1) || canary(stack) == canary_word;
+  }
   /// Whether `address` lies in the guard page below `stack`.
   static bool guards(const Stack& stack, const char* address);
 

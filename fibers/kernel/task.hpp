@@ -123,7 +123,7 @@ struct Task {
   std::uint32_t working_set_size = 0;
   Task* next_waiter = nullptr;  // or, of those that are ready at the present instant, see present_queue.hpp
   Task* previous_waiter = nullptr;
-  std::uint64_t queue_order = 0;  // its event's, while it is in that queue
+  std::uint64_t queue_tie = 0;  // its event's, while it is in that queue
   Scheduler* scheduler = nullptr;
   Task* next = nullptr;  // all tasks of the run in the order of their making, in an intrusive list
   Task* previous = nullptr;

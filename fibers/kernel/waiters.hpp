@@ -10,7 +10,8 @@ inline void append_waiter(Object& object, Task& task) {
   task.blocked_on = &object;
   task.next_waiter = nullptr;
   task.previous_waiter = object.last_waiter;
-  (object.last_waiter == nullptr ? object.first_waiter : object.last_waiter->next_waiter) = &task;
+  Task** const link = object.last_waiter == nullptr ? &object.first_waiter : &object.last_waiter->next_waiter;
+  *link = &task;  // by its address, which needs no branch
   object.last_waiter = &task;
 }
 
@@ -18,7 +19,8 @@ inline void append_waiter(Object& object, Task& task) {
 inline Task& remove_first_waiter(Object& object) {
   Task& task = *object.first_waiter;
   object.first_waiter = task.next_waiter;
-  (object.first_waiter == nullptr ? object.last_waiter : object.first_waiter->previous_waiter) = nullptr;
+  Task** const link = object.first_waiter == nullptr ? &object.last_waiter : &object.first_waiter->previous_waiter;
+  *link = nullptr;
   task.blocked_on = nullptr;
   return task;
 }

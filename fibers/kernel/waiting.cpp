@@ -40,10 +40,25 @@ void Scheduler::move_waiter(Task& task, Object& to) {
   append_waiter(to, task);
 }
 
+// As make_ready() of the first, where that is all. What is rare is left to a function that is called last: each
+// register that is kept over a call is saved first.
 Task* Scheduler::wake_a_waiter(Object& object) {
+  Task& first = *object.first_waiter;
+  const bool is_usual = __builtin_expect(ordinary_, 1) && object.epoch == epoch_ && first.phase == Phase::tasks;
+  if (__builtin_expect(!is_usual, 0)) return choose_waiter(object);
+  if (first.finite_wait && __builtin_expect(!agenda_.events.remove_at_once(first.event), 0))
+    return choose_waiter(object);
+  remove_first_waiter(object);
+  first.wake = Wake::woken;
+  first.state = TaskState::ready;
+  first.turns *= first.local_time == agenda_.now;
+  first.local_time = agenda_.now;
+  agenda_.present.add(first, agenda_.chooser.tie_of_next());
+  return &first;
+}
+
+[[gnu::noinline]] Task* Scheduler::choose_waiter(Object& object) {
   Task* chosen = object.first_waiter;
-  if (__builtin_expect(ordinary_ && object.epoch == epoch_ && PresentQueue::is_for(chosen->phase), 1))
-    return &make_first_ready(object);
   if (unwinding_ || object.epoch != epoch_) return nullptr;
   if (agenda_.chooser.order() != Order::fifo) {
     std::uint32_t count = 0;

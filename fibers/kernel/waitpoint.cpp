@@ -36,7 +36,7 @@ namespace waitpoint::kernel {
   }
   agenda_.now = task.local_time;
   agenda_.events.advance(agenda_.now);
-  if (free_pass_.may_stay(agenda_.now < least.key.time)) free_pass_.give(task, agenda_.now);
+  if (free_pass_.may_stay(agenda_.now < least.key.time)) free_pass_.give(task, agenda_.now, unseen_in());
   return true;
 }
 
@@ -62,6 +62,7 @@ bool Scheduler::waitpoint_in_any_case(Task& task, Operation operation, Object* o
   task.at = object;
   if (object != nullptr) enter(*object);
   execute(task, operation, object);
+  if (free_pass_.holds_for(task)) free_pass_.give(task, agenda_.now, unseen_in());  // a watch may have ended it
   return true;
 }
 
@@ -81,6 +82,7 @@ bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* o
 }
 
 [[gnu::noinline]] bool Scheduler::go_on_from_waitpoint(Task& task) {
+  if (ended_ != nullptr) reclaim_ended();
   if (interrupted_ && !rest()) return false;
   const Operation operation = task.operation;
   Object* const object = task.at;
@@ -134,46 +136,37 @@ bool Scheduler::yield() {
   return true;
 }
 
-[[gnu::always_inline]] inline void Scheduler::arrive_from(const Arrival& arrival) {
-  note_where_left(arrival);
-  if (__builtin_expect(ended_ != nullptr, 0)) reclaim_ended();
-}
-
+// A task that only lets time pass, beside others that do, must be quick: what is rare is left to functions that are
+// called last, since each register that is kept over a call is saved first.
 Departure Scheduler::start_sleeping(Time time) {
   Task& task = *running;
-  // A task that only lets time pass, beside others that do, must be quick: what is rare is left to functions that are
-  // called last, since each register that is kept over a call is saved first.
-  const bool is_plain =
-      ordinary_ && task.attention == 0 && time > task.local_time && time < agenda_.until && agenda_.present.empty();
-  if (__builtin_expect(!is_plain, 0)) return Departure::none(sleep_in_any_case(time) ? Wake::woken : Wake::unwinding);
+  const bool is_plain = ordinary_ && task.attention == 0 && time > task.local_time && time < agenda_.until;
+  if (__builtin_expect(!is_plain || !agenda_.present.empty() || watched_, 0)) return sleep_in_any_case(time);
   task.local_time = time;
   task.operation = Operation::sleep;
   task.at = nullptr;
   task.turns = 1;
   const EventEntry& least = agenda_.events.least();
-  if (agenda_.precedes(task, least.key)) {
-    agenda_.now = time;
-    agenda_.events.advance(time);
-    free_pass_.give(task, time);
-    execute(task, Operation::sleep, nullptr);
-    return Departure::none(Wake::woken);
-  }
+  if (!agenda_.precedes(task, least.key)) return leave_sleeping(task, least);
+  agenda_.now = time;
+  agenda_.events.advance(time);
+  free_pass_.give(task, time, epoch_);
+  count(task, Operation::sleep, nullptr);
+  return Departure::none(Wake::woken);
+}
+
+[[gnu::noinline]] Departure Scheduler::leave_sleeping(Task& task, const EventEntry& least) {
   free_pass_.end();
   Fiber& to = give_way(task, least);
   if (departs(task.fiber, to)) return start_switch(task.fiber, to);
   return Departure::none(go_on_from_waitpoint(*running) ? Wake::woken : Wake::unwinding);
 }
 
-bool Scheduler::end_sleeping(Arrival arrival) {
-  arrive_from(arrival);
-  // Whoever comes back is running: it kept no register for that.
-  Task& task = *running;
-  if (__builtin_expect(interrupted_ || task.attention != 0 || watched_, 0)) return go_on_from_waitpoint(task);
-  count(task, Operation::sleep, nullptr);
-  return true;
+[[gnu::noinline]] Departure Scheduler::sleep_in_any_case(Time time) {
+  return Departure::none(sleep_slowly(time) ? Wake::woken : Wake::unwinding);
 }
 
-[[gnu::noinline]] bool Scheduler::sleep_in_any_case(Time time) {
+bool Scheduler::sleep_slowly(Time time) {
   if (unwinding_) return refuse();
   Task& task = *running;
   free_pass_.end();
@@ -197,6 +190,7 @@ bool Scheduler::act_for_timer(Task& task, Operation operation, Object* object) {
 }
 
 void Scheduler::set_watch(Watch* watch) {
+  free_pass_.end();  // or who runs would pass its waitpoints unseen
   watch_ = watch;
   watched_ = watch != nullptr || sanitizer::present || debugger_view.watching;
 }
@@ -239,14 +233,29 @@ void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
   if (!unwinding_) lane_->add(name, value);
 }
 
-Departure Scheduler::start_blocking(Object& object, Time deadline) {
+Departure Scheduler::start_blocking(Object& object) {
   Task& task = *running;
-  if (__builtin_expect(!ordinary_ || task.attention != 0, 0)) return block_in_any_case(object, deadline);
-  free_pass_.end();
+  // Who waits for one that can go on closes no cycle.
+  if (__builtin_expect(object.holder_count != 0, 0) ||
+      (object.owner != nullptr && __builtin_expect(object.owner->state != TaskState::ready, 0)) ||
+      __builtin_expect(!can_hand_over(task), 0))
+    return block_in_any_case(object, Time::max());
   append_waiter(object, task);
-  Fiber& to = stay_until(task, object, deadline) ? next_of_present() : outside(RunState::stopped);
-  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
-  return Departure::none(go_on(*running, object));
+  task.state = TaskState::blocked;
+  task.finite_wait = false;
+  return hand_over(task);
+}
+
+Departure Scheduler::start_blocking_until(Object& object, Time deadline) {
+  Task& task = *running;
+  const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next())};
+  if (__builtin_expect(
+          !can_hand_over(task) || deadline <= agenda_.now || !agenda_.events.insert_at_once(task.event, key), 0))
+    return block_in_any_case(object, deadline);
+  append_waiter(object, task);
+  task.state = TaskState::blocked;
+  task.finite_wait = true;
+  return hand_over(task);
 }
 
 [[gnu::noinline]] Departure Scheduler::block_in_any_case(Object& object, Time deadline) {
@@ -261,15 +270,8 @@ Departure Scheduler::start_blocking(Object& object, Time deadline) {
   return Departure::none(go_on(*running, object));
 }
 
-Wake Scheduler::end_blocking(Arrival arrival, Object& object) {
-  arrive_from(arrival);
-  Task& task = *running;
-  if (__builtin_expect(interrupted_ || task.attention != 0 || watched_, 0)) return go_on(task, object);
-  count(task, task.wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
-  return task.wake;
-}
-
 [[gnu::noinline]] Wake Scheduler::go_on(Task& task, Object& object) {
+  if (ended_ != nullptr) reclaim_ended();
   if (interrupted_ && !rest()) return Wake::unwinding;
   const Wake wake = task.wake;  // it may wait for its processor too, before it goes on
   const Operation operation = wake == Wake::woken ? Operation::resume : Operation::timeout;

@@ -28,8 +28,10 @@ inline void unwind() {
   if (std::uncaught_exceptions() == 0) throw Unwind();
 }
 
-/// As before_releasing(), in the library: what the kernel reads there is nothing of the user's.
+// Parts of what follows in the library: what the kernel reads there is nothing of the user's.
 bool waitpoint_unseen(kernel::Operation operation, kernel::Object& object);
+bool block_unseen(kernel::Object& object, Time deadline);
+kernel::Task* wake_one_unseen(kernel::Object& object);
 
 /// A waitpoint before an operation that does not block; false when the run is over, and then nothing is to be done.
 inline bool before_releasing(kernel::Operation operation, kernel::Object& object) {
@@ -48,21 +50,40 @@ inline bool before_blocking(kernel::Operation operation, kernel::Object& object)
   return goes_on;
 }
 
+/// Wakes one of those that wait for `object`, of the chooser's choice; null if there is none.
+inline kernel::Task* wake_one(kernel::Object& object) {
+#ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
+  return wake_one_unseen(object);
+#else
+  return kernel::running->scheduler->wake_one(object);
+#endif
+}
+
 /// Blocks the running task on `object`; false if the deadline came first. Throws Unwind when the run is over.
-inline bool block(kernel::Object& object, Time deadline = Time::max()) {
+[[gnu::always_inline]] inline bool block(kernel::Object& object, Time deadline = Time::max());
+/// The same in the caller's frame, see departure.hpp.
+[[gnu::always_inline]] inline bool block_here(kernel::Object& object, Time deadline) {
   {
     const Unseen unseen;
     ++object.users;
   }
   const kernel::Wake wake = kernel::running->scheduler->block(object, deadline);
   // A run that is over leaves its objects as they are: this one may be gone.
-  if (wake == kernel::Wake::unwinding) {
+  if (__builtin_expect(wake == kernel::Wake::unwinding, 0)) {
     unwind();
-  } else {
-    const Unseen unseen;
-    --object.users;
+    return false;
   }
+  const Unseen unseen;
+  --object.users;
   return wake == kernel::Wake::woken;
+}
+
+inline bool block(kernel::Object& object, Time deadline) {
+#ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
+  return block_unseen(object, deadline);
+#else
+  return block_here(object, deadline);
+#endif
 }
 
 }  // namespace waitpoint::sync

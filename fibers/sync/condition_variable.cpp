@@ -5,10 +5,6 @@
 
 namespace waitpoint {
 
-void condition_variable::notify_one() {
-  if (sync::before_releasing(kernel::Operation::notify_one, object_)) kernel::running->scheduler->wake_one(object_);
-}
-
 void condition_variable::notify_all() {
   if (sync::before_releasing(kernel::Operation::notify_all, object_)) kernel::running->scheduler->wake_all(object_);
 }

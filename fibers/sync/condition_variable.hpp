@@ -23,10 +23,12 @@ class condition_variable {
   condition_variable(const condition_variable&) = delete;
   condition_variable& operator=(const condition_variable&) = delete;
 
-  void notify_one();
+  void notify_one() {
+    if (sync::before_releasing(kernel::Operation::notify_one, object_)) sync::wake_one(object_);
+  }
   void notify_all();
 
-  void wait(std::unique_lock<mutex>& lock) { wait_before(lock, Time::max()); }
+  [[gnu::always_inline]] void wait(std::unique_lock<mutex>& lock) { wait_before(lock, Time::max()); }
   template <class Predicate>
   void wait(std::unique_lock<mutex>& lock, Predicate ready) {
     while (!ready()) wait(lock);
@@ -53,7 +55,7 @@ class condition_variable {
 
  private:
   // False if the deadline came first. The lock is held again in both cases.
-  bool wait_before(std::unique_lock<mutex>& lock, Time deadline) {
+  [[gnu::always_inline]] bool wait_before(std::unique_lock<mutex>& lock, Time deadline) {
     const Start start = start_waiting(lock);
     if (start == Start::over) return false;
     const bool woken = start == Start::spurious || sync::block(object_, deadline);

@@ -22,11 +22,11 @@ class mutex {
   mutex(const mutex&) = delete;
   mutex& operator=(const mutex&) = delete;
 
-  void lock() {
+  [[gnu::always_inline]] void lock() {
     if (sync::before_blocking(kernel::Operation::lock, core_.object())) core_.acquire(Time::max());
   }
   bool try_lock() { return lock_before(sync::long_past); }
-  void unlock() {
+  [[gnu::always_inline]] void unlock() {
     if (sync::before_releasing(kernel::Operation::unlock, core_.object())) core_.release();
   }
 

@@ -3,20 +3,11 @@
 
 namespace waitpoint::sync {
 
-bool MutexCore::acquire_in_any_case(Time deadline) {
-  if (object_.owner == nullptr) {
-    kernel::own(object_, *kernel::running);
-    return true;
-  }
-  // Who has no time to wait is no waiter, not even for this instant.
-  if (deadline <= kernel::running->local_time) return false;
-  return block(object_, deadline);  // release makes the woken one the owner
-}
+bool MutexCore::acquire_unseen(Time deadline) { return acquire_here(deadline); }
 
 void MutexCore::release_in_any_case() {
   WAITPOINT_CHECK(is_owned_by_caller(), about(object_, "a task unlocks a mutex that it does not hold"));
-  kernel::disown(object_);
-  if (kernel::Task* next = kernel::running->scheduler->wake_one(object_); next != nullptr) kernel::own(object_, *next);
+  release_here();
 }
 
 }  // namespace waitpoint::sync

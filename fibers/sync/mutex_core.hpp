@@ -22,27 +22,36 @@ class MutexCore {
   // --- after the caller's waitpoint ---
 
   /// True once the caller owns the lock; false if the deadline came first. An owner waits for itself.
-  bool acquire(Time deadline) {
-#ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
-    if (object_.owner == nullptr) {
-      kernel::own(object_, *kernel::running);
-      return true;
-    }
+  [[gnu::always_inline]] bool acquire(Time deadline) {
+#ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
+    return acquire_unseen(deadline);
+#else
+    return acquire_here(deadline);
 #endif
-    const bool is_owner = acquire_in_any_case(deadline);
-    asm volatile("");  // or lock() ends with the call, and has no frame in the stack of who waits there
-    return is_owner;
   }
   /// Hands the lock on; it is a bug not to own it.
-  void release() {
+  [[gnu::always_inline]] void release() {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
-    if (is_owned_by_caller() && object_.first_waiter == nullptr) return kernel::disown(object_);
+    if (__builtin_expect(is_owned_by_caller(), 1)) return release_here();
 #endif
     release_in_any_case();
   }
 
  private:
-  bool acquire_in_any_case(Time deadline);
+  [[gnu::always_inline]] bool acquire_here(Time deadline) {
+    if (object_.owner == nullptr) {
+      kernel::own(object_, *kernel::running);
+      return true;
+    }
+    // Who has no time to wait is no waiter, not even for this instant.
+    if (deadline != Time::max() && deadline <= kernel::running->local_time) return false;
+    return block(object_, deadline);  // release makes the woken one the owner
+  }
+  [[gnu::always_inline]] void release_here() {
+    kernel::disown(object_);
+    if (kernel::Task* next = wake_one(object_); next != nullptr) kernel::own(object_, *next);
+  }
+  bool acquire_unseen(Time deadline);
   void release_in_any_case();
 
   Object object_;

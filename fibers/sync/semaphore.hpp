@@ -27,8 +27,18 @@ class SemaphoreCore {
     WAITPOINT_CHECK(initial >= 0 && initial <= most, "a semaphore begins with a count out of its range");
   }
 
-  void release(std::ptrdiff_t units);
-  bool acquire_before(Time deadline) {
+  [[gnu::always_inline]] void release(std::ptrdiff_t units) {
+#ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
+    kernel::Task& task = running_task();
+    if (units == 1 && count_ < most_ &&
+        __builtin_expect(task.scheduler->waitpoint_at_once(task, kernel::Operation::release, object_), 1)) {
+      if (task.scheduler->wake_one(object_) == nullptr) ++count_;
+      return;
+    }
+#endif
+    release_in_any_case(units);
+  }
+  [[gnu::always_inline]] bool acquire_before(Time deadline) {
     const Outcome outcome = acquire_now(deadline);
     return outcome == Outcome::must_wait ? block(object_, deadline) : outcome == Outcome::acquired;
   }
@@ -37,10 +47,26 @@ class SemaphoreCore {
  private:
   enum class Outcome { acquired, too_late, must_wait };
 
-  Outcome acquire_now(Time deadline);
-  bool take();
-  bool pass(kernel::Task& task, kernel::Operation operation);
-  bool pass_in_the_list(kernel::Operation operation);
+  [[gnu::always_inline]] Outcome acquire_now(Time deadline) {
+#ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
+    kernel::Task& task = running_task();
+    if (__builtin_expect(task.scheduler->waitpoint_at_once(task, kernel::Operation::acquire, object_), 1))
+      return take_before(task, deadline);
+#endif
+    return acquire_in_any_case(deadline);
+  }
+  Outcome take_before(const kernel::Task& task, Time deadline) {
+    if (take()) return Outcome::acquired;
+    return deadline != Time::max() && deadline <= task.local_time ? Outcome::too_late : Outcome::must_wait;
+  }
+  bool take() {
+    if (count_ == 0) return false;
+    --count_;
+    return true;
+  }
+  Outcome acquire_in_any_case(Time deadline);
+  void release_in_any_case(std::ptrdiff_t units);
+  bool pass(kernel::Operation operation);
 
   Object object_;
   std::ptrdiff_t initial_;
@@ -64,15 +90,15 @@ class counting_semaphore {
   static constexpr std::ptrdiff_t max() noexcept { return LeastMax; }
 
   /// Adds units; more than max() in all is a bug.
-  void release(std::ptrdiff_t units = 1) { core_.release(units); }
-  void acquire() { core_.acquire_before(Time::max()); }
+  [[gnu::always_inline]] void release(std::ptrdiff_t units = 1) { core_.release(units); }
+  [[gnu::always_inline]] void acquire() { core_.acquire_before(Time::max()); }
   bool try_acquire() { return core_.try_acquire(); }
   template <class Rep, class Ratio>
-  bool try_acquire_for(const std::chrono::duration<Rep, Ratio>& span) {
+  [[gnu::always_inline]] bool try_acquire_for(const std::chrono::duration<Rep, Ratio>& span) {
     return core_.acquire_before(sync::after(span));
   }
   template <class Clock, class Span>
-  bool try_acquire_until(const std::chrono::time_point<Clock, Span>& deadline) {
+  [[gnu::always_inline]] bool try_acquire_until(const std::chrono::time_point<Clock, Span>& deadline) {
     return core_.acquire_before(sync::until(deadline));
   }
 

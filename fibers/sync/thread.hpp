@@ -158,15 +158,15 @@ inline void yield() {
   if (!sync::running_task().scheduler->yield()) sync::unwind();
 }
 
-inline void sleep_until(Time time) {
+[[gnu::always_inline]] inline void sleep_until(Time time) {
   if (!sync::running_task().scheduler->sleep_until(time)) sync::unwind();
 }
 template <class Clock, class Span>
-void sleep_until(const std::chrono::time_point<Clock, Span>& time) {
+[[gnu::always_inline]] inline void sleep_until(const std::chrono::time_point<Clock, Span>& time) {
   sleep_until(sync::until(time));
 }
 template <class Rep, class Ratio>
-void sleep_for(const std::chrono::duration<Rep, Ratio>& span) {
+[[gnu::always_inline]] inline void sleep_for(const std::chrono::duration<Rep, Ratio>& span) {
   sleep_until(sync::after(span));
 }
 inline void sleep_for(Duration span) { sleep_for(std::chrono::nanoseconds(span.ns())); }

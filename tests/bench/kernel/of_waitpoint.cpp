@@ -15,11 +15,11 @@ struct Kit {
   static void spawn(int, int, Body body) {
     thread({"task", kernel::StackSize::small, false}, std::move(body)).detach();
   }
-  static void sleep(std::int64_t ns) { this_thread::sleep_for(std::chrono::nanoseconds(ns)); }
+  [[gnu::always_inline]] static void sleep(std::int64_t ns) { this_thread::sleep_for(std::chrono::nanoseconds(ns)); }
 
   struct Semaphore : counting_semaphore<> {
     using counting_semaphore<>::counting_semaphore;
-    bool acquire_for(std::int64_t ns) { return try_acquire_for(std::chrono::nanoseconds(ns)); }
+    [[gnu::always_inline]] bool acquire_for(std::int64_t ns) { return try_acquire_for(std::chrono::nanoseconds(ns)); }
   };
   using Signal = Semaphore;
   using Mutex = mutex;

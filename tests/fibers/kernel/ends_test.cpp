@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/sanitizer.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
@@ -95,7 +96,7 @@ TEST(Ends, ATaskThatGoesOnAfterTheEndIsAbandoned) {
   run.spawn(
       [&] {
         for (;;) {
-          running->local_time += Duration::from_ns(1);
+          compute(*running, Duration::from_ns(1));
           run.scheduler.waitpoint(Operation::release, &object);
         }
       },

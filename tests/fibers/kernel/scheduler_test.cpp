@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fibers/kernel/local_clock.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
 namespace waitpoint::kernel {
@@ -150,7 +151,7 @@ TEST(Scheduler, WhoIsWokenTakesTheGlobalTime) {
   });
   run.spawn([&] {
     run.sleep(40);
-    running->local_time += Duration::from_ns(10);
+    compute(*running, Duration::from_ns(10));
     run.scheduler.waitpoint(Operation::notify_one, &object);
     EXPECT_NE(run.scheduler.wake_one(object), nullptr);
     EXPECT_EQ(run.scheduler.wake_one(object), nullptr);
@@ -162,7 +163,7 @@ TEST(Scheduler, WhoIsWokenTakesTheGlobalTime) {
 TEST(Scheduler, AChildStartsAtItsParentsLocalTime) {
   TaskRun run;
   run.spawn([&] {
-    running->local_time += Duration::from_ns(70);
+    compute(*running, Duration::from_ns(70));
     run.spawn([&] { run.log("child"); });
   });
   run.spawn([&] {

@@ -80,7 +80,10 @@ def watch():
         return
     records.write_view("watching", 1)
     if run := view.number("scheduler"):
-        gdb.selected_inferior().write_memory(run + records.place("Scheduler", "watched_")[0], b"\1")
+        inferior = gdb.selected_inferior()
+        inferior.write_memory(run + records.place("Scheduler", "watched_")[0], b"\1")
+        # As Scheduler::set_watch(): who runs passes its waitpoints unseen until it is told.
+        inferior.write_memory(run + records.place("Scheduler", "free_pass_.unseen_in_")[0], b"\xff" * 8)
     records.write_view("checkpoint_at", view.number("events") + 1 if checkpoints.wanted() else NEVER)
     request.write()
 
