@@ -15,15 +15,6 @@ struct __cxa_eh_globals;
 extern "C" __cxa_eh_globals* __cxa_get_globals() noexcept;
 }  // namespace __cxxabiv1
 
-#ifdef __x86_64__
-// jump_fcontext, under a name that users' code is linked to: see departure.hpp.
-asm(".globl waitpoint_jump\n"
-    ".type waitpoint_jump, @function\n"
-    "waitpoint_jump:\n\t"
-    "jmp jump_fcontext@PLT\n"
-    ".size waitpoint_jump, .-waitpoint_jump");
-#endif
-
 namespace waitpoint::kernel {
 namespace {
 
@@ -44,12 +35,27 @@ struct Start {
   sanitizer::arrive(left, from);
 }
 
+// Back to where the fiber was made. Who goes on in it does so by depart(), which does not give back all registers.
+#ifdef __x86_64__
+context::transfer_t wait_to_begin(context::fcontext_t maker) {
+  context::transfer_t came{};
+  void* nothing = nullptr;
+  asm volatile("call jump_fcontext@PLT"
+               : "=a"(came.fctx), "=d"(came.data), "+D"(maker), "+S"(nothing)
+               :
+               : "rcx", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "memory", "cc");
+  return came;
+}
+#else
+context::transfer_t wait_to_begin(context::fcontext_t maker) { return context::jump_fcontext(maker, nullptr); }
+#endif
+
 void run_entry(context::transfer_t transfer) {
   // The outermost frame of the fiber: debuggers and unwinders stop here.
   asm volatile(".cfi_undefined rip");
   // prepare() switched here once so that the start could be read from its frame; the first real switch comes after.
   const Start start = *static_cast<const Start*>(transfer.data);
-  transfer = context::jump_fcontext(transfer.fctx, nullptr);
+  transfer = wait_to_begin(transfer.fctx);
   Fiber& left = note_where_left({transfer.fctx, transfer.data});
   if (sanitizer::present) sanitizer::arrive(left, start.fiber);
   start.entry(start.argument);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stack that can be left and re-entered: the one user of Boost.Context.
+// A stack that can be left and re-entered: the one user of Boost.Context, which makes it, and on other processors than
+// x86-64 switches too (departure.hpp).
 //
 // Boost 1.74 keeps no exception state per fiber: one that switches inside a catch block, or in a destructor during
 // unwinding, would see another's exceptions. So the runtime's per-thread record of exceptions in flight, and errno, are

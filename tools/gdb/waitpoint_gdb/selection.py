@@ -2,10 +2,10 @@
 """Selecting a parked fiber: its frames are shown, and nothing is written to the process.
 
 While a fiber is selected, an unwinder answers that the caller of the innermost frame is where the fiber goes on, with the
-registers that the fiber's switch left on its stack. So frame 0 stays what the processor executes, and the frames above
-it are the fiber's. A filter keeps frame 0 out of back traces.
+registers that the fiber's switch left on its stack; it needs no others. So frame 0 stays what the processor executes,
+and the frames above it are the fiber's. A filter keeps frame 0 out of back traces.
 
-    Boost.Context, x86-64, at the context c:  +8 r12  +16 r13  +24 r14  +32 r15  +40 rbx  +48 rbp  +56 rip;  rsp = c + 64
+    fibers/kernel/departure.hpp, x86-64, at the context c:  +40 rbx  +48 rbp  +56 rip;  rsp = c + 64
 """
 
 import re
@@ -15,7 +15,7 @@ import gdb.unwinder
 
 from . import records
 
-SAVED = {"r12": 8, "r13": 16, "r14": 24, "r15": 32, "rbx": 40, "rbp": 48, "rip": 56}
+SAVED = {"rbx": 40, "rbp": 48, "rip": 56}
 STACK_ABOVE_CONTEXT = 64
 # Frames of the primitives, and of the library's templates beneath them: not what somebody looks for.
 INNER = re.compile(r"(?<!/tests)/fibers/(kernel|sync|io|laas)/|/include/c\+\+/")
