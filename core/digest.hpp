@@ -51,17 +51,17 @@ class Digest {
 class PairDigest {
  public:
   [[gnu::always_inline]] constexpr void add(std::uint64_t first, std::uint64_t second) {
-    std::uint64_t key = ++pairs_ * 0x9E3779B97F4A7C15u;
+    std::uint64_t key = last_key_ += key_step;
     key ^= key >> 32;  // else the keys would be an arithmetic progression, and sums over it
     const Product product = static_cast<Product>(first ^ key) * (second + std::rotl(key, 19));
     sum_ += static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
   }
 
-  constexpr std::uint64_t pairs() const { return pairs_; }
+  constexpr std::uint64_t pairs() const { return last_key_ * inverse_of_step; }
   /// Of all pairs so far, and how many they are.
   constexpr Digest digest() const {
     Digest digest;
-    digest.add(pairs_);
+    digest.add(pairs());
     digest.add(sum_);
     return digest;
   }
@@ -70,8 +70,13 @@ class PairDigest {
  private:
   __extension__ using Product = unsigned __int128;
 
+  // Each pair's key is that of the one before it and a step more, which is odd: so keys count pairs, modulo 2^64.
+  static constexpr std::uint64_t key_step = 0x9E3779B97F4A7C15u;
+  static constexpr std::uint64_t inverse_of_step = 0xF1DE83E19937733Du;
+  static_assert(key_step * inverse_of_step == 1);
+
   std::uint64_t sum_ = 0;
-  std::uint64_t pairs_ = 0;
+  std::uint64_t last_key_ = 0;
 };
 
 /// The printed form: "wp1:" and 16 hexadecimal digits. The prefix changes when the definition of what is hashed does.

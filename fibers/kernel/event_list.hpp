@@ -64,7 +64,10 @@ class EventList {
     entry.node = nullptr;
     node.place = EventNode::absent;
     --size_;
-    if (&entry == head_) skip_gaps();
+    if (&entry == head_) {
+      ++head_;
+      skip_gaps();
+    }
     return true;
   }
   /// As insert(), where its place is near the end of the run; else false, with nothing done.

@@ -16,10 +16,6 @@ namespace waitpoint::kernel {
 
 class PresentQueue {
  public:
-  PresentQueue() = default;
-  PresentQueue(const PresentQueue&) = delete;
-  PresentQueue& operator=(const PresentQueue&) = delete;
-
   /// Whether tasks run in that phase.
   static bool is_for(Phase phase) { return phase == Phase::tasks || phase == Phase::world; }
 
@@ -39,14 +35,16 @@ class PresentQueue {
     ++size_;
     if (__builtin_expect(task.phase == Phase::world, 0)) return add_of_world(task);
     task.next_waiter = nullptr;
-    *end_ = &task;
-    end_ = &task.next_waiter;
+    if (__builtin_expect(first_ == nullptr, 1))
+      first_ = &task;
+    else
+      last_->next_waiter = &task;
+    last_ = &task;
   }
   /// Takes out the first; there must be one.
   Task& take() {
     Task& task = *first_;
     first_ = task.next_waiter;
-    if (__builtin_expect(first_ == nullptr, 1)) end_ = &first_;
     if (__builtin_expect(last_of_world_ == &task, 0)) last_of_world_ = nullptr;
     task.event.place = EventNode::absent;
     --size_;
@@ -57,7 +55,7 @@ class PresentQueue {
     Task* before = nullptr;
     for (Task* other = first_; other != &task; other = other->next_waiter) before = other;
     (before == nullptr ? first_ : before->next_waiter) = task.next_waiter;
-    if (task.next_waiter == nullptr) end_ = before == nullptr ? &first_ : &before->next_waiter;
+    if (last_ == &task) last_ = before;
     if (last_of_world_ == &task) last_of_world_ = before;
     task.event.place = EventNode::absent;
     --size_;
@@ -72,11 +70,11 @@ class PresentQueue {
     task.next_waiter = link;
     link = &task;
     last_of_world_ = &task;
-    if (task.next_waiter == nullptr) end_ = &task.next_waiter;
+    if (task.next_waiter == nullptr) last_ = &task;
   }
 
   Task* first_ = nullptr;
-  Task** end_ = &first_;  // where the next one is linked to
+  Task* last_ = nullptr;  // while there is a first
   Task* last_of_world_ = nullptr;
   std::uint32_t size_ = 0;
 };

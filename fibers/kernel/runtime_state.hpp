@@ -19,15 +19,29 @@ struct RuntimeState {
   Exceptions* exceptions = nullptr;
   int* error_number = nullptr;
 
-  void save(Fiber& fiber) const { fiber.thread_state = {exceptions->caught, exceptions->uncaught, *error_number}; }
-  void restore(const Fiber& fiber) const {
-    exceptions->caught = fiber.thread_state.caught_exceptions;
-    exceptions->uncaught = fiber.thread_state.uncaught_exceptions;
-    *error_number = fiber.thread_state.error_number;
-  }
+  ThreadState now() const { return {exceptions->caught, exceptions->uncaught, *error_number}; }
+  void save(Fiber& fiber) const { fiber.thread_state = now(); }
+  void restore(const Fiber& fiber) const { set(fiber.thread_state); }
+  // Mostly all is as it was: nothing is written then, for writes are what a switch has most of.
   void exchange(Fiber& from, const Fiber& to) const {
-    save(from);
-    restore(to);
+    const ThreadState state = now();
+    if (__builtin_expect(differ(state, from.thread_state), 0)) from.thread_state = state;
+    if (__builtin_expect(differ(state, to.thread_state), 0)) set(to.thread_state);
+  }
+
+ private:
+  void set(const ThreadState& state) const {
+    exceptions->caught = state.caught_exceptions;
+    exceptions->uncaught = state.uncaught_exceptions;
+    *error_number = state.error_number;
+  }
+  // Without branches between.
+  static bool differ(const ThreadState& a, const ThreadState& b) {
+    const auto caught =
+        reinterpret_cast<std::uintptr_t>(a.caught_exceptions) ^ reinterpret_cast<std::uintptr_t>(b.caught_exceptions);
+    const auto uncaught = a.uncaught_exceptions ^ b.uncaught_exceptions;
+    const auto error = static_cast<unsigned>(a.error_number) ^ static_cast<unsigned>(b.error_number);
+    return (caught | uncaught | error) != 0;
   }
 };
 extern RuntimeState runtime_state;

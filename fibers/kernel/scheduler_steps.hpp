@@ -17,11 +17,13 @@ inline std::uint64_t child_id(std::uint64_t parent, std::uint32_t number) {
   return Digest::mix(parent + (std::uint64_t{number} + 1) * 0x9E3779B97F4A7C15u);
 }
 
-inline void Scheduler::hash_events_of(Robot& robot) { lane_ = robot.lane; }
+inline void Scheduler::hash_events_of(Robot& robot) {
+  if (lane_ != robot.lane) lane_ = robot.lane;
+}
 
 // A new instant for the task: it may pass as many waitpoints again.
 inline void Scheduler::set_local_time(Task& task, Time time) {
-  if (task.local_time == time) return;
+  if (__builtin_expect(task.local_time == time, 1)) return;
   task.local_time = time;
   task.turns = 0;
 }
@@ -96,21 +98,22 @@ inline void Scheduler::make_ready(Task& task) {
 
 // --- in the ordinary case: first in, first out, and the run goes on ---
 
-// Whether `task`, were it blocked, could be left for the first of the present instant without more ado.
+// Whether `task`, were it blocked, could be left for the first of the present instant without more ado. Who passes
+// unseen needs no attention, and nobody watches.
 inline bool Scheduler::can_hand_over(const Task& task) const {
-  if (!ordinary_ || watched_ || task.attention != 0 || agenda_.present.size() - 1 >= many_ready) return false;
+  if (!ordinary_ || !free_pass_.is_unseen() || agenda_.present.size() - 1 >= many_ready) return false;
   const Task& next = *agenda_.present.first();
   return __builtin_expect(!agenda_.events.is_due(agenda_.now), 1) &&
          __builtin_expect(can_switch_in_parts(task.fiber, next.fiber), 1) && StackArena::intact(next.fiber.stack);
 }
 
-// `task` is blocked and can_hand_over().
+// `task` is blocked and can_hand_over(). Its free pass, for the present instant, goes over to the next one.
 [[gnu::always_inline]] inline Departure Scheduler::hand_over(Task& task) {
   Task& next = agenda_.present.take();
   next.state = TaskState::running;
   running = &next;
   hash_events_of(*next.robot);
-  free_pass_.give(next, agenda_.now, epoch_);
+  if (__builtin_expect(next.attention != 0, 0)) free_pass_.end();
   ++switches_;
   return start_switch(task.fiber, next.fiber);
 }

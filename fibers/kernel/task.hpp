@@ -107,12 +107,12 @@ struct Task {
   Object* at = nullptr;        ///< the object of its last waitpoint, if any
   std::uint32_t turns = 0;     ///< waitpoints passed at its local time
   Phase phase = Phase::tasks;
-  TaskState state = TaskState::ready;
   Operation operation = Operation::start;
   Wake wake = Wake::woken;
+  TaskState state = TaskState::ready;
+  bool finite_wait = false;  ///< blocked with a finite timeout
   std::uint8_t attention = 0;
   bool service = false;      ///< does not keep the run alive
-  bool finite_wait = false;  ///< blocked with a finite timeout
   bool shared_wait = false;  ///< blocked where it would hold the object together with others
   bool describe = false;     ///< asked to write down its own call stack and to switch back
   Fiber fiber;

@@ -10,8 +10,10 @@ inline void append_waiter(Object& object, Task& task) {
   task.blocked_on = &object;
   task.next_waiter = nullptr;
   task.previous_waiter = object.last_waiter;
-  Task** const link = object.last_waiter == nullptr ? &object.first_waiter : &object.last_waiter->next_waiter;
-  *link = &task;  // by its address, which needs no branch
+  if (__builtin_expect(object.last_waiter == nullptr, 1))
+    object.first_waiter = &task;
+  else
+    object.last_waiter->next_waiter = &task;
   object.last_waiter = &task;
 }
 
@@ -19,8 +21,10 @@ inline void append_waiter(Object& object, Task& task) {
 inline Task& remove_first_waiter(Object& object) {
   Task& task = *object.first_waiter;
   object.first_waiter = task.next_waiter;
-  Task** const link = object.first_waiter == nullptr ? &object.last_waiter : &object.first_waiter->previous_waiter;
-  *link = nullptr;
+  if (__builtin_expect(object.first_waiter == nullptr, 1))
+    object.last_waiter = nullptr;
+  else
+    object.first_waiter->previous_waiter = nullptr;
   task.blocked_on = nullptr;
   return task;
 }

@@ -51,8 +51,7 @@ Task* Scheduler::wake_a_waiter(Object& object) {
   remove_first_waiter(object);
   first.wake = Wake::woken;
   first.state = TaskState::ready;
-  first.turns *= first.local_time == agenda_.now;
-  first.local_time = agenda_.now;
+  set_local_time(first, agenda_.now);
   agenda_.present.add(first, agenda_.chooser.tie_of_next());
   return &first;
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <exception>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -231,6 +234,58 @@ TEST(Scheduler, AWatchSeesEveryExecutedEventAndChangesNothing) {
   };
   EXPECT_EQ(run_once(&counter), run_once(nullptr));
   EXPECT_EQ(counter.seen, (std::vector{Operation::start, Operation::sleep, Operation::yield, Operation::end}));
+}
+
+TEST(Scheduler, AWatchThatATaskSetsSeesTheNextEvent) {
+  struct Last : Watch {
+    Operation seen = Operation::start;
+  };
+  Last last;
+  last.event = [](Watch& self, const EventRecord& record) { static_cast<Last&>(self).seen = record.operation; };
+  TaskRun run;
+  Object object("object");
+  run.spawn([&] {
+    run.scheduler.waitpoint(Operation::lock, &object);
+    run.scheduler.waitpoint(Operation::unlock, &object);
+    run.scheduler.set_watch(&last);
+    run.scheduler.waitpoint(Operation::try_lock, &object);
+    EXPECT_EQ(last.seen, Operation::try_lock);
+    run.scheduler.set_watch(nullptr);
+  });
+  run.scheduler.run_before(Time::max());
+}
+
+TEST(Scheduler, WhatATaskHasInFlightStaysItsOwn) {
+  TaskRun run;
+  Object object("object");
+  std::string trace;
+  // Each with another errno and another count of exceptions that are handled, and they hand over to each other.
+  for (const int own : {1, 2, 3})
+    run.spawn([&run, &object, &trace, own] {
+      const std::function<void(int)> within = [&](int depth) {
+        if (depth > 0) {
+          try {
+            throw depth;
+          } catch (int) {
+            within(depth - 1);
+            EXPECT_NE(std::current_exception(), nullptr);
+          }
+          return;
+        }
+        for (int round = 0; round < 4; ++round) {
+          errno = own;
+          run.scheduler.waitpoint(Operation::wait, &object);
+          if (run.scheduler.wake_one(object) == nullptr && round == 3) return;
+          run.scheduler.block(object, Time::from_ns(100 * (round + 1)));
+          EXPECT_EQ(errno, own);
+          trace += std::to_string(own);
+        }
+      };
+      within(own - 1);
+      EXPECT_EQ(std::current_exception(), nullptr);
+    });
+  run.scheduler.run_before(Time::max());
+  EXPECT_GT(trace.size(), 8u);
 }
 
 TEST(Scheduler, SpinningWithoutVirtualTimeIsFoundInEveryOrder) {
