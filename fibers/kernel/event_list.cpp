@@ -105,9 +105,7 @@ void EventList::tidy_run() {
 
 void EventList::set_bound() { bound_ = run_ + std::min(2 * capacity_, 2 * index_of(*end_) + 4 * run_length_min); }
 
-void EventList::pass_gaps() {
-  while (head_ < end_ && head_->node == nullptr) ++head_;
-}
+void EventList::pass_gaps() { skip_gaps(); }
 
 void EventList::move_run_down() {
   EventEntry* end = run_;

@@ -33,7 +33,7 @@ class FreePass {
   [[gnu::always_inline]] bool holds_unseen(const Task& task, std::uint64_t epoch) const {
     return __builtin_expect(epoch == unseen_in_, 1) && __builtin_expect(task.turns < turns_max, 1);
   }
-  /// Whether its last event before a switch left it so.
+  /// Whether the running task passes unseen at the objects of its run.
   [[gnu::always_inline]] bool is_unseen() const { return __builtin_expect(unseen_in_ != no_epoch, 1); }
 
   /// To the running task, for the instant `now`; `unseen_in`: the epoch of the run if nobody watches, else no_epoch.
