@@ -41,6 +41,12 @@ inline std::int64_t period_ns(int i, int tasks) {
 
 inline std::int64_t harmonic_period_ns(int i) { return std::int64_t{1'000'000} << (i % 4); }
 
+inline bool is_of_sleepers(const std::string& workload) {
+  for (const char* kind : {"periods", "harmonic", "exponential", "bimodal", "far"})
+    if (workload == kind) return true;
+  return false;
+}
+
 /// A long list of increments that every task goes round in: drawing them costs next to nothing. A task begins at a
 /// random point of all of them laid end to end, so that the mixture of short and long sleeps is from the start what it
 /// stays.

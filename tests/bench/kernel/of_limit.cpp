@@ -107,9 +107,7 @@ double best_set_ns(const Request& request) {
 
 void run(const Request& request) {
   const std::string& workload = request.workload;
-  if (workload == "timeouts" || workload == "mutex" || workload == "buffer" || workload == "free mutex" ||
-      workload == "parked")
-    decline();
+  if (workload != "handover" && !is_of_sleepers(workload)) decline();
   double ns = switch_ns(request.budget_ms);
   if (workload == "periods" || workload == "harmonic")
     ns += best_set_ns<Periods>(request);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The workloads on SystemC: threads of its kernel, sc_semaphore, sc_mutex, and events in place of condition variables.
 //
-// Its threads are never interrupted, so a bounded buffer of SystemC needs no mutex, and has none here. Its semaphores
-// know no timeouts: what waits with one here is an event and a count.
+// Its semaphores know no timeouts: what waits with one here is an event and a count.
 #define SC_INCLUDE_DYNAMIC_PROCESSES
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -57,28 +56,23 @@ struct Kit {
   using Mutex = sc_core::sc_mutex;
   struct Condition {
     template <class Held>
-    void wait(Held&) {
+    void wait(Held& held) {
+      held.unlock();
       sc_core::wait(event);
+      held.lock();
     }
     void notify() { event.notify(); }
     sc_core::sc_event event;
   };
-};
-
-/// Of the buffer: nobody else runs until one waits.
-struct BufferKit : Kit {
-  struct Mutex {
-    void lock() {}
-    void unlock() {}
-  };
+  using AnyCondition = Condition;
 };
 
 void run(const Request& request) {
   guarded = request.tasks <= guarded_tasks_max;
   sc_core::sc_set_time_resolution(1, sc_core::SC_NS);
   sc_core::sc_spawn([&request] {
-    if (request.workload == "buffer")
-      buffer<BufferKit>(request);
+    if (request.workload == "buffer without mutex")
+      buffer<WithoutMutex<Kit>>(request);
     else
       carry_out<Kit>(request);
     answer("guard", guarded ? "guard pages" : "unguarded");

@@ -119,11 +119,11 @@ void run(const Request& request) {
     buffer<RealKit>(request);
   } else if (workload == "free mutex") {
     free_mutex<RealKit>(request);
-  } else if (workload == "mutex" || workload == "timeouts" || workload == "parked") {
-    decline();
-  } else {
+  } else if (is_of_sleepers(workload)) {
     TurnsKit::baton.lock();
     sleepers<TurnsKit>(request);
+  } else {
+    decline();
   }
   leave();
 }

@@ -166,6 +166,16 @@ void buffer(const Request& request) {
   measure(request, Kit::clock, [] { Kit::sleep(many_steps_ns); });
 }
 
+/// A kit whose tasks are never interrupted, so that what they share needs no mutex.
+template <class Kit>
+struct WithoutMutex : Kit {
+  struct Mutex {
+    void lock() {}
+    void unlock() {}
+  };
+  using Condition = typename Kit::AnyCondition;
+};
+
 /// One task that locks and unlocks a mutex which nobody else wants.
 template <class Kit>
 void free_mutex(const Request& request) {
@@ -194,7 +204,7 @@ void parked(const Request& request) {
   answer("page_table_bytes", static_cast<double>(page_table_bytes() - tables_before) / request.tasks);
 }
 
-/// The workload asked for, from within the first task of a kit that has virtual time.
+/// The workload asked for, from within the first task of a kit that has virtual time and mutexes.
 template <class Kit>
 void carry_out(const Request& request) {
   const std::string& workload = request.workload;
@@ -204,7 +214,8 @@ void carry_out(const Request& request) {
   if (workload == "buffer") return buffer<Kit>(request);
   if (workload == "free mutex") return free_mutex<Kit>(request);
   if (workload == "parked") return parked<Kit>(request);
-  sleepers<Kit>(request);
+  if (is_of_sleepers(workload)) return sleepers<Kit>(request);
+  decline();
 }
 
 }  // namespace waitpoint::bench
