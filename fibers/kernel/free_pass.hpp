@@ -9,6 +9,7 @@
 #include "fibers/kernel/limits.hpp"
 #include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/kernel/turn.hpp"
 
 namespace waitpoint::kernel {
 
@@ -28,25 +29,15 @@ class FreePass {
   /// The same where others are of its instant or not, as said.
   bool may_stay(bool alone) const { return may_stay_ || (may_stay_alone_ && alone); }
 
-  bool holds_for(const Task& task) const { return task.local_time == at_ && task.turns < turns_max; }
-  /// Whether it does for the running task, which nobody watches, at an object of this epoch.
-  [[gnu::always_inline]] bool holds_unseen(const Task& task, std::uint64_t epoch) const {
-    return __builtin_expect(epoch == unseen_in_, 1) && __builtin_expect(task.turns < turns_max, 1);
-  }
-  /// Whether the running task passes unseen at the objects of its run.
-  [[gnu::always_inline]] bool is_unseen() const { return __builtin_expect(unseen_in_ != no_epoch, 1); }
+  bool holds_for(const Task& task) const { return task.local_time == turn.at && task.turns < turns_max; }
 
   /// To the running task, for the instant `now`; `unseen_in`: the epoch of the run if nobody watches, else no_epoch.
   void give(const Task& task, Time now, std::uint64_t unseen_in) {
     if (task.attention != 0) return end();
-    at_ = now;
-    unseen_in_ = unseen_in;
+    turn.at = now;
+    turn.unseen_in = unseen_in;
   }
-  void end() {
-    at_ = never;
-    unseen_in_ = no_epoch;
-  }
-  static constexpr std::uint64_t no_epoch = ~std::uint64_t{0};
+  void end() { turn.end_pass(); }
 
   /// An event of this phase was put in for the present instant.
   void note_present_event(Phase phase) {
@@ -54,10 +45,6 @@ class FreePass {
   }
 
  private:
-  static constexpr Time never = Time::from_ns(-1);
-
-  Time at_ = never;
-  std::uint64_t unseen_in_ = no_epoch;
   bool may_stay_ = false;
   bool may_stay_alone_ = false;
 };

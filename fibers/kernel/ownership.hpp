@@ -10,7 +10,8 @@ namespace waitpoint::kernel {
 /// Makes `task` the owner of `object`, which nobody owns.
 inline void own(Object& object, Task& task) {
   object.owner = &task;
-  object.next_held = task.held;
+  // Mostly the link is as it was the last time. Not written, it need not be waited for when the object is given up.
+  if (__builtin_expect(object.next_held != task.held, 0)) object.next_held = task.held;
   task.held = &object;
 }
 

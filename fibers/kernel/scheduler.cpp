@@ -16,6 +16,7 @@
 namespace waitpoint::kernel {
 
 Task* running = nullptr;
+Turn turn;
 
 namespace {
 
@@ -53,7 +54,7 @@ void Scheduler::restart(std::uint64_t seed) {
   first_robot_ = last_robot_ = nullptr;
   culprit_ = nullptr;
   first_abandoned_ = nullptr;
-  executed_ = switches_ = turns_given_ = 0;
+  outputs_ = switches_ = turns_given_ = 0;
   live_tasks_ = made_ = 0;
   state_ = RunState::idle;
   cause_ = StopCause::none;
@@ -170,6 +171,12 @@ inline Task* Scheduler::due(EventNode& node, Time time) {
   return &go(task_of(node));
 }
 
+std::uint64_t Scheduler::events() const {
+  std::uint64_t hashed = unheard_.pairs();
+  for (const Robot* robot = first_robot_; robot != nullptr; robot = robot->next) hashed += robot->digest.pairs();
+  return hashed - outputs_;
+}
+
 Time Scheduler::next_event_time() const {
   if (paused_ != nullptr) return paused_->local_time;
   return agenda_.next_time();
@@ -183,6 +190,7 @@ void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
 Fiber& Scheduler::outside(RunState state) {
   state_ = cause_ != StopCause::none ? RunState::stopped : state;
   running = nullptr;
+  free_pass_.end();
   return main_;
 }
 

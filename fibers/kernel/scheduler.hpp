@@ -84,19 +84,11 @@ class Scheduler {
 
   /// The task's event stands at its local time; returns when it is the least. False while unwinding.
   bool waitpoint(Operation operation, Object* object) {
-    Task& task = *running;
-    if (object != nullptr && waitpoint_at_once(task, operation, *object)) return true;
-    return waitpoint_in_any_case(task, operation, object);
+    if (object != nullptr && pass_unseen(operation, *object)) return true;
+    return waitpoint_in_any_case(operation, object);
   }
-  /// The same where nothing can come between, and nobody watches; else false, with nothing done.
-  [[gnu::always_inline]] bool waitpoint_at_once(Task& task, Operation operation, Object& object) {
-    if (!free_pass_.holds_unseen(task, object.epoch)) return false;
-    ++task.turns;
-    task.operation = operation;
-    task.at = &object;
-    count(task, operation, &object);
-    return true;
-  }
+  /// The same for who has tried to pass unseen already.
+  bool waitpoint_in_any_case(Operation operation, Object* object);
   /// The running task looks at its clock: no event, but what it does again and again must end, so that others get a
   /// turn after as many looks as waitpoints at one instant. False when the run is over.
   bool look_at_clock(Time& local) {
@@ -181,7 +173,7 @@ class Scheduler {
   Task* first_task() const { return first_task_; }
   Robot* first_robot() const { return first_robot_; }
   /// Events executed so far, by tasks of all robots.
-  std::uint64_t events() const { return executed_; }
+  std::uint64_t events() const;
   /// Times that a fiber was left for another.
   std::uint64_t switches() const { return switches_; }
   bool unwinding() const { return unwinding_; }
@@ -195,7 +187,7 @@ class Scheduler {
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch);
   /// Where the events of the task that ran last are hashed: its robot's digest.
-  const PairDigest* lane_in_use() const { return lane_; }
+  const PairDigest* lane_in_use() const { return turn.lane; }
   /// Null: durations that do not follow from the run count as they are.
   void set_durations(Durations* durations) { durations_ = durations; }
   Watch* watch() const { return watch_; }
@@ -226,7 +218,6 @@ class Scheduler {
   bool refuse();
   void adopt(Object& object);
   void begin(Task& task);
-  bool waitpoint_in_any_case(Task& task, Operation operation, Object* object);
   bool waitpoint_in_the_list(Task& task, Operation operation, Object* object);
   bool look_at_clock_slowly(Task& task, Time& local);
   bool arrive(Task& task);
@@ -244,22 +235,20 @@ class Scheduler {
   [[gnu::always_inline]] Wake end_blocking(const Arrival& arrival, Object& object, bool is_finite) {
     note_where_left(arrival);
     Task& task = *running;
-    if (!free_pass_.is_unseen()) return go_on(task, object);
+    if (!turn.is_unseen()) return go_on(task, object);
     const Wake wake = is_finite ? task.wake : Wake::woken;
-    count(task, wake == Wake::woken ? Operation::resume : Operation::timeout, &object);
+    count_event(task, wake == Wake::woken ? Operation::resume : Operation::timeout, &object, turn.at);
     return wake;
   }
   // In which run's objects the task that goes on passes unseen: nobody watches, and nothing is to be done first.
-  std::uint64_t unseen_in() const {
-    return watched_ || interrupted_ || ended_ != nullptr ? FreePass::no_epoch : epoch_;
-  }
+  std::uint64_t unseen_in() const { return watched_ || interrupted_ || ended_ != nullptr ? Turn::no_epoch : epoch_; }
   Departure block_in_any_case(Object& object, Time deadline);
   Departure start_sleeping(Time time);
   [[gnu::always_inline]] bool end_sleeping(const Arrival& arrival) {
     note_where_left(arrival);
     Task& task = *running;
-    if (!free_pass_.is_unseen()) return go_on_from_waitpoint(task);
-    count(task, Operation::sleep, nullptr);
+    if (!turn.is_unseen()) return go_on_from_waitpoint(task);
+    count_event(task, Operation::sleep, nullptr, turn.at);
     return true;
   }
   bool departs(Fiber& from, Fiber& to);
@@ -269,17 +258,10 @@ class Scheduler {
   bool act_for_timer(Task& task, Operation operation, Object* object);
   Task* wake_a_waiter(Object& object);
   Task* choose_waiter(Object& object);
-  // The task's event is executed: counted, and hashed.
+  // The task's event is executed, and shown to who watches.
   [[gnu::always_inline]] void execute(Task& task, Operation operation, const Object* object) {
-    count(task, operation, object);
+    count_event(task, operation, object, agenda_.now);
     if (__builtin_expect(watched_, 0)) show(operation, object);
-  }
-  [[gnu::always_inline]] void count(Task& task, Operation operation, const Object* object) {
-    ++executed_;
-    ++task.sequence;
-    std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
-    if (object != nullptr) what ^= object->identity;
-    lane_->add(static_cast<std::uint64_t>(agenda_.now.ns()), task.id + what);
   }
   void show(Operation operation, const Object* object);
   bool give_turn(Task& task);
@@ -338,7 +320,7 @@ class Scheduler {
   bool (*go_on_in_cycle_)(Task&) = nullptr;
   std::uint64_t epoch_;
   std::uint64_t searches_ = 0;
-  std::uint64_t executed_ = 0;
+  std::uint64_t outputs_ = 0;  // hashed among the events
   std::uint64_t switches_ = 0;
   std::uint32_t live_tasks_ = 0;
   std::uint32_t tasks_ = 0;
@@ -348,9 +330,8 @@ class Scheduler {
   Time turns_given_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  PairDigest* lane_ = nullptr;  // where the running task's events are hashed
-  PairDigest unheard_;          // of robots that ended
-  bool ordinary_ = false;       // tasks may take the short ways of scheduler_steps.hpp
+  PairDigest unheard_;     // of robots that ended
+  bool ordinary_ = false;  // tasks may take the short ways of scheduler_steps.hpp
   bool unwinding_ = false;
   bool interrupted_ =
       false;                 // tasks that get control are not to go on: they are unwound, or asked for their call stack

@@ -18,7 +18,7 @@ inline std::uint64_t child_id(std::uint64_t parent, std::uint32_t number) {
 }
 
 inline void Scheduler::hash_events_of(Robot& robot) {
-  if (lane_ != robot.lane) lane_ = robot.lane;
+  if (turn.lane != robot.lane) turn.lane = robot.lane;
 }
 
 // A new instant for the task: it may pass as many waitpoints again.
@@ -101,7 +101,7 @@ inline void Scheduler::make_ready(Task& task) {
 // Whether `task`, were it blocked, could be left for the first of the present instant without more ado. Who passes
 // unseen needs no attention, and nobody watches.
 inline bool Scheduler::can_hand_over(const Task& task) const {
-  if (!ordinary_ || !free_pass_.is_unseen() || agenda_.present.size() - 1 >= many_ready) return false;
+  if (!ordinary_ || !turn.is_unseen() || agenda_.present.size() - 1 >= many_ready) return false;
   const Task& next = *agenda_.present.first();
   return __builtin_expect(!agenda_.events.is_due(agenda_.now), 1) &&
          __builtin_expect(can_switch_in_parts(task.fiber, next.fiber), 1) && StackArena::intact(next.fiber.stack);

@@ -141,7 +141,7 @@ struct Task {
   char name[name_size] = {};
 };
 
-/// The task whose code is executing, or null outside any: the only global.
+/// The task whose code is executing, or null outside any. With its turn (turn.hpp) the only global.
 extern Task* running;
 
 }  // namespace waitpoint::kernel

@@ -55,7 +55,8 @@ inline bool Scheduler::take_place(Task& task, Operation operation, Object* objec
   return arrive(task);
 }
 
-bool Scheduler::waitpoint_in_any_case(Task& task, Operation operation, Object* object) {
+bool Scheduler::waitpoint_in_any_case(Operation operation, Object* object) {
+  Task& task = *running;
   if (!free_pass_.holds_for(task)) return waitpoint_in_the_list(task, operation, object);
   ++task.turns;
   task.operation = operation;
@@ -77,7 +78,7 @@ bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* o
   // Whoever comes back is running, and where it is stands in its record: it kept no registers for that.
   Task& next = *running;
   if (__builtin_expect(next.attention != 0 || watched_, 0)) return go_on_from_waitpoint(next);
-  count(next, next.operation, next.at);
+  count_event(next, next.operation, next.at, agenda_.now);
   return true;
 }
 
@@ -151,7 +152,7 @@ Departure Scheduler::start_sleeping(Time time) {
   agenda_.now = time;
   agenda_.events.advance(time);
   free_pass_.give(task, time, epoch_);
-  count(task, Operation::sleep, nullptr);
+  count_event(task, Operation::sleep, nullptr, time);
   return Departure::none(Wake::woken);
 }
 
@@ -230,7 +231,9 @@ void Scheduler::check_progress(Task& task) {
 }
 
 void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
-  if (!unwinding_) lane_->add(name, value);
+  if (unwinding_) return;
+  ++outputs_;
+  turn.lane->add(name, value);
 }
 
 Departure Scheduler::start_blocking(Object& object) {

@@ -38,7 +38,8 @@ inline bool before_releasing(kernel::Operation operation, kernel::Object& object
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
   return waitpoint_unseen(operation, object);
 #else
-  return running_task().scheduler->waitpoint(operation, &object);
+  if (kernel::pass_unseen(operation, object)) return true;
+  return running_task().scheduler->waitpoint_in_any_case(operation, &object);
 #endif
 }
 
@@ -55,7 +56,7 @@ inline kernel::Task* wake_one(kernel::Object& object) {
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
   return wake_one_unseen(object);
 #else
-  return kernel::running->scheduler->wake_one(object);
+  return object.first_waiter == nullptr ? nullptr : kernel::running->scheduler->wake_one(object);
 #endif
 }
 

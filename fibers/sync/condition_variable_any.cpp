@@ -5,8 +5,7 @@
 
 namespace waitpoint {
 
-void condition_variable_any::notify_one() {
-  if (!sync::before_releasing(kernel::Operation::notify_one, object_) || object_.users == 0) return;
+void condition_variable_any::notify_a_waiter() {
   std::uint32_t count = 0;
   for (const Waiter* waiter = first_; waiter != nullptr; waiter = waiter->next) ++count;
   if (count == 0) return;
@@ -17,7 +16,7 @@ void condition_variable_any::notify_one() {
 }
 
 void condition_variable_any::notify_all() {
-  if (!sync::before_releasing(kernel::Operation::notify_all, object_) || object_.users == 0) return;
+  if (!sync::before_releasing(kernel::Operation::notify_all, object_) || !has_users()) return;
   while (first_ != nullptr) notify(*first_);
 }
 
@@ -27,7 +26,6 @@ void condition_variable_any::notify(Waiter& waiter) {
   if (waiter.blocked) kernel::running->scheduler->wake(*waiter.task);
 }
 
-// `users` counts who is in the list or was woken from it. Where it is 0, as in a new run, the list is nobody's.
 bool condition_variable_any::enlist(Waiter& waiter) {
   if (!sync::before_blocking(kernel::Operation::wait, object_)) return false;
   waiter.task = kernel::running;

@@ -25,7 +25,9 @@ class condition_variable_any {
   condition_variable_any(const condition_variable_any&) = delete;
   condition_variable_any& operator=(const condition_variable_any&) = delete;
 
-  void notify_one();
+  void notify_one() {
+    if (sync::before_releasing(kernel::Operation::notify_one, object_) && has_users()) notify_a_waiter();
+  }
   void notify_all();
 
   template <class Lock>
@@ -136,11 +138,17 @@ class condition_variable_any {
     return ready();
   }
 
+  // `users` counts who is in the list or was woken from it. Where it is 0, as in a new run, the list is nobody's.
+  bool has_users() const {
+    const sync::Unseen unseen;
+    return object_.users != 0;
+  }
   bool enlist(Waiter& waiter);
   bool sleep(Waiter& waiter, Time deadline);
   void leave(Waiter& waiter);
   void strike_off(Waiter& waiter);
   void notify(Waiter& waiter);
+  void notify_a_waiter();
 
   sync::Object object_{"condition variable"};
   Waiter* first_ = nullptr;

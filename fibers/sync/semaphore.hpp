@@ -29,10 +29,8 @@ class SemaphoreCore {
 
   [[gnu::always_inline]] void release(std::ptrdiff_t units) {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
-    kernel::Task& task = running_task();
-    if (units == 1 && count_ < most_ &&
-        __builtin_expect(task.scheduler->waitpoint_at_once(task, kernel::Operation::release, object_), 1)) {
-      if (task.scheduler->wake_one(object_) == nullptr) ++count_;
+    if (units == 1 && count_ < most_ && kernel::pass_unseen(kernel::Operation::release, object_)) {
+      if (wake_one(object_) == nullptr) ++count_;
       return;
     }
 #endif
@@ -49,9 +47,7 @@ class SemaphoreCore {
 
   [[gnu::always_inline]] Outcome acquire_now(Time deadline) {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
-    kernel::Task& task = running_task();
-    if (__builtin_expect(task.scheduler->waitpoint_at_once(task, kernel::Operation::acquire, object_), 1))
-      return take_before(task, deadline);
+    if (kernel::pass_unseen(kernel::Operation::acquire, object_)) return take_before(*kernel::running, deadline);
 #endif
     return acquire_in_any_case(deadline);
   }

@@ -115,6 +115,19 @@ def scheduler():
     return found
 
 
+KEY_STEP_INVERSE = 0xF1DE83E19937733D  # of PairDigest: core/digest.hpp
+
+
+def events_of(run):
+    """How many events were executed in the run of this scheduler, as Scheduler::events()."""
+    hashed = run.number("unheard_.last_key_") * KEY_STEP_INVERSE
+    robot = run.follow("first_robot_", "Robot")
+    while robot:
+        hashed += robot.number("digest.last_key_") * KEY_STEP_INVERSE
+        robot = robot.follow("next", "Robot")
+    return (hashed - run.number("outputs_")) % 2**64
+
+
 def seconds(time_ns):
     """As reports show it."""
     if time_ns == NO_TIME:

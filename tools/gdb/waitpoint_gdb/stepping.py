@@ -80,7 +80,7 @@ class BreakTime(gdb.Command):
     @staticmethod
     def add(time):
         if watching.is_process() and (run := records.view().follow("scheduler", "Scheduler")):
-            if time <= (now := run.number("agenda_.now.ns_")) and run.number("executed_"):
+            if time <= (now := run.number("agenda_.now.ns_")) and records.events_of(run):
                 raise gdb.GdbError(f"it is {records.seconds(now)} s already; `back` goes back by events")
         watching.request.times = sorted({*watching.request.times, time})
 
