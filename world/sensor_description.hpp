@@ -35,6 +35,8 @@ struct LaserDescription {
   double incidence_max_rad = 0.5 * exact::pi;  ///< from the surface's normal; what is flatter sends no echo
 
   std::uint32_t line_bit_s = 0;  ///< of the serial line that a scan comes over; 0: it is there at once
+
+  friend bool operator==(const LaserDescription&, const LaserDescription&) = default;
 };
 
 /// A ring of sonars on a cylinder about the body's centre, the first straight ahead, counter-clockwise. Banks of

@@ -87,8 +87,8 @@ void BeamCaster::cast(const Fan& fan, double height_m, std::uint32_t own, double
   WAITPOINT_CHECK(fan.directions.size() == ranges_m.size(), "as many directions as ranges");
   if (const Slice* slice = slice_at(height_m)) {
     buffer_.begin(fan, range_max_m);
-    buffer_.lower(*slice);
     buffer_.lower(moving_, height_m, own);
+    buffer_.lower(*slice);
     std::copy(buffer_.ranges_m().begin(), buffer_.ranges_m().end(), ranges_m.begin());
     return;
   }

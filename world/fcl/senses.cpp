@@ -57,10 +57,11 @@ std::vector<Shape> shapes_of(std::span<const BodyDescription> bodies) {
   return shapes;
 }
 
-Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64_t seed)
+Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64_t seed, LaserKinds& kinds)
     : trail(longest_scan_s(body), step_s, body.start), infrared_noise(world::infrared_noise(seed, body.name)) {
   lasers.reserve(body.lasers.size());
-  for (std::size_t i = 0; i < body.lasers.size(); ++i) lasers.emplace_back(body.lasers[i], seed, body.name, i);
+  for (std::size_t i = 0; i < body.lasers.size(); ++i)
+    lasers.emplace_back(kinds.of(body.lasers[i]), seed, body.name, i);
   looks_back = !std::all_of(lasers.begin(), lasers.end(), [](const Laser& laser) { return laser.plain(); });
   for (std::size_t i = 0; i < body.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, body.name, i));
   if (body.imu) imu = std::make_unique<Imu>(*body.imu, seed, body.name);
@@ -80,8 +81,9 @@ Senses::Senses(const WorldDescription& description, std::span<const Shape> stand
 
 void Senses::restart(std::uint64_t seed) {
   devices_.clear();
+  LaserKinds kinds;
   for (const BodyDescription& body : description_.bodies)
-    devices_.emplace_back(body, description_.step.seconds(), seed);
+    devices_.emplace_back(body, description_.step.seconds(), seed, kinds);
   expected_.restart(devices_.size());
 }
 
@@ -96,8 +98,8 @@ void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t ste
 
 void Senses::add_scan_to(WorkingSet& set, std::uint32_t body) const {
   const Devices& devices = devices_.at(body);
-  set.add(devices);
-  for (const Laser& laser : devices.lasers) laser.add_to(set);
+  set.add_between(&devices, &devices.trail);
+  set.add(devices.lasers.data(), devices.lasers.size() * sizeof(Laser));
 }
 
 const ImuSample& Senses::imu(std::uint32_t own) const {
@@ -157,7 +159,7 @@ void Senses::scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, 
 void Senses::make_scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser_number, std::uint64_t scan_number,
                        double time_s, LaserScan& out) const {
   const Laser& laser = devices_[own].lasers.at(laser_number);
-  const LaserDescription& device = vehicle.description().lasers[laser_number];
+  const LaserDescription& device = laser.description();
   out.first_angle_rad = laser.first_angle_rad();
   out.angle_step_rad = laser.angle_step_rad();
   out.range_max_m = device.range_max_m;

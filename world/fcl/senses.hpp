@@ -87,14 +87,14 @@ class Senses {
   /// A body's, that remember something.
   struct Devices {
     std::vector<Laser> lasers;
-    bool looks_back;  // a laser measures while it moves
-    ArcTrail trail;   // then as far back as a scan reaches
-    std::vector<RandomStream> sonar_noise;
-    RandomStream infrared_noise;
+    bool looks_back;                        // a laser measures while it moves
     std::unique_ptr<Imu> imu;               // null for a body without one
     std::unique_ptr<PositionReceiver> gps;  // likewise
+    ArcTrail trail;                         // as far back as a scan reaches, where one looks back
+    std::vector<RandomStream> sonar_noise;
+    RandomStream infrared_noise;
 
-    Devices(const BodyDescription& body, double step_s, std::uint64_t seed);
+    Devices(const BodyDescription& body, double step_s, std::uint64_t seed, LaserKinds& kinds);
   };
 
   const WorldDescription& description_;

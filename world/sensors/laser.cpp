@@ -63,38 +63,40 @@ double range_noise_m(const LaserDescription& laser, double range_m) {
   return laser.range_noise_m * (1 + (laser.noise_growth - 1) * std::clamp(growth, 0.0, 1.0));
 }
 
-Laser::Laser(const LaserDescription& description, std::uint64_t seed, std::string_view robot, std::size_t number)
-    : description_(&description),
-      plain_(is_plain(description)),
-      range_noise_(stream(seed, robot, number, "range")),
-      angle_noise_(stream(seed, robot, number, "angle")),
-      mixed_(stream(seed, robot, number, "mixed")),
-      dropout_(stream(seed, robot, number, "dropout")) {
-  for (std::uint32_t i = 0; i < description.beams; ++i) {
-    const auto [s, c] = exact::sincos(first_angle_rad() + i * angle_step_rad());
-    directions_.push_back({c, s});
+LaserKind::LaserKind(const LaserDescription& of)
+    : description(of),
+      plain(is_plain(of)),
+      first_angle_rad(-0.5 * of.field_of_view_rad),
+      angle_step_rad(of.beams > 1 ? of.field_of_view_rad / (of.beams - 1) : 0) {
+  for (std::uint32_t i = 0; i < of.beams; ++i) {
+    const auto [s, c] = exact::sincos(first_angle_rad + i * angle_step_rad);
+    directions.push_back({c, s});
   }
 }
 
-double Laser::angle_step_rad() const {
-  return description_->beams > 1 ? description_->field_of_view_rad / (description_->beams - 1) : 0;
+std::shared_ptr<const LaserKind> LaserKinds::of(const LaserDescription& description) {
+  constexpr std::size_t remembered = 8;
+  for (const auto& kind : latest_)
+    if (kind->description == description) return kind;
+  if (latest_.size() == remembered) latest_.pop_front();
+  return latest_.emplace_back(std::make_shared<LaserKind>(description));
 }
 
-void Laser::add_to(WorkingSet& set) const {
-  constexpr std::size_t beams_known = 32;
-  set.add(*this);
-  set.add(*description_);
-  set.add(directions_.data(), std::min(directions_.size(), beams_known) * sizeof(Point));
-}
+Laser::Laser(std::shared_ptr<const LaserKind> kind, std::uint64_t seed, std::string_view robot, std::size_t number)
+    : kind_(std::move(kind)),
+      range_noise_(stream(seed, robot, number, "range")),
+      angle_noise_(stream(seed, robot, number, "angle")),
+      mixed_(stream(seed, robot, number, "mixed")),
+      dropout_(stream(seed, robot, number, "dropout")) {}
 
 void Laser::look(std::uint64_t scan_number, const ArcTrail& body, const RayCaster& caster,
                  std::span<double> ranges_m) const {
-  WAITPOINT_CHECK(ranges_m.size() == directions_.size(), "as many ranges as beams");
-  const LaserDescription& d = *description_;
+  WAITPOINT_CHECK(ranges_m.size() == directions().size(), "as many ranges as beams");
+  const LaserDescription& d = description();
   const double span_s = scan_span_s(d);
   for (std::uint32_t i = 0; i < d.beams; ++i) {
     const Pose device = compose(body.at(span_s - beam_time_s(d, i)), d.mount);
-    Point direction = turned(directions_[i], device.heading);
+    Point direction = turned(directions()[i], device.heading);
     if (d.angle_noise_rad > 0) {
       const std::array<double, 2> normals = angle_noise_.normal_pair(scan_number, i / 2);
       direction = turned(direction, d.angle_noise_rad * normals[i % 2]);
@@ -104,7 +106,7 @@ void Laser::look(std::uint64_t scan_number, const ArcTrail& body, const RayCaste
 }
 
 double Laser::seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& middle, const RayCaster& caster) const {
-  const LaserDescription& d = *description_;
+  const LaserDescription& d = description();
   const double middle_m = caster.distance_m(middle);
   const bool wide = d.spot_m > 0 || d.spot_divergence_rad > 0;
   if (!wide && d.incidence_max_rad >= 0.5 * exact::pi) return middle_m;
@@ -127,7 +129,7 @@ double Laser::seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& mid
 }
 
 void Laser::measure(std::uint64_t scan_number, double on_s, std::span<double> ranges_m) const {
-  const LaserDescription& d = *description_;
+  const LaserDescription& d = description();
   const bool warms_up = d.warm_up_bias_m != 0;
   const double bias_m = d.range_bias_m + (warms_up ? d.warm_up_bias_m * exact::exp(-on_s / d.warm_up_s) : 0);
   const bool noisy = d.range_noise_m > 0;

@@ -15,12 +15,13 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "core/random.hpp"
-#include "core/working_set.hpp"
 #include "world/description.hpp"
 #include "world/sensors/arc_trail.hpp"
 #include "world/sensors/ray_caster.hpp"
@@ -30,22 +31,44 @@ namespace waitpoint::world {
 /// The standard deviation of a range.
 double range_noise_m(const LaserDescription& laser, double range_m);
 
+/// What all lasers of one description have in common: of a crowd's it is read from memory once, and not for each alone.
+struct LaserKind {
+  explicit LaserKind(const LaserDescription& of);
+
+  LaserDescription description;
+  bool plain;                              ///< the beams are lines at equal angles from one point, at one instant
+  double first_angle_rad, angle_step_rad;  ///< between neighbouring beams; 0 for a single one
+  std::vector<Point> directions;           ///< of the beams in the device's frame, counter-clockwise; unit vectors
+};
+
+/// The kinds of some lasers.
+class LaserKinds {
+ public:
+  /// A kind that was asked for lately, or a new one.
+  std::shared_ptr<const LaserKind> of(const LaserDescription& description);
+
+ private:
+  std::deque<std::shared_ptr<const LaserKind>> latest_;
+};
+
 class Laser {
  public:
   /// Draws from the streams (seed, robot, "laser <number>.range", and likewise ".angle", ".mixed", ".dropout"), at
   /// tick = number of the scan, index = beam.
-  Laser(const LaserDescription& description, std::uint64_t seed, std::string_view robot, std::size_t number);
+  Laser(std::shared_ptr<const LaserKind> kind, std::uint64_t seed, std::string_view robot, std::size_t number);
+  /// The only one of its kind.
+  Laser(const LaserDescription& description, std::uint64_t seed, std::string_view robot, std::size_t number)
+      : Laser(std::make_shared<LaserKind>(description), seed, robot, number) {}
 
-  double first_angle_rad() const { return -0.5 * description_->field_of_view_rad; }
+  const LaserDescription& description() const { return kind_->description; }
+  double first_angle_rad() const { return kind_->first_angle_rad; }
   /// Between neighbouring beams; 0 for a single one.
-  double angle_step_rad() const;
+  double angle_step_rad() const { return kind_->angle_step_rad; }
   /// The unit vectors of the beams in the device's frame, counter-clockwise.
-  std::span<const Point> directions() const { return directions_; }
+  std::span<const Point> directions() const { return kind_->directions; }
 
   /// Whether the beams are lines at equal angles from one point, so that a fan cast from there is what look() finds.
-  bool plain() const { return plain_; }
-  /// Adds what a scan touches of it, of many beams only the first.
-  void add_to(WorkingSet& set) const;
+  bool plain() const { return kind_->plain; }
   /// Finds what each beam sees of a scan that has just ended, from where the body has been: range_max_m without echo.
   /// As many ranges as beams.
   void look(std::uint64_t scan_number, const ArcTrail& body, const RayCaster& caster, std::span<double> ranges_m) const;
@@ -58,10 +81,8 @@ class Laser {
  private:
   double seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& middle, const RayCaster& caster) const;
 
-  const LaserDescription* description_;
-  bool plain_;
+  std::shared_ptr<const LaserKind> kind_;
   RandomStream range_noise_, angle_noise_, mixed_, dropout_;
-  std::vector<Point> directions_;
 };
 
 }  // namespace waitpoint::world

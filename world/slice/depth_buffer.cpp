@@ -200,68 +200,54 @@ void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Find f
   }
 }
 
-// There are no solids beyond, and what is nowhere is farther.
-double DepthBuffer::finite_reach_m() const { return std::min(range_max_m_, 1e20); }
-
-// Around all of every beam.
-FloatBounds DepthBuffer::bounds_of_beams(Point middle, double margin_m) const {
-  double low_x = 0, low_y = 0, high_x = 0, high_y = 0;
-  for (std::size_t i = 0; i < beams_; ++i) {
-    low_x = std::min(low_x, x_[i]), high_x = std::max(high_x, x_[i]);
-    low_y = std::min(low_y, y_[i]), high_y = std::max(high_y, y_[i]);
-  }
-  const Point o = origin_ - middle;
-  const double reach_m = finite_reach_m();
-  return {static_cast<float>(o.x + low_x * reach_m - margin_m), static_cast<float>(o.y + low_y * reach_m - margin_m),
-          static_cast<float>(o.x + high_x * reach_m + margin_m), static_cast<float>(o.y + high_y * reach_m + margin_m)};
-}
-
-// The nodes that have solids within the bounds of all beams; false if those are too many.
-bool DepthBuffer::find_near(std::span<const TreeNode> nodes, Point middle, double extent_m) {
-  const Point o = origin_ - middle;
-  const double margin_m = 2 * float_margin_m(extent_m + std::max(std::fabs(o.x), std::fabs(o.y)) + finite_reach_m());
-  const FloatBounds wanted = bounds_of_beams(middle, margin_m);
-  near_.clear();
-  pending_.clear();
-  pending_.push_back({0, 0, 0, 0});
-  while (!pending_.empty()) {
-    const TreeNode& node = nodes[static_cast<std::size_t>(pending_.back().child)];
-    pending_.pop_back();
-    unsigned leaves = 0;
-    for (unsigned met = kernels_->overlap(node.bounds, wanted); met != 0; met &= met - 1) {
-      const std::int32_t child = node.child[static_cast<std::size_t>(std::countr_zero(met))];
-      if (child < 0)
-        leaves |= met & -met;
-      else
-        pending_.push_back({0, child, 0, 0});
-    }
-    if (leaves == 0) continue;
-    if (near_.size() == near_nodes_max) return false;
-    near_.push_back({&node, leaves});
-  }
-  return true;
-}
-
-// Asks about what is near, in whatever order.
+// Walks with those of a few beams that meet a node, near to far, and asks about each solid the beams that meet its
+// rectangle.
 template <class Find>
-void DepthBuffer::ask_near(const View& from, Find find) {
+void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Find find) {
   FewBeams few;
   few.low_x = from.low_x, few.low_y = from.low_y, few.high_x = from.high_x, few.high_y = from.high_y;
-  few.count = static_cast<std::int32_t>(beams_);
   for (std::size_t i = 0; i < beams_; ++i) {
     few.x[i] = static_cast<float>(x_[i]);
     few.y[i] = static_cast<float>(y_[i]);
     few.reach_m[i] = rounded_up(ranges_m_[i]);
   }
   std::array<std::uint8_t, FewBeams::most> met;
-  for (const NearNode& near : near_) {
-    kernels_->meet(near.node->bounds, few, met.data());
-    for (std::size_t beam = 0; beam < beams_; ++beam) {
-      for (unsigned rest = met[beam] & near.leaves; rest != 0; rest &= rest - 1) {
-        const Candidate candidate = find(~near.node->child[static_cast<std::size_t>(std::countr_zero(rest))]);
+  std::array<unsigned, EightBounds::width> met_by;
+  alignas(32) std::array<float, EightBounds::width> near_m;
+  pending_few_.clear();
+  pending_few_.push_back({0, 0, (1u << beams_) - 1});
+  while (!pending_few_.empty()) {
+    const PendingFew next = pending_few_.back();
+    pending_few_.pop_back();
+    unsigned beams = 0;
+    for (unsigned rest = next.beams; rest != 0; rest &= rest - 1)
+      if (next.near_m <= few.reach_m[std::countr_zero(rest)]) beams |= rest & -rest;
+    if (beams == 0) continue;
+    const TreeNode& node = nodes[static_cast<std::size_t>(next.child)];
+    const unsigned leaves = kernels_->meet(node.bounds, few, beams, node.child.data(), met.data(), near_m.data());
+    unsigned inner = 0;
+    met_by.fill(0);
+    for (unsigned rest = beams; rest != 0; rest &= rest - 1) {
+      const auto beam = static_cast<std::size_t>(std::countr_zero(rest));
+      for (unsigned those = met[beam] & leaves; those != 0; those &= those - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(those));
+        if (near_m[i] > few.reach_m[beam]) continue;
+        const Candidate candidate = find(~node.child[i]);
         if (candidate.outline != nullptr && ask_beam(beam, *candidate.outline, candidate.solid))
           few.reach_m[beam] = rounded_up(ranges_m_[beam]);
       }
+      inner |= met[beam] & ~leaves;
+      for (unsigned those = met[beam] & ~leaves; those != 0; those &= those - 1)
+        met_by[static_cast<std::size_t>(std::countr_zero(those))] |= rest & -rest;
+    }
+    const std::size_t before = pending_few_.size();
+    for (; inner != 0; inner &= inner - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(inner));
+      const PendingFew child = {near_m[i], node.child[i], met_by[i]};
+      std::size_t at = pending_few_.size();
+      pending_few_.push_back(child);
+      for (; at > before && pending_few_[at - 1].near_m < child.near_m; --at) pending_few_[at] = pending_few_[at - 1];
+      pending_few_[at] = child;
     }
   }
   for (std::size_t beam = 0; beam < beams_; beam += Beams::block)
@@ -274,7 +260,7 @@ template <class Find, class Place>
 void DepthBuffer::lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find, Place place) {
   if (nodes.empty() || beams_ == 0) return;
   const View from = view(middle, extent_m);
-  if (beams_ <= FewBeams::most && find_near(nodes, middle, extent_m)) return ask_near(from, find);
+  if (beams_ <= FewBeams::most) return walk_few(nodes, from, find);
   walk(nodes, from, find, place);
 }
 

@@ -7,7 +7,7 @@
 //                beam
 //   lower(moving) the same for the tree of those that move
 //
-// A few beams that do not reach far have little to hide: what overlaps their bounds is asked about as it comes.
+// A few beams have little to hide, and no order by their angles: what is in reach is asked about, near to far.
 //
 // Floats cull, with margins; hits are those of hit_distance(), so the ranges are those of asking every solid, to the
 // last bit, in whatever order. A buffer is used again and again: only a scan of more beams than any before allocates.
@@ -63,11 +63,11 @@ class DepthBuffer {
     return what.first <= what.last && what.last - what.first < narrow_beams;
   }
 
-  /// Of few beams the bounds are looked at first; where so many nodes have solids within those, the beams reach far.
-  static constexpr std::size_t near_nodes_max = 32;
-  struct NearNode {
-    const TreeNode* node;
-    unsigned leaves;  ///< a bit for each that overlaps
+  /// A node, and which of a few beams may meet it.
+  struct PendingFew {
+    float near_m;
+    std::int32_t child;
+    unsigned beams;
   };
 
   /// A solid that the beams may meet; none for one that does not count.
@@ -82,15 +82,12 @@ class DepthBuffer {
   }
 
   View view(Point middle, double extent_m) const;
-  double finite_reach_m() const;
-  FloatBounds bounds_of_beams(Point middle, double margin_m) const;
-  bool find_near(std::span<const TreeNode> nodes, Point middle, double extent_m);
   bool hidden(const Pending& what) const;
   bool hidden(float near_m2, std::int32_t first, std::int32_t last) const;
   template <class Find, class Place>
   void lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find, Place place);
   template <class Find>
-  void ask_near(const View& from, Find find);
+  void walk_few(std::span<const TreeNode> nodes, const View& from, Find find);
   template <class Find, class Place>
   void walk(std::span<const TreeNode> nodes, const View& from, Find find, Place place);
   template <class Find, class Place>
@@ -113,7 +110,7 @@ class DepthBuffer {
   std::vector<std::uint32_t> solids_;
   std::vector<float> farthest_m2_;  // of each block
   std::vector<Pending> pending_;
-  std::vector<NearNode> near_;
+  std::vector<PendingFew> pending_few_;
 };
 
 }  // namespace waitpoint::world

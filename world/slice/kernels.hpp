@@ -55,9 +55,8 @@ struct alignas(32) Sight {
 struct FewBeams {
   static constexpr int most = 16;
   float low_x, low_y, high_x, high_y;  ///< the origin, as a view's
-  std::int32_t count;
-  float x[most], y[most];  ///< directions
-  float reach_m[most];     ///< rounded up
+  float x[most], y[most];              ///< directions
+  float reach_m[most];                 ///< rounded up
 };
 
 /// A solid, and which blocks of beams are to be asked about it.
@@ -88,8 +87,10 @@ struct Kernels {
   bool (*all_end_nearer)(const double* range_m, std::int32_t first, std::int32_t last, double than_m);
   /// A bit for each rectangle that overlaps `wanted`.
   unsigned (*overlap)(const EightBounds& bounds, const FloatBounds& wanted);
-  /// For each beam a bit for each rectangle that it meets within its reach.
-  void (*meet)(const EightBounds& bounds, const FewBeams& beams, std::uint8_t* met);
+  /// For each of these beams a bit for each rectangle that it meets within its reach; how near each rectangle is, at
+  /// least; gives a bit for each child that is a solid's number.
+  unsigned (*meet)(const EightBounds& bounds, const FewBeams& few, unsigned beams, const std::int32_t* child,
+                   std::uint8_t* met, float* near_m);
   /// Lowers the ranges of beams that meet the box (the disc) nearer; the origin lies outside of it. Of equally near
   /// solids the one of the lesser number is hit.
   void (*ask_box)(const Question& question, const Beams& beams);

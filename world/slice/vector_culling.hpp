@@ -143,26 +143,33 @@ struct VectorCulling {
 
   // A beam meets a rectangle where neither the line across it nor that along it tells them apart. What is rounded, the
   // directions too, is far less than what the rectangles are made larger by.
-  static void meet(const EightBounds& bounds, const FewBeams& beams, std::uint8_t* met) {
-    for (std::int32_t i = 0; i < beams.count; ++i) met[i] = 0;
+  static unsigned meet(const EightBounds& bounds, const FewBeams& few, unsigned beams, const std::int32_t* child,
+                       std::uint8_t* met, float* near_m) {
+    unsigned leaves = 0;
     for (int at = 0; at < EightBounds::width; at += V::float_lanes) {
-      const Floats low_x = V::template load<Floats>(bounds.low_x + at) - beams.high_x;
-      const Floats low_y = V::template load<Floats>(bounds.low_y + at) - beams.high_y;
-      const Floats high_x = V::template load<Floats>(bounds.high_x + at) - beams.low_x;
-      const Floats high_y = V::template load<Floats>(bounds.high_y + at) - beams.low_y;
+      const Floats low_x = V::template load<Floats>(bounds.low_x + at) - few.high_x;
+      const Floats low_y = V::template load<Floats>(bounds.low_y + at) - few.high_y;
+      const Floats high_x = V::template load<Floats>(bounds.high_x + at) - few.low_x;
+      const Floats high_y = V::template load<Floats>(bounds.high_y + at) - few.low_y;
       const Floats c_x = 0.5f * (low_x + high_x), c_y = 0.5f * (low_y + high_y);
       const Floats larger = (V::absolute(c_x) + V::absolute(c_y)) * 2e-6f;
       const Floats half_x = 0.5f * (high_x - low_x) + larger, half_y = 0.5f * (high_y - low_y) + larger;
-      for (std::int32_t i = 0; i < beams.count; ++i) {
-        const Floats x = V::all(beams.x[i]), y = V::all(beams.y[i]);
+      // The greater of the distances by x and by y.
+      V::store(near_m + at, V::greatest(V::absolute(c_x) - half_x, V::absolute(c_y) - half_y));
+      leaves |= V::bits((Ints)(V::template load<Ints>(child + at) < 0)) << at;
+      for (unsigned rest = beams; rest != 0; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        const Floats x = V::all(few.x[i]), y = V::all(few.y[i]);
         const Floats along_x = V::absolute(x), along_y = V::absolute(y);
         const Floats beside = V::absolute(x * c_y - y * c_x), ahead = x * c_x + y * c_y;
         const Floats half_along = half_x * along_x + half_y * along_y;
         const Ints meets = (beside <= half_x * along_y + half_y * along_x) & (ahead + half_along >= 0) &
-                           (ahead - half_along <= beams.reach_m[i]);
+                           (ahead - half_along <= few.reach_m[i]);
+        if (at == 0) met[i] = 0;
         met[i] |= static_cast<std::uint8_t>(V::bits(meets) << at);
       }
     }
+    return leaves;
   }
 
   static bool all_nearer(const float* farthest_m2, std::int32_t first, std::int32_t last, float than_m2) {
