@@ -211,9 +211,7 @@ void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Fi
     few.y[i] = static_cast<float>(y_[i]);
     few.reach_m[i] = rounded_up(ranges_m_[i]);
   }
-  std::array<std::uint8_t, FewBeams::most> met;
-  std::array<unsigned, EightBounds::width> met_by;
-  alignas(32) std::array<float, EightBounds::width> near_m;
+  MetByFew met;
   pending_few_.clear();
   pending_few_.push_back({0, 0, (1u << beams_) - 1});
   while (!pending_few_.empty()) {
@@ -224,30 +222,22 @@ void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Fi
       if (next.near_m <= few.reach_m[std::countr_zero(rest)]) beams |= rest & -rest;
     if (beams == 0) continue;
     const TreeNode& node = nodes[static_cast<std::size_t>(next.child)];
-    const unsigned leaves = kernels_->meet(node.bounds, few, beams, node.child.data(), met.data(), near_m.data());
-    unsigned inner = 0;
-    met_by.fill(0);
-    for (unsigned rest = beams; rest != 0; rest &= rest - 1) {
-      const auto beam = static_cast<std::size_t>(std::countr_zero(rest));
-      for (unsigned those = met[beam] & leaves; those != 0; those &= those - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(those));
-        if (near_m[i] > few.reach_m[beam]) continue;
-        const Candidate candidate = find(~node.child[i]);
-        if (candidate.outline != nullptr && ask_beam(beam, *candidate.outline, candidate.solid))
-          few.reach_m[beam] = rounded_up(ranges_m_[beam]);
-      }
-      inner |= met[beam] & ~leaves;
-      for (unsigned those = met[beam] & ~leaves; those != 0; those &= those - 1)
-        met_by[static_cast<std::size_t>(std::countr_zero(those))] |= rest & -rest;
-    }
     const std::size_t before = pending_few_.size();
-    for (; inner != 0; inner &= inner - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(inner));
-      const PendingFew child = {near_m[i], node.child[i], met_by[i]};
-      std::size_t at = pending_few_.size();
-      pending_few_.push_back(child);
-      for (; at > before && pending_few_[at - 1].near_m < child.near_m; --at) pending_few_[at] = pending_few_[at - 1];
-      pending_few_[at] = child;
+    for (unsigned rest = kernels_->meet(node.bounds, few, beams, met); rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+      const PendingFew child = {met.near_m[i], node.child[i], met.beams[i]};
+      if (child.child >= 0) {
+        std::size_t at = pending_few_.size();
+        pending_few_.push_back(child);
+        for (; at > before && pending_few_[at - 1].near_m < child.near_m; --at) pending_few_[at] = pending_few_[at - 1];
+        pending_few_[at] = child;
+      } else if (const Candidate candidate = find(~child.child); candidate.outline != nullptr) {
+        for (unsigned those = child.beams; those != 0; those &= those - 1) {
+          const auto beam = static_cast<std::size_t>(std::countr_zero(those));
+          if (child.near_m <= few.reach_m[beam] && ask_beam(beam, *candidate.outline, candidate.solid))
+            few.reach_m[beam] = rounded_up(ranges_m_[beam]);
+        }
+      }
     }
   }
   for (std::size_t beam = 0; beam < beams_; beam += Beams::block)

@@ -67,7 +67,7 @@ class DepthBuffer {
   struct PendingFew {
     float near_m;
     std::int32_t child;
-    unsigned beams;
+    std::uint32_t beams;
   };
 
   /// A solid that the beams may meet; none for one that does not count.

@@ -59,6 +59,12 @@ struct FewBeams {
   float reach_m[most];                 ///< rounded up
 };
 
+/// Which of them meet each of eight rectangles, a bit for each, and how near each rectangle is, at least.
+struct alignas(32) MetByFew {
+  std::uint32_t beams[EightBounds::width];
+  float near_m[EightBounds::width];
+};
+
 /// A solid, and which blocks of beams are to be asked about it.
 struct Question {
   const Outline& outline;
@@ -87,10 +93,8 @@ struct Kernels {
   bool (*all_end_nearer)(const double* range_m, std::int32_t first, std::int32_t last, double than_m);
   /// A bit for each rectangle that overlaps `wanted`.
   unsigned (*overlap)(const EightBounds& bounds, const FloatBounds& wanted);
-  /// For each of these beams a bit for each rectangle that it meets within its reach; how near each rectangle is, at
-  /// least; gives a bit for each child that is a solid's number.
-  unsigned (*meet)(const EightBounds& bounds, const FewBeams& few, unsigned beams, const std::int32_t* child,
-                   std::uint8_t* met, float* near_m);
+  /// Which of these beams, a bit for each, meet each rectangle within their reach; gives a bit for each that any meets.
+  unsigned (*meet)(const EightBounds& bounds, const FewBeams& few, std::uint32_t beams, MetByFew& met);
   /// Lowers the ranges of beams that meet the box (the disc) nearer; the origin lies outside of it. Of equally near
   /// solids the one of the lesser number is hit.
   void (*ask_box)(const Question& question, const Beams& beams);

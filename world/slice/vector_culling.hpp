@@ -143,9 +143,8 @@ struct VectorCulling {
 
   // A beam meets a rectangle where neither the line across it nor that along it tells them apart. What is rounded, the
   // directions too, is far less than what the rectangles are made larger by.
-  static unsigned meet(const EightBounds& bounds, const FewBeams& few, unsigned beams, const std::int32_t* child,
-                       std::uint8_t* met, float* near_m) {
-    unsigned leaves = 0;
+  static unsigned meet(const EightBounds& bounds, const FewBeams& few, std::uint32_t beams, MetByFew& met) {
+    unsigned any = 0;
     for (int at = 0; at < EightBounds::width; at += V::float_lanes) {
       const Floats low_x = V::template load<Floats>(bounds.low_x + at) - few.high_x;
       const Floats low_y = V::template load<Floats>(bounds.low_y + at) - few.high_y;
@@ -154,10 +153,8 @@ struct VectorCulling {
       const Floats c_x = 0.5f * (low_x + high_x), c_y = 0.5f * (low_y + high_y);
       const Floats larger = (V::absolute(c_x) + V::absolute(c_y)) * 2e-6f;
       const Floats half_x = 0.5f * (high_x - low_x) + larger, half_y = 0.5f * (high_y - low_y) + larger;
-      // The greater of the distances by x and by y.
-      V::store(near_m + at, V::greatest(V::absolute(c_x) - half_x, V::absolute(c_y) - half_y));
-      leaves |= V::bits((Ints)(V::template load<Ints>(child + at) < 0)) << at;
-      for (unsigned rest = beams; rest != 0; rest &= rest - 1) {
+      Ints met_by{};
+      for (std::uint32_t rest = beams; rest != 0; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
         const Floats x = V::all(few.x[i]), y = V::all(few.y[i]);
         const Floats along_x = V::absolute(x), along_y = V::absolute(y);
@@ -165,11 +162,14 @@ struct VectorCulling {
         const Floats half_along = half_x * along_x + half_y * along_y;
         const Ints meets = (beside <= half_x * along_y + half_y * along_x) & (ahead + half_along >= 0) &
                            (ahead - half_along <= few.reach_m[i]);
-        if (at == 0) met[i] = 0;
-        met[i] |= static_cast<std::uint8_t>(V::bits(meets) << at);
+        met_by |= meets & (Ints{} + static_cast<std::int32_t>(1u << i));
       }
+      V::store(reinterpret_cast<std::int32_t*>(met.beams + at), met_by);
+      // The greater of the distances by x and by y.
+      V::store(met.near_m + at, V::greatest(V::absolute(c_x) - half_x, V::absolute(c_y) - half_y));
+      any |= V::bits((Ints)(met_by != 0)) << at;
     }
-    return leaves;
+    return any;
   }
 
   static bool all_nearer(const float* farthest_m2, std::int32_t first, std::int32_t last, float than_m2) {
