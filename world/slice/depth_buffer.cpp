@@ -204,7 +204,7 @@ void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Find f
 // rectangle.
 template <class Find>
 void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Find find) {
-  FewBeams few;
+  FewBeams few = {};
   few.low_x = from.low_x, few.low_y = from.low_y, few.high_x = from.high_x, few.high_y = from.high_y;
   for (std::size_t i = 0; i < beams_; ++i) {
     few.x[i] = static_cast<float>(x_[i]);
@@ -217,13 +217,9 @@ void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Fi
   while (!pending_few_.empty()) {
     const PendingFew next = pending_few_.back();
     pending_few_.pop_back();
-    unsigned beams = 0;
-    for (unsigned rest = next.beams; rest != 0; rest &= rest - 1)
-      if (next.near_m <= few.reach_m[std::countr_zero(rest)]) beams |= rest & -rest;
-    if (beams == 0) continue;
     const TreeNode& node = nodes[static_cast<std::size_t>(next.child)];
     const std::size_t before = pending_few_.size();
-    for (unsigned rest = kernels_->meet(node.bounds, few, beams, met); rest != 0; rest &= rest - 1) {
+    for (unsigned rest = kernels_->meet(node.bounds, next.near_m, few, next.beams, met); rest != 0; rest &= rest - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(rest));
       const PendingFew child = {met.near_m[i], node.child[i], met.beams[i]};
       if (child.child >= 0) {

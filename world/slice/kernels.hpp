@@ -94,7 +94,8 @@ struct Kernels {
   /// A bit for each rectangle that overlaps `wanted`.
   unsigned (*overlap)(const EightBounds& bounds, const FloatBounds& wanted);
   /// Which of these beams, a bit for each, meet each rectangle within their reach; gives a bit for each that any meets.
-  unsigned (*meet)(const EightBounds& bounds, const FewBeams& few, std::uint32_t beams, MetByFew& met);
+  /// None is nearer than `near_m`, and beams that do not reach so far meet none.
+  unsigned (*meet)(const EightBounds& bounds, float near_m, const FewBeams& few, std::uint32_t beams, MetByFew& met);
   /// Lowers the ranges of beams that meet the box (the disc) nearer; the origin lies outside of it. Of equally near
   /// solids the one of the lesser number is hit.
   void (*ask_box)(const Question& question, const Beams& beams);

@@ -141,9 +141,20 @@ struct VectorCulling {
     return met;
   }
 
+  static std::uint32_t reaching(const FewBeams& few, float near_m) {
+    std::uint32_t reaching = 0;
+    for (int at = 0; at < FewBeams::most; at += V::float_lanes)
+      reaching |= static_cast<std::uint32_t>(V::bits((Ints)(V::template load<Floats>(few.reach_m + at) >= near_m)))
+                  << at;
+    return reaching;
+  }
+
   // A beam meets a rectangle where neither the line across it nor that along it tells them apart. What is rounded, the
   // directions too, is far less than what the rectangles are made larger by.
-  static unsigned meet(const EightBounds& bounds, const FewBeams& few, std::uint32_t beams, MetByFew& met) {
+  static unsigned meet(const EightBounds& bounds, float near_m, const FewBeams& few, std::uint32_t beams,
+                       MetByFew& met) {
+    beams &= reaching(few, near_m);
+    if (beams == 0) return 0;
     unsigned any = 0;
     for (int at = 0; at < EightBounds::width; at += V::float_lanes) {
       const Floats low_x = V::template load<Floats>(bounds.low_x + at) - few.high_x;
