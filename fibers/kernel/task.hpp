@@ -50,20 +50,21 @@ struct Object {
   Object(const Object&) = delete;
   Object& operator=(const Object&) = delete;
 
-  const char* kind;
-  const char* label;
-  std::uint64_t epoch = 0;     ///< of the run that the rest belongs to
-  std::uint32_t number = 0;    ///< at first use in a run, counted per robot
-  std::uint64_t identity = 0;  ///< of robot and number: what the digest takes in
-  Robot* robot = nullptr;      ///< whose count that is
-  Task* owner = nullptr;       ///< who holds it, where one can hold it
-
-  Object* next_held = nullptr;     ///< of what its owner holds, what it took before
-  Task* const* holders = nullptr;  ///< who holds it, where several can
-  std::uint32_t holder_count = 0;
-  std::uint32_t users = 0;  ///< tasks within a call that blocks on it: those that wait, and those on their way out
+  // What every use touches comes first: of an object that begins with a cache line it is one.
+  std::uint64_t epoch = 0;      ///< of the run that the rest belongs to
+  std::uint64_t identity = 0;   ///< of robot and number: what the digest takes in
+  Task* owner = nullptr;        ///< who holds it, where one can hold it
+  Object* next_held = nullptr;  ///< of what its owner holds, what it took before
   Task* first_waiter = nullptr;
   Task* last_waiter = nullptr;
+  std::uint32_t users = 0;   ///< tasks within a call that blocks on it: those that wait, and those on their way out
+  std::uint32_t number = 0;  ///< at first use in a run, counted per robot
+
+  const char* kind;
+  const char* label;
+  Robot* robot = nullptr;          ///< whose count that is
+  Task* const* holders = nullptr;  ///< who holds it, where several can
+  std::uint32_t holder_count = 0;
 };
 
 enum class TaskState : std::uint8_t {

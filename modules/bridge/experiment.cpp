@@ -128,7 +128,10 @@ void Experiment::run_world() {
     operator_->act(now());
     assembly_->world().step();
     for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
+    constexpr std::size_t ahead = 6;  // of crowds little is in the cache
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      if (i + 2 * ahead < lanes_.size()) robots()[i + 2 * ahead]->fetch_evaluation();
+      if (i + ahead < lanes_.size()) robots()[i + ahead]->fetch_path();
       if (!lanes_[i]->ended) robots()[i]->observe(now());
       robots()[i]->bridge().stepped();
     }

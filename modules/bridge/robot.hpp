@@ -45,6 +45,10 @@ class Robot {
   /// Compares what the robot believes with the truth, after a step of the world.
   void observe(Time now) { evaluation_.observe(now, world_.body(body_)); }
 
+  /// Asks for the memory that an observation touches, in two steps.
+  void fetch_evaluation() const { evaluation_.fetch_itself(); }
+  void fetch_path() const { evaluation_.fetch_path(); }
+
   double position_error_max_m() const { return evaluation_.position_error_max_m(); }
 
   const std::string& name() const { return scenario_.name; }

@@ -26,7 +26,7 @@ RobotBridge::RobotBridge(const RobotScenario& robot, world::World& world, world:
 }
 
 void RobotBridge::add_row(const BridgeRow& scenario) {
-  for (const Row& other : rows_)
+  for (const Origin& other : origins_)
     if (other.scenario->device == scenario.device)
       throw scenario.written.bad("device '" + scenario.device + "' is in the table already, at " +
                                  other.scenario->written.text());
@@ -38,7 +38,8 @@ void RobotBridge::add_row(const BridgeRow& scenario) {
     throw scenario.written.bad("this robot has no device value '" + scenario.device + "'" +
                                did_you_mean(scenario.device, known));
   }
-  rows_.push_back({nullptr, nullptr, std::nullopt, &scenario, nullptr});
+  rows_.push_back({nullptr, nullptr, std::nullopt});
+  origins_.push_back({&scenario, nullptr});
   value->add(rows_.back());
 }
 
@@ -61,10 +62,9 @@ void RobotBridge::find_device_values() {
 
 template <class T, class Take>
 void RobotBridge::read_command(Row& row, Take take) {
-  row.connect = [&row, take](genom::PosterBase& base) {
+  origin(row).connect = [&row, scenario = origin(row).scenario, take](genom::PosterBase& base) {
     if (dynamic_cast<genom::Poster<T>*>(&base) == nullptr)
-      throw row.scenario->written.bad("poster '" + base.name() + "' is not what device '" + row.scenario->device +
-                                      "' takes");
+      throw scenario->written.bad("poster '" + base.name() + "' is not what device '" + scenario->device + "' takes");
     row.poster = &base;
     row.exchange = [&row, take](Time) {
       T command;
@@ -79,8 +79,8 @@ void RobotBridge::read_command(Row& row, Take take) {
 
 template <class T>
 genom::Poster<T>& RobotBridge::create_poster(Row& row) {
-  genom::Poster<T>& poster = names_.create_poster<T>(row.scenario->poster, "the bridge");
-  poster.set_latency(row.scenario->latency);
+  genom::Poster<T>& poster = names_.create_poster<T>(origin(row).scenario->poster, "the bridge");
+  poster.set_latency(origin(row).scenario->latency);
   row.poster = &poster;
   return poster;
 }
@@ -193,17 +193,17 @@ void RobotBridge::add_laser_reading(Row& row, Laser& laser) {
 }
 
 void RobotBridge::connect() {
-  for (Row& row : rows_) {
-    if (row.connect == nullptr) continue;
-    genom::PosterBase* poster = names_.find_poster(row.scenario->poster);
+  for (const Origin& origin : origins_) {
+    if (origin.connect == nullptr) continue;
+    const BridgeRow& row = *origin.scenario;
+    genom::PosterBase* poster = names_.find_poster(row.poster);
     if (poster == nullptr) {
       std::vector<std::string_view> known;
       for (const auto& [name, entry] : names_.posters()) known.push_back(name);
-      throw row.scenario->written.bad("poster '" + row.scenario->poster + "', which no module writes" +
-                                      did_you_mean(row.scenario->poster, known));
+      throw row.written.bad("poster '" + row.poster + "', which no module writes" + did_you_mean(row.poster, known));
     }
-    row.connect(*poster);
-    poster->set_latency(row.scenario->latency);
+    origin.connect(*poster);
+    poster->set_latency(row.latency);
   }
 }
 
@@ -258,17 +258,17 @@ void RobotBridge::wait_for_step() {
 
 // What an exchange touches as a rule, but of what there may be much, only the beginning.
 void RobotBridge::find_working_set() {
-  constexpr std::size_t beams_known = 32, of_stack = 768;
-  working_set_.add_stack_below(of_stack);
+  constexpr std::size_t beams_known = 32, of_stack = 512;
   working_set_.add_between(this, &robot_);
-  working_set_.add(rows_.data(), rows_.size() * sizeof(Row));
-  for (const Row& row : rows_) row.poster->add_to(working_set_);
   for (const Laser& laser : lasers_) {
     const std::size_t beams = std::min(beams_known, laser.scan.range_m.size());
     working_set_.add_between(&laser, laser.reading.range_m.begin() + beams);
     working_set_.add(laser.scan.range_m.data(), beams * sizeof(double));
   }
+  working_set_.add(rows_.data(), rows_.size() * sizeof(Row));
+  for (const Row& row : rows_) row.poster->add_to(working_set_);
   world_.add_to(working_set_, body_);
+  working_set_.add_stack_below(of_stack);
   threads::this_thread::set_working_set(working_set_);
 }
 

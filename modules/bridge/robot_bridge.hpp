@@ -79,6 +79,10 @@ class RobotBridge {
     Exchange exchange;
     genom::PosterBase* poster;
     std::optional<Time> taken;  // the date of the last command
+  };
+
+  /// How a row came about: what no exchange touches.
+  struct Origin {
     const BridgeRow* scenario;
     std::function<void(genom::PosterBase&)> connect;  // of commands
   };
@@ -90,6 +94,7 @@ class RobotBridge {
   };
 
   void find_device_values();
+  Origin& origin(const Row& row) { return origins_[static_cast<std::size_t>(&row - rows_.data())]; }
   void add_row(const BridgeRow& row);
   void add_base_command(Row& row);
   void add_base_reading(Row& row);
@@ -126,6 +131,7 @@ class RobotBridge {
   const RobotScenario& robot_;
   genom::NameSpace& names_;
   std::vector<DeviceValue> device_values_;
+  std::vector<Origin> origins_;  // of each row
   WorkingSet working_set_;
 };
 

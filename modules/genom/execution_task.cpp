@@ -18,12 +18,14 @@ void ExecutionTask::signal() {
 
 // Its own, what it gives, and of the module what all its tasks touch.
 void ExecutionTask::find_working_set() {
+  constexpr std::size_t of_stack = 192;
   if (periodic())
     working_set_.add_between(this, &missed_deadlines_);
   else
     working_set_.add_between(this, &start_);
   module_.add_to(working_set_);
   for (const OutputPosterBase* poster : posters_) poster->add_to(working_set_);
+  working_set_.add_stack_below(of_stack);
   threads::this_thread::set_working_set(working_set_);
 }
 

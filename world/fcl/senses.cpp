@@ -142,7 +142,16 @@ void Senses::place(std::uint32_t mover, const Vehicle& vehicle) {
 void Senses::make_expected_scans(std::span<const Vehicle> vehicles, double time_s) {
   if (!expected_.begin()) return;
   caster_.list_movers(in_turn_);
-  for (const std::uint32_t mover : in_turn_) {
+  constexpr std::size_t ahead = 2;  // of a crowd's bodies little is in the cache
+  const auto body_in = [&](std::size_t turn) { return std::min<std::size_t>(in_turn_[turn], vehicles.size() - 1); };
+  for (std::size_t turn = 0; turn < in_turn_.size(); ++turn) {
+    if (turn + 2 * ahead < in_turn_.size()) __builtin_prefetch(&devices_[body_in(turn + 2 * ahead)]);
+    if (turn + ahead < in_turn_.size()) {
+      const std::size_t next = body_in(turn + ahead);
+      __builtin_prefetch(devices_[next].lasers.data());
+      __builtin_prefetch(&vehicles[next].state());
+    }
+    const std::uint32_t mover = in_turn_[turn];
     if (mover >= vehicles.size()) continue;  // what is pushed about has no lasers
     expected_.make(mover, [&](const ExpectedScans::Entry& expected, LaserScan& scan) {
       make_scan(vehicles[mover], mover, expected.laser, expected.number, time_s, scan);

@@ -19,6 +19,9 @@ constexpr double per_rad_alone = 1e6;
 // Of a tree of so many nodes little is in the cache.
 constexpr std::size_t many_nodes = 1024;
 
+// What is nowhere is farther.
+constexpr float farthest_solid_m = 1e20f;
+
 // Rounded up, so that nothing as near is dropped.
 float rounded_up(double range_m) { return static_cast<float>(range_m) * (1 + 1e-6f); }
 float squared_up(double range_m) {
@@ -200,6 +203,20 @@ void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Find f
   }
 }
 
+// The lowest node that has all that is in reach of the view; negative where nothing is.
+std::int32_t DepthBuffer::node_in_reach(std::span<const TreeNode> nodes, const View& from, float reach_m) const {
+  reach_m = std::min(reach_m, farthest_solid_m);
+  const FloatBounds wanted = {from.low_x - reach_m, from.low_y - reach_m, from.high_x + reach_m, from.high_y + reach_m};
+  for (std::int32_t at = 0;;) {
+    const TreeNode& node = nodes[static_cast<std::size_t>(at)];
+    const unsigned met = kernels_->overlap(node.bounds, wanted);
+    if (met == 0) return -1;
+    const std::int32_t child = node.child[static_cast<std::size_t>(std::countr_zero(met))];
+    if (!std::has_single_bit(met) || child < 0) return at;
+    at = child;
+  }
+}
+
 // Walks with those of a few beams that meet a node, near to far, and asks about each solid the beams that meet its
 // rectangle.
 template <class Find>
@@ -213,7 +230,9 @@ void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Fi
   }
   MetByFew met;
   pending_few_.clear();
-  pending_few_.push_back({0, 0, (1u << beams_) - 1});
+  const float reach_m = *std::max_element(few.reach_m, few.reach_m + beams_);
+  if (const std::int32_t first = node_in_reach(nodes, from, reach_m); first >= 0)
+    pending_few_.push_back({0, first, (1u << beams_) - 1});
   while (!pending_few_.empty()) {
     const PendingFew next = pending_few_.back();
     pending_few_.pop_back();

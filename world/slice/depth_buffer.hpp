@@ -86,6 +86,7 @@ class DepthBuffer {
   bool hidden(float near_m2, std::int32_t first, std::int32_t last) const;
   template <class Find, class Place>
   void lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find, Place place);
+  std::int32_t node_in_reach(std::span<const TreeNode> nodes, const View& from, float reach_m) const;
   template <class Find>
   void walk_few(std::span<const TreeNode> nodes, const View& from, Find find);
   template <class Find, class Place>
