@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/threads.hpp"
+#include "modules/bridge/heap_pages.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -83,6 +84,7 @@ Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleTy
   if (scenario.medium) programs_.set_network(*network_);
   for (std::size_t i = 0; i < lanes_.size(); ++i)
     for (const ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
+  put_heap_on_large_pages();
 }
 
 void Experiment::unwind() {

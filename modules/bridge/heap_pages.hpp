@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What many robots are made of lies here and there in the heap. On pages of 4 KiB finding where each page is costs as
+// much as the memory itself; on large ones all of a crowd's are known to the processor.
+#pragma once
+
+namespace waitpoint::bridge {
+
+/// Asks the system to put what has been allocated so far on large pages, if it is much. Where it cannot (Linux before
+/// 6.1, or without large pages) all stays as it is. Addresses stay in any case.
+void put_heap_on_large_pages();
+
+}  // namespace waitpoint::bridge
