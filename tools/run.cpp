@@ -134,7 +134,9 @@ bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scen
   if (!end)
     stop = session.carry_on(until);
   else if (end->events > 0)
-    stop = session.carry_on(until, [&](const kernel::EventRecord&) { return scheduler.events() == end->events; });
+    stop = session.carry_on(until, [seen = scheduler.events(), last = end->events](const kernel::EventRecord&) mutable {
+      return ++seen == last;
+    });
   const bool interrupted = stop == Session::Stop::interrupted;
   const bridge::JournalEnd here = session.here();
   same = interrupted || !end || (here.events == end->events && here.digest == end->digest);

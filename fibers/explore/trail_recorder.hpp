@@ -18,12 +18,14 @@ class TrailRecorder final : public kernel::Watch {
  private:
   static void add(kernel::Watch& watch, const kernel::EventRecord&) {
     TrailRecorder& self = static_cast<TrailRecorder&>(watch);
-    const bool is_marked = self.simulation_.scheduler().events() % self.trail_.spacing() == 0;
-    if (is_marked && self.trail_.marks.size() < Trail::marks_max) self.trail_.add(self.simulation_.digest().value());
+    if (self.trail_.marks.size() == Trail::marks_max) return;
+    self.seen_ = self.seen_ == 0 ? self.simulation_.scheduler().events() : self.seen_ + 1;
+    if (self.seen_ % self.trail_.spacing() == 0) self.trail_.add(self.simulation_.digest().value());
   }
 
   Trail& trail_;
   const Simulation& simulation_;
+  std::uint64_t seen_ = 0;  // events of the run, with this one
 };
 
 }  // namespace waitpoint::exploration

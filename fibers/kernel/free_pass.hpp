@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The present instant, if the running task passes its waitpoints there without a look at the event list.
+// Whether the running task passes its waitpoints at the present instant without a look at the event list: see turn.hpp.
 //
 // In the first-in-first-out order it does so as long as no event of an earlier phase was put in for this instant; in
 // the seeded order while there is no other of this instant; where somebody else decides, never.

@@ -32,6 +32,7 @@ void copy_name(char (&to)[name_size], const char* from) {
 
 Scheduler::Scheduler(Order order, std::uint64_t seed) : agenda_(order, seed), epoch_(++runs) {
   free_pass_.allow(agenda_.chooser.order());
+  if (running == nullptr) turn.lane = nullptr;  // of another run, whose robots may have lain where these will
   set_watch(nullptr);
   if (sanitizer::present) sanitizer::begin_run();
 }
@@ -58,6 +59,7 @@ void Scheduler::restart(std::uint64_t seed) {
   live_tasks_ = made_ = 0;
   state_ = RunState::idle;
   cause_ = StopCause::none;
+  turn.lane = lane_ = nullptr;
   unheard_ = PairDigest();
   free_pass_.allow(agenda_.chooser.order());
   unwinding_ = interrupted_ = false;

@@ -172,7 +172,7 @@ class Scheduler {
   Chooser& chooser() { return agenda_.chooser; }
   Task* first_task() const { return first_task_; }
   Robot* first_robot() const { return first_robot_; }
-  /// Events executed so far, by tasks of all robots.
+  /// Events executed so far, by tasks of all robots: a sum over these. Who wants it at each event counts them himself.
   std::uint64_t events() const;
   /// Times that a fiber was left for another.
   std::uint64_t switches() const { return switches_; }
@@ -187,7 +187,7 @@ class Scheduler {
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch);
   /// Where the events of the task that ran last are hashed: its robot's digest.
-  const PairDigest* lane_in_use() const { return turn.lane; }
+  const PairDigest* lane_in_use() const { return lane_; }
   /// Null: durations that do not follow from the run count as they are.
   void set_durations(Durations* durations) { durations_ = durations; }
   Watch* watch() const { return watch_; }
@@ -330,8 +330,9 @@ class Scheduler {
   Time turns_given_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  PairDigest unheard_;     // of robots that ended
-  bool ordinary_ = false;  // tasks may take the short ways of scheduler_steps.hpp
+  PairDigest* lane_ = nullptr;  // as the turn has it, for who reads the scheduler from another process
+  PairDigest unheard_;          // of robots that ended
+  bool ordinary_ = false;       // tasks may take the short ways of scheduler_steps.hpp
   bool unwinding_ = false;
   bool interrupted_ =
       false;                 // tasks that get control are not to go on: they are unwound, or asked for their call stack

@@ -18,7 +18,7 @@ inline std::uint64_t child_id(std::uint64_t parent, std::uint32_t number) {
 }
 
 inline void Scheduler::hash_events_of(Robot& robot) {
-  if (turn.lane != robot.lane) turn.lane = robot.lane;
+  if (turn.lane != robot.lane) turn.lane = lane_ = robot.lane;
 }
 
 // A new instant for the task: it may pass as many waitpoints again.

@@ -64,7 +64,7 @@ struct ProgramRecord {
 };
 
 struct Record {
-  static constexpr std::uint64_t mark_of_version = 0x7770657865633033;  // "wpexec03"
+  static constexpr std::uint64_t mark_of_version = 0x7770657865633034;  // "wpexec04"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
