@@ -11,6 +11,9 @@
 namespace waitpoint::bridge {
 namespace {
 
+// Of so many robots the processor does not find the memory on small pages.
+constexpr std::size_t crowd = 200;
+
 Outcome outcome_of(RunEnd end) {
   switch (end) {
     case RunEnd::time_reached: return Outcome::time_limit;
@@ -84,7 +87,7 @@ Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleTy
   if (scenario.medium) programs_.set_network(*network_);
   for (std::size_t i = 0; i < lanes_.size(); ++i)
     for (const ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
-  put_heap_on_large_pages();
+  if (robots().size() >= crowd) put_heap_on_large_pages();
 }
 
 void Experiment::unwind() {

@@ -2,10 +2,11 @@
 #include "modules/bridge/heap_pages.hpp"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -14,23 +15,29 @@ namespace {
 
 // MADV_COLLAPSE, which the C library's headers have since 2.37.
 constexpr int collapse = 25;
-// Less than that the processor finds on small pages.
-constexpr std::size_t much = std::size_t{16} << 20;
+
+// It would not ask whether they are wanted.
+bool are_large_pages_wanted() {
+  std::string words;
+  std::getline(std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"), words);
+  return words.find("[madvise]") != std::string::npos || words.find("[always]") != std::string::npos;
+}
+
+// The heap comes before the stacks, of which there may be a million. Null without one.
+char* begin_of_heap() {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);)
+    if (line.ends_with("[heap]")) return reinterpret_cast<char*>(std::strtoull(line.c_str(), nullptr, 16));
+  return nullptr;
+}
 
 }  // namespace
 
 void put_heap_on_large_pages() {
-  // The heap comes before the stacks, of which there may be a million.
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) {
-    if (!line.ends_with("[heap]")) continue;
-    unsigned long first = 0, end = 0;
-    if (std::sscanf(line.c_str(), "%lx-%lx", &first, &end) != 2 || end - first < much) return;
-    void* const heap = reinterpret_cast<void*>(first);
-    madvise(heap, end - first, MADV_HUGEPAGE);  // what is allocated later, too
-    madvise(heap, end - first, collapse);
-    return;
-  }
+  if (!are_large_pages_wanted()) return;
+  char* const begin = begin_of_heap();
+  char* const end = static_cast<char*>(sbrk(0));
+  if (begin != nullptr && begin < end) madvise(begin, static_cast<std::size_t>(end - begin), collapse);
 }
 
 }  // namespace waitpoint::bridge

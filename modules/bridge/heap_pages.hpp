@@ -5,8 +5,9 @@
 
 namespace waitpoint::bridge {
 
-/// Asks the system to put what has been allocated so far on large pages, if it is much. Where it cannot (Linux before
-/// 6.1, or without large pages) all stays as it is. Addresses stay in any case.
+/// Asks the system to put what has been allocated so far on large pages: it copies what is not there yet. Where it
+/// cannot or is told not to (Linux before 6.1, transparent huge pages switched off) all stays as it is. Addresses stay
+/// in any case.
 void put_heap_on_large_pages();
 
 }  // namespace waitpoint::bridge

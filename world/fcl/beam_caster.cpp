@@ -87,8 +87,11 @@ void BeamCaster::cast(const Fan& fan, double height_m, std::uint32_t own, double
   WAITPOINT_CHECK(fan.directions.size() == ranges_m.size(), "as many directions as ranges");
   if (const Slice* slice = slice_at(height_m)) {
     buffer_.begin(fan, range_max_m);
-    buffer_.lower(moving_, height_m, own);
+    // What moves is mostly nearer than walls are, but walls hide more of it from many beams than it of them.
+    const bool few = fan.directions.size() <= FewBeams::most;
+    if (few) buffer_.lower(moving_, height_m, own);
     buffer_.lower(*slice);
+    if (!few) buffer_.lower(moving_, height_m, own);
     std::copy(buffer_.ranges_m().begin(), buffer_.ranges_m().end(), ranges_m.begin());
     return;
   }

@@ -205,7 +205,6 @@ void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Find f
 
 // The lowest node that has all that is in reach of the view; negative where nothing is.
 std::int32_t DepthBuffer::node_in_reach(std::span<const TreeNode> nodes, const View& from, float reach_m) const {
-  reach_m = std::min(reach_m, farthest_solid_m);
   const FloatBounds wanted = {from.low_x - reach_m, from.low_y - reach_m, from.high_x + reach_m, from.high_y + reach_m};
   for (std::int32_t at = 0;;) {
     const TreeNode& node = nodes[static_cast<std::size_t>(at)];
@@ -226,7 +225,7 @@ void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Fi
   for (std::size_t i = 0; i < beams_; ++i) {
     few.x[i] = static_cast<float>(x_[i]);
     few.y[i] = static_cast<float>(y_[i]);
-    few.reach_m[i] = rounded_up(ranges_m_[i]);
+    few.reach_m[i] = std::min(rounded_up(ranges_m_[i]), farthest_solid_m);
   }
   MetByFew met;
   pending_few_.clear();

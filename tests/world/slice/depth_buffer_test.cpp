@@ -119,6 +119,17 @@ TEST(DepthBuffer, AFewBeamsFarAndNearAreEachAskedOfEveryShapeToTheLastBit) {
   EXPECT_GT(hits, beams / 3);
 }
 
+// Where a node has fewer than eight children, the others are far away on the diagonal.
+TEST(DepthBuffer, BeamsWithoutEndMeetNothingWhereThereIsNothing) {
+  const std::vector<Shape> shapes = random_shapes(8, 3, half_square_m);
+  const Slice slice(shapes, height_m);
+  for (const double heading_rad : {0.25 * exact::pi, -0.25 * exact::pi, 0.75 * exact::pi, 0.0})
+    for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{16}}) {
+      const OwnFan fan({2 * half_square_m, 2 * half_square_m}, heading_rad, count == 1 ? 0 : 0.2, count);
+      expect_as_asking_all(shapes, slice, fan, HUGE_VAL);
+    }
+}
+
 TEST(DepthBuffer, GrazingBeamsAreThoseOfAskingEveryShapeToTheLastBit) {
   const std::vector<Shape> shapes = random_shapes(4, 60, half_square_m);
   const Slice slice(shapes, height_m);
