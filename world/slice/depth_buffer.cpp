@@ -29,6 +29,15 @@ float squared_up(double range_m) {
   return rounded * rounded * (1 + 1e-6f);
 }
 
+// Puts `what` among those that are pending from number `before` on, of which the nearest is the last.
+template <class Pending>
+void push_nearest_last(std::vector<Pending>& pending, std::size_t before, const Pending& what, float Pending::*near) {
+  std::size_t at = pending.size();
+  pending.push_back(what);
+  for (; at > before && pending[at - 1].*near < what.*near; --at) pending[at] = pending[at - 1];
+  pending[at] = what;
+}
+
 }  // namespace
 
 void DepthBuffer::begin(const Fan& fan, double range_max_m, bool identify) {
@@ -133,10 +142,7 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
     const auto i = static_cast<std::size_t>(std::countr_zero(seen));
     const Pending child = {sight.near_m2[i], children[i], sight.first[i], sight.last[i]};
     if (!is_of_two_blocks(child) && hidden(child)) continue;
-    std::size_t at = pending_.size();
-    pending_.push_back(child);
-    for (; at > before && pending_[at - 1].near_m2 < child.near_m2; --at) pending_[at] = pending_[at - 1];
-    pending_[at] = child;
+    push_nearest_last(pending_, before, child, &Pending::near_m2);
   }
   if (narrow_count > 0) kernels_->ask_narrow(narrow.data(), narrow_count, beams());
 }
@@ -241,10 +247,7 @@ void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Fi
       const auto i = static_cast<std::size_t>(std::countr_zero(rest));
       const PendingFew child = {met.near_m[i], node.child[i], met.beams[i]};
       if (child.child >= 0) {
-        std::size_t at = pending_few_.size();
-        pending_few_.push_back(child);
-        for (; at > before && pending_few_[at - 1].near_m < child.near_m; --at) pending_few_[at] = pending_few_[at - 1];
-        pending_few_[at] = child;
+        push_nearest_last(pending_few_, before, child, &PendingFew::near_m);
       } else if (const Candidate candidate = find(~child.child); candidate.outline != nullptr) {
         for (unsigned those = child.beams; those != 0; those &= those - 1) {
           const auto beam = static_cast<std::size_t>(std::countr_zero(those));

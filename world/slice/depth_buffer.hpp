@@ -7,7 +7,7 @@
 //                beam
 //   lower(moving) the same for the tree of those that move
 //
-// A few beams have little to hide, and no order by their angles: what is in reach is asked about, near to far.
+// A few beams walk together, near to far too, each only where it meets a node: they have no blocks to be hidden by.
 //
 // Floats cull, with margins; hits are those of hit_distance(), so the ranges are those of asking every solid, to the
 // last bit, in whatever order. A buffer is used again and again: only a scan of more beams than any before allocates.
