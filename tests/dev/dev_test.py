@@ -83,6 +83,59 @@ class Dependencies(InATemporaryFolder):
                 self.assertEqual(f"\n{source}:" in output, not allowed, output)
 
 
+class Cycles(InATemporaryFolder):
+    def setUp(self):
+        super().setUp()
+        self.write("a/one.hpp", '#include "a/two.hpp"\n')
+        self.write("a/two.hpp", "#pragma once\n")
+        self.write("b/three.cpp", '#include "a/one.hpp"\n')
+        self.table = self.write("table", "# none\n")
+
+    def cycles(self):
+        return self.check("cycles", str(self.folder), str(self.table))
+
+    def test_a_tree_without_any_passes(self):
+        self.assertEqual(self.cycles(), (0, "3 units, 0 cycles, 0 violations\n"))
+
+    def test_a_source_counts_with_its_header(self):
+        self.write("a/two.cpp", '#include "a/one.hpp"\n')
+        status, output = self.cycles()
+        self.assertEqual(status, 1)
+        self.assertIn("2 include each other: a/one a/two\n    a/one.hpp includes a/two\n    a/two.cpp includes a/one\n", output)
+
+    def test_folders_do_not_include_each_other(self):
+        self.write("b/four.hpp", "#pragma once\n")
+        self.write("a/five.cpp", '#include "b/four.hpp"\n')
+        status, output = self.cycles()
+        self.assertEqual(status, 1)
+        self.assertIn("2 include each other: a b\n", output)
+
+    def test_a_tolerated_one_passes_until_it_is_gone(self):
+        source = self.write("a/two.cpp", '#include "a/one.hpp"\n')
+        self.table.write_text("a/one a/two\n")
+        self.assertEqual(self.cycles()[0], 0)
+        source.unlink()
+        status, output = self.cycles()
+        self.assertEqual(status, 1)
+        self.assertIn("a cycle that is gone: a/one a/two", output)
+
+
+class Functions(InATemporaryFolder):
+    def body_of(self, lines, head="int f(int a,\n      int b) {"):
+        self.write("core/a.cpp", f"namespace n {{\n\n{head}\n" + "  // brace }\n" * lines + "}\n\n}\n")
+        return self.check("functions")
+
+    def test_a_long_one_is_named_with_its_line(self):
+        self.assertEqual(self.body_of(70)[0], 0)
+        self.assertEqual(self.body_of(71), (1, "1 functions, 1 violations\ncore/a.cpp:3: a function of 71 lines; at most 70\n"))
+
+    def test_an_initialiser_list_belongs_to_the_head(self):
+        self.assertEqual(self.body_of(71, "A::A()\n    : b_(1),\n      c_('{') {")[0], 1)
+
+    def test_namespaces_and_classes_may_be_long(self):
+        self.assertEqual(self.body_of(71, "struct A : B<int (*)()> {")[0], 0)
+
+
 class Files(InATemporaryFolder):
     def test_a_clean_tree_passes(self):
         self.write("core/time.hpp", LICENCE)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# What the repository demands of its sources: check.sh [PART...]. All parts are run, whichever fails.
+# The rules of the repository's sources: check.sh [--all] [PART...]. All parts are run, whichever fails. The static analysis
+# reads the files that changed since the parent of the last commit (or since $CHECK_SINCE); with --all, every file.
 # Exit status: 0 all kept, 1 something violated, 77 (of a single part) its tool is not installed.
 set -euo pipefail
 
@@ -28,7 +29,10 @@ formatting() {
 analysis() {
   command -v clang-tidy >/dev/null || { say 'clang-tidy is not installed' && return 77; }
   local count quiet=()
-  count=$(python3 tools/dev/check/analysis.py "$build")
+  local since=${CHECK_SINCE-HEAD~1}
+  if ((all)) || ! git rev-parse --quiet --verify "$since^{commit}" >/dev/null 2>&1; then since=; fi
+  count=$(python3 tools/dev/check/analysis.py "$build" ${since:+"$since"})
+  ((count)) || { echo "no source changed since $since" && return; }
   # A header that is not in the tree: the benchmark of the kernel includes it.
   local generated=tests/bench/installed_headers.hpp
   if grep -qF "build $generated:" "$build/build.ninja"; then compile "$generated"; fi
@@ -46,9 +50,18 @@ symbols() {
   (cd "$build" && python3 "$root/tools/dev/check/symbols.py" "${objects[@]}")
 }
 
+cycles() { python3 tools/dev/check/cycles.py "$root"; }
+
+functions() { python3 tools/dev/check/functions.py "$root"; }
+
 files() { python3 tools/dev/check/files.py "$root"; }
 
-parts=(formatting dependencies files symbols analysis)
+parts=(formatting dependencies cycles functions files symbols analysis)
+all=0
+if [[ ${1-} == --all ]]; then
+  all=1
+  shift
+fi
 (($#)) || set -- "${parts[@]}"
 failed=()
 status=1

@@ -26,9 +26,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = "BUILD"
 OWN_CASE_TIMEOUT_S = 900
 OWN_CASES = {
+    "check cycles": [str(ROOT / "tools/dev/check.sh"), "cycles"],
     "check dependencies": [str(ROOT / "tools/dev/check.sh"), "dependencies"],
     "check files": [str(ROOT / "tools/dev/check.sh"), "files"],
     "check formatting": [str(ROOT / "tools/dev/check.sh"), "formatting"],
+    "check functions": [str(ROOT / "tools/dev/check.sh"), "functions"],
     "dev": [sys.executable, str(ROOT / "tests/dev/dev_test.py")],
     "clang++ -O0 and this build are one run": [str(ROOT / "tools/dev/builds.sh"), "build", "clang++-O0"],
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`analysis.py BUILD` writes what Ninja needs to run clang-tidy over this repository's sources, in BUILD/analysis/: each
-source once, as the build first compiles it, and again only after it, a header it includes, its flags or .clang-tidy changed.
+"""`analysis.py BUILD [REVISION]` writes what Ninja needs to run clang-tidy over this repository's sources, in BUILD/analysis/:
+each source once, as the build first compiles it, and again only after it, a header it includes, its flags or .clang-tidy
+changed. With REVISION only those that changed since, or whose own header did.
 
 A file's stamp is made when nothing was found in it; what the compiler says it includes is told to Ninja.
 """
@@ -9,6 +10,7 @@ import json
 import os
 import pathlib
 import shlex
+import subprocess
 import sys
 
 sys.dont_write_bytecode = True
@@ -43,10 +45,22 @@ def flags(entry):
     return shlex.join(compiler), shlex.join(kept)
 
 
+def changed_units(revision):
+    """The sources and headers that differ from `revision`, without their suffix; moved ones only if their text changed."""
+    listing = subprocess.run(
+        ["git", "diff", "--name-status", "--find-renames", revision], cwd=ROOT, check=True, capture_output=True, text=True
+    ).stdout
+    rows = (line.split("\t") for line in listing.splitlines())
+    return {os.path.splitext(row[-1])[0] for row in rows if row[0] not in ("D", "R100")}
+
+
 def main():
     build = pathlib.Path(sys.argv[1])
     first = {}
+    wanted = changed_units(sys.argv[2]) if len(sys.argv) > 2 else None
     for source, entry in commands(build):
+        if wanted is not None and str(source.with_suffix("")) not in wanted:
+            continue
         first.setdefault(source, entry)
     folder, settings = build / "analysis", os.path.relpath(ROOT / ".clang-tidy", build)
     folder.mkdir(exist_ok=True)
