@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::io {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "fibers/kernel/call_stack.hpp"
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "fibers/kernel/chooser.hpp"
 #include "fibers/kernel/limits.hpp"
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/kernel/turn.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 

@@ -10,8 +10,9 @@
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
+#include "fibers/switch/fiber.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 

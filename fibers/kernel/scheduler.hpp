@@ -16,14 +16,14 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/agenda.hpp"
-#include "fibers/kernel/departure.hpp"
 #include "fibers/kernel/free_pass.hpp"
 #include "fibers/kernel/limits.hpp"
 #include "fibers/kernel/run_state.hpp"
 #include "fibers/kernel/spawn_options.hpp"
-#include "fibers/kernel/stack_arena.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/kernel/watch.hpp"
+#include "fibers/switch/departure.hpp"
+#include "fibers/switch/stack_arena.hpp"
 
 namespace waitpoint::kernel {
 
@@ -105,13 +105,13 @@ class Scheduler {
   /// Moves the task to `time` (not before its local time) and waits there.
   [[gnu::always_inline]] bool sleep_until(Time time) {
     const Departure away = start_sleeping(time);
-    return away.leads_away() ? end_sleeping(depart(away)) : away.wake() != Wake::unwinding;
+    return away.leads_away() ? end_sleeping(depart(away)) : wake_of(away) != Wake::unwinding;
   }
   /// Blocks the running task on `object` until it is woken or `deadline` comes; Time::max() is for ever.
   [[gnu::always_inline]] Wake block(Object& object, Time deadline) {
     const bool is_finite = deadline != Time::max();
     const Departure away = is_finite ? start_blocking_until(object, deadline) : start_blocking(object);
-    return away.leads_away() ? end_blocking(depart(away), object, is_finite) : away.wake();
+    return away.leads_away() ? end_blocking(depart(away), object, is_finite) : wake_of(away);
   }
   /// Wakes one waiter of `object`, of the chooser's choice; null if there is none. The waiter's local time becomes the
   /// global.
@@ -251,6 +251,8 @@ class Scheduler {
     count_event(task, Operation::sleep, nullptr, turn.at);
     return true;
   }
+  static Wake wake_of(const Departure& none) { return static_cast<Wake>(none.outcome()); }
+  static Departure stay(Wake wake) { return Departure::none(static_cast<std::uintptr_t>(wake)); }
   bool departs(Fiber& from, Fiber& to);
   bool stay_until(Task& task, const Object& object, Time deadline);
   Wake go_on(Task& task, Object& object);

@@ -4,10 +4,11 @@
 
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/fetch_ahead.hpp"
-#include "fibers/kernel/runtime_state.hpp"
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/waiters.hpp"
+#include "fibers/switch/fiber.hpp"
+#include "fibers/switch/runtime_state.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fibers/kernel/event.hpp"
-#include "fibers/kernel/stack_arena.hpp"
+#include "fibers/switch/stack.hpp"
 
 namespace waitpoint::kernel {
 

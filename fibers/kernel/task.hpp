@@ -13,8 +13,8 @@
 #include "core/time.hpp"
 #include "core/working_set.hpp"
 #include "fibers/kernel/event_list.hpp"
-#include "fibers/kernel/fiber.hpp"
 #include "fibers/kernel/operation.hpp"
+#include "fibers/switch/fiber_record.hpp"
 
 namespace waitpoint::kernel {
 

@@ -5,10 +5,10 @@
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
-#include "fibers/kernel/runtime_state.hpp"
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
+#include "fibers/switch/runtime_state.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 
@@ -153,18 +153,18 @@ Departure Scheduler::start_sleeping(Time time) {
   agenda_.events.advance(time);
   free_pass_.give(task, time, epoch_);
   count_event(task, Operation::sleep, nullptr, time);
-  return Departure::none(Wake::woken);
+  return stay(Wake::woken);
 }
 
 [[gnu::noinline]] Departure Scheduler::leave_sleeping(Task& task, const EventEntry& least) {
   free_pass_.end();
   Fiber& to = give_way(task, least);
   if (departs(task.fiber, to)) return start_switch(task.fiber, to);
-  return Departure::none(go_on_from_waitpoint(*running) ? Wake::woken : Wake::unwinding);
+  return stay(go_on_from_waitpoint(*running) ? Wake::woken : Wake::unwinding);
 }
 
 [[gnu::noinline]] Departure Scheduler::sleep_in_any_case(Time time) {
-  return Departure::none(sleep_slowly(time) ? Wake::woken : Wake::unwinding);
+  return stay(sleep_slowly(time) ? Wake::woken : Wake::unwinding);
 }
 
 bool Scheduler::sleep_slowly(Time time) {
@@ -264,13 +264,13 @@ Departure Scheduler::start_blocking_until(Object& object, Time deadline) {
 [[gnu::noinline]] Departure Scheduler::block_in_any_case(Object& object, Time deadline) {
   if (unwinding_) {
     refuse();
-    return Departure::none(Wake::unwinding);
+    return stay(Wake::unwinding);
   }
   Task& task = *running;
   WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
   Fiber& to = park(task, object, deadline);
   if (departs(task.fiber, to)) return start_switch(task.fiber, to);
-  return Departure::none(go_on(*running, object));
+  return stay(go_on(*running, object));
 }
 
 [[gnu::noinline]] Wake Scheduler::go_on(Task& task, Object& object) {

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
@@ -14,6 +13,7 @@
 #include "fibers/posix/program.hpp"
 #include "fibers/posix/shared_object.hpp"
 #include "fibers/posix/signals.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::posix {
 namespace {

@@ -4,7 +4,7 @@
 // they are counted, for the clock that says what they cost.
 #include <cstdint>
 
-#include "fibers/kernel/block_counter.hpp"
+#include "fibers/clocks/block_counter.hpp"
 #include "fibers/posix/interposed.hpp"
 
 WAITPOINT_INTERPOSED void __sanitizer_cov_trace_pc() { ++waitpoint::kernel::passed_blocks; }

@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/cancellation.hpp"
 #include "fibers/posix/descriptors.hpp"
 #include "fibers/posix/loopback.hpp"
 #include "fibers/posix/waiting.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::posix {
 

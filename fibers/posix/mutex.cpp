@@ -4,12 +4,12 @@
 #include <cerrno>
 #include <cstring>
 
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/clocks.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/robust_mutexes.hpp"
 #include "fibers/posix/shared_mutex.hpp"
 #include "fibers/posix/signals.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::posix {
 namespace {

@@ -4,10 +4,10 @@
 #include <pthread.h>
 #include <threads.h>
 
-#include "fibers/kernel/sanitizer.hpp"
 #include "fibers/posix/interposed.hpp"
 #include "fibers/posix/waiting.hpp"
 #include "fibers/posix/word.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::posix {
 namespace {

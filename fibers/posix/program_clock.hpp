@@ -3,7 +3,7 @@
 // one call that is simulated to the next, costs a time of an interval, or what the machine measures.
 #pragma once
 
-#include "fibers/kernel/task_clock.hpp"
+#include "fibers/clocks/task_clock.hpp"
 
 namespace waitpoint::posix {
 

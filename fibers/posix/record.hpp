@@ -10,7 +10,7 @@
 #include <span>
 
 #include "core/digest.hpp"
-#include "fibers/kernel/clock_options.hpp"
+#include "fibers/clocks/clock_options.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/posix/arena.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fibers/kernel/thread_pointer.hpp"
 #include "fibers/posix/randomness.hpp"
+#include "fibers/switch/thread_pointer.hpp"
 
 // Of the dynamic linker and the C library, for the thread libraries that they are made with.
 extern "C" {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/barrier.hpp"
 
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::sync {
 

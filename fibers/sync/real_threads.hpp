@@ -18,8 +18,8 @@
 
 #include "core/time.hpp"
 #include "core/working_set.hpp"
-#include "fibers/kernel/clock_options.hpp"
-#include "fibers/kernel/stack_arena.hpp"
+#include "fibers/clocks/clock_options.hpp"
+#include "fibers/switch/stack_arena.hpp"
 #include "fibers/sync/local_values.hpp"
 #include "fibers/sync/real_priority_mutex.hpp"
 

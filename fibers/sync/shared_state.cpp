@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/shared_state.hpp"
 
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint::sync {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/digest.hpp"
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/robot_state.hpp"
 #include "fibers/sync/simulation.hpp"
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "fibers/kernel/task_clock.hpp"
+#include "fibers/clocks/task_clock.hpp"
 #include "fibers/sync/call.hpp"
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/local_values.hpp"

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "core/digest.hpp"
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/robot_state.hpp"
 
 namespace waitpoint::sync {

@@ -48,7 +48,7 @@ class Dependencies(InATemporaryFolder):
 
     def test_what_the_table_allows_passes(self):
         self.includes("core/time.hpp", "<cstdint>")
-        self.includes("fibers/kernel/fiber.cpp", '"core/time.hpp"', "<boost/context/detail/fcontext.hpp>")
+        self.includes("fibers/switch/fiber.cpp", '"core/time.hpp"', "<boost/context/detail/fcontext.hpp>")
         self.includes("world/fcl/engine.cpp", '"core/time.hpp"', "<fcl/narrowphase/collision.h>")
         self.includes("tests/core/time_test.cpp", '"core/time.hpp"', "<gtest/gtest.h>")
         status, output = self.check("dependencies")

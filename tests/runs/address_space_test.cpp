@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 #include "tests/runs/program.hpp"
 
 namespace waitpoint::runs {

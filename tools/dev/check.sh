@@ -45,7 +45,9 @@ dependencies() { python3 tools/dev/check/dependencies.py "$root"; }
 
 symbols() {
   local objects
-  mapfile -t objects < <(python3 tools/dev/check/compiled.py objects "$build" fibers/kernel)
+  mapfile -t objects < <(for room in fibers/switch fibers/kernel fibers/clocks; do
+    python3 tools/dev/check/compiled.py objects "$build" "$room"
+  done)
   compile "${objects[@]}"
   (cd "$build" && python3 "$root/tools/dev/check/symbols.py" "${objects[@]}")
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fibers/kernel/clock_options.hpp"
+#include "fibers/clocks/clock_options.hpp"
 #include "fibers/posix/record.hpp"
 
 namespace CLI {

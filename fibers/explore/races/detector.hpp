@@ -2,7 +2,7 @@
 // Data races by happens-before (Flanagan and Freund, FastTrack, PLDI 2009), and memory accesses as switch points.
 //
 // Two accesses to the same memory race if one writes, they are not both atomic, and nothing orders them. What orders is
-// told by the kernel (see kernel/sanitizer.hpp: making a task, each use of an object), and by atomics to their
+// told by the kernel (see switch/sanitizer.hpp: making a task, each use of an object), and by atomics to their
 // memory order. Each task has a vector clock; an access is known by its task and that one's epoch.
 //
 // An access is a switch point where others can tell when it happens: to a word that another task has touched in this

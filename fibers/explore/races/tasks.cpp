@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What the kernel tells of its tasks and of what happens before what, in the words that ThreadSanitizer has for it
-// (kernel/sanitizer.hpp), and what it asks of this runtime alone.
+// (switch/sanitizer.hpp), and what it asks of this runtime alone.
 #include "fibers/explore/races/detector.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fibers/kernel/local_clock.hpp"
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
 namespace waitpoint::kernel {

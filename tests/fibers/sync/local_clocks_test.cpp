@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "fibers/kernel/block_counter.hpp"
+#include "fibers/clocks/block_counter.hpp"
 #include "fibers/sync/threads.hpp"
 #include "tests/fibers/sync/counted_code.hpp"
 #include "tests/fibers/sync/orders.hpp"

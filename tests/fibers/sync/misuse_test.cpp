@@ -2,7 +2,7 @@
 // Each misuse of a primitive is a bug with a name, not undefined behaviour.
 #include <gtest/gtest.h>
 
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/periodic_timer.hpp"
 #include "fibers/sync/semaphore.hpp"

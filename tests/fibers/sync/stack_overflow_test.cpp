@@ -6,7 +6,7 @@
 
 #include <csignal>
 
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "fibers/sync/thread.hpp"
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads the symbols of the kernel's objects: symbols.py OBJECT...
 
-A C layer must be able to stand on fibers/kernel: it throws nothing, allocates nothing while running, uses no standard
+A C layer must be able to stand on the kernel (fibers/switch, kernel, clocks): it throws nothing, allocates nothing while running, uses no standard
 containers and no thread-local storage.
 """
 
@@ -51,7 +51,7 @@ def main():
                 violations.append(f"{object_file}: uses thread-local storage: {name}")
         violations += [f"{object_file}: uses thread-local storage: {name}" for name in thread_locals(object_file)]
     if len(sys.argv) < 2:
-        violations.append("no object of fibers/kernel is built")
+        violations.append("no object of the kernel is built")
     print(f"{len(sys.argv) - 1} objects, {len(violations)} violations")
     print("".join(f"{violation}\n" for violation in violations), end="")
     return 1 if violations else 0

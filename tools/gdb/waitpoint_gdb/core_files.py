@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Core files by `generate-core-file` (gcore): small, and with the stacks in them.
 
-The stacks' arena (fibers/kernel/stack_arena.hpp) is gigabytes of addresses, of which little is used: gdb 13 would write all
+The stacks' arena (fibers/switch/stack_arena.hpp) is gigabytes of addresses, of which little is used: gdb 13 would write all
 of it. And gdb gives up a whole region at a page that it cannot read, as light guard pages (Linux 6.13) are. So while
 the file is written, what no stack was opened in is marked as not to be dumped, and the guards are away. A core file that
 Linux writes needs none of this.

@@ -5,7 +5,7 @@ While a fiber is selected, an unwinder answers that the caller of the innermost 
 registers that the fiber's switch left on its stack; it needs no others. So frame 0 stays what the processor executes,
 and the frames above it are the fiber's. A filter keeps frame 0 out of back traces.
 
-    fibers/kernel/departure.hpp, x86-64, at the context c:  +40 rbx  +48 rbp  +56 rip;  rsp = c + 64
+    fibers/switch/departure.hpp, x86-64, at the context c:  +40 rbx  +48 rbp  +56 rip;  rsp = c + 64
 """
 
 import re

@@ -13,7 +13,7 @@
 //   outside -> tasks -> outside         whenever the context that runs them is entered
 #pragma once
 
-#include "fibers/kernel/stack_arena.hpp"
+#include "fibers/switch/stack.hpp"
 
 namespace waitpoint::kernel {
 

@@ -11,18 +11,19 @@
 
 #include <cstdint>
 
-#include "fibers/kernel/task.hpp"
+#include "fibers/switch/fiber_record.hpp"
 
 namespace waitpoint::kernel {
 
-/// What a call that may block came to: a fiber to go on in, or how the wait ended.
+/// The result of a call that may block: a fiber to continue in, or the outcome of the wait.
 struct Departure {
   void* context;            ///< where that fiber goes on; null without one
-  std::uintptr_t how_else;  ///< the fiber that is left; or a Wake
+  std::uintptr_t how_else;  ///< the fiber that is left; or the outcome
 
   bool leads_away() const { return context != nullptr; }
-  Wake wake() const { return static_cast<Wake>(how_else); }
-  static Departure none(Wake wake) { return {nullptr, static_cast<std::uintptr_t>(wake)}; }
+  /// What the caller of none() meant by it.
+  std::uintptr_t outcome() const { return how_else; }
+  static Departure none(std::uintptr_t outcome) { return {nullptr, outcome}; }
 };
 
 /// Seen by who goes on: the fiber that was left for it, and where that one goes on.

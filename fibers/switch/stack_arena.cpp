@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/kernel/stack_arena.hpp"
+#include "fibers/switch/stack_arena.hpp"
 
 #include <sys/mman.h>
 #include <sys/resource.h>
 
 #include "core/error.hpp"
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/kernel/block_counter.hpp"
+#include "fibers/clocks/block_counter.hpp"
 
 namespace waitpoint::kernel {
 

@@ -2,7 +2,7 @@
 //
 // What instrumented code calls from its basic blocks. A file of its own: who brings other functions of these names
 // along has nothing of it linked in.
-#include "fibers/kernel/block_counter.hpp"
+#include "fibers/clocks/block_counter.hpp"
 
 using waitpoint::kernel::passed_blocks;
 

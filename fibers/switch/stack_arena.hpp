@@ -18,25 +18,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fibers/switch/stack.hpp"
+
 namespace waitpoint::kernel {
-
-/// 16, 64, 256 KiB; 8 MiB, as the threads of programs have.
-enum class StackSize : std::uint8_t { small, medium, large, program };
-inline constexpr int stack_sizes = 4;
-
-constexpr std::size_t bytes(StackSize size) {
-  return size == StackSize::program ? std::size_t{8} << 20 : std::size_t{16384} << (2 * static_cast<int>(size));
-}
-
-enum class Guard : std::uint8_t { page, canary };
-
-struct Stack {
-  char* low = nullptr;   ///< lowest usable byte
-  char* high = nullptr;  ///< one past the highest, aligned to 64 bytes
-  std::uint32_t slot = 0;
-  StackSize size = StackSize::medium;
-  Guard guard = Guard::page;
-};
 
 class StackArena {
  public:

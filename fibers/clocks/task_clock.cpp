@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/kernel/task_clock.hpp"
+#include "fibers/clocks/task_clock.hpp"
 
 #include <ctime>
 
-#include "fibers/kernel/block_counter.hpp"
+#include "fibers/clocks/block_counter.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::kernel {

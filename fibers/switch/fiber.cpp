@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/kernel/fiber.hpp"
+#include "fibers/switch/fiber.hpp"
 
 #include <boost/context/detail/fcontext.hpp>
 #include <cerrno>
 
 #include "core/error.hpp"
-#include "fibers/kernel/runtime_state.hpp"
-#include "fibers/kernel/sanitizer.hpp"
-#include "fibers/kernel/thread_pointer.hpp"
+#include "fibers/switch/runtime_state.hpp"
+#include "fibers/switch/sanitizer.hpp"
+#include "fibers/switch/thread_pointer.hpp"
 
 // The Itanium C++ ABI has it; libc++'s <cxxabi.h> has not.
 namespace __cxxabiv1 {

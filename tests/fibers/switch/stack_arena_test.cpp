@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/kernel/stack_arena.hpp"
+#include "fibers/switch/stack_arena.hpp"
 
 #include <gtest/gtest.h>
 

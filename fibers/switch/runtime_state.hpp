@@ -3,8 +3,8 @@
 // they are to know of the fiber that goes on. For the kernel's own sources.
 #pragma once
 
-#include "fibers/kernel/departure.hpp"
-#include "fibers/kernel/fiber.hpp"
+#include "fibers/switch/departure.hpp"
+#include "fibers/switch/fiber_record.hpp"
 
 namespace waitpoint::kernel {
 

@@ -5,7 +5,7 @@
 // before it counts, so that it can be recorded, and replayed where it was not reproducible.
 #pragma once
 
-#include "fibers/kernel/clock_options.hpp"
+#include "fibers/clocks/clock_options.hpp"
 #include "fibers/kernel/local_clock.hpp"
 
 namespace waitpoint::kernel {

@@ -7,29 +7,9 @@
 // saved and restored at every switch.
 #pragma once
 
-#include <cstdint>
-
-#include "fibers/kernel/stack_arena.hpp"
+#include "fibers/switch/fiber_record.hpp"
 
 namespace waitpoint::kernel {
-
-/// What the C++ runtime and the C library keep per thread, of which every fiber needs its own.
-struct ThreadState {
-  void* caught_exceptions = nullptr;
-  unsigned int uncaught_exceptions = 0;
-  int error_number = 0;
-};
-
-struct Fiber {
-  void* context = nullptr;  ///< where it goes on; null while it runs. A debugger reads it.
-  ThreadState thread_state;
-  Stack stack;
-  /// Where it finds its thread-local variables, its thread's state among them; null: where the thread that runs the
-  /// fibers does.
-  void* thread_pointer = nullptr;
-  bool ended = false;        ///< it is left for good
-  void* known_as = nullptr;  ///< to a sanitizer
-};
 
 /// Fibers run in the calling thread from now on: to be told before it leaves its own stack for the first time.
 void bind_to_thread();

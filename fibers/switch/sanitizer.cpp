@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/kernel/sanitizer.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 #include <sys/mman.h>
 
 #include <cstdint>
 
 #include "core/error.hpp"
-#include "fibers/kernel/fiber.hpp"
+#include "fibers/switch/fiber_record.hpp"
 
 // The runtimes' public interfaces (sanitizer/*_interface.h), of which a program has one or none.
 extern "C" {

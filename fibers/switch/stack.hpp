@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The memory of one stack, as the arena gives it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace waitpoint::kernel {
+
+/// 16, 64, 256 KiB; 8 MiB, as the threads of programs have.
+enum class StackSize : std::uint8_t { small, medium, large, program };
+inline constexpr int stack_sizes = 4;
+
+constexpr std::size_t bytes(StackSize size) {
+  return size == StackSize::program ? std::size_t{8} << 20 : std::size_t{16384} << (2 * static_cast<int>(size));
+}
+
+enum class Guard : std::uint8_t { page, canary };
+
+struct Stack {
+  char* low = nullptr;   ///< lowest usable byte
+  char* high = nullptr;  ///< one past the highest, aligned to 64 bytes
+  std::uint32_t slot = 0;
+  StackSize size = StackSize::medium;
+  Guard guard = Guard::page;
+};
+
+}  // namespace waitpoint::kernel
