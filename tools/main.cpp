@@ -6,13 +6,13 @@
 
 #include "modules/bridge/experiment.hpp"
 #include "modules/bridge/scenario_reader.hpp"
-#include "tools/debug.hpp"
+#include "tools/command/program_layer.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/explore/explore.hpp"
+#include "tools/gdb/debug.hpp"
 #include "tools/options.hpp"
 #include "tools/papers_modules.hpp"
-#include "tools/program_layer.hpp"
-#include "tools/run.hpp"
+#include "tools/run/run.hpp"
 #include "tools/version.hpp"
 
 namespace waitpoint {

@@ -6,7 +6,7 @@
 #include "modules/bridge/expectation.hpp"
 #include "modules/bridge/scenario_reader.hpp"
 #include "modules/bridge/threaded_experiment.hpp"
-#include "tools/interruption.hpp"
+#include "tools/command/interruption.hpp"
 #include "tools/main.hpp"
 #include "tools/papers_modules.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "tools/option_values.hpp"
-#include "tools/pacing.hpp"
+#include "tools/command/option_values.hpp"
+#include "tools/run/pacing.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/chooser.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/exec/exec_options.hpp"
 #include "tools/explore/explore_options.hpp"
-#include "tools/option_values.hpp"
 
 namespace waitpoint::tools {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "fibers/explore/explorer.hpp"
+#include "fibers/explore/schedules/explorer.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/simulation.hpp"
 

@@ -2,9 +2,9 @@
 #include "fibers/explore/body_watch.hpp"
 
 #include "fibers/explore/races/races.hpp"
+#include "fibers/explore/report/timeline_recorder.hpp"
+#include "fibers/explore/schedules/trail_recorder.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/explore/timeline_recorder.hpp"
-#include "fibers/explore/trail_recorder.hpp"
 
 namespace waitpoint::exploration {
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "fibers/explore/body.hpp"
-#include "fibers/explore/event_log.hpp"
-#include "fibers/explore/profile.hpp"
-#include "fibers/explore/timeline.hpp"
-#include "fibers/explore/trail.hpp"
+#include "fibers/explore/report/timeline.hpp"
+#include "fibers/explore/schedules/event_log.hpp"
+#include "fibers/explore/schedules/trail.hpp"
+#include "fibers/explore/strategies/profile.hpp"
 
 namespace waitpoint::exploration {
 

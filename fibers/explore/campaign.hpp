@@ -6,10 +6,10 @@
 
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/minimize.hpp"
-#include "fibers/explore/profile.hpp"
+#include "fibers/explore/report/timeline.hpp"
+#include "fibers/explore/schedules/token.hpp"
+#include "fibers/explore/strategies/profile.hpp"
 #include "fibers/explore/supervisor.hpp"
-#include "fibers/explore/timeline.hpp"
-#include "fibers/explore/token.hpp"
 
 namespace waitpoint::exploration {
 

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "fibers/explore/body_watch.hpp"
-#include "fibers/explore/choice_words.hpp"
-#include "fibers/explore/event_pair.hpp"
-#include "fibers/explore/event_stop.hpp"
+#include "fibers/explore/report/choice_words.hpp"
+#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/environment.hpp"
-#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint {
 namespace {

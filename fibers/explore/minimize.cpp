@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "fibers/explore/leave_out.hpp"
+#include "fibers/explore/schedules/leave_out.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {

@@ -3,7 +3,7 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "fibers/explore/body.hpp"
-#include "fibers/explore/profile.hpp"
-#include "fibers/explore/token.hpp"
+#include "fibers/explore/schedules/token.hpp"
+#include "fibers/explore/strategies/profile.hpp"
 
 namespace waitpoint::exploration {
 

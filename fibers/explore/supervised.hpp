@@ -10,7 +10,7 @@
 #include <functional>
 #include <string>
 
-#include "fibers/explore/token.hpp"
+#include "fibers/explore/schedules/token.hpp"
 
 namespace waitpoint::exploration {
 

@@ -3,9 +3,9 @@
 
 #include <dlfcn.h>
 
-#include "fibers/explore/choice_words.hpp"
-#include "fibers/explore/course.hpp"
-#include "fibers/explore/event_pair.hpp"
+#include "fibers/explore/report/choice_words.hpp"
+#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/schedules/course.hpp"
 
 namespace waitpoint::posix {
 namespace {

@@ -8,12 +8,12 @@
 #include <optional>
 #include <span>
 
-#include "fibers/explore/event_log.hpp"
-#include "fibers/explore/event_stop.hpp"
-#include "fibers/explore/explorer.hpp"
-#include "fibers/explore/narrator.hpp"
-#include "fibers/explore/profile.hpp"
-#include "fibers/explore/timeline_recorder.hpp"
+#include "fibers/explore/report/narrator.hpp"
+#include "fibers/explore/report/timeline_recorder.hpp"
+#include "fibers/explore/schedules/event_log.hpp"
+#include "fibers/explore/schedules/event_stop.hpp"
+#include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/explore/strategies/profile.hpp"
 #include "fibers/sync/source_lines.hpp"
 
 namespace waitpoint::posix {

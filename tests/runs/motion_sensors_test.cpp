@@ -8,8 +8,8 @@
 #include "modules/genom/client.hpp"
 #include "modules/rflex/rflex.hpp"
 #include "tests/runs/shipped.hpp"
+#include "tools/output/summary.hpp"
 #include "tools/papers_modules.hpp"
-#include "tools/summary.hpp"
 
 namespace waitpoint::runs {
 namespace {

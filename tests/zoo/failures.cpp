@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
-#include "fibers/explore/token.hpp"
+#include "fibers/explore/schedules/token.hpp"
 #include "tests/zoo/search.hpp"
 #include "tests/zoo/zoo.hpp"
 

@@ -11,11 +11,11 @@
 #include <sstream>
 
 #include "fibers/posix/exploration.hpp"
+#include "tools/command/shell_words.hpp"
+#include "tools/command/signal_words.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/exec/race_report.hpp"
-#include "tools/output_file.hpp"
-#include "tools/shell_words.hpp"
-#include "tools/signal_words.hpp"
+#include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fibers/kernel/chooser.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/exec/program_conditions.hpp"
-#include "tools/option_values.hpp"
 
 namespace CLI {
 class App;

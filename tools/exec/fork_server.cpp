@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "fibers/posix/fork_server.hpp"
-#include "tools/signal_words.hpp"
+#include "tools/command/signal_words.hpp"
 
 namespace waitpoint::tools {
 namespace {

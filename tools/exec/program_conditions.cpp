@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/exec/program_file.hpp"
-#include "tools/option_values.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -12,9 +12,9 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "tools/command/installed_part.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/exec/program_file.hpp"
-#include "tools/installed_part.hpp"
 
 namespace waitpoint::tools {
 namespace {

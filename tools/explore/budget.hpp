@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "tools/progress.hpp"
+#include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
 

@@ -15,8 +15,8 @@
 #include <system_error>
 
 #include "fibers/explore/process_ticks.hpp"
-#include "tools/progress.hpp"
-#include "tools/signal_words.hpp"
+#include "tools/command/signal_words.hpp"
+#include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fibers/explore/schedule.hpp"
+#include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint::tools {
 

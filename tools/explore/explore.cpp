@@ -9,14 +9,14 @@
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "modules/bridge/scenario_reader.hpp"
+#include "tools/command/interruption.hpp"
+#include "tools/command/program_layer.hpp"
 #include "tools/explore/failure_report.hpp"
 #include "tools/explore/program_replay.hpp"
 #include "tools/explore/program_target.hpp"
 #include "tools/explore/replay.hpp"
 #include "tools/explore/scene.hpp"
-#include "tools/interruption.hpp"
-#include "tools/output_file.hpp"
-#include "tools/program_layer.hpp"
+#include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
 namespace {

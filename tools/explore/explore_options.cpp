@@ -9,11 +9,11 @@
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "fibers/explore/strategy.hpp"
-#include "fibers/explore/token.hpp"
+#include "fibers/explore/schedules/token.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 #include "modules/bridge/expectation.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/explore/depth_first.hpp"
-#include "tools/option_values.hpp"
 
 namespace waitpoint::tools {
 namespace {

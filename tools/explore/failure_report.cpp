@@ -7,11 +7,11 @@
 #include <cerrno>
 
 #include "core/number_text.hpp"
-#include "fibers/explore/token.hpp"
+#include "fibers/explore/schedules/token.hpp"
+#include "tools/command/shell_words.hpp"
 #include "tools/explore/depth_first.hpp"
 #include "tools/explore/fewer_switches.hpp"
 #include "tools/explore/reversed_events.hpp"
-#include "tools/shell_words.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "fibers/explore/leave_out.hpp"
+#include "fibers/explore/schedules/leave_out.hpp"
 
 namespace waitpoint::tools {
 namespace {

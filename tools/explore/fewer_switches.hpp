@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A failing schedule of a target with as few switches away from the default order as a budget finds: what is left is
 // what matters. Switches are left out as long as the rest fails in the same way, with the same noise
-// (fibers/explore/leave_out.hpp); where several are left of a short run, one at another place may do the work of all;
-// and at last the noise is left out too, if it can be.
+// (fibers/explore/schedules/leave_out.hpp); where several are left of a short run, one at another place may do the work
+// of all; and at last the noise is left out too, if it can be.
 #pragma once
 
 #include "tools/explore/budget.hpp"

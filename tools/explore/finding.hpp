@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "fibers/explore/event_log.hpp"
-#include "fibers/explore/narrator.hpp"
-#include "fibers/explore/profile.hpp"
-#include "fibers/explore/schedule.hpp"
-#include "fibers/explore/timeline.hpp"
+#include "fibers/explore/report/narrator.hpp"
+#include "fibers/explore/report/timeline.hpp"
+#include "fibers/explore/schedules/event_log.hpp"
+#include "fibers/explore/strategies/profile.hpp"
+#include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint::tools {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "fibers/explore/schedule.hpp"
+#include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint::tools {
 

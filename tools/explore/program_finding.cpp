@@ -7,11 +7,11 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "fibers/explore/event_pair.hpp"
+#include "fibers/explore/report/event_pair.hpp"
 #include "fibers/posix/exploration.hpp"
 #include "fibers/posix/race_log.hpp"
+#include "tools/command/signal_words.hpp"
 #include "tools/exec/race_report.hpp"
-#include "tools/signal_words.hpp"
 
 namespace waitpoint::tools {
 namespace {

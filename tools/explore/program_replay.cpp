@@ -12,7 +12,7 @@
 #include "tools/explore/program_finding.hpp"
 #include "tools/explore/program_target.hpp"
 #include "tools/explore/replay_record.hpp"
-#include "tools/output_file.hpp"
+#include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -7,9 +7,9 @@
 #include "tools/explore/failure_report.hpp"
 #include "tools/explore/replay_record.hpp"
 #include "tools/explore/scene.hpp"
-#include "tools/output_file.hpp"
-#include "tools/progress.hpp"
-#include "tools/summary.hpp"
+#include "tools/output/output_file.hpp"
+#include "tools/output/progress.hpp"
+#include "tools/output/summary.hpp"
 
 namespace waitpoint::tools {
 

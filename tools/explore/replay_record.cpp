@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "fibers/explore/strategy.hpp"
-#include "fibers/explore/token.hpp"
+#include "fibers/explore/schedules/token.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::tools {
 namespace {

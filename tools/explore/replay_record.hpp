@@ -2,7 +2,7 @@
 // What --replay names, a token or a file: the run that is to be repeated, and by what it is known.
 #pragma once
 
-#include "fibers/explore/narrator.hpp"
+#include "fibers/explore/report/narrator.hpp"
 #include "tools/explore/explore_options.hpp"
 #include "tools/explore/finding.hpp"
 #include "tools/explore/plan.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "fibers/explore/event_pair.hpp"
+#include "fibers/explore/report/event_pair.hpp"
 
 namespace waitpoint::tools {
 namespace {

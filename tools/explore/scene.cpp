@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "fibers/explore/choice_words.hpp"
-#include "fibers/explore/course.hpp"
-#include "fibers/explore/event_pair.hpp"
-#include "fibers/explore/event_stop.hpp"
+#include "fibers/explore/report/choice_words.hpp"
+#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/report/timeline_recorder.hpp"
+#include "fibers/explore/schedules/course.hpp"
+#include "fibers/explore/schedules/event_stop.hpp"
+#include "fibers/explore/schedules/trail_recorder.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/explore/timeline_recorder.hpp"
-#include "fibers/explore/trail_recorder.hpp"
 #include "fibers/sync/source_lines.hpp"
 #include "modules/bridge/expectation.hpp"
 

@@ -12,8 +12,8 @@
 #include <span>
 #include <string>
 
-#include "fibers/explore/explorer.hpp"
-#include "fibers/explore/narrator.hpp"
+#include "fibers/explore/report/narrator.hpp"
+#include "fibers/explore/schedules/explorer.hpp"
 #include "modules/bridge/experiment.hpp"
 #include "tools/explore/target.hpp"
 

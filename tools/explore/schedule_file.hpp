@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "fibers/explore/schedule.hpp"
-#include "fibers/explore/trail.hpp"
+#include "fibers/explore/schedules/trail.hpp"
+#include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint::tools {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tools/interruption.hpp"
+#include "tools/command/interruption.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <string>
 
-#include "tools/progress.hpp"
+#include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
 

@@ -6,7 +6,7 @@
 // Of what a computation may cost, it tries the two ends.
 #pragma once
 
-#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fibers/explore/dependence.hpp"
+#include "fibers/explore/strategies/dependence.hpp"
 
 namespace waitpoint::exploration {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <map>
 
-#include "fibers/explore/schedule.hpp"
-#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/strategies/schedule.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
 

@@ -2,7 +2,7 @@
 // What strategies share that draw their choices: all but which task goes on.
 #pragma once
 
-#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
 

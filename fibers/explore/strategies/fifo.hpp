@@ -2,7 +2,7 @@
 // The default order: a task goes on as long as it can, then the one that has been ready longest; nothing rare happens.
 #pragma once
 
-#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
 

@@ -2,7 +2,7 @@
 // Several strategies in turn, a schedule each: no single one finds what all others find.
 #pragma once
 
-#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
 

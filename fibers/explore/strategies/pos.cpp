@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/strategies/pos.hpp"
 
-#include "fibers/explore/dependence.hpp"
+#include "fibers/explore/strategies/dependence.hpp"
 
 namespace waitpoint::exploration {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "fibers/explore/body.hpp"
-#include "fibers/explore/profile.hpp"
+#include "fibers/explore/strategies/profile.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"

@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "fibers/explore/explorer.hpp"
-#include "fibers/explore/profile.hpp"
+#include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/explore/strategies/profile.hpp"
 #include "fibers/io/datagram_socket.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/io/fleet.hpp"

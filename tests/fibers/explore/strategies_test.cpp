@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fibers/explore/explore.hpp"
-#include "fibers/explore/strategy.hpp"
+#include "fibers/explore/strategies/strategy.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "fibers/explore/explore.hpp"
-#include "fibers/explore/timeline.hpp"
+#include "fibers/explore/report/timeline.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"

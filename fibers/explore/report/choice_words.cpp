@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/report/choice_words.hpp"
+
+#include "fibers/sync/object_names.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+// Waiters that stand in the kernel's own list have names.
+std::string wakes(const Task& task, std::uint32_t chosen, std::uint32_t count) {
+  std::uint32_t listed = 0;
+  const Task* found = nullptr;
+  if (task.at != nullptr)
+    for (const Task* waiter = task.at->first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
+      if (listed++ == chosen) found = waiter;
+  if (found != nullptr && listed == count) return "wakes " + title_of(*found);
+  return "wakes waiter " + std::to_string(chosen + 1) + " of " + std::to_string(count);
+}
+
+}  // namespace
+
+std::string title_of(const Task& task) {
+  const std::string title = std::string(task.name) + "#" + std::to_string(task.number);
+  return std::string_view(task.robot->name) == "environment" ? title : title + " of " + task.robot->name;
+}
+
+std::string about_to(const Task& task) {
+  std::string text = title_of(task) + ", about to " + name(task.operation);
+  if (task.at != nullptr) text += " " + sync::describe(*task.at);
+  return text;
+}
+
+std::string in_words(Choice choice, const Task& task, std::uint32_t chosen, std::uint32_t count) {
+  switch (choice) {
+    case Choice::waiter: return wakes(task, chosen, count);
+    case Choice::spurious: return chosen != 0 ? "goes on for nothing" : "waits";
+    case Choice::loss: return chosen != 0 ? "loses the datagram" : "delivers the datagram";
+    default: return "takes alternative " + std::to_string(chosen) + " of " + std::to_string(count);
+  }
+}
+
+void ChoiceWords::say(const Task& task, const std::string& chosen, const std::string& instead) {
+  text_ = "at " + to_string(task.scheduler->global_time()) + " s: " + about_to(task) + ", " + chosen;
+  other_ = instead;
+}
+
+std::uint32_t ChoiceWords::among(Choice choice, const Task& task, std::uint32_t count) {
+  const bool is_asked = is_it();
+  const std::string instead = is_asked ? in_words(choice, task, instead_, count) : "";
+  const std::uint32_t chosen = explorer_.among(choice, task, count);
+  if (is_asked) say(task, in_words(choice, task, chosen, count), instead);
+  return chosen;
+}
+
+Duration ChoiceWords::computing(const Task& task, Duration least, Duration greatest) {
+  const bool is_asked = is_it();
+  const Duration chosen = explorer_.computing(task, least, greatest);
+  if (is_asked)
+    say(task, "computes " + to_string(Time() + chosen) + " s",
+        "computes " + to_string(Time() + Explorer::cost(least, greatest, instead_)) + " s");
+  return chosen;
+}
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/report/event_pair.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "fibers/explore/strategies/dependence.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+using kernel::Operation;
+
+bool is_same(const DoneEvent& a, const DoneEvent& b) { return a.event == b.event && a.operation == b.operation; }
+
+bool is_unlock(Operation operation) { return operation == Operation::unlock || operation == Operation::unlock_shared; }
+bool is_lock(Operation operation) { return operation == Operation::lock || operation == Operation::lock_shared; }
+
+// Of two tasks. That somebody waits for a thread's end changes nothing for that one; and who locks comes to the same
+// whether the lock is given up just before or just after: what matters is who locks next.
+bool depend(const DoneEvent& a, const DoneEvent& b) {
+  if (a.object == 0 || a.object != b.object || a.event.task == b.event.task) return false;
+  if (only_looks(a.operation) && only_looks(b.operation)) return false;
+  if (a.operation == Operation::join || b.operation == Operation::join) return false;
+  return !(is_lock(a.operation) && is_unlock(b.operation)) && !(is_unlock(a.operation) && is_lock(b.operation));
+}
+
+using Places = std::map<EventOf, std::size_t>;
+
+Places places_of(std::span<const DoneEvent> events) {
+  Places places;
+  for (std::size_t i = 0; i < events.size(); ++i) places.emplace(events[i].event, i);
+  return places;
+}
+
+}  // namespace
+
+std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, std::span<const DoneEvent> passes) {
+  const auto common = std::min(fails.size(), passes.size());
+  std::size_t parting = 0;
+  while (parting < common && is_same(fails[parting], passes[parting])) ++parting;
+  const Places in_failing = places_of(fails), in_passing = places_of(passes);
+  std::map<std::uint64_t, std::vector<std::size_t>> at_object;  // where it passes
+  for (std::size_t i = parting; i < passes.size(); ++i) at_object[passes[i].object].push_back(i);
+  for (std::size_t first = parting; first < fails.size(); ++first) {
+    const auto again = in_passing.find(fails[first].event);
+    if (again == in_passing.end() || !is_same(passes[again->second], fails[first])) continue;
+    const DoneEvent& later = passes[again->second];
+    std::optional<std::size_t> found;  // in the passing run; of those that come where it fails too, the first there
+    std::size_t found_place = fails.size();
+    for (const std::size_t before : at_object[later.object]) {
+      if (before >= again->second) break;
+      if (!depend(passes[before], later)) continue;
+      const auto known = in_failing.find(passes[before].event);
+      const std::size_t place = known == in_failing.end() ? fails.size() : known->second;
+      if (place < first) continue;  // in the same order
+      if (place < fails.size() && !(is_same(fails[place], passes[before]) && depend(fails[place], fails[first])))
+        continue;
+      if (found && place >= found_place) continue;
+      found = before;
+      found_place = place;
+    }
+    if (found)
+      return EventPair{fails[first].event, passes[*found].event,
+                       static_cast<std::size_t>(first != parting) + static_cast<std::size_t>(*found != parting)};
+  }
+  return std::nullopt;
+}
+
+std::string with_calls(const std::string& event, const std::vector<std::string>& calls) {
+  std::string text = event + "\n";
+  for (const std::string& call : calls) text += "      at " + call + "\n";
+  return text;
+}
+
+std::string pair_in_words(const std::string& failing, const std::string& passing) {
+  return "the two events whose order matters:\n  goes first here:             " + failing +
+         "  goes first where it passes:  " + passing;
+}
+
+std::string no_pair_in_words() {
+  return "no two events at one object are in another order where it passes: what matters is when, or what was chosen\n";
+}
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/report/narrator.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/number_text.hpp"
+#include "fibers/explore/report/choice_words.hpp"
+#include "fibers/sync/object_names.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+std::string in_brackets(const Task& task) {
+  std::string text = title_of(task) + " (" + kernel::name(task.operation);
+  if (task.at != nullptr) text += " " + sync::describe(*task.at);
+  return text + ")";
+}
+
+std::string milliseconds(Duration duration) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g ms", static_cast<double>(duration.ns()) * 1e-6);
+  return text;
+}
+
+}  // namespace
+
+// Called behind the explorer: what it chose is its last decision.
+template <class Words>
+void Narrator::tell(const Words& words) {
+  const std::vector<Decision>& decisions = explorer_.schedule().decisions;
+  if (decisions.size() == decisions_) return;  // there was no choice
+  decisions_ = decisions.size();
+  const bool asked = asked_ && *asked_ + 1 == decisions_;
+  if (!asked && !decisions.back().is_switch()) return;
+  const Told told{scheduler_.global_time(), scheduler_.events(), words(decisions.back())};
+  if (asked) answer_ = told;
+  if (decisions.back().is_switch()) switches_.push_back(told);
+}
+
+std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
+  const std::uint32_t chosen = explorer_.next(ready, count);
+  if (count > 1 && chosen < count)
+    tell([&](const Decision& decision) {
+      const std::string one = in_brackets(*ready[decision.chosen]);
+      if (decision.is_switch()) return one + " goes first, in place of " + in_brackets(*ready[decision.usual]);
+      return one + " goes first, as usual, of " + counted(count, "task");
+    });
+  return chosen;
+}
+
+std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t count) {
+  const std::uint32_t chosen = explorer_.among(choice, task, count);
+  tell([&](const Decision& decision) {
+    return in_brackets(task) + " " + in_words(choice, task, decision.chosen, count);
+  });
+  return chosen;
+}
+
+Duration Narrator::computing(const Task& task, Duration least, Duration greatest) {
+  const Duration chosen = explorer_.computing(task, least, greatest);
+  tell([&](const Decision& decision) {
+    return title_of(task) + " computes " + milliseconds(chosen) +
+           (decision.is_switch() ? " in place of " + milliseconds(greatest) : ", as usual");
+  });
+  return chosen;
+}
+
+std::string to_text(const std::vector<Told>& switches, std::size_t lines_max) {
+  const std::size_t from = switches.size() - std::min(switches.size(), lines_max);
+  std::string text = from > 0 ? "  ... " + std::to_string(from) + " before\n" : "";
+  for (std::size_t i = from; i < switches.size(); ++i)
+    text += "  " + to_string(switches[i].time) + " s  " + switches[i].words + "\n";
+  return text;
+}
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/report/timeline.hpp"
+
+#include <algorithm>
+#include <ostream>
+
+namespace waitpoint::exploration {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20) quoted += c;
+  }
+  return quoted + "\"";
+}
+
+constexpr std::size_t repeated_max = 8;   // lines that are looked for again together
+constexpr std::size_t repeats_shown = 3;  // as many lines may stand there again
+
+std::string line_of(const Timeline& timeline, const TimelineEvent& event, std::size_t width) {
+  const std::string& task = timeline.tasks[event.task];
+  std::string line = "  " + to_string(event.time) + (event.is_switch ? " * " : "   ") + task;
+  line += std::string(width - task.size() + 2, ' ') + name(event.operation);
+  return event.object.empty() ? line : line + " " + event.object;
+}
+
+// How often the `count` lines from `from` on stand there again, behind themselves.
+std::size_t repeats(const std::vector<std::string>& lines, std::size_t from, std::size_t count) {
+  std::size_t again = from + count;
+  while (again < lines.size() && lines[again] == lines[again - count]) ++again;
+  return (again - from - count) / count;
+}
+
+// `count` lines once, and how often they come again.
+std::vector<std::string> with_repeats_told(const std::vector<std::string>& lines, std::size_t count) {
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < lines.size();) {
+    const std::size_t more = repeats(lines, i, count);
+    if (more * count <= repeats_shown) {
+      told.push_back(lines[i++]);
+      continue;
+    }
+    for (std::size_t k = 0; k < count; ++k) told.push_back(lines[i + k]);
+    told.push_back("      ... the same" + (count == 1 ? std::string() : " " + std::to_string(count) + " lines") + " " +
+                   std::to_string(more) + (more == 1 ? " time more" : " times more"));
+    i += count * (more + 1);
+  }
+  return told;
+}
+
+// As tasks poll in turns, each some times: from within, so that what is repeated is counted as it stands there.
+std::vector<std::string> with_repeats_told(std::vector<std::string> lines) {
+  for (std::size_t count = 1; count <= repeated_max; ++count) {
+    std::vector<std::string> told = with_repeats_told(lines, count);
+    if (told.size() < lines.size()) count = 0;
+    lines = std::move(told);
+  }
+  return lines;
+}
+
+// Microseconds, which is the format's unit; three digits behind the point are its nanoseconds.
+std::string microseconds(std::int64_t ns) {
+  const std::string digits = std::to_string(ns % 1000);
+  return std::to_string(ns / 1000) + "." + std::string(3 - digits.size(), '0') + digits;
+}
+
+// What the task does behind an event, until its `next` one or, without one, to the end of the run.
+std::string state_after(const TimelineEvent& event, const TimelineEvent* next) {
+  if (event.operation == kernel::Operation::end) return "";
+  if (!event.waits_for.empty()) return "waiting for " + event.waits_for;
+  if (next == nullptr || next->time == event.time) return "";  // ready, or the end came
+  return next->operation == kernel::Operation::sleep ? "sleeping" : "computing";
+}
+
+}  // namespace
+
+std::string to_text(const Timeline& timeline, std::size_t lines_max) {
+  std::size_t width = 0;
+  for (const std::string& task : timeline.tasks) width = std::max(width, task.size());
+  std::vector<std::string> lines;
+  for (const TimelineEvent& event : timeline.events) lines.push_back(line_of(timeline, event, width));
+  lines = with_repeats_told(std::move(lines));
+  const std::size_t from = lines.size() - std::min(lines.size(), lines_max);
+  std::string text = from > 0 ? "  ... " + std::to_string(from) + " lines before\n" : "";
+  for (std::size_t i = from; i < lines.size(); ++i) text += lines[i] + "\n";
+  return text;
+}
+
+void write_trace(std::ostream& out, const Timeline& timeline) {
+  const std::vector<TimelineEvent>& events = timeline.events;
+  std::vector<std::int64_t> stamps_ns;
+  std::int64_t end_ns = 0;
+  for (const TimelineEvent& event : events) {
+    stamps_ns.push_back(std::max(end_ns, event.time.ns()));
+    end_ns = stamps_ns.back() + 1;
+  }
+  std::vector<std::size_t> next(events.size(), events.size());  // of the same task
+  std::vector<std::size_t> following(timeline.tasks.size(), events.size());
+  for (std::size_t i = events.size(); i-- > 0;) {
+    next[i] = following[events[i].task];
+    following[events[i].task] = i;
+  }
+  out << "{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n";
+  for (std::size_t i = 0; i < timeline.tasks.size(); ++i)
+    out << "{\"ph\":\"M\",\"name\":\"thread_name\",\"pid\":1,\"tid\":" << i + 1
+        << ",\"args\":{\"name\":" << quoted(timeline.tasks[i]) << "}},\n";
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const TimelineEvent& event = events[i];
+    const std::string where = ",\"pid\":1,\"tid\":" + std::to_string(event.task + 1);
+    const auto slice = [&](const std::string& title, const char* kind, std::int64_t from_ns, std::int64_t to_ns) {
+      out << "{\"ph\":\"X\",\"name\":" << quoted(title) << ",\"cat\":\"" << kind
+          << "\",\"ts\":" << microseconds(from_ns) << ",\"dur\":" << microseconds(to_ns - from_ns) << where << "},\n";
+    };
+    slice(name(event.operation) + (event.object.empty() ? "" : " " + event.object),
+          event.is_switch ? "switch" : "event", stamps_ns[i], stamps_ns[i] + 1);
+    const bool is_last = next[i] == events.size();
+    const std::int64_t until_ns = is_last ? end_ns : stamps_ns[next[i]];
+    const std::string state = state_after(event, is_last ? nullptr : &events[next[i]]);
+    if (!state.empty() && until_ns > stamps_ns[i] + 1) slice(state, "state", stamps_ns[i] + 1, until_ns);
+    if (event.woken_by < 0) continue;
+    const auto from = static_cast<std::size_t>(event.woken_by);
+    out << "{\"ph\":\"s\",\"name\":\"wakes\",\"cat\":\"wake\",\"id\":" << i
+        << ",\"ts\":" << microseconds(stamps_ns[from]) << ",\"pid\":1,\"tid\":" << events[from].task + 1 << "},\n";
+    out << "{\"ph\":\"f\",\"bp\":\"e\",\"name\":\"wakes\",\"cat\":\"wake\",\"id\":" << i
+        << ",\"ts\":" << microseconds(stamps_ns[i]) << where << "},\n";
+  }
+  out << "{\"ph\":\"M\",\"name\":\"process_name\",\"pid\":1,\"args\":{\"name\":\"waitpoint\"}}\n]}\n";
+}
+
+}  // namespace waitpoint::exploration

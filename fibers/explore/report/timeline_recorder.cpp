@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/report/timeline_recorder.hpp"
+
+#include "fibers/explore/report/choice_words.hpp"
+#include "fibers/sync/object_names.hpp"
+
+namespace waitpoint::exploration {
+
+using kernel::Operation;
+
+TimelineRecorder::TimelineRecorder(Timeline& timeline, const Explorer* explorer, Time from)
+    : timeline_(timeline), explorer_(explorer), from_(from) {
+  event = &TimelineRecorder::record;
+}
+
+std::uint32_t TimelineRecorder::number_of(const Task& task) {
+  const auto [known, is_new] = numbers_.emplace(task.id, static_cast<std::uint32_t>(timeline_.tasks.size()));
+  if (is_new) timeline_.tasks.push_back(title_of(task));
+  return known->second;
+}
+
+// Whether the event now executing was chosen in place of another: asked once for each.
+bool TimelineRecorder::is_switch(const Explorer& explorer) {
+  const std::vector<Decision>& decisions = explorer.schedule().decisions;
+  const bool is_new = decisions.size() > decisions_;
+  decisions_ = decisions.size();
+  return is_new && decisions.back().is_switch() && decisions.back().choice == Choice::task;
+}
+
+// Behind its event a task is left when it waits, or when its next one is due: which of them, shows when another's
+// comes. Where none came in between, its next event says that it had waited.
+void TimelineRecorder::note_wait(const kernel::EventRecord& record) {
+  if (last_ == nullptr) return;
+  TimelineEvent& last = timeline_.events.back();
+  if (last.operation == Operation::end) return;
+  if (record.task != last_) {
+    if (last_->state == kernel::TaskState::blocked) last.waits_for = sync::describe(*last_->blocked_on);
+  } else if (record.object != nullptr &&
+             (record.operation == Operation::resume || record.operation == Operation::timeout)) {
+    last.waits_for = sync::describe(*record.object);
+  }
+}
+
+void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& record) {
+  TimelineRecorder& self = static_cast<TimelineRecorder&>(watch);
+  const bool is_switch = self.explorer_ != nullptr && self.is_switch(*self.explorer_);
+  if (record.time < self.from_) return;
+  std::vector<TimelineEvent>& events = self.timeline_.events;
+  self.note_wait(record);
+  self.last_ = record.task;
+  std::int64_t woken_by = -1;
+  if (record.object != nullptr && record.operation == Operation::resume) {
+    const auto last = self.last_release_.find(record.object->identity);
+    if (last != self.last_release_.end()) woken_by = last->second;
+  } else if (record.object != nullptr && record.operation != Operation::timeout) {
+    self.last_release_[record.object->identity] = static_cast<std::int64_t>(events.size());
+  }
+  const std::uint32_t task = self.number_of(*record.task);
+  events.push_back({record.time, task, record.operation, record.object != nullptr ? sync::describe(*record.object) : "",
+                    "", woken_by, is_switch});
+}
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Takes down what each task does in a run.
+#pragma once
+
+#include <map>
+
+#include "fibers/explore/report/timeline.hpp"
+#include "fibers/explore/schedules/explorer.hpp"
+
+namespace waitpoint::exploration {
+
+/// The events of one run from `from` on, as its scheduler's watch.
+class TimelineRecorder : public kernel::Watch {
+ public:
+  /// Without an explorer no event is a switch; it must outlive the recorder.
+  TimelineRecorder(Timeline& timeline, const Explorer* explorer, Time from = Time());
+
+ private:
+  static void record(kernel::Watch& watch, const kernel::EventRecord& record);
+  std::uint32_t number_of(const Task& task);
+  bool is_switch(const Explorer& explorer);
+  void note_wait(const kernel::EventRecord& record);
+
+  Timeline& timeline_;
+  const Explorer* explorer_;
+  Time from_;
+  std::map<std::uint64_t, std::uint32_t> numbers_;      // of tasks, by id
+  std::map<std::uint64_t, std::int64_t> last_release_;  // the last event at an object that may have woken another
+  std::size_t decisions_ = 0;
+  const Task* last_ = nullptr;  // whose event was the last taken down
+};
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The events of a run from some decision on, so that two runs that were one up to there can be compared.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fibers/explore/schedules/explorer.hpp"
+
+namespace waitpoint::exploration {
+
+struct DoneEvent {
+  EventOf event;
+  kernel::Operation operation;
+  std::uint64_t object;  ///< its identity, which is of use within one run; 0: none
+};
+
+/// Writes them down, as a scheduler's watch.
+class EventLog final : public kernel::Watch {
+ public:
+  /// Those that come behind decision `from` of what `explorer` writes down; at most events_max.
+  EventLog(std::vector<DoneEvent>& events, const Explorer& explorer, std::size_t from)
+      : events_(events), explorer_(explorer), from_(from) {
+    event = &EventLog::add;
+  }
+
+ private:
+  static constexpr std::size_t events_max = 1'000'000;
+
+  static void add(kernel::Watch& watch, const kernel::EventRecord& record) {
+    EventLog& self = static_cast<EventLog&>(watch);
+    if (self.explorer_.schedule().decisions.size() <= self.from_ || self.events_.size() == events_max) return;
+    EventOf which = event_of(*record.task);
+    --which.sequence;  // it counts this one already
+    self.events_.push_back({which, record.operation, record.object != nullptr ? record.object->identity : 0});
+  }
+
+  std::vector<DoneEvent>& events_;
+  const Explorer& explorer_;
+  std::size_t from_;
+};
+
+}  // namespace waitpoint::exploration

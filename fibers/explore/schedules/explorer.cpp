@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/explore/schedules/explorer.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace waitpoint::exploration {
+namespace {
+
+using kernel::Operation;
+
+constexpr std::uint8_t looks_max = 6;
+
+// So often all that are ready may spin before time goes on.
+constexpr std::uint32_t idle_turns_max = 20;
+
+template <class... Operations>
+constexpr std::uint64_t set_of(Operations... operations) {
+  return (... | (std::uint64_t{1} << static_cast<unsigned>(operations)));
+}
+
+// What changes nothing for others, and what one does again and again who waits for them.
+constexpr std::uint64_t looks =
+    set_of(Operation::load, Operation::try_lock, Operation::try_lock_shared, Operation::try_acquire,
+           Operation::try_wait, Operation::compare_exchange, Operation::exchange, Operation::stop_requested,
+           Operation::poll, Operation::sleep, Operation::yield);
+
+bool is_look(Operation operation) { return (looks >> static_cast<unsigned>(operation) & 1) != 0; }
+
+}  // namespace
+
+void Explorer::begin(Strategy& strategy, const Played& played) {
+  strategy_ = &strategy.deciding();
+  played_ = played;
+  plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty() ||
+           played.stop_at != Played().stop_at;
+  switches_.assign(played.switches.begin(), played.switches.end());
+  std::sort(switches_.begin(), switches_.end());
+  schedule_.decisions.clear();
+  schedule_.switches.clear();
+  habits_.clear();
+  stopped_before_.clear();
+  last_ = nullptr;
+  spinning_ = idle_turns_ = step_ = step_of_instant_ = instants_ = 0;
+  instant_ = Time();
+  deviated_ = 0;
+  parted_ = was_cut_ = false;
+}
+
+// The number of the alternative that is to be taken at this decision; `count` if that is open.
+std::uint32_t Explorer::of_deviations(std::uint32_t count) {
+  const std::size_t at = schedule_.decisions.size();
+  while (deviated_ < played_.deviations.size() && played_.deviations[deviated_].decision < at) ++deviated_;
+  if (deviated_ == played_.deviations.size() || played_.deviations[deviated_].decision != at) return count;
+  parted_ |= played_.deviations[deviated_].chosen >= count;
+  return std::min(count, played_.deviations[deviated_].chosen);
+}
+
+const Decision* Explorer::of_prefix(Choice choice, std::uint32_t count) {
+  const std::size_t at = schedule_.decisions.size();
+  if (parted_ || at >= played_.prefix.size()) return nullptr;
+  const Decision& decision = played_.prefix[at];
+  if (decision.choice == choice && decision.count == count) return &decision;
+  parted_ = true;
+  return nullptr;
+}
+
+bool Explorer::is_played(const Switch& change) const {
+  return std::binary_search(switches_.begin(), switches_.end(), change);
+}
+
+void Explorer::begin_instant(Time now) {
+  instant_ = now;
+  step_of_instant_ = 0;
+  ++instants_;
+  last_ = nullptr;  // its time has moved on like the others': it has no claim to go on
+  if (spinning_ != 0) stop_spinning();
+  idle_turns_ = 0;
+}
+
+// Where the task that was the last to go on stands, mostly behind the others; as many as there are if it does not.
+inline std::uint32_t Explorer::place_of_last(std::span<Task* const> offered) const {
+  std::size_t place = offered.size();
+  while (place > 0 && offered[place - 1] != last_) --place;
+  return static_cast<std::uint32_t>(place > 0 ? place - 1 : offered.size());
+}
+
+inline void Explorer::write_down(Task* const* ready, const Decision& decision) {
+  schedule_.decisions.push_back(decision);
+  if (decision.is_switch())
+    schedule_.switches.push_back({Choice::task, event_of(*ready[decision.usual]), event_of(*ready[decision.chosen])});
+}
+
+std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
+  if (const Time now = scheduler_.global_time(); now != instant_) begin_instant(now);
+  if (__builtin_expect(plays_ || spinning_ != 0, 0)) return next_with_care(ready, count);
+  if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
+  const std::uint32_t last = place_of_last({ready, count});
+  const bool may_go_on = last != count;
+  const std::uint32_t chosen = strategy_->next({{ready, count}, last_, may_go_on, step_});
+  if (__builtin_expect(chosen == Strategy::cut, 0)) return give_up(*ready[0]);
+  if (count > 1) write_down(ready, {count, chosen, may_go_on ? last : 0, Choice::task, may_go_on, 0});
+  note(*ready[chosen]);
+  ++step_;
+  return chosen;
+}
+
+// Something is played, or some tasks spin.
+std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) {
+  if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_turns_max && scheduler_.is_due_later())
+    return later;
+  if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
+  const bool chooses = count > 1;
+  const bool some_spin = spinning_ != 0 && chooses;
+  const std::span<Task* const> offered = some_spin ? leave_spinning_out({ready, count}) : std::span(ready, count);
+  const std::uint32_t last = place_of_last(offered);
+  const bool may_go_on = last != offered.size();
+  const std::uint32_t usual = may_go_on ? last : 0;
+  const std::uint32_t usual_place = some_spin ? places_[usual] : usual;
+  std::uint32_t chosen = count;
+  if (plays_ && chooses) {
+    if (schedule_.decisions.size() == played_.stop_at) return stop({ready, count}, usual_place);
+    chosen = choose({ready, count}, usual_place);
+  }
+  if (chosen == count) {
+    chosen = strategy_->next({offered, last_, may_go_on, step_});
+    if (some_spin && chosen != Strategy::cut) chosen = places_[chosen];
+  }
+  if (chosen == Strategy::cut) return give_up(*ready[0]);
+  if (chooses)
+    write_down(ready, {count, chosen, usual_place, Choice::task, may_go_on, some_spin ? spinning_among(count) : 0});
+  note(*ready[chosen]);
+  ++step_;
+  return chosen;
+}
+
+std::uint32_t Explorer::stop(std::span<Task* const> ready, std::uint32_t usual) {
+  stopped_before_.assign(ready.begin(), ready.end());
+  scheduler_.stop_between_events(kernel::StopCause::requested, *ready[usual]);
+  return usual;
+}
+
+// The run ends here: whatever is returned is not entered.
+std::uint32_t Explorer::give_up(Task& task) {
+  was_cut_ = true;
+  scheduler_.stop_between_events(kernel::StopCause::requested, task);
+  return 0;
+}
+
+// What is played here; as many as there are ready if that is open.
+std::uint32_t Explorer::choose(std::span<Task* const> ready, std::uint32_t usual) {
+  const auto count = static_cast<std::uint32_t>(ready.size());
+  if (const Decision* decision = of_prefix(Choice::task, count)) return decision->chosen;
+  if (const std::uint32_t chosen = of_deviations(count); chosen != count) return chosen;
+  if (!switches_.empty()) {
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (i != usual && is_played({Choice::task, event_of(*ready[usual]), event_of(*ready[i])})) return i;
+  }
+  return count;
+}
+
+// Those of `count` that are not offered, after leave_spinning_out().
+std::uint64_t Explorer::spinning_among(std::uint32_t count) const {
+  std::uint64_t left = count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+  for (const std::uint32_t place : places_)
+    if (place < 64) left &= ~(std::uint64_t{1} << place);
+  return left;
+}
+
+void Explorer::stop_spinning() {
+  for (Habit& habit : habits_) habit.spins = false;
+  spinning_ = 0;
+}
+
+bool Explorer::polls_only(std::span<Task* const> ready) const {
+  for (const Task* task : ready)
+    if (task->number >= habits_.size() || !habits_[task->number].spins) return false;
+  return true;
+}
+
+// The strategy, and the default order, do not see those that spin as long as there are others.
+std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready) {
+  offered_.clear();
+  places_.clear();
+  const auto add = [&](std::uint32_t at) {
+    offered_.push_back(ready[at]);
+    places_.push_back(at);
+  };
+  for (std::uint32_t i = 0; i < ready.size(); ++i)
+    if (ready[i]->number >= habits_.size() || !habits_[ready[i]->number].spins) add(i);
+  if (offered_.empty()) {  // all of them spin: one of the others has its turn
+    stop_spinning();
+    for (std::uint32_t i = 0; i < ready.size(); ++i)
+      if (ready[i] != last_) add(i);
+  }
+  left_out_.turns |= offered_.size() < ready.size();
+  return offered_;
+}
+
+inline void Explorer::note(const Task& task) {
+  if (__builtin_expect(task.number >= habits_.size(), 0)) habits_.resize(task.number + 1);
+  Habit& habit = habits_[task.number];
+  if (habit.instant != instants_) habit = {.at = {}, .instant = instants_};
+  if (is_look(task.operation)) {
+    note_look(task, habit);
+  } else {
+    habit.looks = 0;
+    idle_turns_ = 0;
+    if (spinning_ != 0) stop_spinning();
+  }
+  habit.at[1] = habit.at[0];
+  habit.at[0] = task.at;
+  last_ = &task;
+}
+
+void Explorer::note_look(const Task& task, Habit& habit) {
+  const bool is_another = task.at != habit.at[0] && task.at != habit.at[1];
+  if (task.operation != Operation::yield) {
+    habit.looks = is_another ? 0 : static_cast<std::uint8_t>(habit.looks + 1);
+    if (habit.looks < looks_max) return;
+    habit.looks = 0;
+  }
+  spinning_ += !habit.spins;
+  habit.spins = true;
+}
+
+std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {
+  left_out_.spurious |= choice == Choice::spurious;
+  std::uint32_t chosen = count;
+  if (plays_) {
+    if (const Decision* decision = of_prefix(choice, count)) chosen = decision->chosen;
+    if (chosen == count) chosen = of_deviations(count);
+    for (std::uint32_t i = 1; i < count && !switches_.empty() && chosen == count; ++i)
+      if (is_played({choice, event_of(task), {i, 0}})) chosen = i;
+  }
+  if (chosen == count) chosen = strategy_->among(choice, task, count);
+  WAITPOINT_CHECK(chosen < count, "a strategy chooses what there is not");
+  schedule_.decisions.push_back({count, chosen, 0, choice});
+  if (chosen != 0) schedule_.switches.push_back({choice, event_of(task), {chosen, 0}});
+  return chosen;
+}
+
+namespace {
+
+std::uint32_t costs_between(Duration least, Duration greatest) {
+  const std::int64_t span = (greatest - least).ns();
+  return span < computing_steps ? static_cast<std::uint32_t>(span) + 1 : computing_steps + 1;
+}
+
+}  // namespace
+
+Duration Explorer::cost(Duration least, Duration greatest, std::uint32_t chosen) {
+  __extension__ using Wide = __int128;
+  const std::uint32_t count = costs_between(least, greatest);
+  const auto less = static_cast<Wide>((greatest - least).ns()) * chosen / (count - 1);
+  return greatest - Duration::from_ns(static_cast<std::int64_t>(less));
+}
+
+Duration Explorer::computing(const Task& task, Duration least, Duration greatest) {
+  const std::uint32_t count = costs_between(least, greatest);
+  left_out_.costs |= count > 2;
+  return cost(least, greatest, among(Choice::computing, task, count));
+}
+
+}  // namespace waitpoint::exploration

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Takes the trail of a run, as its scheduler's watch.
+#pragma once
+
+#include "fibers/explore/schedules/trail.hpp"
+#include "fibers/kernel/scheduler.hpp"
+#include "fibers/sync/simulation.hpp"
+
+namespace waitpoint::exploration {
+
+class TrailRecorder final : public kernel::Watch {
+ public:
+  /// `trail` has its spacing, and no mark; both must outlive the recorder.
+  TrailRecorder(Trail& trail, const Simulation& simulation) : trail_(trail), simulation_(simulation) {
+    event = &TrailRecorder::add;
+  }
+
+ private:
+  static void add(kernel::Watch& watch, const kernel::EventRecord&) {
+    TrailRecorder& self = static_cast<TrailRecorder&>(watch);
+    if (self.trail_.marks.size() == Trail::marks_max) return;
+    self.seen_ = self.seen_ == 0 ? self.simulation_.scheduler().events() : self.seen_ + 1;
+    if (self.seen_ % self.trail_.spacing() == 0) self.trail_.add(self.simulation_.digest().value());
+  }
+
+  Trail& trail_;
+  const Simulation& simulation_;
+  std::uint64_t seen_ = 0;  // events of the run, with this one
+};
+
+}  // namespace waitpoint::exploration

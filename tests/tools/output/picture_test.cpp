@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/output/picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/tools/sample_result.hpp"
+#include "tests/tools/xml_check.hpp"
+#include "tools/output/svg.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using world::Obstacle;
+using world::Shape;
+
+std::vector<Obstacle> boxes(std::size_t count) {
+  std::vector<Obstacle> obstacles(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    obstacles[i].shape = {Shape::Kind::box,
+                          {0.1 * static_cast<double>(i % 100), 0.1 * static_cast<double>(i / 100), 0},
+                          0.1,
+                          0.1,
+                          0,
+                          0,
+                          2};
+  }
+  return obstacles;
+}
+
+TEST(Picture, is_well_formed_whatever_the_names) {
+  const std::string svg = picture_svg(boxes(3), sample_result(2));
+  const XmlCheck check(svg);
+  EXPECT_EQ(check.problem(), "");
+  EXPECT_EQ(check.count("svg"), 1u);
+  EXPECT_NE(svg.find("a &lt;small&gt; &quot;run&quot; &amp; more"), std::string::npos);
+}
+
+TEST(Picture, shows_three_paths_and_two_goals_for_each_robot) {
+  EXPECT_EQ(XmlCheck(picture_svg(boxes(3), sample_result(1))).count("polyline"), 3u);
+  EXPECT_EQ(XmlCheck(picture_svg(boxes(3), sample_result(2))).count("polyline"), 6u);
+  const std::string svg = picture_svg(boxes(3), sample_result(1));
+  EXPECT_NE(svg.find(">1</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">2</text>"), std::string::npos);
+  EXPECT_EQ(svg.find(">3</text>"), std::string::npos);
+  for (const char* label : {"true path", "estimated", "odometry alone", "segments", " m</text>", "wp1:"}) {
+    EXPECT_NE(svg.find(label), std::string::npos) << label;
+  }
+}
+
+TEST(Picture, is_the_same_text_for_the_same_run) {
+  EXPECT_EQ(picture_svg(boxes(9), sample_result(2)), picture_svg(boxes(9), sample_result(2)));
+}
+
+TEST(Picture, of_thousands_of_boxes_stays_small) {
+  const std::string svg = picture_svg(boxes(5000), sample_result(1));
+  const XmlCheck check(svg);
+  EXPECT_EQ(check.problem(), "");
+  EXPECT_LT(svg.size(), 600'000u);
+  EXPECT_LT(check.count("path"), 20u) << "one path for all boxes of a kind";
+}
+
+TEST(Picture, of_an_empty_run_is_still_a_picture) {
+  bridge::RunResult nothing;
+  EXPECT_EQ(XmlCheck(picture_svg({}, nothing)).problem(), "");
+  nothing.robots.resize(1);
+  EXPECT_EQ(XmlCheck(picture_svg({}, nothing)).problem(), "");
+}
+
+TEST(Svg, numbers_have_two_decimals_at_most) {
+  EXPECT_EQ(svg_number(1), "1");
+  EXPECT_EQ(svg_number(0.5), "0.5");
+  EXPECT_EQ(svg_number(2.678), "2.68");
+  EXPECT_EQ(svg_number(-0.001), "0");
+  EXPECT_EQ(svg_number(100), "100");
+}
+
+TEST(Svg, reserved_characters_are_escaped_and_control_characters_left_out) {
+  EXPECT_EQ(xml_escaped("a<b & \"c\">\x01é"), "a&lt;b &amp; &quot;c&quot;&gt;é");
+}
+
+TEST(Svg, a_line_keeps_its_corners_and_loses_what_lies_on_it) {
+  const std::vector<Point> corner = {{0, 0}, {1, 0.001}, {2, 0}, {3, -0.001}, {4, 0}, {4, 3}};
+  EXPECT_EQ(simplified(corner, 0.01), (std::vector<Point>{{0, 0}, {4, 0}, {4, 3}}));
+  EXPECT_EQ(simplified(corner, 0.0001).size(), 5u) << "(2, 0) lies on what remains";
+  const std::vector<Point> back_and_forth = {{0, 0}, {5, 0}, {1, 0}};
+  EXPECT_EQ(simplified(back_and_forth, 0.01), back_and_forth) << "a point beyond the ends is not on the line";
+}
+
+TEST(XmlCheck, finds_what_is_wrong) {
+  EXPECT_EQ(XmlCheck("<a b=\"1\"><c/>x &amp; y</a>").problem(), "");
+  for (const char* bad : {"<a>", "<a></b>", "<a b=1/>", "<a b=\"<\"/>", "<a>&</a>", "<a b=\"1\" b=\"2\"/>", "<a/>x"}) {
+    EXPECT_NE(XmlCheck(bad).problem(), "") << bad;
+  }
+}
+
+}  // namespace
+}  // namespace waitpoint::tools

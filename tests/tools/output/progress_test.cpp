@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/output/progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <string>
+
+namespace waitpoint::tools {
+namespace {
+
+using namespace std::chrono_literals;
+
+double fake_now_s = 0;
+double fake_clock() { return fake_now_s; }
+
+/// What was written to the stream that `shown` gets.
+template <class Shown>
+std::string output_of(Shown&& shown) {
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* const stream = open_memstream(&text, &size);
+  shown(stream);
+  std::fclose(stream);
+  const std::string output(text, size);
+  std::free(text);
+  return output;
+}
+
+Time at(Duration d) { return Time() + d; }
+
+TEST(Progress, away_from_a_terminal_is_a_line_every_simulated_minute) {
+  const std::string output = output_of([](std::FILE* stream) {
+    Progress progress(stream, false, 10min);
+    for (int second = 0; second <= 150; ++second) progress.update(at(second * Duration(1s)), 1, 3);
+    progress.finish();
+  });
+  EXPECT_EQ(output, "    60 s of 600 s  1 of 3 goals\n   120 s of 600 s  1 of 3 goals\n");
+}
+
+TEST(Progress, on_a_terminal_redraws_a_bar_at_most_ten_times_a_second) {
+  fake_now_s = 100;
+  const std::string output = output_of([](std::FILE* stream) {
+    Progress progress(stream, true, 100s, &fake_clock);
+    for (int i = 0; i < 1000; ++i) {
+      fake_now_s += 0.001;
+      progress.update(at(i * Duration(50ms)), 0, 0);
+    }
+  });
+  const auto draws = std::count(output.begin(), output.end(), '\r');
+  EXPECT_GE(draws, 9);
+  EXPECT_LE(draws, 11);
+  EXPECT_EQ(output.find('\n'), std::string::npos);
+  EXPECT_NE(output.find("x real time"), std::string::npos);
+}
+
+TEST(Progress, the_bar_is_full_at_the_end) {
+  fake_now_s = 0;
+  const std::string output = output_of([](std::FILE* stream) {
+    Progress progress(stream, true, 100s, &fake_clock);
+    fake_now_s = 2;
+    progress.update(at(100s), 3, 3);
+  });
+  EXPECT_EQ(output.find("░"), std::string::npos);
+  EXPECT_NE(output.find("█ 100 s of 100 s  3 of 3 goals  50.0 x real time"), std::string::npos) << output;
+}
+
+TEST(Progress, a_message_takes_the_bar_away_and_bears_the_virtual_time) {
+  fake_now_s = 0;
+  const std::string output = output_of([](std::FILE* stream) {
+    Progress progress(stream, true, 100s, &fake_clock);
+    progress.update(at(10s), 0, 0);
+    progress.log(at(10500ms), "rackham", "goal 1 reached");
+  });
+  EXPECT_TRUE(output.ends_with("\r\x1b[K    10.500 s  rackham: goal 1 reached\n")) << output;
+}
+
+}  // namespace
+}  // namespace waitpoint::tools

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/check/self_check.hpp"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/number_text.hpp"
+#include "fibers/sync/duration_record.hpp"
+#include "modules/bridge/experiment.hpp"
+#include "tools/check/event_comparison.hpp"
+#include "tools/check/event_log.hpp"
+#include "tools/check/perturbed_memory.hpp"
+#include "tools/check/perturbed_process.hpp"
+#include "tools/check/system_threads.hpp"
+#include "tools/output/progress.hpp"
+#include "tools/run/duration_files.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr Duration window = std::chrono::milliseconds(100);
+constexpr int status_interrupted = 130;
+constexpr const char* durations_name = "durations of the first run";
+
+/// What a run came to, or how far it had come when it parted from the first.
+struct Carried {
+  Digest digest;
+  std::string end;
+  std::uint64_t events = 0;
+  double wall_s = 0;
+};
+
+std::string text_of(RunEnd end) {
+  switch (end) {
+    case RunEnd::time_reached: return "its time is reached";
+    case RunEnd::ended: return "no task remains";
+    case RunEnd::deadlock: return "deadlock";
+    case RunEnd::no_progress: return "no progress";
+  }
+  return "";
+}
+
+void line(const char* name, const std::string& text) { fmt::print("  {:<18}{}\n", name, text); }
+
+/// Wall time that the perturbed process may take: a heap in disorder is slower, and the machine may be loaded.
+double limit_s(double run_s) {
+  const char* const given = std::getenv("WAITPOINT_TIME_LIMIT");
+  double limit = 0;
+  if (given == nullptr || *given == '\0') return 60 + 10 * run_s;
+  if (!parse_number(given, limit) || !(limit > 0 && limit <= 1e9))
+    throw BadInput("WAITPOINT_TIME_LIMIT", std::string("expected a positive number of seconds, found '") + given + "'");
+  return limit;
+}
+
+/// The descriptor of a file in memory; -1 for an empty text.
+int file_of(const std::string& text) {
+  if (text.empty()) return -1;
+  const int file = memfd_create("waitpoint-durations", MFD_CLOEXEC);
+  const bool written = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  if (!written) throw BadInput("--check", "the durations of the first run find no place in memory");
+  return file;
+}
+
+std::string contents(int file) {
+  std::string text;
+  char part[4096];
+  for (ssize_t got = 0; (got = pread(file, part, sizeof part, static_cast<off_t>(text.size()))) > 0;)
+    text.append(part, static_cast<std::size_t>(got));
+  return text;
+}
+
+class SelfCheck {
+ public:
+  SelfCheck(const RunOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types,
+            const std::string& replay, bool (*interrupted)())
+      : options_(options), scenario_(scenario), types_(types), replay_(replay), interrupted_(interrupted) {}
+
+  int all();
+  int perturbed(const PerturbedFiles& files);
+
+ private:
+  bridge::ExperimentOptions experiment_options() const { return {options_.seed, options_.order, replay_}; }
+  Carried first(EventLog& log);
+  Carried compared(EventComparison& comparison);
+  Carried carry_out(bridge::Experiment& experiment, const EventComparison* comparison);
+  int tell(const std::optional<Difference>& difference, const std::string& run) const;
+  void tell_same(const Carried& run, const SharedPage& seen) const;
+
+  const RunOptions& options_;
+  const bridge::Scenario& scenario_;
+  std::span<const genom::ModuleType> types_;
+  const std::string& replay_;
+  bool (*interrupted_)();
+  SystemThreads threads_;
+  DurationRecord durations_;  // of the first run
+};
+
+Carried SelfCheck::carry_out(bridge::Experiment& experiment, const EventComparison* comparison) {
+  const Time until = options_.limit(scenario_.until);
+  const double start_s = wall_clock_s();
+  Carried run;
+  try {
+    RunEnd end = RunEnd::time_reached;
+    for (Time reached; end == RunEnd::time_reached && reached < until && !interrupted_();) {
+      reached = std::min(until, reached + window);
+      end = experiment.run_before(reached);
+      threads_.look();
+      if (comparison != nullptr && comparison->parted()) break;
+    }
+    run.end = text_of(end);
+  } catch (const std::exception& error) {
+    const bool is_first = comparison == nullptr;
+    if (is_first && dynamic_cast<const BadInput*>(&error) != nullptr) throw;  // as a run without a check says it
+    run.end = std::string("it failed: ") + error.what();
+  }
+  run.digest = experiment.simulation().digest();
+  run.events = experiment.simulation().scheduler().events();
+  run.wall_s = wall_clock_s() - start_s;
+  return run;
+}
+
+Carried SelfCheck::first(EventLog& log) {
+  bridge::Experiment experiment(scenario_, types_, experiment_options());
+  const DurationFiles given(options_, scenario_, experiment);
+  std::optional<DurationRecorder> recorder;
+  if (!options_.replay_durations) recorder.emplace(experiment.simulation(), durations_name);
+  log.watch(experiment.simulation());
+  Carried run = carry_out(experiment, nullptr);
+  if (recorder) durations_ = recorder->record();
+  log.finish(run.digest, run.end);
+  return run;
+}
+
+Carried SelfCheck::compared(EventComparison& comparison) {
+  bridge::Experiment experiment(scenario_, types_, experiment_options());
+  const DurationFiles given(options_, scenario_, experiment);
+  std::optional<DurationReplay> replay;
+  if (!durations_.entries.empty()) replay.emplace(experiment.simulation(), durations_, durations_name, durations_name);
+  comparison.watch(experiment.simulation());
+  return carry_out(experiment, &comparison);
+}
+
+int SelfCheck::tell(const std::optional<Difference>& difference, const std::string& run) const {
+  if (!difference) return 0;
+  fmt::print("{}, seed {}: not the same run: {} parts from the first\n{}", scenario_.name, options_.seed, run,
+             to_text(*difference));
+  for (const std::string& thread : threads_.found())
+    line("OS thread", thread + " came with the run: nothing makes it repeat");
+  line("replay", replay_ + " --check");
+  std::fflush(stdout);
+  return 1;
+}
+
+void SelfCheck::tell_same(const Carried& run, const SharedPage& seen) const {
+  fmt::print("{}, seed {}: the same run, twice in this process and once in a perturbed one\n", scenario_.name,
+             options_.seed);
+  line("events", fmt::format("{}, each compared with its robot's digest", run.events));
+  line("digest", to_string(run.digest));
+  if (run.end.starts_with("it failed")) line("ended", run.end);
+  if (!durations_.entries.empty())
+    line("durations", fmt::format("{} of the first run replayed in the others", durations_.entries.size()));
+  for (const std::string& thread : threads_.found())
+    line("OS thread", thread + " came with the run: nothing makes it repeat");
+  if (!seen.moved) line("not perturbed", "addresses: the kernel laid them out as in this process");
+  if (!seen.surrounded) line("not perturbed", "clocks, directories, heap: LD_PRELOAD has no effect on this program");
+}
+
+int SelfCheck::perturbed(const PerturbedFiles& files) {
+  SharedMapping shared(files.log);
+  compare_surroundings(*shared.operator->());
+  if (files.durations >= 0) durations_ = parse_duration_record(durations_name, contents(files.durations));
+  EventComparison comparison(files.log, fill_stack);
+  const Carried run = compared(comparison);
+  if (interrupted_()) return status_interrupted;
+  return tell(comparison.finish(run.digest, run.end), "the run in a perturbed process");
+}
+
+int SelfCheck::all() {
+  check_perturbed_process_possible();
+  limit_s(0);  // bad input before anything is run
+  EventLog log;
+  const Carried one = first(log);
+  if (interrupted_()) return status_interrupted;
+  EventComparison comparison(log.file());
+  const Carried two = compared(comparison);
+  if (interrupted_()) return status_interrupted;
+  if (const int status = tell(comparison.finish(two.digest, two.end), "the second run in this process"); status != 0)
+    return status;
+
+  SharedMapping shared(log.file());
+  note_surroundings(*shared.operator->());
+  shared->equal = 0;
+  const int durations = file_of(durations_.entries.empty() ? "" : to_text(durations_));
+  const ProcessEnd end =
+      run_perturbed_process({log.file(), durations}, limit_s(std::max(one.wall_s, two.wall_s)), interrupted_);
+  if (durations >= 0) close(durations);
+  if (interrupted_()) return status_interrupted;
+  if (end.status == 1 || end.status == status_interrupted) return *end.status;  // it has told why
+  if (end.status == 0) {
+    tell_same(one, *shared.operator->());
+    return 0;
+  }
+  const std::string how = end.status ? fmt::format("ended with status {}", *end.status) : end.cut_off;
+  return tell(cut_off(log.file(), shared->equal, "the process " + how), "the run in a perturbed process");
+}
+
+}  // namespace
+
+int self_check(const RunOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types,
+               const std::string& replay, bool (*interrupted)()) {
+  SelfCheck check(options, scenario, types, replay, interrupted);
+  const std::optional<PerturbedFiles> files = files_of_perturbed_process();
+  if (!files) return check.all();
+  struct Call {
+    SelfCheck& check;
+    const PerturbedFiles& files;
+    int status = 0;
+  } call{check, *files};
+  with_perturbed_stack(
+      [](void* argument) {
+        Call& made = *static_cast<Call*>(argument);
+        made.status = made.check.perturbed(made.files);
+      },
+      &call);
+  return call.status;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What locates a difference between two runs: digests by robot and second, and the events themselves, as text.
+//
+// Compare the digest files first (`diff` names the first second and robot), then the event files of that second.
+// Neither changes the run.
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "fibers/sync/simulation.hpp"
+#include "tools/output/output_file.hpp"
+
+namespace waitpoint::tools {
+
+/// Lines "second robot digest events", robots in the order of the scenario, then the environment.
+class DigestRecorder {
+ public:
+  explicit DigestRecorder(const std::filesystem::path& path) : file_(path) {}
+  void record(const Simulation& simulation, std::int64_t second);
+  void finish() { file_.commit(); }
+
+ private:
+  OutputFile file_;
+};
+
+/// "time robot task operation object", without a newline.
+std::string event_text(const kernel::EventRecord& record);
+
+/// Lines "time robot task operation object": one for each event.
+class EventRecorder : private kernel::Watch {
+ public:
+  explicit EventRecorder(const std::filesystem::path& path);
+  void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
+  void finish();
+
+ private:
+  static void write(kernel::Watch& watch, const kernel::EventRecord& record);
+
+  OutputFile file_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace waitpoint::tools

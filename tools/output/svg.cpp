@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/output/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace waitpoint::tools {
+namespace {
+
+double distance_to_segment(Point p, Point a, Point b) {
+  const Point along = b - a;
+  const double squared = dot(along, along);
+  const double part = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0;
+  return length(p - (a + part * along));
+}
+
+std::string point_text(Point p) { return svg_number(p.x) + "," + svg_number(p.y); }
+
+}  // namespace
+
+Svg::Svg(double width, double height)
+    : head_(
+          fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+                      "font-family=\"Helvetica, Arial, sans-serif\">\n",
+                      svg_number(width), svg_number(height))) {}
+
+void Svg::rectangle(Point corner, double width, double height, std::string_view style) {
+  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}/>\n", svg_number(corner.x),
+                       svg_number(corner.y), svg_number(width), svg_number(height), style);
+}
+
+void Svg::circle(Point centre, double radius, std::string_view style) {
+  body_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" {}/>\n", svg_number(centre.x), svg_number(centre.y),
+                       svg_number(radius), style);
+}
+
+void Svg::line(Point a, Point b, std::string_view style) {
+  body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" {}/>\n", svg_number(a.x), svg_number(a.y),
+                       svg_number(b.x), svg_number(b.y), style);
+}
+
+void Svg::polyline(std::span<const Point> points, std::string_view style) {
+  if (points.size() < 2) return;
+  std::string list;
+  for (const Point p : points) list += (list.empty() ? "" : " ") + point_text(p);
+  body_ += fmt::format("<polyline points=\"{}\" {}/>\n", list, style);
+}
+
+void Svg::path(std::string_view data, std::string_view style) {
+  if (!data.empty()) body_ += fmt::format("<path d=\"{}\" {}/>\n", data, style);
+}
+
+void Svg::text(Point at, std::string_view text, std::string_view style) {
+  body_ += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", svg_number(at.x), svg_number(at.y), style,
+                       xml_escaped(text));
+}
+
+void Svg::define(std::string_view xml) { body_ += fmt::format("<defs>{}</defs>\n", xml); }
+void Svg::begin_group(std::string_view style) { body_ += fmt::format("<g {}>\n", style); }
+void Svg::end_group() { body_ += "</g>\n"; }
+
+std::string Svg::finish() const { return head_ + body_ + "</svg>\n"; }
+
+std::string svg_number(double value) {
+  std::string text = fmt::format("{:.2f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string svg_polygon(std::span<const Point> points) {
+  std::string text;
+  for (const Point p : points) text += (text.empty() ? "M" : "L") + point_text(p);
+  return text + "z";
+}
+
+std::string xml_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&': escaped += "&amp;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      case '"': escaped += "&quot;"; break;
+      default:
+        if (static_cast<unsigned char>(c) >= 0x20) escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::vector<Point> simplified(std::span<const Point> line, double tolerance) {
+  if (line.size() < 3) return {line.begin(), line.end()};
+  std::vector<bool> kept(line.size(), false);
+  kept.front() = kept.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    std::size_t farthest = first;
+    double greatest = tolerance;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double distance = distance_to_segment(line[i], line[first], line[last]);
+      if (distance <= greatest) continue;
+      greatest = distance;
+      farthest = i;
+    }
+    if (farthest == first) continue;
+    kept[farthest] = true;
+    open.push_back({first, farthest});
+    open.push_back({farthest, last});
+  }
+  std::vector<Point> result;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (kept[i]) result.push_back(line[i]);
+  }
+  return result;
+}
+
+}  // namespace waitpoint::tools

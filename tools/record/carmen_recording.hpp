@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run as a log of CARMEN, which SLAM tools read (carmen.sourceforge.net, "logger message formats"):
+//
+//   FLASER n r1 ... rn x y theta odom_x odom_y odom_theta time ROBOT time
+//   ODOM x y theta v w 0 time ROBOT time
+//   TRUEPOS x y theta odom_x odom_y odom_theta time ROBOT time
+//
+// The laser's pose is in the odometry's frame. The format has one laser: of each robot the first one.
+#pragma once
+
+#include "tools/output/output_file.hpp"
+#include "tools/record/recording.hpp"
+#include "tools/record/robot_posters.hpp"
+
+namespace waitpoint::tools {
+
+class CarmenRecording final : public Recording {
+ public:
+  /// Throws BadInput if the file cannot be written.
+  CarmenRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
+
+  void begin(bridge::Experiment& experiment) override;
+
+ private:
+  struct OfRobot {
+    RobotPosters posters;
+    std::optional<Pose> odometry;
+  };
+
+  void record(const bridge::Experiment& experiment, Time now) override;
+  void commit(const bridge::RunResult& result) override;
+  void record_robot(const bridge::Experiment& experiment, std::size_t i);
+
+  const bridge::Scenario& scenario_;
+  OutputFile file_;
+  std::vector<OfRobot> robots_;
+};
+
+}  // namespace waitpoint::tools

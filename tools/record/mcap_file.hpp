@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A file of the MCAP format (mcap.dev, version 0): messages of several channels by time, with an index, so that viewers
+// can jump to any time. Chunks of about a megabyte, not compressed, each with its checksum.
+//
+//   magic | Header | (Chunk MessageIndex...)... | DataEnd | Schema... Channel... ChunkIndex... Statistics
+//         | SummaryOffset... | Footer | magic
+//
+// The same messages give the same bytes: nothing of the machine or the clock is in it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/time.hpp"
+#include "tools/output/output_file.hpp"
+
+namespace waitpoint::tools {
+
+class McapFile {
+ public:
+  /// Throws BadInput if the file cannot be written; so do write() and finish().
+  explicit McapFile(const std::filesystem::path& path);
+
+  /// A kind of message: `text` is a JSON Schema. Returns its number, for add_channel().
+  std::uint16_t add_schema(const std::string& name, const std::string& text);
+  /// Messages in JSON, of a schema, on a topic.
+  std::uint16_t add_channel(std::uint16_t schema, const std::string& topic);
+  /// Appends a message; times need not ascend.
+  void write(std::uint16_t channel, Time time, std::string_view message);
+  /// Writes the index and gives the file its name.
+  void finish();
+
+ private:
+  struct ChunkPlace {
+    std::uint64_t first_ns, last_ns, offset, length, index_length, size;
+    std::map<std::uint16_t, std::uint64_t> index_offsets;  // by channel
+  };
+  struct Group {
+    std::uint8_t operation;
+    std::uint64_t offset, length;
+  };
+
+  void append(std::string_view bytes);
+  void end_chunk();
+  static std::string as_record(const ChunkPlace& place);
+  std::string statistics_record() const;
+
+  OutputFile file_;
+  std::uint64_t size_ = 0;
+  std::uint32_t checksum_ = 0;                   // of all that was written
+  std::vector<std::string> schemas_, channels_;  // as records
+  std::string chunk_;
+  std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0;
+  std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> in_chunk_;  // (time, offset) by channel
+  std::vector<ChunkPlace> chunks_;
+  std::map<std::uint16_t, std::uint64_t> messages_;  // by channel
+  std::uint64_t first_ns_ = ~std::uint64_t{0}, last_ns_ = 0;
+};
+
+}  // namespace waitpoint::tools

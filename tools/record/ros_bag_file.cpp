@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/record/ros_bag_file.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <rosgraph_msgs/Clock.h>
+#include <rosgraph_msgs/Log.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+
+namespace waitpoint::tools {
+namespace {
+
+ros::Time time_of(std::int64_t ns) {
+  constexpr std::int64_t second = 1'000'000'000;
+  return {static_cast<std::uint32_t>(ns / second), static_cast<std::uint32_t>(ns % second)};
+}
+
+std_msgs::Header header_of(const RosBagFile::Place& place) {
+  std_msgs::Header header;
+  header.stamp = time_of(place.time_ns);
+  header.frame_id = place.frame;
+  return header;
+}
+
+geometry_msgs::Quaternion turn_of(const RosBagFile::Place& place) {
+  geometry_msgs::Quaternion turn;
+  turn.z = place.sin_half;
+  turn.w = place.cos_half;
+  return turn;
+}
+
+geometry_msgs::Pose pose_of(const RosBagFile::Place& place) {
+  geometry_msgs::Pose pose;
+  pose.position.x = place.x;
+  pose.position.y = place.y;
+  pose.position.z = place.z;
+  pose.orientation = turn_of(place);
+  return pose;
+}
+
+// In ROS's order of x, y, z and the angles about them.
+boost::array<double, 36> of(const RosBagFile::Covariance& covariance) {
+  constexpr std::size_t places[] = {0, 1, 5};
+  boost::array<double, 36> all{};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      all[6 * places[row] + places[column]] = covariance[3 * row + column];
+  return all;
+}
+
+}  // namespace
+
+struct RosBagFile::Bag {
+  rosbag::Bag bag;
+};
+
+RosBagFile::RosBagFile(const std::string& path) : bag_(std::make_unique<Bag>()) {
+  bag_->bag.open(path, rosbag::bagmode::Write);
+}
+
+RosBagFile::~RosBagFile() = default;
+
+template <class Message>
+void RosBagFile::write(const std::string& topic, const Message& message) {
+  bag_->bag.write(topic, std::max(time_of(now_ns_), ros::TIME_MIN), message);
+}
+
+void RosBagFile::write_clock() {
+  rosgraph_msgs::Clock clock;
+  clock.clock = time_of(now_ns_);
+  write("/clock", clock);
+}
+
+void RosBagFile::write_transform(const Place& child, const std::string& child_frame) {
+  geometry_msgs::TransformStamped transform;
+  transform.header = header_of(child);
+  transform.child_frame_id = child_frame;
+  transform.transform.translation.x = child.x;
+  transform.transform.translation.y = child.y;
+  transform.transform.translation.z = child.z;
+  transform.transform.rotation = turn_of(child);
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(transform);
+  write("/tf", message);
+}
+
+void RosBagFile::write_pose(const std::string& topic, const Place& place) {
+  geometry_msgs::PoseStamped message;
+  message.header = header_of(place);
+  message.pose = pose_of(place);
+  write(topic, message);
+}
+
+void RosBagFile::write_pose(const std::string& topic, const Place& place, const Covariance& covariance) {
+  geometry_msgs::PoseWithCovarianceStamped message;
+  message.header = header_of(place);
+  message.pose.pose = pose_of(place);
+  message.pose.covariance = of(covariance);
+  write(topic, message);
+}
+
+void RosBagFile::write_odometry(const std::string& topic, const Place& place, const Covariance& covariance,
+                                const std::string& child, double v, double w) {
+  nav_msgs::Odometry message;
+  message.header = header_of(place);
+  message.child_frame_id = child;
+  message.pose.pose = pose_of(place);
+  message.pose.covariance = of(covariance);
+  message.twist.twist.linear.x = v;
+  message.twist.twist.angular.z = w;
+  write(topic, message);
+}
+
+void RosBagFile::write_scan(const std::string& topic, const Scan& scan) {
+  sensor_msgs::LaserScan message;
+  message.header.stamp = time_of(scan.time_ns);
+  message.header.frame_id = scan.frame;
+  const auto steps = static_cast<double>(std::max<std::size_t>(scan.ranges.size(), 1) - 1);
+  message.angle_min = static_cast<float>(scan.first_angle);
+  message.angle_max = static_cast<float>(scan.first_angle + steps * scan.angle_step);
+  message.angle_increment = static_cast<float>(scan.angle_step);
+  message.range_max = static_cast<float>(scan.range_max);
+  message.ranges = scan.ranges;
+  write(topic, message);
+}
+
+void RosBagFile::write_solids(const std::string& topic, const std::vector<Solid>& solids) {
+  visualization_msgs::MarkerArray all;
+  for (const Solid& solid : solids) {
+    visualization_msgs::Marker marker;
+    marker.header = header_of(solid.place);
+    marker.ns = topic;
+    marker.id = static_cast<std::int32_t>(all.markers.size());
+    marker.type = solid.is_box ? visualization_msgs::Marker::CUBE : visualization_msgs::Marker::CYLINDER;
+    marker.pose = pose_of(solid.place);
+    marker.scale.x = solid.size[0];
+    marker.scale.y = solid.size[1];
+    marker.scale.z = solid.size[2];
+    marker.color.r = marker.color.g = marker.color.b = 0.6f;
+    marker.color.a = 1;
+    all.markers.push_back(marker);
+  }
+  write(topic, all);
+}
+
+void RosBagFile::write_log(const std::string& topic, std::int64_t time_ns, const std::string& who,
+                           const std::string& text, bool is_warning) {
+  rosgraph_msgs::Log log;
+  log.header.stamp = time_of(time_ns);
+  log.level = is_warning ? rosgraph_msgs::Log::WARN : rosgraph_msgs::Log::INFO;
+  log.name = who;
+  log.msg = text;
+  write(topic, log);
+}
+
+void RosBagFile::close() { bag_->bag.close(); }
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/record/ros_bag_recording.hpp"
+
+#include <exception>
+
+#include "core/error.hpp"
+#include "core/exact_math.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+RosBagFile::Place place(Time time, const std::string& frame, const Pose& pose, double z_m = 0) {
+  const auto [sin_half, cos_half] = exact::sincos(pose.heading / 2);
+  return {time.ns(), frame, pose.x, pose.y, z_m, sin_half, cos_half};
+}
+
+RosBagFile::Solid solid(const world::Shape& shape, const std::string& frame) {
+  const double height_m = shape.z_high_m - shape.z_low_m;
+  const RosBagFile::Place middle = place(Time(), frame, shape.pose, (shape.z_low_m + shape.z_high_m) / 2);
+  if (shape.kind == world::Shape::Kind::cylinder)
+    return {false, middle, {2 * shape.radius_m, 2 * shape.radius_m, height_m}};
+  return {true, middle, {shape.length_m, shape.width_m, height_m}};
+}
+
+}  // namespace
+
+RosBagRecording::RosBagRecording(const std::filesystem::path& path, const bridge::Scenario& scenario)
+    : ViewerRecording(scenario), file_(path) {
+  try {
+    bag_ = std::make_unique<RosBagFile>(file_.written_to().string());
+  } catch (const std::exception& failure) {
+    throw BadInput(path.string(), std::string("cannot be written: ") + failure.what());
+  }
+}
+
+void RosBagRecording::write_obstacles(const std::vector<world::Shape>& shapes) {
+  std::vector<RosBagFile::Solid> solids;
+  for (const world::Shape& shape : shapes) solids.push_back(solid(shape, root));
+  bag_->write_solids("/world", solids);
+}
+
+void RosBagRecording::write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
+                                      double height_m) {
+  bag_->write_transform(place(date, parent, pose, height_m), child);
+}
+
+void RosBagRecording::write_truth(const OfRobot& robot, Time date, const world::BodyState& body) {
+  bag_->write_pose("/" + robot.name + "/truth", place(date, root, body.pose, body.height_m));
+}
+
+void RosBagRecording::write_odometry(const OfRobot& robot, const posters::Odometry& odometry) {
+  const posters::PositionEstimate& position = odometry.position;
+  bag_->write_odometry("/" + robot.name + "/odometry", place(position.date, root, position.pose, odometry.height_m),
+                       position.covariance, robot.name, odometry.v_m_s, odometry.w_rad_s);
+}
+
+void RosBagRecording::write_position(const OfRobot& robot, const posters::PositionEstimate& position) {
+  bag_->write_pose("/" + robot.name + "/position", place(position.date, root, position.pose), position.covariance);
+}
+
+void RosBagRecording::write_scan(const OfRobot&, std::size_t, const std::string& frame,
+                                 const posters::LaserReading& scan) {
+  bag_->write_scan("/" + frame, {scan.date.ns(),
+                                 frame,
+                                 scan.first_angle_rad,
+                                 scan.angle_step_rad,
+                                 scan.range_max_m,
+                                 {scan.range_m.begin(), scan.range_m.end()}});
+}
+
+void RosBagRecording::write_log(const OfRobot& robot, const ModuleLog::Line& line) {
+  bag_->write_log("/" + robot.name + "/modules", line.date.ns(), robot.name + "/" + line.module, line.text,
+                  line.is_bad);
+}
+
+void RosBagRecording::close(const bridge::RunResult&) {
+  bag_->close();
+  file_.commit();
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run as a ROS 1 bag, for rviz and everything else that reads bags:
+//
+//   /clock            rosgraph_msgs/Clock, ten times a second
+//   /tf               tf2_msgs/TFMessage: world -> ROBOT (the truth), world -> ROBOT/position (what it believes), and
+//                     ROBOT/position -> ROBOT/LASER
+//   /world            visualization_msgs/MarkerArray: the obstacles, again when they change
+//   /ROBOT/LASER      sensor_msgs/LaserScan, in the frame ROBOT/LASER
+//   /ROBOT/odometry   nav_msgs/Odometry
+//   /ROBOT/position   geometry_msgs/PoseWithCovarianceStamped, what it believes
+//   /ROBOT/truth      geometry_msgs/PoseStamped, ten times a second
+//   /ROBOT/modules    rosgraph_msgs/Log: what its modules were asked, and what became of that
+#pragma once
+
+#include "tools/output/output_file.hpp"
+#include "tools/record/ros_bag_file.hpp"
+#include "tools/record/viewer_recording.hpp"
+
+namespace waitpoint::tools {
+
+class RosBagRecording final : public ViewerRecording {
+ public:
+  /// Throws BadInput if the file cannot be written.
+  RosBagRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
+
+ private:
+  void add(const OfRobot&) override {}
+  void set_time(Time now) override { bag_->set_time(now.ns()); }
+  void write_clock() override { bag_->write_clock(); }
+  void write_obstacles(const std::vector<world::Shape>& shapes) override;
+  void write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
+                       double height_m) override;
+  void write_truth(const OfRobot& robot, Time date, const world::BodyState& body) override;
+  void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) override;
+  void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
+  void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
+                  const posters::LaserReading& scan) override;
+  void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
+  void close(const bridge::RunResult& result) override;
+
+  OutputFile file_;
+  std::unique_ptr<RosBagFile> bag_;
+};
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run as viewers show it, whatever the format of their files: what is recorded, when, and in which frame.
+//
+//   ten times a second  the virtual time; the obstacles, if they changed; where each robot is (world -> ROBOT)
+//   as it comes         a robot's odometry, what it believes (world -> ROBOT/position), the scans of its lasers
+//                       (in ROBOT/position -> ROBOT/LASER), what its modules were asked and what became of that
+#pragma once
+
+#include "tools/record/module_log.hpp"
+#include "tools/record/recording.hpp"
+#include "tools/record/robot_posters.hpp"
+
+namespace waitpoint::tools {
+
+class ViewerRecording : public Recording {
+ public:
+  void begin(bridge::Experiment& experiment) final;
+
+ protected:
+  struct OfRobot {
+    std::size_t number;
+    std::string name;
+    RobotPosters posters;
+    std::unique_ptr<ModuleLog> modules;
+  };
+
+  static constexpr const char* root = "world";  ///< the frame that all others are in
+
+  explicit ViewerRecording(const bridge::Scenario& scenario) : scenario_(scenario) {}
+
+ private:
+  void record(const bridge::Experiment& experiment, Time now) final;
+  void commit(const bridge::RunResult& result) final;
+  void record_obstacles(const std::vector<world::Obstacle>& obstacles);
+  void record_truth(const OfRobot& robot, const world::World& world, Time now);
+  void record_news(OfRobot& robot);
+  void record_modules(OfRobot& robot);
+
+  // What a format does with it.
+
+  /// Before the run, once for each.
+  virtual void add(const OfRobot& robot) = 0;
+  /// All that is written from here on was received then.
+  virtual void set_time(Time now) = 0;
+  virtual void write_clock() = 0;
+  virtual void write_obstacles(const std::vector<world::Shape>& shapes) = 0;
+  virtual void write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
+                               double height_m) = 0;
+  virtual void write_truth(const OfRobot& robot, Time date, const world::BodyState& body) = 0;
+  virtual void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) = 0;
+  virtual void write_position(const OfRobot& robot, const posters::PositionEstimate& position) = 0;
+  /// Of the robot's laser number `laser`, in that frame.
+  virtual void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
+                          const posters::LaserReading& scan) = 0;
+  virtual void write_log(const OfRobot& robot, const ModuleLog::Line& line) = 0;
+  /// After all else.
+  virtual void close(const bridge::RunResult& result) = 0;
+
+  const bridge::Scenario& scenario_;
+  std::vector<OfRobot> robots_;
+  std::optional<std::vector<world::Shape>> meshes_;  // as a plan shows them, once they have been looked at
+  std::optional<std::vector<world::Shape>> drawn_;   // the obstacles, as they were written last
+  std::optional<Time> sampled_;
+};
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/run/prompt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
+#include "modules/bridge/condition.hpp"
+#include "modules/bridge/words.hpp"
+#include "tools/command/interruption.hpp"
+#include "tools/output/recorders.hpp"
+#include "tools/run/pacing.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr const char* help_text = R"(  step [N]                     execute the next event, or the next N
+  run [TIME | +SECONDS]        run to that virtual time, or to the end (also: continue)
+  until TIME                   the same
+  until ROBOT.FIGURE >= N      run to the event after which it holds; figures: goals, collisions, travelled_m, x_m, y_m,
+                               stalled; comparisons: < <= == >= >
+  go [TIME | +SECONDS]         run, and take commands meanwhile (on a terminal, run and until do so too)
+  pause                        stop what goes on; Ctrl-C does so too
+  speed X                      X simulated seconds a second from now on; 0 is as fast as it goes
+  status                       where the run and its robots are
+  tasks                        all tasks, with their local times
+  [at TIME] INTERVENTION       at the world's next step, or the first one not before that time:
+    request ROBOT MODULE REQUEST [FIELD=VALUE ...]
+    move ROBOT X Y [HEADING_DEG]
+    obstacle {name: ..., ...}    a shape as in a scenario; takes the place of one of that name
+    move-obstacle NAME X Y [HEADING_DEG]
+    remove-obstacle NAME
+    push NAME FX_N FY_N SECONDS  a force on a robot or on something loose, in a dynamic world
+  quit                         end the run here, with summary and digest
+)";
+
+const char* state_name(kernel::TaskState state) {
+  switch (state) {
+    case kernel::TaskState::running: return "running";
+    case kernel::TaskState::ready: return "ready";
+    case kernel::TaskState::blocked: return "blocked";
+    default: return "ended";
+  }
+}
+
+}  // namespace
+
+const Prompt::Named Prompt::commands[] = {
+    {"help", &Prompt::help, true},        {"step", &Prompt::step, false},  {"run", &Prompt::run_to, false},
+    {"continue", &Prompt::run_to, false}, {"go", &Prompt::go, false},      {"until", &Prompt::until, false},
+    {"pause", &Prompt::pause, true},      {"speed", &Prompt::speed, true}, {"status", &Prompt::status, true},
+    {"tasks", &Prompt::tasks, true},      {"at", &Prompt::at, true},       {"quit", &Prompt::quit, true},
+};
+
+bool Prompt::run() {
+  if (terminal_) std::puts("type help for the commands");
+  std::string line;
+  while (!quit_ && !interrupted_ && !session_.over()) {
+    if (terminal_) fmt::print("{:.3f} s> ", session_.now().seconds());
+    std::fflush(stdout);
+    const LineReader::Result result = lines_.wait(line);
+    if (result != LineReader::Result::line) {
+      if (terminal_) std::puts("");
+      return result == LineReader::Result::end;
+    }
+    obey(line, false);
+  }
+  return !interrupted_;
+}
+
+void Prompt::obey(std::string_view line, bool running) {
+  if (!terminal_) ++written_.line;
+  try {
+    std::string_view rest = line;
+    const std::string word = bridge::take_word(rest, written_);
+    if (word.empty() || word.starts_with('#')) return;
+    std::vector<std::string_view> known = bridge::intervention_verbs();
+    if (std::find(known.begin(), known.end(), word) != known.end()) {
+      session_.intervene(bridge::parse_intervention(line, written_));
+      return;
+    }
+    for (const Named& named : commands) {
+      known.push_back(named.name);
+      if (named.name != word) continue;
+      if (running && !named.while_running) throw written_.bad("the run goes on; pause it before '" + word + "'");
+      return (this->*named.command)(rest);
+    }
+    throw written_.bad("unknown command '" + word + "'" + did_you_mean(word, known) + "; help lists what there is");
+  } catch (const BadInput& error) {
+    std::fflush(stdout);
+    std::fprintf(stderr, "%s\n", error.what());
+  }
+}
+
+// Takes what was typed while the run goes on; true to stop it.
+bool Prompt::heed() {
+  std::string line;
+  while (!pause_ && !quit_ && lines_.poll(line) == LineReader::Result::line) obey(line, true);
+  std::fflush(stdout);
+  return pause_ || quit_;
+}
+
+void Prompt::carry_on(Time target, const Session::Enough& enough, bool heeding) {
+  pause_ = false;
+  const Session::Stop stop =
+      session_.carry_on(target, enough, heeding ? Session::Heed([this] { return heed(); }) : nullptr);
+  // On a terminal, Ctrl-C comes back to the prompt, also one that came when the run had just stopped by itself.
+  if (terminal_ && interruption() == SIGINT)
+    forget_interruption();
+  else
+    interrupted_ = stop == Session::Stop::interrupted;
+  if (stop != Session::Stop::over) tell_place();
+}
+
+void Prompt::tell_place() {
+  fmt::print("at {} s after {} events\n", to_string(session_.now()),
+             session_.experiment().simulation().scheduler().events());
+}
+
+void Prompt::help(std::string_view rest) {
+  bridge::require_end(rest, written_);
+  std::fputs(help_text, stdout);
+}
+
+void Prompt::step(std::string_view rest) {
+  const std::string word = bridge::take_word(rest, written_);
+  bridge::require_end(rest, written_);
+  std::uint64_t left = 1;
+  if (!word.empty() && (!parse_number(word, left) || left == 0))
+    throw written_.bad("expected a number of events, found '" + word + "'");
+  std::string last;
+  carry_on(
+      session_.until(),
+      [&](const kernel::EventRecord& record) {
+        if (--left == 0) last = event_text(record);
+        return left == 0;
+      },
+      false);
+  if (!last.empty()) std::puts(last.c_str());
+}
+
+void Prompt::run_to(std::string_view rest) { run_to(rest, terminal_); }
+
+void Prompt::run_to(std::string_view rest, bool heeding) {
+  const std::string word = bridge::take_word(rest, written_);
+  bridge::require_end(rest, written_);
+  Time target = session_.until();
+  if (!word.empty()) {
+    const bool relative = word.starts_with('+');
+    const std::optional<Time> time = bridge::parse_time(relative ? word.substr(1) : word);
+    if (!time) throw written_.bad("expected a time in seconds, found '" + word + "'");
+    target = relative ? session_.now() + time->since_start() : *time;
+    if (target < session_.now()) throw written_.bad(word + " s is past");
+  }
+  carry_on(target, nullptr, heeding);
+}
+
+void Prompt::go(std::string_view rest) { run_to(rest, true); }
+
+void Prompt::until(std::string_view rest) {
+  if (rest.find_first_of("<>=") == std::string_view::npos) return run_to(rest);
+  const bridge::Condition condition = bridge::parse_condition(rest, session_.experiment(), written_);
+  if (!condition())
+    carry_on(
+        session_.until(), [&](const kernel::EventRecord&) { return condition(); }, terminal_);
+  else
+    tell_place();
+}
+
+void Prompt::pause(std::string_view rest) {
+  bridge::require_end(rest, written_);
+  pause_ = true;
+}
+
+void Prompt::speed(std::string_view rest) {
+  const std::string word = bridge::take_word(rest, written_);
+  bridge::require_end(rest, written_);
+  double speed = 0;
+  if (!parse_number(word, speed) || !is_speed(speed))
+    throw written_.bad(std::string("expected ") + speeds + ", found '" + word + "'");
+  session_.set_speed(speed);
+}
+
+void Prompt::status(std::string_view rest) {
+  bridge::require_end(rest, written_);
+  tell_place();
+  const bridge::Experiment& experiment = session_.experiment();
+  for (std::size_t i = 0; i < experiment.robots().size(); ++i) {
+    const bridge::Robot& robot = *experiment.robots()[i];
+    const auto& body = experiment.world().body(world::BodyId(i));
+    fmt::print(
+        "  {}: {} of {} goals, at ({:.3f}, {:.3f}) heading {:.1f} degrees, {:.2f} m travelled, {} collisions{}\n",
+        robot.name(), robot.goals_reached(), robot.goals(), body.pose.x, body.pose.y,
+        body.pose.heading / exact::pi * 180, body.travelled_m, body.collisions, body.stalled ? ", stalled" : "");
+  }
+}
+
+void Prompt::tasks(std::string_view rest) {
+  bridge::require_end(rest, written_);
+  for (const kernel::Task* task = session_.experiment().simulation().scheduler().first_task(); task != nullptr;
+       task = task->next) {
+    fmt::print("  {:<24} {:<12} {:<8} {} s, {}", task->name, task->robot->name, state_name(task->state),
+               to_string(task->local_time), kernel::name(task->operation));
+    if (const kernel::Object* at = task->blocked_on; at != nullptr)
+      fmt::print(" {}#{} {}", at->kind, at->number, at->label);
+    std::puts("");
+  }
+}
+
+void Prompt::at(std::string_view rest) {
+  const std::string word = bridge::take_word(rest, written_);
+  const std::optional<Time> time = bridge::parse_time(word);
+  if (!time) throw written_.bad("expected a time in seconds, found '" + word + "'");
+  session_.intervene(bridge::parse_intervention(rest, written_), time);
+}
+
+void Prompt::quit(std::string_view rest) {
+  bridge::require_end(rest, written_);
+  quit_ = true;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/run/run.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "modules/bridge/expectation.hpp"
+#include "modules/bridge/experiment.hpp"
+#include "modules/bridge/journal.hpp"
+#include "modules/bridge/plan.hpp"
+#include "modules/bridge/scenario_reader.hpp"
+#include "tools/check/self_check.hpp"
+#include "tools/command/interruption.hpp"
+#include "tools/command/program_layer.hpp"
+#include "tools/output/output_file.hpp"
+#include "tools/output/picture.hpp"
+#include "tools/output/recorders.hpp"
+#include "tools/output/summary.hpp"
+#include "tools/output/trajectory.hpp"
+#include "tools/record/recording.hpp"
+#include "tools/run/duration_files.hpp"
+#include "tools/run/journal_file.hpp"
+#include "tools/run/prompt.hpp"
+#include "tools/run/session.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+// The files of one run: opened before it starts, written when it is over.
+class Outputs {
+ public:
+  Outputs(const RunOptions& options, const bridge::Scenario& scenario) {
+    if (options.summary) summary_.emplace(*options.summary);
+    if (options.picture) picture_.emplace(*options.picture);
+    if (options.digests) digests_.emplace(*options.digests);
+    if (options.events) events_.emplace(*options.events);
+    if (options.record) recording_ = make_recording(*options.record, scenario);
+    if (!options.trajectory) return;
+    std::vector<std::string> names;
+    for (const bridge::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
+    trajectory_.emplace(*options.trajectory, names);
+  }
+
+  void watch(bridge::Experiment& experiment) {
+    if (events_) events_->watch(experiment.simulation());
+    if (!recording_) return;
+    recording_->begin(experiment);
+    experiment.set_observer([this, &experiment](Time now) { recording_->observe(experiment, now); });
+  }
+  void second(const Simulation& simulation, std::int64_t second) {
+    if (digests_) digests_->record(simulation, second);
+  }
+  void write(bridge::Experiment& experiment, const bridge::RunResult& result) {
+    if (summary_) {
+      summary_->write(summary_json(result));
+      summary_->commit();
+    }
+    if (picture_) {
+      const world::WorldDescription& world = experiment.world().description();
+      std::vector<world::Obstacle> shown = world.obstacles, meshes = bridge::meshes_on_plan(world);
+      shown.insert(shown.end(), meshes.begin(), meshes.end());
+      picture_->write(picture_svg(shown, result));
+      picture_->commit();
+    }
+    if (trajectory_) trajectory_->write(result);
+    if (recording_) recording_->finish(result);
+    if (digests_) digests_->finish();
+    if (events_) events_->finish();
+  }
+
+ private:
+  std::optional<OutputFile> summary_, picture_;
+  std::optional<TrajectoryFiles> trajectory_;
+  std::optional<DigestRecorder> digests_;
+  std::optional<EventRecorder> events_;
+  std::unique_ptr<Recording> recording_;
+};
+
+void flush_stdout() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw BadInput("standard output", "cannot be written");
+}
+
+std::string replay_line(const RunOptions& options, std::uint64_t seed) {
+  std::string line = "waitpoint run " + options.scenario.string() + " --seed " + std::to_string(seed);
+  if (options.order == kernel::Order::seeded) line += " --order seeded";
+  if (options.replay_durations) line += " --replay-durations " + options.replay_durations->string();
+  // What is written of this run is what another one has to read.
+  if (const auto& journal = options.journal ? options.journal : options.replay_journal)
+    line += " --replay-journal " + journal->string();
+  for (const std::string& assignment : options.assignments) line += " --set '" + assignment + "'";
+  return line;
+}
+
+bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool interrupted) {
+  bridge::RunResult result = session.result();
+  result.seed = seed;
+  if (interrupted && !session.over()) result.outcome = bridge::Outcome::interrupted;
+  return result;
+}
+
+Session session_of(const RunOptions& options, bridge::Experiment& experiment, Outputs& outputs, Time until) {
+  outputs.watch(experiment);
+  return {experiment, until, options.speed,
+          [&](std::int64_t second) { outputs.second(experiment.simulation(), second); }};
+}
+
+bridge::RunResult carry_out(const RunOptions& options, const bridge::Scenario& scenario, std::uint64_t seed,
+                            bridge::Experiment& experiment, Outputs& outputs, JournalFile* journal) {
+  Session session = session_of(options, experiment, outputs, options.limit(scenario.until));
+  if (journal != nullptr) session.keep(*journal);
+  bool interrupted = false;
+  if (options.interactive)
+    interrupted = !Prompt(session, STDIN_FILENO, isatty(STDIN_FILENO) != 0).run();
+  else
+    interrupted = session.carry_on(session.until()) == Session::Stop::interrupted;
+  if (journal != nullptr) journal->write(bridge::to_text(session.here()));
+  bridge::RunResult result = result_of(session, seed, interrupted);
+  if (!interrupted && !session.over()) result.outcome = bridge::Outcome::left;
+  return result;
+}
+
+// What a journal says, to its end; whether it came to the same.
+bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scenario, const bridge::Journal& journal,
+                         bridge::Experiment& experiment, Outputs& outputs, JournalFile* kept, bool& same) {
+  const std::optional<bridge::JournalEnd> end = options.until ? std::nullopt : journal.end;
+  // The run may have been left between two events of an instant: it is their number that says where.
+  const Time until = end ? end->time + Duration::from_ns(1) : options.limit(scenario.until);
+  Session session = session_of(options, experiment, outputs, until);
+  const kernel::Scheduler& scheduler = experiment.simulation().scheduler();
+  Session::Stop stop = Session::Stop::target;
+  if (!end)
+    stop = session.carry_on(until);
+  else if (end->events > 0)
+    stop = session.carry_on(until, [seen = scheduler.events(), last = end->events](const kernel::EventRecord&) mutable {
+      return ++seen == last;
+    });
+  const bool interrupted = stop == Session::Stop::interrupted;
+  const bridge::JournalEnd here = session.here();
+  same = interrupted || !end || (here.events == end->events && here.digest == end->digest);
+  if (kept != nullptr) kept->write(bridge::to_text(here));
+  bridge::RunResult result = result_of(session, options.seed, interrupted);
+  if (end && !interrupted && result.outcome == bridge::Outcome::time_limit) {
+    result.simulated = end->time.since_start();
+    if (end->time < options.limit(scenario.until)) result.outcome = bridge::Outcome::left;
+  }
+  return result;
+}
+
+int status(const bridge::Scenario& scenario, const bridge::RunResult& result) {
+  if (result.outcome == bridge::Outcome::interrupted) return 130;
+  const std::vector<std::string> unmet = bridge::unmet(scenario.expect, result);
+  std::fflush(stdout);
+  for (const std::string& line : unmet) std::fprintf(stderr, "waitpoint: not as expected: %s\n", line.c_str());
+  return unmet.empty() ? 0 : 1;
+}
+
+void tell_of(const bridge::Journal& journal, bool same) {
+  if (!journal.end)
+    std::fputs("waitpoint: the journal has no end: the run that wrote it did not come to one\n", stderr);
+  if (same) return;
+  std::fprintf(stderr, "waitpoint: this is not the run of the journal, which ended with %s after %llu events\n",
+               journal.end->digest.c_str(), static_cast<unsigned long long>(journal.end->events));
+}
+
+int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types) {
+  std::optional<OutputFile> summary;
+  if (options.summary) summary.emplace(*options.summary);
+  std::vector<bridge::RunResult> results;
+  int worst = 0;
+  std::fputs(seeds_head().c_str(), stdout);
+  for (std::uint64_t seed = options.seeds->first; interruption() == 0; ++seed) {
+    bridge::Experiment experiment(scenario, types, {seed, options.order, replay_line(options, seed)});
+    RunOptions single = options;
+    single.summary.reset();
+    Outputs none(single, scenario);
+    results.push_back(carry_out(options, scenario, seed, experiment, none, nullptr));
+    std::fputs(seeds_row(results.back()).c_str(), stdout);
+    std::fflush(stdout);
+    worst = std::max(worst, status(scenario, results.back()));
+    if (seed == options.seeds->last) break;
+  }
+  if (summary) {
+    summary->write(summary_json(results));
+    summary->commit();
+  }
+  flush_stdout();
+  return interruption() != 0 ? 130 : worst;
+}
+
+}  // namespace
+
+int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
+  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  begin_with_program_layer(scenario);
+  heed_signals();
+  if (options.check) {
+    const auto is_interrupted = [] { return interruption() != 0; };
+    const int status = self_check(options, scenario, types, replay_line(options, options.seed), is_interrupted);
+    flush_stdout();
+    return status;
+  }
+  if (options.seeds) return run_seeds(options, scenario, types);
+  bridge::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
+  const bridge::JournalHead head = bridge::journal_head(scenario, options.seed, options.order);
+  std::string lines = to_text(head);
+  std::optional<bridge::Journal> journal;
+  if (options.replay_journal) {
+    journal = bridge::read_journal(*options.replay_journal, head);
+    for (const auto& [date, intervention] : journal->interventions)
+      lines += to_text(experiment.intervene(intervention, date), intervention);
+  }
+  Outputs outputs(options, scenario);
+  DurationFiles durations(options, scenario, experiment);
+  std::optional<JournalFile> kept;
+  if (options.journal) kept.emplace(*options.journal).write(lines);
+  JournalFile* const keep = kept ? &*kept : nullptr;
+  bool same = true;
+  const bridge::RunResult result = journal ? repeat(options, scenario, *journal, experiment, outputs, keep, same)
+                                           : carry_out(options, scenario, options.seed, experiment, outputs, keep);
+  durations.finish(result.outcome == bridge::Outcome::finished);
+  std::fputs(summary_text(result).c_str(), stdout);
+  outputs.write(experiment, result);
+  flush_stdout();
+  if (journal) tell_of(*journal, same);
+  return same ? status(scenario, result) : 1;
+}
+
+}  // namespace waitpoint::tools

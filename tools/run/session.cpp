@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/run/session.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "tools/command/interruption.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr Duration window = std::chrono::milliseconds(100);
+constexpr Duration second_length = std::chrono::seconds(1);
+
+std::int64_t seconds_begun(Time time) {
+  return (time.since_start() + second_length - Duration::from_ns(1)) / second_length;
+}
+
+}  // namespace
+
+Session::Session(bridge::Experiment& experiment, Time until, double speed, Second second)
+    : experiment_(experiment),
+      until_(until),
+      second_(std::move(second)),
+      progress_(stderr, isatty(STDERR_FILENO) != 0, until.since_start()),
+      pacing_(speed) {}
+
+Session::Stop Session::carry_on(Time target, const Enough& enough, const Heed& heed) {
+  pacing_.restart(now(), pacing_.speed());
+  const double start_s = wall_clock_s();
+  const Stop stop = carry_on_in_windows(std::min(target, until_), enough, heed);
+  tell_outcomes();
+  progress_.finish();
+  wall_s_ += wall_clock_s() - start_s;
+  return stop;
+}
+
+Session::Stop Session::carry_on_in_windows(Time target, const Enough& enough, const Heed& heed) {
+  while (!over() && reached_ < target) {
+    if (interruption() != 0) return Stop::interrupted;
+    const Time next = std::min(target, Time() + window * (reached_.since_start() / window + 1));
+    end_ = enough ? experiment_.run_before(next, enough) : experiment_.run_before(next);
+    if (experiment_.paused()) return Stop::enough;
+    close_window(next);
+    bool asked = false;
+    pacing_.wait_for(next, [&] { return interruption() != 0 || (heed && (asked = heed())); });
+    if (!over() && (asked || (heed && heed()))) return Stop::asked;
+  }
+  return over() ? Stop::over : Stop::target;
+}
+
+void Session::close_window(Time end) {
+  reached_ = end;
+  tell_outcomes();
+  progress_.update(end, experiment_.goals_reached(), experiment_.goals());
+  const bool whole_second = end.since_start() == second_length * (end.since_start() / second_length);
+  if (whole_second || over()) second_(seconds_begun(end));
+}
+
+void Session::tell_outcomes() {
+  const std::vector<bridge::InterventionOutcome>& outcomes = experiment_.outcomes();
+  for (; told_ < outcomes.size(); ++told_) progress_.log(outcomes[told_].date, "operator", outcomes[told_].text);
+}
+
+Time Session::intervene(const bridge::Intervention& intervention, std::optional<Time> date) {
+  const Time at = experiment_.intervene(intervention, date);
+  if (journal_ != nullptr) journal_->write(bridge::to_text(at, intervention));
+  return at;
+}
+
+Time Session::now() const { return experiment_.paused() ? experiment_.simulation().global_time() : reached_; }
+
+bridge::JournalEnd Session::here() const {
+  const Simulation& simulation = experiment_.simulation();
+  return {now(), simulation.scheduler().events(), to_string(simulation.digest())};
+}
+
+bridge::RunResult Session::result() const {
+  bridge::RunResult result = experiment_.result();
+  result.wall_s = wall_s_;
+  result.lag = pacing_.lag();
+  const Time last = end_ == RunEnd::time_reached ? now() : experiment_.simulation().global_time();
+  result.simulated = last.since_start();
+  result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
+  return result;
+}
+
+}  // namespace waitpoint::tools
