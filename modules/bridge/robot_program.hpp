@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A program of a robot: a shared object with a main(), from sources that know nothing of waitpoint, whose threads are
 // tasks of the robot. What makes them so is a library in front of the C library, which the process has where programs
-// can be loaded (fibers/posix/guests.hpp).
+// can be loaded (fibers/posix/guests/guests.hpp).
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fibers/io/network.hpp"
-#include "fibers/posix/guests.hpp"
+#include "fibers/posix/guests/guests.hpp"
 #include "modules/bridge/scenario.hpp"
 
 namespace waitpoint::bridge {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What robots' programs stand on in this process: a library in front of the C library (fibers/posix/guests.hpp).
+// What robots' programs stand on in this process: a library in front of the C library (fibers/posix/guests/guests.hpp).
 #pragma once
 
 #include "modules/bridge/scenario.hpp"

@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "fibers/posix/exploration.hpp"
+#include "fibers/posix/exec/exploration.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/program_run.hpp"

@@ -5,7 +5,7 @@
 // the end what came of it, however it ended: what is to be known is in memory that both share.
 #pragma once
 
-#include "fibers/posix/record.hpp"
+#include "fibers/posix/program/record.hpp"
 #include "tools/exec/exec_options.hpp"
 
 namespace waitpoint::tools {

@@ -12,7 +12,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "fibers/posix/fork_server.hpp"
+#include "fibers/posix/exec/fork_server.hpp"
 #include "tools/command/signal_words.hpp"
 
 namespace waitpoint::tools {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fibers/clocks/clock_options.hpp"
-#include "fibers/posix/record.hpp"
+#include "fibers/posix/program/record.hpp"
 
 namespace CLI {
 class App;

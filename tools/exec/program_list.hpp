@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fibers/posix/record.hpp"
+#include "fibers/posix/program/record.hpp"
 
 namespace waitpoint::tools {
 

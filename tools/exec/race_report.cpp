@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "fibers/explore/races/races.hpp"
-#include "fibers/posix/race_log.hpp"
+#include "fibers/posix/exec/race_log.hpp"
 
 namespace waitpoint::tools {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fibers/posix/record.hpp"
+#include "fibers/posix/program/record.hpp"
 
 namespace waitpoint::tools {
 

@@ -2,7 +2,7 @@
 // The memory that a program's run shares with who started it: what it is to do, and what becomes of it.
 #pragma once
 
-#include "fibers/posix/record.hpp"
+#include "fibers/posix/program/record.hpp"
 #include "tools/exec/program_list.hpp"
 
 namespace waitpoint::tools {

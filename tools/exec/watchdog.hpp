@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "fibers/posix/record.hpp"
+#include "fibers/posix/program/record.hpp"
 
 namespace waitpoint::tools {
 

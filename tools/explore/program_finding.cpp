@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/report/event_pair.hpp"
-#include "fibers/posix/exploration.hpp"
-#include "fibers/posix/race_log.hpp"
+#include "fibers/posix/exec/exploration.hpp"
+#include "fibers/posix/exec/race_log.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/race_report.hpp"
 

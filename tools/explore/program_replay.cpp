@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
-#include "fibers/posix/exploration.hpp"
+#include "fibers/posix/exec/exploration.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/explore/program_finding.hpp"
 #include "tools/explore/program_target.hpp"

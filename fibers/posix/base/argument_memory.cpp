@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/base/argument_memory.hpp"
+
+#include <signal.h>
+#include <sys/random.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr int no_change = 1000;  // what to do with the mask: nothing that the system knows
+constexpr long mask_size = 8;
+
+}  // namespace
+
+// The new mask is read before it turns out that nothing is to be done with it.
+bool can_be_read(const void* address) {
+  const ErrorNumberKept kept;
+  if (address == nullptr) return false;
+  return WAITPOINT_NEXT(syscall)(SYS_rt_sigprocmask, no_change, address, nullptr, mask_size) == 0 || errno != EFAULT;
+}
+
+bool can_be_written(void* address) {
+  const ErrorNumberKept kept;
+  if (address == nullptr) return false;
+  return WAITPOINT_NEXT(syscall)(SYS_rt_sigprocmask, SIG_BLOCK, nullptr, address, mask_size) == 0;
+}
+
+bool can_be_written(void* address, std::size_t size) {
+  const ErrorNumberKept kept;
+  return WAITPOINT_NEXT(syscall)(SYS_getrandom, address, size, GRND_INSECURE) == static_cast<long>(size);
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/descriptors/descriptors.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/real_waits.hpp"
+#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/links/stream_links.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/signals/cancellation.hpp"
+#include "fibers/posix/time/clocks.hpp"
+#include "fibers/posix/timers/timer_descriptors.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr int known_max = known_descriptors_max;
+std::uint64_t inside[known_max / 64];
+std::uint64_t waited_in_vain[known_max / 64];  // for a reader
+const Program* owners[known_max];              // of those that share a process
+int owned_end = 0;                             // behind the greatest that was
+
+/// A thread that waits: on its own stack.
+struct Waiter {
+  kernel::Task* task;
+  pollfd* descriptors;
+  nfds_t count;
+  bool outside;
+  bool (*is_ready)(const void*) = nullptr;  // null: one of the descriptors
+  const void* what = nullptr;
+  bool shared = false;  ///< for what another process of the family may do, if there is one
+  Waiter* next = nullptr;
+  Waiter* previous = nullptr;
+};
+Waiter* first = nullptr;
+Waiter* last = nullptr;
+int waiting_outside = 0;
+int waiting_for_no_descriptor = 0;  // of which nothing tells but asking
+int waiting_for_family = 0;
+
+kernel::Object descriptors_object{"descriptor"};
+kernel::Object outside_object{"something outside"};
+
+int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
+  const int error = errno;
+  const int ready = WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
+  if (ready >= 0) errno = error;
+  return ready;
+}
+
+void count_outside(const Waiter& waiter, int by) {
+  waiting_outside += by;
+  if (waiter.count == 0) waiting_for_no_descriptor += by;
+  if (!waiter.shared) return;
+  waiting_for_family += by;
+  family::note_waiting(waiting_for_family > 0);
+}
+
+void add(Waiter& waiter) {
+  waiter.next = nullptr;
+  waiter.previous = last;
+  (last == nullptr ? first : last->next) = &waiter;
+  last = &waiter;
+  if (waiter.outside) count_outside(waiter, 1);
+}
+
+void remove(Waiter& waiter) {
+  (waiter.previous == nullptr ? first : waiter.previous->next) = waiter.next;
+  (waiter.next == nullptr ? last : waiter.next->previous) = waiter.previous;
+  if (waiter.outside) count_outside(waiter, -1);
+}
+
+// Shared objects are waited for outside while there is a family, and inside without one: then all can be stuck.
+void take_shared_outside() {
+  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+    if (!waiter->shared || waiter->outside) continue;
+    waiter->outside = true;
+    count_outside(*waiter, 1);
+  }
+}
+
+// The others of the family have ended: whoever waits for them looks once more, and waits inside.
+void wake_shared() {
+  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+    if (waiter->shared && waiter->outside && waiter->task->state == kernel::TaskState::blocked)
+      waiter->task->scheduler->wake(*waiter->task);
+}
+
+// Those whose descriptors are ready go on.
+bool wake_ready(bool outside_too) {
+  bool any = false;
+  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+    if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too)) continue;
+    if (waiter->shared && !waiter->outside) continue;  // who changes that wakes it
+    const bool is_ready = waiter->is_ready != nullptr ? waiter->is_ready(waiter->what)
+                                                      : poll_now(waiter->descriptors, waiter->count) != 0;
+    if (!is_ready) continue;
+    // To find out may have woken it already.
+    if (waiter->task->state == kernel::TaskState::blocked) waiter->task->scheduler->wake(*waiter->task);
+    any = true;
+  }
+  return any;
+}
+
+// As poll(), for as long as it takes; also until a signal comes, which is kept from coming before the wait begins.
+void poll_until_a_signal(pollfd* descriptors, nfds_t count, const timespec* longest) {
+  const ErrorNumberKept kept;
+  const RealWait real;
+  sigset_t all, before;
+  sigfillset(&all);
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &all, &before);
+  if (!has_come_from_outside()) WAITPOINT_NEXT(ppoll)(descriptors, count, longest, &before);
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &before, nullptr);
+}
+
+// Waits in real time for any of all descriptors that threads wait for.
+void wait_really(Duration longest) {
+  nfds_t count = 0;
+  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) count += waiter->count;
+  auto* const all = static_cast<pollfd*>(std::malloc((count + 1) * sizeof(pollfd)));
+  if (all == nullptr) refuse("there is no memory to wait for descriptors");
+  nfds_t at = 0;
+  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+    if (waiter->count == 0) continue;
+    std::memcpy(all + at, waiter->descriptors, waiter->count * sizeof(pollfd));
+    at += waiter->count;
+  }
+  constexpr Duration asking = Duration(std::chrono::milliseconds(20));
+  if (waiting_for_no_descriptor > 0 && asking < longest) longest = asking;
+  const timespec timeout = to_timespec(longest.ns());
+  poll_until_a_signal(all, count, longest == Duration::max() ? nullptr : &timeout);
+  std::free(all);
+}
+
+}  // namespace
+
+bool anybody_waits_outside() { return waiting_outside > 0; }
+
+void note_inside(int descriptor, bool is) {
+  if (descriptor < 0 || descriptor >= known_max) return;
+  const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
+  std::uint64_t& word = inside[descriptor / 64];
+  word = is ? word | bit : word & ~bit;
+  waited_in_vain[descriptor / 64] &= ~bit;
+  owners[descriptor] = nullptr;
+  if (is) note_owner(descriptor);
+}
+
+void note_owner(int descriptor) {
+  if (descriptor < 0 || descriptor >= known_max || !is_simulated() || !this_program().is_member) return;
+  owners[descriptor] = &this_program();
+  if (descriptor >= owned_end) owned_end = descriptor + 1;
+}
+
+int next_owned(int from, const Program*& owner) {
+  for (int descriptor = from; descriptor < owned_end; ++descriptor)
+    if ((owner = owners[descriptor]) != nullptr) return descriptor;
+  return -1;
+}
+
+void close_descriptors_of(const Program& program) {
+  for (int descriptor = 0; descriptor < known_max; ++descriptor) {
+    if (owners[descriptor] != &program) continue;
+    owners[descriptor] = nullptr;
+    forget_timer_descriptor(descriptor);
+    close_stream_over_link(descriptor);
+    close(descriptor);
+  }
+}
+
+bool is_inside(int descriptor) {
+  return descriptor >= 0 && descriptor < known_max && (inside[descriptor / 64] >> (descriptor % 64) & 1) != 0;
+}
+
+void note_start() {
+  const ErrorNumberKept kept;
+  for (int word = 0; word < known_max / 64; ++word)
+    for (std::uint64_t left = inside[word]; left != 0; left &= left - 1) {
+      const int descriptor = word * 64 + __builtin_ctzll(left);
+      if ((WAITPOINT_NEXT(fcntl)(descriptor, F_GETFD) & FD_CLOEXEC) == 0) note_inside(descriptor, false);
+    }
+}
+
+void note_fork() {
+  std::memset(inside, 0, sizeof inside);
+  take_shared_outside();
+}
+
+void forget_waiters() {
+  first = last = nullptr;
+  waiting_outside = waiting_for_no_descriptor = waiting_for_family = 0;
+}
+
+void forget_waiter(const kernel::Task& task) {
+  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+    if (waiter->task == &task) return remove(*waiter);
+}
+
+int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) {
+  kernel::Task& task = *kernel::running;
+  bool outside = false;
+  // A host does not look outside at the end of its instants: guests find what is there when one of them does something.
+  for (nfds_t i = 0; i < count && !has_host; ++i)
+    if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) outside = true;
+  if (!outside)
+    if (const int ready = poll_now(descriptors, count); ready != 0) return ready;
+  for (;;) {
+    if (deadline <= task.local_time) return poll_now(descriptors, count);
+    task.scheduler->enter(descriptors_object);
+    Waiter waiter{&task, descriptors, count, outside};
+    add(waiter);
+    // The run comes out at the end of each instant while somebody waits outside.
+    if (outside) task.scheduler->pause();
+    const Wait ended = wait_on(descriptors_object, deadline);
+    remove(waiter);
+    // What was ready for several may have been taken by another.
+    if (const int ready = poll_now(descriptors, count); ready != 0) return ready;
+    if (thread_of(task).in_cancellation_point && is_to_leave(thread_of(task))) return 0;
+    if (ended == Wait::interrupted && is_interrupted(restart)) return fail(EINTR);
+  }
+}
+
+int wait_for(int descriptor, short events, Time deadline, Restart restart) {
+  pollfd one{descriptor, events, 0};
+  return wait_for(&one, 1, deadline, restart);
+}
+
+WaitsOutside::WaitsOutside() {
+  ++waiting_outside;
+  kernel::running->scheduler->pause();
+}
+WaitsOutside::~WaitsOutside() { --waiting_outside; }
+
+int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart) {
+  kernel::Task& task = *kernel::running;
+  while (!is_ready(what)) {
+    task.scheduler->enter(outside_object);
+    Waiter waiter{&task, nullptr, 0, true, is_ready, what};
+    add(waiter);
+    task.scheduler->pause();
+    const Wait ended = wait_on(outside_object, Time::max());
+    remove(waiter);
+    if (thread_of(task).in_cancellation_point && is_to_leave(thread_of(task))) return 0;
+    if (ended == Wait::interrupted && !is_ready(what) && is_interrupted(restart)) return fail(EINTR);
+  }
+  return 1;
+}
+
+Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(const void*), const void* what) {
+  kernel::Task& task = *kernel::running;
+  Waiter waiter{&task, nullptr, 0, family::has_others(), is_ready, what};
+  waiter.shared = true;
+  add(waiter);
+  if (waiter.outside) task.scheduler->pause();
+  // From here on other processes ring; what was changed before is seen now, and what the last of them did that has just
+  // ended, or its end.
+  const Wait ended = family::had_others() && is_ready(what) ? Wait::came : wait_on(object, deadline);
+  remove(waiter);
+  return ended;
+}
+
+bool wait_for_reader(int descriptor, int patience_ms) {
+  pollfd one{descriptor, POLLOUT, 0};
+  if (poll_now(&one, 1) > 0) return true;
+  // A thread that waits for what is there already may be the reader.
+  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+    if (waiter->count > 0 && poll_now(waiter->descriptors, waiter->count) > 0) return false;
+  // Nor is anybody outside who did not read the last time.
+  const bool is_known = descriptor < known_max;
+  std::uint64_t none = 0;
+  std::uint64_t& word = is_known ? waited_in_vain[descriptor / 64] : none;
+  const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
+  if ((word & bit) != 0) return false;
+  if (poll_now(&one, 1, patience_ms) > 0) return true;
+  word |= bit;
+  return false;
+}
+
+void look_at_descriptors() {
+  deliver_streams();
+  if (first != nullptr) wake_ready(false);
+}
+
+bool wait_outside_for(Duration longest) {
+  wait_really(longest);
+  return has_come_from_outside() || waiting_outside > 0;
+}
+
+bool look_outside(bool may_wait) {
+  const bool came = take_in_signals_from_outside();
+  if (wake_ready(true) || came) return true;
+  if (!may_wait) return false;
+  if (waiting_for_family > 0 && !family::has_others()) {
+    wake_shared();
+    return true;
+  }
+  if (waiting_outside == 0) return false;
+  wait_really(Duration::max());
+  take_in_signals_from_outside();
+  wake_ready(true);
+  return true;
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/descriptors/process_descriptors.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+extern "C" {
+#include <sys/pidfd.h>  // says nothing of C++
+}
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/program/thread.hpp"
+
+namespace waitpoint::posix {
+
+// What the system tells of a descriptor has a line for it.
+pid_t process_of(int descriptor) {
+  const ErrorNumberKept kept;
+  char path[40], text[512];
+  std::snprintf(path, sizeof path, "/proc/self/fdinfo/%d", descriptor);
+  const int file = WAITPOINT_NEXT(open)(path, O_RDONLY | O_CLOEXEC);
+  if (file < 0) return -1;
+  const ssize_t size = WAITPOINT_NEXT(read)(file, text, sizeof text - 1);
+  WAITPOINT_NEXT(close)(file);
+  if (size < 0) return -1;
+  text[size] = '\0';
+  const char* const line = std::strstr(text, "\nPid:\t");
+  return line == nullptr ? -1 : std::atoi(line + std::strlen("\nPid:\t"));
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int pidfd_getfd(int process, int descriptor, unsigned flags) noexcept {
+  const int made = WAITPOINT_NEXT(pidfd_getfd)(process, descriptor, flags);
+  if (made >= 0 && is_simulated()) note_inside(made, process_of(process) == getpid() && is_inside(descriptor));
+  return made;
+}

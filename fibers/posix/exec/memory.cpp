@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What this library allocates by `new`, which only exploration does. None of these names is seen from outside: the
+// program has its own.
+#include <new>
+
+#include "fibers/posix/program/program.hpp"
+
+void* operator new(std::size_t size) {
+  void* const memory = waitpoint::posix::record->arena.take(size);
+  if (memory == nullptr) waitpoint::posix::refuse("the schedule of this run is too long to be written down");
+  return memory;
+}
+
+void operator delete(void* memory) noexcept { waitpoint::posix::record->arena.give(memory); }
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }

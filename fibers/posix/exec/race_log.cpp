@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/exec/race_log.hpp"
+
+#include "fibers/posix/program/program.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr races::Listener listener = {
+    [](const races::FoundRace& race) { record->race_log->races.push_back(races::located(race)); },
+    [](std::uint64_t place) { record->race_log->code.push_back(place); },
+};
+
+}  // namespace
+
+RaceLog* start_race_log(bool learn, std::span<const std::uint64_t> code) {
+  if (&waitpoint_races_runtime == nullptr) return nullptr;
+  const races::Runtime& runtime = *waitpoint_races_runtime();
+  for (const std::uint64_t place : code) runtime.know(place);
+  runtime.learn(learn);
+  runtime.tell(listener);
+  return new RaceLog();
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/program/program.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/preload.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/pace.hpp"
+#include "fibers/posix/exec/exploration.hpp"
+#include "fibers/posix/exec/fork_server.hpp"
+#include "fibers/posix/exec/race_log.hpp"
+#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/processes/children.hpp"
+#include "fibers/posix/program/randomness.hpp"
+#include "fibers/posix/program/waitable.hpp"
+#include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/threads/deadlock.hpp"
+#include "fibers/posix/threads/thread_area.hpp"
+#include "fibers/posix/time/clocks.hpp"
+#include "fibers/posix/traps/library_calls.hpp"
+#include "fibers/posix/traps/processor_counter.hpp"
+
+namespace waitpoint::posix {
+
+const bool has_host = false;
+
+namespace {
+
+constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
+
+int (*program_body)() = nullptr;
+
+// main() returns into exit(), as in the C library; but it may leave by pthread_exit() too.
+void* run_body(void*) {
+  if (record->settings.is_started) note_parent();
+  std::exit(program_body());
+}
+
+[[noreturn]] void end_process(int status) {
+  WAITPOINT_NEXT(_exit)(status);
+  __builtin_unreachable();
+}
+
+// In place of what is mapped there.
+void map_record(int descriptor) {
+  void* const memory = mmap(reinterpret_cast<void*>(record_address), record_bytes, PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_NORESERVE | MAP_FIXED, descriptor, 0);
+  close(descriptor);
+  if (memory == MAP_FAILED) refuse("there is no address space for what is known of the run");
+  record = static_cast<Record*>(memory);
+  if (record->mark != Record::mark_of_version)
+    refuse("this library and the waitpoint that started it are not of one version");
+}
+
+// At the end of an instant: until when the run goes on, with what has come meanwhile.
+Time keep_pace(kernel::Scheduler& scheduler) {
+  const Time next = scheduler.next_event_time();
+  const Duration left = next == Time::max() ? Duration::max() : left_until(next);
+  if (left == Duration()) {
+    look_outside(false);
+    return later(scheduler.next_event_time(), nanosecond);
+  }
+  wait_outside_for(left);
+  return later(look_at_pace(scheduler, next), nanosecond);
+}
+
+// The C library calls it before those of libraries that are made with threads: by then they must be simulated.
+[[gnu::constructor(101)]] void begin() {
+  if (record != nullptr) return;
+  const char* const descriptor = WAITPOINT_NEXT(getenv)(record_variable);
+  if (descriptor == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
+  map_record(std::atoi(descriptor));
+  WAITPOINT_NEXT(unsetenv)(record_variable);
+  leave_preload();
+  if (record->settings.instrumented) leave_library_path();
+  inherit_signals();
+  register_fork();
+  draw_random_bytes_of_the_process();
+  if (record->settings.trap_rdtsc) trap_processor_counter();
+  if (record->settings.trap_library) trap_library_calls();
+}
+
+// A debugger runs the program once more on the same record.
+void begin_anew() {
+  const Settings settings = record->settings;
+  const Arena arena = record->arena;
+  ProgramRecord* const programs = record->programs;
+  const std::uint32_t count = record->program_count;
+  new (record) Record();
+  record->settings = settings;
+  record->arena = arena;
+  record->programs = programs;
+  record->program_count = count;
+  for (ProgramRecord& program : record->several()) {
+    program.robot = kernel::Robot();
+    program.threads_made = 0;
+    program.ended = false;
+  }
+}
+
+}  // namespace
+
+void refuse(const char* reason) {
+  std::fprintf(stderr, "waitpoint: exec: %s\n", reason);
+  end_process(status_of_own_errors);
+}
+
+bool has_members() {
+  begin();
+  return record->program_count > 0;
+}
+
+kernel::Scheduler& begin_run() {
+  begin();
+  if (const int server = record->settings.server; server >= 0) map_record(serve_runs(server));
+  if (record->began) begin_anew();
+  family::begin();
+  const Asked* const asked = record->settings.asked;
+  record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
+  if (!kernel::Scheduler::has_address_space())
+    refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
+  kernel::Scheduler& scheduler =
+      *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
+  scheduler.set_delivery(deliver_signals);
+  scheduler.set_cycles(goes_on_in_cycle);
+  if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
+  names_waitables =
+      record->settings.traced ||
+      (asked != nullptr && (asked->words || asked->events || asked->stops || asked->decision != Asked::none));
+  if (record->settings.traced) {
+    record->trace = new Trace();
+    scheduler.set_watch(&record->trace->recorder);
+  }
+  record->running = &kernel::running;
+  record->began = true;
+  return scheduler;
+}
+
+// While threads wait for what comes from outside, the run comes out at the end of each instant.
+Ending run_to_end(kernel::Scheduler& scheduler) {
+  const Time end = record->settings.until;
+  for (Time until = end;;) {
+    const kernel::RunState state = scheduler.run_before(until);
+    if (state == kernel::RunState::stopped) break;
+    const bool is_idle = state == kernel::RunState::idle;
+    if (is_paced() && (!is_idle || anybody_waits_outside())) {
+      until = keep_pace(scheduler);
+    } else if (look_outside(is_idle)) {
+      until = later(scheduler.global_time(), nanosecond);
+    } else if (is_idle) {
+      break;
+    } else if (scheduler.next_event_time() >= end) {
+      return record->ending = Ending::cut_off;
+    } else {
+      until = anybody_waits_outside() ? later(scheduler.next_event_time(), nanosecond) : end;
+    }
+  }
+  if (scheduler.stop_cause() == kernel::StopCause::ended) return record->ending = Ending::own;
+  if (scheduler.stop_cause() == kernel::StopCause::requested) {
+    record->explored->note_stop(scheduler);
+    return record->ending = Ending::cut_off;
+  }
+  const bool stuck = scheduler.stop_cause() != kernel::StopCause::no_progress;
+  return record->ending = stuck ? Ending::deadlock : Ending::no_progress;
+}
+
+void end_run(const kernel::Scheduler& scheduler, int status) {
+  const bool failed = record->ending == Ending::deadlock || record->ending == Ending::no_progress;
+  std::fflush(nullptr);  // what the program has written so far comes before the report
+  if (failed) report_deadlock(scheduler);
+  end_process(failed ? status_of_deadlock : status);
+}
+
+void run_program(int (*body)(), const char* name) {
+  program_body = body;
+  kernel::Scheduler& scheduler = begin_run();
+  const char* const slash = std::strrchr(name, '/');
+  static constinit Program program;
+  program.robot = &record->robot;
+  scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
+  static constinit Thread thread;
+  thread.start.posix = run_body;
+  if (!begin_main_thread(thread, program, scheduler)) refuse("there is no address space for the stacks of threads");
+  // No frame that is on this stack now is ever left by its return.
+  draw_stack_guard(thread.area);
+  // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).
+  if (run_to_end(scheduler) == Ending::own) std::exit(0);
+  end_run(scheduler, 0);
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A process that is several programs and nothing else.
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "fibers/posix/members/members.hpp"
+#include "fibers/posix/program/program.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr char separator[] = "::";
+
+// 0 if it is that of all, else that of the first on the command line that has another.
+int status_of_all(const Record& all) {
+  const ProgramRecord* failed = nullptr;
+  for (const ProgramRecord& one : all.several())
+    if (one.status != 0 && (failed == nullptr || one.place < failed->place)) failed = &one;
+  return failed == nullptr ? 0 : failed->status;
+}
+
+// The words of one program: those up to the next separator, in whose place is the end of its arguments.
+int count_words(char** words) {
+  int count = 0;
+  while (words[count] != nullptr && std::strcmp(words[count], separator) != 0) ++count;
+  return count;
+}
+
+}  // namespace
+
+// Loaded before the run, of which there may be many by a fork each.
+void run_members(int argc, char** argv) {
+  const std::uint32_t count = record->program_count;
+  auto* const members = static_cast<Member*>(std::calloc(count, sizeof(Member)));
+  if (members == nullptr) refuse("there is no memory for the programs");
+  char** words = argv + 1;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Member& member = *new (members + i) Member();
+    member.argc = count_words(words);
+    member.argv = words;
+    words += member.argc + 1;
+    if (words - argv <= argc) words[-1] = nullptr;
+    LoadError error;
+    if (!load(member.image, member.argv[0], error)) refuse(error);
+  }
+  kernel::Scheduler& scheduler = begin_run();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Member& member = members[i];
+    member.record = record->programs + i;
+    member.robot = &member.record->robot;
+    scheduler.add(member.record->robot, member.record->name);
+    if (!start(member, scheduler)) refuse("there is no address space for the stacks of threads");
+  }
+  run_to_end(scheduler);
+  end_run(scheduler, status_of_all(*record));
+}
+
+}  // namespace waitpoint::posix

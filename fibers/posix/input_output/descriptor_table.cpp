@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Calls that make descriptors, copy them and close them: which of them only this program has.
+#include <fcntl.h>
+#include <linux/close_range.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/signal_descriptors.hpp"
+#include "fibers/posix/input_output/file_locks.hpp"
+#include "fibers/posix/links/loopback.hpp"
+#include "fibers/posix/links/stream_links.hpp"
+#include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/signals/cancellation.hpp"
+#include "fibers/posix/timers/timer_descriptors.hpp"
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+namespace {
+
+int both(int result, const int (&ends)[2]) {
+  if (result == 0)
+    for (const int end : ends) note_inside(end, true);
+  return result;
+}
+
+int one(int descriptor) {
+  if (descriptor >= 0) note_inside(descriptor, true);
+  return descriptor;
+}
+
+int copy(int from, int made) {
+  if (made >= 0) note_inside(made, is_inside(from)), copy_asked(from, made);
+  return made;
+}
+
+void forget(int closed) {
+  forget_timer_descriptor(closed);
+  forget_signal_descriptor(closed);
+  close_stream_over_link(closed);
+  note_inside(closed, false);
+}
+
+// What was there is closed.
+int replaced(int from, int to, int made) {
+  if (made < 0 || from == to || !is_simulated()) return copy(from, made);
+  forget(to);
+  copy(from, made);
+  look_at_descriptors();
+  return made;
+}
+
+int control(int descriptor, int command, void* argument) {
+  if (is_simulated() && (command == F_SETLKW || command == F_OFD_SETLKW) && can_be_read(argument))
+    return lock_waiting(descriptor, command, *static_cast<struct flock*>(argument));
+  const int result = WAITPOINT_NEXT(fcntl)(descriptor, command, argument);
+  return command == F_DUPFD || command == F_DUPFD_CLOEXEC ? copy(descriptor, result) : result;
+}
+
+}  // namespace
+
+WAITPOINT_INTERPOSED int pipe2(int* ends, int flags) noexcept {
+  return both(WAITPOINT_NEXT(pipe2)(ends, flags), *reinterpret_cast<int(*)[2]>(ends));
+}
+WAITPOINT_INTERPOSED int pipe(int* ends) noexcept { return pipe2(ends, 0); }
+WAITPOINT_INTERPOSED int socketpair(int domain, int type, int protocol, int* ends) noexcept {
+  return both(WAITPOINT_NEXT(socketpair)(domain, type, protocol, ends), *reinterpret_cast<int(*)[2]>(ends));
+}
+WAITPOINT_INTERPOSED int socket(int domain, int type, int protocol) noexcept {
+  const int made = WAITPOINT_NEXT(socket)(domain, type, protocol);
+  note_owner(made);
+  begin_as_asked(made);
+  return made;
+}
+WAITPOINT_INTERPOSED int eventfd(unsigned count, int flags) noexcept {
+  return one(WAITPOINT_NEXT(eventfd)(count, flags));
+}
+// What it watches decides: an outside one makes it one.
+WAITPOINT_INTERPOSED int epoll_create1(int flags) noexcept { return one(WAITPOINT_NEXT(epoll_create1)(flags)); }
+WAITPOINT_INTERPOSED int epoll_create(int size) noexcept { return one(WAITPOINT_NEXT(epoll_create)(size)); }
+WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, epoll_event* event) noexcept {
+  const int result = WAITPOINT_NEXT(epoll_ctl)(descriptor, operation, watched, event);
+  if (result != 0 || !is_simulated()) return result;
+  if (operation != EPOLL_CTL_DEL && !is_inside(watched)) note_inside(descriptor, false);
+  look_at_descriptors();
+  return result;
+}
+
+WAITPOINT_INTERPOSED int dup(int descriptor) noexcept { return copy(descriptor, WAITPOINT_NEXT(dup)(descriptor)); }
+WAITPOINT_INTERPOSED int dup2(int from, int to) noexcept { return replaced(from, to, WAITPOINT_NEXT(dup2)(from, to)); }
+WAITPOINT_INTERPOSED int dup3(int from, int to, int flags) noexcept {
+  return replaced(from, to, WAITPOINT_NEXT(dup3)(from, to, flags));
+}
+
+extern "C" {
+[[gnu::visibility("default")]] int waitpoint_fcntl(int descriptor, int command, ...) __asm__("fcntl");
+[[gnu::visibility("default")]] int waitpoint_fcntl64(int descriptor, int command, ...) __asm__("fcntl64");
+}
+int waitpoint_fcntl(int descriptor, int command, ...) {
+  va_list more;
+  va_start(more, command);
+  void* const argument = va_arg(more, void*);
+  va_end(more);
+  return control(descriptor, command, argument);
+}
+int waitpoint_fcntl64(int descriptor, int command, ...) {
+  va_list more;
+  va_start(more, command);
+  void* const argument = va_arg(more, void*);
+  va_end(more);
+  return control(descriptor, command, argument);
+}
+
+WAITPOINT_INTERPOSED int close(int descriptor) {
+  if (!is_simulated()) return WAITPOINT_NEXT(close)(descriptor);
+  pass_cancellation_point();
+  forget(descriptor);
+  const int result = WAITPOINT_NEXT(close)(descriptor);
+  look_at_descriptors();
+  return result;
+}
+
+WAITPOINT_INTERPOSED int close_range(unsigned first, unsigned last, int flags) noexcept {
+  const int result = WAITPOINT_NEXT(close_range)(first, last, flags);
+  if (result != 0 || !is_simulated() || (static_cast<unsigned>(flags) & CLOSE_RANGE_CLOEXEC) != 0) return result;
+  const auto end = static_cast<unsigned>(known_descriptors_max);
+  for (unsigned closed = first; closed <= last && closed < end; ++closed) forget(static_cast<int>(closed));
+  look_at_descriptors();
+  return result;
+}
+WAITPOINT_INTERPOSED void closefrom(int first) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(closefrom)(first);
+  close_range(first > 0 ? static_cast<unsigned>(first) : 0, ~0U, 0);
+}
+
+WAITPOINT_INTERPOSED int fclose(FILE* stream) {
+  if (!is_simulated()) return WAITPOINT_NEXT(fclose)(stream);
+  pass_cancellation_point();
+  const int descriptor = fileno(stream);
+  const int result = WAITPOINT_NEXT(fclose)(stream);
+  if (descriptor >= 0) forget(descriptor);
+  look_at_descriptors();
+  return result;
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/input_output/sockets.hpp"
+
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/input_output/input_output.hpp"
+#include "fibers/posix/links/datagram_links.hpp"
+#include "fibers/posix/links/loopback.hpp"
+#include "fibers/posix/links/stream_links.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/cancellation.hpp"
+#include "fibers/posix/time/clocks.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+int option_of(int descriptor, int option) {
+  int value = 0;
+  socklen_t size = sizeof value;
+  const ErrorNumberKept kept;
+  return getsockopt(descriptor, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
+}
+
+// What leaves the machine: anything of the internet but its loopback.
+bool leaves(const sockaddr* address) {
+  if (address == nullptr) return false;
+  if (address->sa_family == AF_INET) {
+    const auto& internet = *reinterpret_cast<const sockaddr_in*>(address);
+    const std::uint32_t host = ntohl(internet.sin_addr.s_addr);
+    return host >> 24 != 127 && host != INADDR_ANY;
+  }
+  if (address->sa_family == AF_INET6) {
+    const in6_addr& host = reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr;
+    if (IN6_IS_ADDR_V4MAPPED(&host)) return host.s6_addr[12] != 127;
+    return !IN6_IS_ADDR_LOOPBACK(&host) && !IN6_IS_ADDR_UNSPECIFIED(&host);
+  }
+  return false;
+}
+
+// Told once.
+bool is_forbidden(const sockaddr* address) {
+  static bool is_told = false;
+  if (!is_simulated() || !record->settings.isolate || !leaves(address)) return false;
+  if (!is_told) std::fprintf(stderr, "waitpoint: exec: what leaves this machine is forbidden by --isolate\n");
+  is_told = true;
+  errno = EACCES;
+  return true;
+}
+
+// All that was asked for, of a stream, or up to its end.
+ssize_t receive_all(int descriptor, char* bytes, std::size_t size, int flags) {
+  std::size_t received = 0;
+  while (received < size) {
+    if (!prepare(descriptor, DescriptorClass::socket, kernel::Operation::receive, POLLIN, true)) break;
+    const ssize_t count = done([&] {
+      const int now = (flags & ~MSG_WAITALL) | MSG_DONTWAIT;
+      return WAITPOINT_NEXT(recv)(descriptor, bytes + received, size - received, now);
+    });
+    if (count < 0 && errno == EAGAIN) continue;
+    if (count < 0) break;
+    if (count == 0) return static_cast<ssize_t>(received);
+    acknowledge(descriptor);
+    received += static_cast<std::size_t>(count);
+  }
+  return received > 0 || size == 0 ? static_cast<ssize_t>(received) : -1;
+}
+
+// The same into the parts of a message; what goes beside the bytes comes with the first, or ends it.
+ssize_t receive_all_parts(int descriptor, msghdr& message, int flags) {
+  ssize_t received = -1;
+  for (std::size_t i = 0; i < message.msg_iovlen; ++i) {
+    const iovec& part = message.msg_iov[i];
+    if (part.iov_len == 0) continue;
+    std::size_t filled = 0;
+    if (received < 0) {
+      iovec* const parts = message.msg_iov;
+      const std::size_t count = std::exchange(message.msg_iovlen, 1);
+      message.msg_iov = &parts[i];
+      received = receive(descriptor, true,
+                         [&] { return WAITPOINT_NEXT(recvmsg)(descriptor, &message, flags & ~MSG_WAITALL); });
+      message.msg_iov = parts;
+      message.msg_iovlen = count;
+      if (received <= 0 || message.msg_controllen > 0) return received;
+      filled = static_cast<std::size_t>(received);
+      if (filled == part.iov_len) continue;
+    }
+    const std::size_t left = part.iov_len - filled;
+    const ssize_t more = receive_all(descriptor, static_cast<char*>(part.iov_base) + filled, left, flags);
+    if (more > 0) received += more;
+    if (more < static_cast<ssize_t>(left)) return received;
+  }
+  return received < 0 ? 0 : received;
+}
+
+// What is no socket is refused at once, and for what is beside the stream nobody waits.
+bool may_block(int descriptor, int flags) {
+  return (flags & (MSG_DONTWAIT | MSG_OOB | MSG_ERRQUEUE)) == 0 && class_of(descriptor) == DescriptorClass::socket;
+}
+
+bool waits_for_all(int descriptor, int flags) {
+  return (flags & MSG_WAITALL) != 0 && (flags & (MSG_DONTWAIT | MSG_PEEK)) == 0 && is_simulated() &&
+         class_of(descriptor) == DescriptorClass::socket && is_stream(descriptor) && blocks(descriptor);
+}
+
+// A message is taken whole. A socket that is not connected does not say whether the one it sends to has room: then it
+// is tried again after a while.
+template <class Call>
+ssize_t send_message(int descriptor, int flags, Call call) {
+  const DescriptorClass of = class_of(descriptor);
+  if (of == DescriptorClass::file) return call(flags);
+  const bool waits = may_block(descriptor, flags) && blocks(descriptor);
+  Duration pause = Duration(std::chrono::microseconds(1));
+  constexpr Duration longest_pause = Duration(std::chrono::milliseconds(1));
+  for (;;) {
+    if (!prepare(descriptor, of, kernel::Operation::send, POLLOUT, waits)) return -1;
+    const ssize_t sent = done([&] { return call(flags | MSG_DONTWAIT); });
+    if (sent >= 0 || errno != EAGAIN || !waits) return sent;
+    const CancellationPoint point;
+    if (!point.wait_until(later(kernel::local_time(*kernel::running), pause))) return fail(EINTR);
+    if (pause < longest_pause) pause = pause + pause;
+  }
+}
+
+ssize_t send_parts_over_link(int descriptor, const msghdr& message) {
+  ssize_t all = 0;
+  for (std::size_t i = 0; i < message.msg_iovlen; ++i) {
+    const iovec& part = message.msg_iov[i];
+    const ssize_t sent = part.iov_len == 0 ? 0 : send_stream_over_link(descriptor, part.iov_base, part.iov_len);
+    if (sent < 0) return all > 0 ? all : -1;
+    all += sent;
+    if (static_cast<std::size_t>(sent) < part.iov_len) break;
+  }
+  return all;
+}
+
+// Piece by piece of its parts; what goes beside the bytes goes with the first.
+ssize_t send_parts(int descriptor, const msghdr& message, int flags) {
+  ssize_t all = 0;
+  bool is_first = true;
+  for (std::size_t i = 0; i < message.msg_iovlen; ++i) {
+    const iovec& part = message.msg_iov[i];
+    if (part.iov_len == 0) continue;
+    const auto take = [&](const char* bytes, std::size_t size) {
+      iovec piece{const_cast<char*>(bytes), size};
+      msghdr of_piece = message;
+      of_piece.msg_iov = &piece;
+      of_piece.msg_iovlen = 1;
+      if (!is_first) of_piece.msg_control = nullptr, of_piece.msg_controllen = 0;
+      const ssize_t sent = WAITPOINT_NEXT(sendmsg)(descriptor, &of_piece, flags | MSG_DONTWAIT);
+      is_first = is_first && sent < 0;
+      return sent;
+    };
+    const ssize_t sent =
+        write_all(descriptor, DescriptorClass::socket, static_cast<const char*>(part.iov_base), part.iov_len, take);
+    if (sent < 0) return all > 0 ? all : -1;
+    all += sent;
+    if (static_cast<std::size_t>(sent) < part.iov_len) break;
+  }
+  return all;
+}
+
+bool has_bytes(const msghdr& message) {
+  for (std::size_t i = 0; i < message.msg_iovlen; ++i)
+    if (message.msg_iov[i].iov_len > 0) return true;
+  return false;
+}
+
+// The system's call, without waiting, whatever the socket's mode.
+int connect_at_once(int descriptor, const sockaddr* address, socklen_t length) {
+  const int flags = WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL);
+  WAITPOINT_NEXT(fcntl)(descriptor, F_SETFL, flags | O_NONBLOCK);
+  const int result = WAITPOINT_NEXT(connect)(descriptor, address, length);
+  const ErrorNumberKept kept;
+  WAITPOINT_NEXT(fcntl)(descriptor, F_SETFL, flags);
+  return result;
+}
+
+int connect_and_wait(int descriptor, const sockaddr* address, socklen_t length) {
+  const CancellationPoint point;
+  for (;;) {
+    const int result = done([&] { return connect_at_once(descriptor, address, length); });
+    if (result == 0 || (errno != EINPROGRESS && errno != EAGAIN)) return result;
+    if (errno == EINPROGRESS) break;
+    // Of a local socket: whoever listens has no room for one more.
+    if (!point.wait_until(later(kernel::local_time(*kernel::running), std::chrono::microseconds(100))))
+      return fail(EINTR);
+  }
+  const int ready = wait_for(descriptor, POLLOUT, Time::max(), Restart::if_asked);
+  leave_if_cancelled();
+  if (ready < 0) return -1;
+  // What has become of it is told as to who waited, and the socket is as if that one had.
+  return done([&] { return connect_at_once(descriptor, address, length); });
+}
+
+}  // namespace
+
+bool is_stream(int descriptor) { return option_of(descriptor, SO_TYPE) == SOCK_STREAM; }
+
+ssize_t send_to_stream(int descriptor, const void* bytes, std::size_t size, int flags) {
+  if (goes_over_link(descriptor)) return send_stream_over_link(descriptor, bytes, size);
+  if ((flags & MSG_DONTWAIT) != 0 || !blocks(descriptor))
+    return send_all_at_once(descriptor, false, [&] { return WAITPOINT_NEXT(send)(descriptor, bytes, size, flags); });
+  const auto take = [&](const char* at, std::size_t left) {
+    return WAITPOINT_NEXT(send)(descriptor, at, left, flags | MSG_DONTWAIT);
+  };
+  return write_all(descriptor, DescriptorClass::socket, static_cast<const char*>(bytes), size, take);
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED ssize_t recv(int descriptor, void* bytes, std::size_t size, int flags) {
+  if (waits_for_all(descriptor, flags)) return receive_all(descriptor, static_cast<char*>(bytes), size, flags);
+  return receive(descriptor, may_block(descriptor, flags),
+                 [&] { return WAITPOINT_NEXT(recv)(descriptor, bytes, size, flags); });
+}
+
+WAITPOINT_INTERPOSED ssize_t recvfrom(int descriptor, void* __restrict bytes, std::size_t size, int flags,
+                                      sockaddr* __restrict address, socklen_t* __restrict length) {
+  if (address == nullptr) return recv(descriptor, bytes, size, flags);
+  const bool waits = waits_for_all(descriptor, flags);
+  const int now = waits ? flags & ~MSG_WAITALL : flags;
+  const ssize_t received = receive(descriptor, may_block(descriptor, flags), [&] {
+    return WAITPOINT_NEXT(recvfrom)(descriptor, bytes, size, now, address, length);
+  });
+  if (!waits || received <= 0 || static_cast<std::size_t>(received) == size) return received;
+  const auto before = static_cast<std::size_t>(received);
+  const ssize_t more = receive_all(descriptor, static_cast<char*>(bytes) + before, size - before, flags);
+  return more > 0 ? received + more : received;
+}
+
+WAITPOINT_INTERPOSED ssize_t recvmsg(int descriptor, msghdr* message, int flags) {
+  if (waits_for_all(descriptor, flags) && can_be_read(message) && has_bytes(*message))
+    return receive_all_parts(descriptor, *message, flags);
+  return receive(descriptor, may_block(descriptor, flags),
+                 [&] { return WAITPOINT_NEXT(recvmsg)(descriptor, message, flags); });
+}
+
+WAITPOINT_INTERPOSED ssize_t send(int descriptor, const void* bytes, std::size_t size, int flags) {
+  if (class_of(descriptor) == DescriptorClass::socket && is_stream(descriptor) && size > 0)
+    return send_to_stream(descriptor, bytes, size, flags);
+  if (send_over_link(descriptor, bytes, size, nullptr, 0)) return static_cast<ssize_t>(size);
+  return send_message(descriptor, flags, [&](int with) { return WAITPOINT_NEXT(send)(descriptor, bytes, size, with); });
+}
+
+WAITPOINT_INTERPOSED ssize_t sendto(int descriptor, const void* bytes, std::size_t size, int flags,
+                                    const sockaddr* address, socklen_t length) {
+  if (is_forbidden(address)) return -1;
+  if (address == nullptr) return send(descriptor, bytes, size, flags);
+  if (send_over_link(descriptor, bytes, size, address, length)) return static_cast<ssize_t>(size);
+  return send_message(descriptor, flags,
+                      [&](int with) { return WAITPOINT_NEXT(sendto)(descriptor, bytes, size, with, address, length); });
+}
+
+WAITPOINT_INTERPOSED ssize_t sendmsg(int descriptor, const msghdr* message, int flags) {
+  if (!can_be_read(message)) return WAITPOINT_NEXT(sendmsg)(descriptor, message, flags);
+  if (is_forbidden(static_cast<const sockaddr*>(message->msg_name))) return -1;
+  std::size_t size = 0;
+  if (send_over_link(descriptor, *message, size)) return static_cast<ssize_t>(size);
+  if (goes_over_link(descriptor)) return send_parts_over_link(descriptor, *message);
+  if (class_of(descriptor) == DescriptorClass::socket && is_stream(descriptor) && has_bytes(*message) &&
+      (flags & MSG_DONTWAIT) == 0 && blocks(descriptor))
+    return send_parts(descriptor, *message, flags);
+  return send_message(descriptor, flags, [&](int with) { return WAITPOINT_NEXT(sendmsg)(descriptor, message, with); });
+}
+
+WAITPOINT_INTERPOSED int accept4(int descriptor, sockaddr* __restrict address, socklen_t* __restrict length,
+                                 int flags) {
+  const bool is_valid = (flags & ~(SOCK_NONBLOCK | SOCK_CLOEXEC)) == 0 && option_of(descriptor, SO_ACCEPTCONN) == 1;
+  const int made =
+      receive(descriptor, is_valid, [&] { return WAITPOINT_NEXT(accept4)(descriptor, address, length, flags); });
+  if (made >= 0) note_inside(made, is_inside(descriptor)), copy_asked(descriptor, made);
+  note_owner(made);
+  return made;
+}
+
+WAITPOINT_INTERPOSED int accept(int descriptor, sockaddr* __restrict address, socklen_t* __restrict length) {
+  return accept4(descriptor, address, length, 0);
+}
+
+WAITPOINT_INTERPOSED int shutdown(int descriptor, int how) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(shutdown)(descriptor, how);
+  pass(kernel::Operation::close, nullptr);
+  if ((how == SHUT_WR || how == SHUT_RDWR) && end_stream_over_link(descriptor)) {
+    if (how == SHUT_WR) return 0;
+    how = SHUT_RD;
+  }
+  return done([&] { return WAITPOINT_NEXT(shutdown)(descriptor, how); });
+}
+
+WAITPOINT_INTERPOSED int connect(int descriptor, const sockaddr* address, socklen_t length) {
+  if (!is_simulated()) return WAITPOINT_NEXT(connect)(descriptor, address, length);
+  if (is_forbidden(address)) return -1;
+  if (can_be_read(address) && !leaves(address)) send_at_once(descriptor);
+  pass(kernel::Operation::connect, nullptr);
+  if (class_of(descriptor) == DescriptorClass::socket && blocks(descriptor))
+    return connect_and_wait(descriptor, address, length);
+  return done([&] { return WAITPOINT_NEXT(connect)(descriptor, address, length); });
+}

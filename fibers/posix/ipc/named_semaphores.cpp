@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Named semaphores: known to this program alone, its processes and, where there are several, its other programs.
+#include <fcntl.h>
+#include <limits.h>
+#include <semaphore.h>
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstdlib>
+#include <cstring>
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/ipc/named_objects.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr int names_max = 4096;
+
+/// In the family's memory, which keeps it for as long as another process may have it open.
+struct Named {
+  char name[NAME_MAX + 1];
+  sem_t semaphore;
+  bool unlinked;
+};
+
+struct Names {
+  Named* at[names_max];
+  bool has_forked;
+};
+
+Names* names = nullptr;  // in the family's memory
+/// By this process: more often than closed.
+unsigned opened[names_max];
+
+Names* all_names() { return names = static_cast<Names*>(family::common(family::Part::names, sizeof(Names))); }
+
+// names_max if there is none.
+int find_named(const char* name) {
+  int at = 0;
+  while (at < names_max &&
+         (names->at[at] == nullptr || names->at[at]->unlinked || std::strcmp(names->at[at]->name, name) != 0))
+    ++at;
+  return at;
+}
+
+void let_go(int at) {
+  Named* const named = names->at[at];
+  if (named == nullptr || !named->unlinked || opened[at] > 0) return;
+  if (names->has_forked && family::has_others()) return;
+  sem_destroy(&named->semaphore);
+  family::give(named);
+  names->at[at] = nullptr;
+}
+
+// As the files that glibc makes of them, "sem.NAME": a slash, which may be missing, and none behind it.
+bool is_name(const char* name) {
+  if (*name == '/') ++name;
+  const std::size_t length = std::strlen(name);
+  return length > 0 && length <= NAME_MAX - 4 && std::strchr(name, '/') == nullptr;
+}
+
+// An error number.
+int make_named(const char* name, unsigned count, int& at) {
+  for (at = 0; at < names_max && names->at[at] != nullptr;) ++at;
+  if (at == names_max) return ENFILE;
+  auto* const named = static_cast<Named*>(family::take(sizeof(Named)));
+  if (named == nullptr) return ENOMEM;
+  std::strcpy(named->name, name);
+  sem_init(&named->semaphore, 1, count);
+  names->at[at] = named;
+  return 0;
+}
+
+// An error number, and where it is.
+int open(const char* name, int flags, unsigned count, int& at) {
+  if (!is_name(name)) return EINVAL;
+  if (*name == '/') ++name;
+  const family::Section section;
+  if (all_names() == nullptr) return ENOMEM;
+  at = find_named(name);
+  const bool exists = at < names_max;
+  if (!exists && (flags & O_CREAT) == 0) return ENOENT;
+  if (exists && (flags & O_CREAT) != 0 && (flags & O_EXCL) != 0) return EEXIST;
+  if (!exists && count > SEM_VALUE_MAX) return EINVAL;
+  if (!exists)
+    if (const int error = make_named(name, count, at); error != 0) return error;
+  ++opened[at];
+  return 0;
+}
+
+}  // namespace
+
+void share_named_semaphores() {
+  const family::Section section;
+  if (all_names() != nullptr) names->has_forked = true;
+}
+
+void forget_named_semaphores() {
+  const family::Section section;
+  for (int at = 0; names != nullptr && at < names_max; ++at) {
+    if (names->at[at] == nullptr) continue;
+    names->at[at]->unlinked = true;
+    opened[at] = 0;
+    let_go(at);
+  }
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED sem_t* sem_open(const char* name, int flags, ...) noexcept {
+  unsigned count = 0;
+  if ((flags & O_CREAT) != 0) {
+    va_list more;
+    va_start(more, flags);
+    va_arg(more, mode_t);
+    count = va_arg(more, unsigned);
+    va_end(more);
+  }
+  int at = 0;
+  if (const int error = posix::open(name, flags, count, at); error != 0) {
+    errno = error;
+    return SEM_FAILED;
+  }
+  return &names->at[at]->semaphore;
+}
+
+WAITPOINT_INTERPOSED int sem_close(sem_t* semaphore) noexcept {
+  const family::Section section;
+  for (int at = 0; names != nullptr && at < names_max; ++at) {
+    if (opened[at] == 0 || &names->at[at]->semaphore != semaphore) continue;
+    --opened[at];
+    let_go(at);
+    return 0;
+  }
+  return fail(EINVAL);
+}
+
+WAITPOINT_INTERPOSED int sem_unlink(const char* name) noexcept {
+  if (*name == '/') ++name;
+  const family::Section section;
+  const int at = names != nullptr ? find_named(name) : names_max;
+  if (at == names_max) return fail(ENOENT);
+  names->at[at]->unlinked = true;
+  let_go(at);
+  return 0;
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A System V message queue. A message goes to a call that waits for it at once, of whichever process; calls that wait
+// for room are woken, and look for themselves.
+#pragma once
+
+#include <sys/msg.h>
+
+#include "fibers/posix/ipc/system_v.hpp"
+
+namespace waitpoint::posix::system_v {
+
+// Linux's, as it is when a machine starts.
+inline constexpr int queues_max = 32000;
+inline constexpr std::size_t bytes_a_message_max = 8192, bytes_a_queue_max = 16384;
+
+struct Message {
+  long type;
+  std::size_t size;
+  Message* next;
+  char* bytes() { return reinterpret_cast<char*>(this + 1); }
+};
+
+/// What a receiving call asks for.
+struct Wanted {
+  long type;
+  std::size_t size;
+  int flags;
+};
+
+/// A call that waits to receive, of any process of the family.
+struct Receiving {
+  pid_t process;
+  kernel::Task* task;  // in its process
+  Wanted wanted;
+  Message* message;  // given to it
+  int error;         // with which it ends
+  Receiving* next;
+};
+
+/// What senders wait for: known in each process, by its address.
+struct Room {};
+struct KnownRoom : Waitable {
+  static constexpr Kind kind_of_all = Kind::system_v;
+  explicit KnownRoom(const void* address) : Waitable(kind_of_all, "room in a System V message queue", address) {}
+};
+
+struct Queue : Common {
+  Queue() : Common("System V message queue") {}
+  ~Queue() {
+    while (Message* message = first) {
+      first = message->next;
+      family::give(message);
+    }
+  }
+
+  Room room;
+  std::size_t bytes = 0, bytes_max = bytes_a_queue_max;
+  unsigned long count = 0;
+  time_t sent = 0, received = 0, changed = 0;
+  pid_t last_sender = 0, last_receiver = 0;
+  Message* first = nullptr;
+  Receiving* first_receiving = nullptr;
+};
+
+using Queues = Table<Queue, queues_max>;
+/// Within the family's section.
+inline Queues& queues() { return table_of<Queues>(family::Part::messages); }
+
+/// As msgsnd(), but ECANCELED where the thread was cancelled. Outside the section, as the next.
+int send_message(Queue& queue, long type, const char* bytes, std::size_t size, int flags);
+/// As msgrcv().
+ssize_t take_message(Queue& queue, const Wanted& wanted, void* to);
+
+/// Who waits for room looks again. Within the section, as the next.
+void wake_senders(const Queue& queue);
+/// All calls that wait end, those that receive with this error.
+void end_all(Queue& queue, int error);
+
+}  // namespace waitpoint::posix::system_v

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/links/stream_links.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/links/robot_links.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/cancellation.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+/// What one stream may have under way, and what goes as one message.
+constexpr std::size_t most_under_way = 256 * 1024, most_of_a_piece = 16 * 1024;
+/// What each piece takes beside its bytes.
+constexpr std::size_t around_a_piece = 64;
+
+/// What is under way from a socket.
+struct Stream {
+  explicit Stream(int of) : descriptor(of) {}
+  int descriptor;                     ///< by which the program knows it; -1 once it is closed
+  int own = -1;                       ///< a descriptor of ours for it
+  const Program* receiver = nullptr;  ///< null: it goes over no link
+  std::size_t under_way = 0;
+  struct Piece* first_arrived = nullptr;
+  struct Piece* last_arrived = nullptr;
+  int pieces = 0;  ///< that know it
+  bool has_ended = false;
+  kernel::Object object{"stream"};  ///< at which who writes waits for room
+  Stream* next = nullptr;
+};
+Stream* first = nullptr;
+int arrived_count = 0;  // pieces for which there was no room
+
+/// Of a stream, with the bytes behind it; its end has none.
+struct Piece {
+  Stream* stream;
+  std::size_t size;
+  bool has_arrived = false;
+  bool is_kept = true;  ///< by the link
+  std::size_t taken = 0;
+  Piece* next = nullptr;
+  char* bytes() { return reinterpret_cast<char*>(this + 1); }
+};
+
+void free_if_unused(Stream& stream) {
+  if (stream.descriptor >= 0 || stream.pieces > 0) return;
+  Stream** link = &first;
+  while (*link != &stream) link = &(*link)->next;
+  *link = stream.next;
+  if (stream.own >= 0) WAITPOINT_NEXT(close)(stream.own);
+  std::free(&stream);
+}
+
+// It is under way no longer; the link may keep it for a while.
+void let_go(Piece& piece) {
+  Stream& stream = *piece.stream;
+  stream.under_way -= piece.size + around_a_piece;
+  --stream.pieces;
+  piece.stream = nullptr;
+  if (!piece.is_kept) std::free(&piece);
+  free_if_unused(stream);
+}
+
+// Writes what it takes; whether it has taken all. What the other end does not want is gone.
+bool is_taken(Piece& piece) {
+  const int own = piece.stream->own;
+  if (piece.size == 0) {
+    WAITPOINT_NEXT(shutdown)(own, SHUT_WR);
+    return true;
+  }
+  while (piece.taken < piece.size) {
+    const ssize_t count =
+        WAITPOINT_NEXT(send)(own, piece.bytes() + piece.taken, piece.size - piece.taken, MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (count < 0) return errno != EAGAIN;
+    piece.taken += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+// What has arrived, in its order, as far as there is room.
+void deliver(Stream& stream) {
+  ++stream.pieces;  // it stays until it is done with
+  while (Piece* const piece = stream.first_arrived) {
+    if (!is_taken(*piece)) break;
+    stream.first_arrived = piece->next;
+    if (piece->next == nullptr) stream.last_arrived = nullptr;
+    --arrived_count;
+    let_go(*piece);
+  }
+  if (stream.object.first_waiter != nullptr) stream.object.first_waiter->scheduler->wake_all(stream.object);
+  --stream.pieces;
+  free_if_unused(stream);
+}
+
+void arrive(void* message) {
+  auto& piece = *static_cast<Piece*>(message);
+  const ErrorNumberKept kept;
+  Stream& stream = *piece.stream;
+  piece.has_arrived = true;
+  (stream.last_arrived == nullptr ? stream.first_arrived : stream.last_arrived->next) = &piece;
+  stream.last_arrived = &piece;
+  ++arrived_count;
+  deliver(stream);
+  look_at_descriptors();
+}
+
+// What has arrived is the stream's until it is taken.
+void drop(void* message) {
+  auto& piece = *static_cast<Piece*>(message);
+  const ErrorNumberKept kept;
+  piece.is_kept = false;
+  if (piece.stream == nullptr)
+    std::free(&piece);
+  else if (!piece.has_arrived)
+    let_go(piece);
+}
+
+const Program* receiver_of(int descriptor) {
+  SocketAddress own, peer;
+  if (type_of_socket(descriptor) != SOCK_STREAM || !take_own_address(descriptor, own)) return nullptr;
+  if (own.bytes.ss_family != AF_INET && own.bytes.ss_family != AF_INET6) return nullptr;
+  return take_peers_address(descriptor, peer) ? program_at(peer, SOCK_STREAM, &own) : nullptr;
+}
+
+Stream* known(int descriptor) {
+  for (Stream* stream = first; stream != nullptr; stream = stream->next)
+    if (stream->descriptor == descriptor) return stream;
+  return nullptr;
+}
+
+// That of a connected socket; null without memory, or if it is none.
+Stream* stream_of(int descriptor) {
+  if (Stream* const found = known(descriptor); found != nullptr) return found;
+  SocketAddress peer;
+  if (!take_peers_address(descriptor, peer)) return nullptr;
+  void* const memory = std::malloc(sizeof(Stream));
+  if (memory == nullptr) return nullptr;
+  auto* const stream = new (memory) Stream(descriptor);
+  if ((stream->receiver = receiver_of(descriptor)) != nullptr &&
+      (stream->own = WAITPOINT_NEXT(fcntl)(descriptor, F_DUPFD_CLOEXEC, 0)) < 0)
+    stream->receiver = nullptr;
+  stream->next = first;
+  return first = stream;
+}
+
+// A piece on its way; false if there is no memory or no link.
+bool launch(Stream& stream, const Carrier& carrier, const void* bytes, std::size_t size) {
+  void* const memory = std::malloc(sizeof(Piece) + size);
+  if (memory == nullptr) return false;
+  auto* const piece = new (memory) Piece{&stream, size};
+  if (size > 0) std::memcpy(piece->bytes(), bytes, size);
+  stream.under_way += size + around_a_piece;
+  ++stream.pieces;
+  if (carrier.carry_in_order(carrier.network, *this_program().robot, *stream.receiver->robot, size, arrive, drop,
+                             piece))
+    return true;
+  piece->is_kept = false;
+  let_go(*piece);
+  return false;
+}
+
+// The system tells of a stream that has failed; what is written to it fails by the system's call.
+bool has_failed(int descriptor) {
+  pollfd one{descriptor, 0, 0};
+  return WAITPOINT_NEXT(poll)(&one, 1, 0) > 0;
+}
+
+// Until there is room for some more, whether the socket blocks or not; false, with EINTR, if a signal ended that.
+bool wait_for_room(Stream& stream) {
+  const CancellationPoint point;
+  kernel::running->scheduler->enter(stream.object);
+  while (stream.under_way >= most_under_way) {
+    const Wait ended = point.block(stream.object, Time::max());
+    leave_if_cancelled();
+    if (ended == Wait::interrupted && is_interrupted(Restart::if_asked)) return fail(EINTR) == 0;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool goes_over_link(int descriptor) {
+  if (carrier_here() == nullptr) return false;
+  const Stream* const stream = stream_of(descriptor);
+  return stream != nullptr && stream->receiver != nullptr && !has_failed(descriptor);
+}
+
+ssize_t send_stream_over_link(int descriptor, const void* bytes, std::size_t size) {
+  Stream& stream = *stream_of(descriptor);
+  if (stream.has_ended) return fail(EPIPE);
+  const char* const from = static_cast<const char*>(bytes);
+  std::size_t sent = 0;
+  pass(kernel::Operation::send, nullptr);
+  while (sent < size) {
+    ++stream.pieces;  // another thread may close it meanwhile
+    const bool has_room = wait_for_room(stream);
+    --stream.pieces;
+    const bool is_closed = stream.descriptor < 0;
+    if (is_closed) free_if_unused(stream);
+    if (!has_room || is_closed) break;
+    const std::size_t piece = size - sent < most_of_a_piece ? size - sent : most_of_a_piece;
+    if (!launch(stream, *carrier_here(), from + sent, piece)) break;
+    sent += piece;
+  }
+  if (sent > 0) return static_cast<ssize_t>(sent);
+  return errno == EINTR ? -1 : fail(ENOBUFS);
+}
+
+bool end_stream_over_link(int descriptor) {
+  if (!goes_over_link(descriptor)) return false;
+  Stream& stream = *stream_of(descriptor);
+  const bool is_first = !stream.has_ended;
+  stream.has_ended = true;
+  return !is_first || launch(stream, *carrier_here(), nullptr, 0);
+}
+
+void close_stream_over_link(int descriptor) {
+  Stream* const stream = known(descriptor);
+  if (stream == nullptr) return;
+  const ErrorNumberKept kept;
+  const Carrier* const carrier = carrier_here();
+  if (carrier != nullptr && stream->receiver != nullptr && !stream->has_ended) launch(*stream, *carrier, nullptr, 0);
+  stream->descriptor = -1;
+  free_if_unused(*stream);
+}
+
+void deliver_streams() {
+  if (arrived_count == 0) return;
+  const ErrorNumberKept kept;
+  for (Stream *stream = first, *next = nullptr; stream != nullptr; stream = next) {
+    next = stream->next;
+    if (stream->first_arrived != nullptr) deliver(*stream);
+  }
+}
+
+// What is on the link goes with that.
+void forget_streams() {
+  for (Stream *stream = first, *next = nullptr; stream != nullptr; stream = next) {
+    next = stream->next;
+    ++stream->pieces;
+    while (Piece* const piece = stream->first_arrived) {
+      stream->first_arrived = piece->next;
+      --arrived_count;
+      let_go(*piece);
+    }
+    stream->last_arrived = nullptr;
+    --stream->pieces;
+    stream->descriptor = -1;
+    free_if_unused(*stream);
+  }
+}
+
+}  // namespace waitpoint::posix

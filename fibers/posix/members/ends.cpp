@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Calls that end a process. Where it is several programs, they end the one that calls.
+#include <assert.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/members/members.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/signals.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+/// Of a program that abort() ends, as a shell tells it.
+constexpr int status_of_abort = 128 + SIGABRT;
+
+bool add_handler(void (*function)(void*), void* argument) {
+  auto* const handler = static_cast<ExitHandler*>(std::malloc(sizeof(ExitHandler)));
+  if (handler == nullptr) return false;
+  Member& member = this_member();
+  *handler = {function, argument, member.handlers};
+  member.handlers = handler;
+  return true;
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED void exit(int status) {
+  if (runs_in_member()) exit_member(status);
+  WAITPOINT_NEXT(exit)(status);
+  __builtin_unreachable();
+}
+
+WAITPOINT_INTERPOSED void _exit(int status) {
+  if (runs_in_member()) end_member(status);
+  WAITPOINT_NEXT(_exit)(status);
+  __builtin_unreachable();
+}
+WAITPOINT_INTERPOSED void _Exit(int status) noexcept { _exit(status); }
+
+// It cannot be blocked or ignored, and there is no coming back but by a jump.
+WAITPOINT_INTERPOSED void abort() noexcept {
+  if (is_simulated()) {
+    this_thread().blocked &= ~only(SIGABRT);
+    const struct sigaction& action = signals_of_program.actions[SIGABRT];
+    if ((action.sa_flags & SA_SIGINFO) != 0 || (action.sa_handler != SIG_IGN && action.sa_handler != SIG_DFL))
+      raise(SIGABRT);
+    if (runs_in_member()) {
+      std::fprintf(stderr, "waitpoint: %s is aborted\n", kernel::running->robot->name);
+      end_member(status_of_abort);
+    }
+    do_default(SIGABRT);
+  }
+  WAITPOINT_NEXT(abort)();
+  __builtin_unreachable();
+}
+
+// For bugs of ours: the linker sends the calls of this library here. No handler of the program's is called.
+extern "C" [[noreturn, gnu::visibility("hidden")]] void __wrap_abort() noexcept {
+  do_default(SIGABRT);
+  WAITPOINT_NEXT(_exit)(status_of_own_errors);
+  __builtin_unreachable();
+}
+
+WAITPOINT_INTERPOSED void __assert_fail(const char* condition, const char* file, unsigned line,
+                                        const char* function) noexcept {
+  if (!runs_in_member()) WAITPOINT_NEXT(__assert_fail)(condition, file, line, function);
+  std::fprintf(stderr, "%s: %s:%u: %s%sAssertion `%s' failed.\n", this_member().argv[0], file, line,
+               function != nullptr ? function : "", function != nullptr ? ": " : "", condition);
+  std::fflush(stderr);
+  abort();
+}
+
+// What a program registers is called when it exits; what its libraries do, when the process does. atexit() is in the
+// program itself, and calls this one.
+WAITPOINT_INTERPOSED int __cxa_atexit(void (*function)(void*), void* argument, void* object) {
+  if (runs_in_member() && contains(this_member().image, object)) return add_handler(function, argument) ? 0 : -1;
+  return WAITPOINT_NEXT(__cxa_atexit)(function, argument, object);
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/members/members.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/ipc/system_v_ends.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/waiting.hpp"
+
+extern "C" void __call_tls_dtors();  // of the C library
+
+namespace waitpoint::posix {
+
+Record* record = nullptr;
+
+namespace {
+
+pid_t home = 0;  // the process in which the members are
+
+void* run_member(void* argument) {
+  Member& member = *static_cast<Member*>(argument);
+  std::exit(call_main(member.image, member.argc, member.argv));
+}
+
+// What is registered meanwhile comes next.
+void call_handlers(Member& member) {
+  while (member.handlers != nullptr) {
+    ExitHandler* const handler = member.handlers;
+    member.handlers = handler->next;
+    handler->function(handler->argument);
+    std::free(handler);
+  }
+  call_destructors(member.image);
+}
+
+}  // namespace
+
+bool start(Member& member, kernel::Scheduler& scheduler) {
+  home = getpid();
+  member.is_member = true;
+  return make_main_thread(member, scheduler, run_member, &member) != nullptr;
+}
+
+void drop(Member& member, kernel::Scheduler& scheduler) {
+  end_other_threads(member, scheduler);
+  close_descriptors_of(member);
+  while (member.handlers != nullptr) {
+    ExitHandler* const handler = member.handlers;
+    member.handlers = handler->next;
+    std::free(handler);
+  }
+  unload(member.image);
+}
+
+bool runs_in_member() { return is_simulated() && this_program().is_member && getpid() == home; }
+
+void exit_member(int status) {
+  Member& member = this_member();
+  // Whoever exits first does it; the others are waited for by nobody.
+  if (member.exiting) end_running_thread();
+  member.exiting = true;
+  __call_tls_dtors();
+  call_handlers(member);
+  std::fflush(nullptr);
+  end_member(status);
+}
+
+void end_member(int status) {
+  Member& member = this_member();
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  end_other_threads(member, scheduler);
+  close_descriptors_of(member);
+  system_v::undo_semaphores_of(member);
+  member.ended = true;
+  member.status = status & 0xFF;
+  if (member.record != nullptr) {
+    member.record->ended = true;
+    member.record->status = member.status;
+  }
+  end_running_thread();
+}
+
+void end_member_with_last_thread() {
+  if (!runs_in_member() || this_member().exiting) return;
+  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
+    if (task != kernel::running && is_thread(*task) && thread_of(*task).program == &this_program()) return;
+  exit_member(0);
+}
+
+}  // namespace waitpoint::posix

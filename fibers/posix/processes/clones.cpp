@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/processes/clones.hpp"
+
+#include <linux/sched.h>
+#include <sched.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstdlib>
+#include <utility>
+
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/system_call_words.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/pace.hpp"
+#include "fibers/posix/processes/children.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/sync/robust_mutexes.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+/// What clone() is called with.
+struct Clone {
+  int (*function)(void*);
+  void* stack;
+  std::uint64_t flags;
+  void* argument;
+  pid_t* parent_id;
+  void* thread_storage;
+  pid_t* child_id;
+};
+
+bool is_last_of_program() {
+  for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (task != kernel::running && is_thread(*task) && thread_of(*task).program == &this_program()) return false;
+  return true;
+}
+
+// As SYS_exit: nothing of the thread's own is called any more.
+[[noreturn]] void exit_thread(int status) {
+  if (is_last_of_program()) _exit(status);
+  let_robust_mutexes_go();
+  end_running_thread();
+}
+
+void* run_clone(void* memory) {
+  const Clone clone = *static_cast<Clone*>(memory);
+  std::free(memory);
+  if ((clone.flags & CLONE_CHILD_SETTID) != 0) *clone.child_id = this_thread().id;
+  if ((clone.flags & CLONE_CHILD_CLEARTID) != 0)
+    this_thread().cleared_at_end = reinterpret_cast<std::uint32_t*>(clone.child_id);
+  exit_thread(clone.function(clone.argument));
+}
+
+int make_thread(const Clone& clone) {
+  auto* const memory = static_cast<Clone*>(std::malloc(sizeof(Clone)));
+  if (memory == nullptr) return fail(ENOMEM);
+  *memory = clone;
+  pthread_attr_t detached;
+  pthread_attr_init(&detached);
+  pthread_attr_setdetachstate(&detached, PTHREAD_CREATE_DETACHED);
+  pthread_t made{};
+  const int error = create(&made, &detached, {.posix = run_clone}, false, memory);
+  pthread_attr_destroy(&detached);
+  if (error != 0) {
+    std::free(memory);
+    return fail(error);
+  }
+  const int id = find(made)->id;
+  if ((clone.flags & CLONE_PARENT_SETTID) != 0) *clone.parent_id = id;
+  return id;
+}
+
+// In the child no thread is running: what it calls is the C library's.
+int lend_memory(const Clone& clone) {
+  before_child();
+  kernel::running->scheduler->end_free_pass();
+  kernel::Task* const task = std::exchange(kernel::running, nullptr);
+  const int child = WAITPOINT_NEXT(clone)(clone.function, clone.stack, static_cast<int>(clone.flags | CLONE_VFORK),
+                                          clone.argument, clone.parent_id, clone.thread_storage, clone.child_id);
+  kernel::running = task;
+  const ErrorNumberKept kept;
+  if (child > 0) note_child(child);
+  look_at_descriptors();
+  return child;
+}
+
+long fork_by_number(long number, const CallWords& words) {
+  struct Call {
+    long number;
+    const CallWords& words;
+  };
+  const auto real = [](const void* what) {
+    const auto& [of, with] = *static_cast<const Call*>(what);
+    return static_cast<pid_t>(
+        WAITPOINT_NEXT(syscall)(of, with.at[0], with.at[1], with.at[2], with.at[3], with.at[4], with.at[5]));
+  };
+  const Call call{number, words};
+  return fork_by(real, &call, false);
+}
+
+int fork_and_call(const Clone& clone) {
+  const CallWords words{{static_cast<long>(clone.flags), 0, reinterpret_cast<long>(clone.parent_id),
+                         reinterpret_cast<long>(clone.child_id), 0, 0}};
+  const auto child = static_cast<int>(fork_by_number(SYS_clone, words));
+  if (child == 0) _exit(clone.function(clone.argument));
+  return child;
+}
+
+int make_clone(const Clone& clone) {
+  const bool shares_memory = (clone.flags & CLONE_VM) != 0, shares_actions = (clone.flags & CLONE_SIGHAND) != 0;
+  if (clone.function == nullptr || clone.stack == nullptr) return fail(EINVAL);
+  if ((shares_actions && !shares_memory) || ((clone.flags & CLONE_THREAD) != 0 && !shares_actions)) return fail(EINVAL);
+  if ((clone.flags & CLONE_THREAD) != 0) return make_thread(clone);
+  if (is_guest()) return fail(ENOSYS);
+  return shares_memory ? lend_memory(clone) : fork_and_call(clone);
+}
+
+}  // namespace
+
+long call_about_clones(long number, const CallWords& words) {
+  switch (number) {
+    case SYS_exit: exit_thread(words.word<int>(0));
+    case SYS_set_tid_address: this_thread().cleared_at_end = words.word<std::uint32_t*>(0); return this_thread().id;
+    case SYS_clone:
+      if (is_guest() || (words.at[0] & CLONE_VM) != 0 || words.at[1] != 0) return fail(ENOSYS);
+      return fork_by_number(number, words);
+    default: {  // SYS_clone3
+      const auto arguments = words.word<const clone_args*>(0);
+      if (!can_be_read(arguments)) return fail(EFAULT);
+      if (is_guest() || (arguments->flags & CLONE_VM) != 0 || arguments->stack != 0) return fail(ENOSYS);
+      return fork_by_number(number, words);
+    }
+  }
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int clone(int (*function)(void*), void* stack, int flags, void* argument, ...) noexcept {
+  va_list more;
+  va_start(more, argument);
+  auto* const parent_id = va_arg(more, pid_t*);
+  void* const thread_storage = va_arg(more, void*);
+  auto* const child_id = va_arg(more, pid_t*);
+  va_end(more);
+  if (!is_simulated())
+    return WAITPOINT_NEXT(clone)(function, stack, flags, argument, parent_id, thread_storage, child_id);
+  const auto bits = static_cast<std::uint64_t>(static_cast<unsigned>(flags));
+  return make_clone({function, stack, bits, argument, parent_id, thread_storage, child_id});
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/processes/started_programs.hpp"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/personality.h>
+#include <unistd.h>
+
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/traps/library_calls.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr int out_of_the_way = 512;
+constexpr char preload[] = "LD_PRELOAD=";
+
+// A record for one more run with the settings of this one; -1 where there can be none.
+int make_record() {
+  const int made = memfd_create("waitpoint-exec", 0);
+  if (made < 0) return -1;
+  const int moved = WAITPOINT_NEXT(fcntl)(made, F_DUPFD, out_of_the_way);
+  const int descriptor = moved >= 0 ? moved : made;
+  if (moved >= 0) WAITPOINT_NEXT(close)(made);
+  void* memory = MAP_FAILED;
+  if (ftruncate(descriptor, record_bytes) == 0)
+    memory = mmap(nullptr, sizeof(Record), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  if (memory == MAP_FAILED) {
+    WAITPOINT_NEXT(close)(descriptor);
+    return -1;
+  }
+  auto& fresh = *new (memory) Record();
+  fresh.settings = record->settings;
+  fresh.settings.traced = fresh.settings.instrumented = false;
+  fresh.settings.is_started = true;
+  munmap(memory, sizeof(Record));
+  return descriptor;
+}
+
+// The library's own file.
+const char* library() {
+  Dl_info information{};
+  dladdr(reinterpret_cast<const void*>(&library), &information);
+  return information.dli_fname;
+}
+
+bool begins_with(const char* text, const char* with) { return std::strncmp(text, with, std::strlen(with)) == 0; }
+
+}  // namespace
+
+StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
+  if (!is_simulated() || given == nullptr) return;
+  place_at_random();
+  if (!record->settings.simulates_started) return;
+  const ErrorNumberKept kept;
+  if ((record_ = make_record()) < 0) return;
+  std::size_t count = 0;
+  while (given[count] != nullptr) ++count;
+  const char* others = "";
+  for (std::size_t i = 0; i < count; ++i)
+    if (begins_with(given[i], preload)) others = given[i] + std::strlen(preload);
+  // Room for a list of pointers, with two more and a null, and behind it for the two words.
+  const std::size_t list = (count + 3) * sizeof(char*), first = std::strlen(library()) + std::strlen(others) + 16;
+  auto* const memory = static_cast<char*>(std::malloc(list + first + 64));
+  if (memory == nullptr) return;
+  made_ = reinterpret_cast<char**>(memory);
+  std::snprintf(memory + list, first, "%s%s%s%s", preload, library(), *others != '\0' ? ":" : "", others);
+  std::snprintf(memory + list + first, 64, "%s=%d", record_variable, record_);
+  std::size_t at = 0;
+  made_[at++] = memory + list;
+  made_[at++] = memory + list + first;
+  for (std::size_t i = 0; i < count; ++i)
+    if (!begins_with(given[i], preload)) made_[at++] = given[i];
+  made_[at] = nullptr;
+}
+
+// Traps of system calls, which go by where the C library is, come to programs that are started too, but nobody there
+// answers them before their main(), if then: their C library is to be elsewhere.
+void StartEnvironment::place_at_random() {
+  if (!are_library_calls_trapped()) return;
+  persona_ = personality(0xFFFFFFFF);
+  if (persona_ >= 0) personality(static_cast<unsigned long>(persona_) & ~static_cast<unsigned long>(ADDR_NO_RANDOMIZE));
+}
+
+StartEnvironment::~StartEnvironment() {
+  const ErrorNumberKept kept;
+  if (persona_ >= 0) personality(static_cast<unsigned long>(persona_));
+  if (record_ >= 0) WAITPOINT_NEXT(close)(record_);
+  std::free(made_);
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/program/pending_signals.hpp"
+
+#include <cstdlib>
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr int first_queued = 32;  // of the kernel's real-time signals
+
+void let_go(PendingSignal& signal) {
+  if (signal.taken != nullptr)
+    signal.taken(signal);
+  else
+    std::free(&signal);
+}
+
+}  // namespace
+
+bool PendingSignals::add(PendingSignal& signal) {
+  const int number = signal.information.si_signo;
+  if (number < first_queued && contains(set_, number)) {
+    let_go(signal);
+    return false;
+  }
+  (last_ == nullptr ? first_ : last_->next) = &signal;
+  last_ = &signal;
+  signal.next = nullptr;
+  set_ |= only(number);
+  return true;
+}
+
+PendingSignal& PendingSignals::take_out_behind(PendingSignal* before) {
+  PendingSignal*& link = before == nullptr ? first_ : before->next;
+  PendingSignal& found = *link;
+  link = found.next;
+  if (last_ == &found) last_ = before;
+  const int number = found.information.si_signo;
+  const PendingSignal* other = first_;
+  while (other != nullptr && other->information.si_signo != number) other = other->next;
+  if (other == nullptr) set_ &= ~only(number);
+  return found;
+}
+
+int PendingSignals::take(SignalSet set, siginfo_t& information) {
+  const SignalSet among = set_ & set;
+  if (among == 0) return 0;
+  // What the processor raises comes first.
+  const int number = __builtin_ctzll((among & faults) != 0 ? among & faults : among) + 1;
+  PendingSignal* before = nullptr;
+  for (PendingSignal* each = first_; each->information.si_signo != number; each = each->next) before = each;
+  PendingSignal& found = take_out_behind(before);
+  // A timer says then how often it has run out meanwhile.
+  if (found.taken != nullptr) found.taken(found);
+  information = found.information;
+  if (found.taken == nullptr) std::free(&found);
+  return number;
+}
+
+void PendingSignals::drop(SignalSet set) {
+  PendingSignal* before = nullptr;
+  for (PendingSignal *each = first_, *next = nullptr; each != nullptr; each = next) {
+    next = each->next;
+    if (contains(set, each->information.si_signo))
+      let_go(take_out_behind(before));
+    else
+      before = each;
+  }
+}
+
+void PendingSignals::remove(const PendingSignal& signal) {
+  PendingSignal* before = nullptr;
+  for (PendingSignal* each = first_; each != nullptr; before = each, each = each->next)
+    if (each == &signal) {
+      take_out_behind(before);
+      return;
+    }
+}
+
+}  // namespace waitpoint::posix

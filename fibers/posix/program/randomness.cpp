@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Random numbers that programs ask the system for: a stream of the seed, the same in every run of it.
+#include "fibers/posix/program/randomness.hpp"
+
+#include <sys/auxv.h>
+#include <sys/random.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+
+#include "core/digest.hpp"
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/thread.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+std::uint64_t drawn_before_main = 0;
+
+}  // namespace
+
+// Each program has a stream of its own.
+std::uint64_t draw_random() {
+  constexpr std::uint64_t of_the_system = 0x67657472616E646F;  // "getrando": no other stream has these numbers
+  std::uint64_t stream = of_the_system;
+  std::uint64_t* drawn = &drawn_before_main;
+  if (is_simulated()) {
+    Program& program = this_program();
+    stream ^= program.robot->id ^ kernel::running->scheduler->chooser().seed();
+    drawn = &program.numbers_drawn;
+  } else if (record != nullptr) {
+    stream ^= record->settings.seed;
+  }
+  return Digest::mix(stream + ++*drawn * 0x9E3779B97F4A7C15u);
+}
+
+void fill_with_random(void* buffer, std::size_t size) {
+  for (std::size_t at = 0; at < size; at += sizeof(std::uint64_t)) {
+    const std::uint64_t word = draw_random();
+    std::memcpy(static_cast<char*>(buffer) + at, &word, size - at < sizeof word ? size - at : sizeof word);
+  }
+}
+
+void draw_random_bytes_of_the_process() {
+  constexpr std::size_t bytes = 16;
+  if (auto* const at = reinterpret_cast<void*>(getauxval(AT_RANDOM)); at != nullptr) fill_with_random(at, bytes);
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED ssize_t getrandom(void* buffer, std::size_t size, unsigned flags) {
+  constexpr unsigned of_either = GRND_RANDOM | GRND_INSECURE;
+  if ((flags & ~(GRND_NONBLOCK | of_either)) != 0 || (flags & of_either) == of_either) return fail(EINVAL);
+  if (size > 0 && !can_be_written(buffer, size)) return fail(EFAULT);
+  fill_with_random(buffer, size);
+  return static_cast<ssize_t>(size);
+}
+
+WAITPOINT_INTERPOSED int getentropy(void* buffer, std::size_t size) {
+  if (size > 256) return fail(EIO);
+  if (size > 0 && !can_be_written(buffer, size)) return fail(EFAULT);
+  fill_with_random(buffer, size);
+  return 0;
+}
+
+WAITPOINT_INTERPOSED std::uint32_t arc4random() noexcept { return static_cast<std::uint32_t>(draw_random() >> 32); }
+WAITPOINT_INTERPOSED void arc4random_buf(void* buffer, std::size_t size) noexcept { fill_with_random(buffer, size); }
+WAITPOINT_INTERPOSED std::uint32_t arc4random_uniform(std::uint32_t bound) noexcept {
+  return static_cast<std::uint32_t>((draw_random() >> 32) * bound >> 32);
+}
+
+// libstdc++'s std::random_device, which asks the processor: unsigned random_device::_M_getval().
+WAITPOINT_INTERPOSED unsigned _ZNSt13random_device9_M_getvalEv(void*) {
+  return static_cast<unsigned>(draw_random() >> 32);
+}
+
+// Our own copy of the C++ runtime names it where it makes strings, and would bring its own of the above along.
+extern "C" [[gnu::visibility("hidden")]] void _ZNSt13random_device7_M_initEPKcm(void*, const char*, std::size_t) {}

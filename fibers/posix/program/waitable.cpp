@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/program/waitable.hpp"
+
+#include <sys/mman.h>
+
+#include "core/digest.hpp"
+#include "core/error.hpp"
+#include "fibers/posix/base/symbols.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr std::size_t cells_at_once = 4096;
+
+union Cell {
+  Cell* next_free;
+  char bytes[waitable_bytes_max];
+};
+
+Cell* first_free = nullptr;
+std::size_t cells_left = 0;  // of the piece of memory taken last
+Cell* next_cell = nullptr;
+
+// Buckets by address; as many as there are waitables, at least.
+Waitable** buckets = nullptr;
+std::size_t bucket_count = 0;
+std::size_t kept = 0;
+
+// Where in no program anything else is: not in holes that a program has made for something of its own.
+std::uintptr_t next_pages = 0x2b00'0000'0000;
+
+void* pages(std::size_t bytes) {
+  void* memory =
+      mmap(reinterpret_cast<void*>(next_pages), bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  next_pages += (bytes + 4095) / 4096 * 4096;
+  WAITPOINT_CHECK(memory != MAP_FAILED, "no memory for the program's primitives");
+  return memory;
+}
+
+Cell* take_cell() {
+  if (Cell* cell = first_free; cell != nullptr) {
+    first_free = cell->next_free;
+    return cell;
+  }
+  if (cells_left == 0) {
+    next_cell = static_cast<Cell*>(pages(cells_at_once * sizeof(Cell)));
+    cells_left = cells_at_once;
+  }
+  --cells_left;
+  return next_cell++;
+}
+
+Waitable*& bucket_of(const void* address) {
+  return buckets[Digest::mix(reinterpret_cast<std::uintptr_t>(address)) & (bucket_count - 1)];
+}
+
+void grow() {
+  Waitable** const old = buckets;
+  const std::size_t old_count = bucket_count;
+  bucket_count = old_count == 0 ? 1024 : 2 * old_count;
+  buckets = static_cast<Waitable**>(pages(bucket_count * sizeof(Waitable*)));
+  for (std::size_t i = 0; i < old_count; ++i)
+    for (Waitable *w = old[i], *next = nullptr; w != nullptr; w = next) {
+      next = w->next_of_bucket;
+      Waitable*& bucket = bucket_of(w->address);
+      w->next_of_bucket = bucket;
+      bucket = w;
+    }
+  if (old != nullptr) munmap(old, old_count * sizeof(Waitable*));
+}
+
+void unlink(Waitable& waitable) {
+  Waitable** link = &bucket_of(waitable.address);
+  while (*link != nullptr && *link != &waitable) link = &(*link)->next_of_bucket;
+  if (*link == nullptr) return;
+  *link = waitable.next_of_bucket;
+  --kept;
+}
+
+}  // namespace
+
+bool names_waitables = false;
+
+void label(Waitable& waitable) {
+  if (const char* const name = symbol_at(waitable.address); name != nullptr) waitable.object.label = name;
+}
+
+Waitable* find_waitable(const void* address, Waitable::Kind kind) {
+  if (bucket_count == 0) return nullptr;
+  for (Waitable* w = bucket_of(address); w != nullptr; w = w->next_of_bucket)
+    if (w->address == address) return w->kind == kind ? w : nullptr;
+  return nullptr;
+}
+
+void* fresh_cell(const void* address) {
+  if (kept >= bucket_count) grow();
+  Waitable* found = bucket_of(address);
+  while (found != nullptr && found->address != address) found = found->next_of_bucket;
+  if (found != nullptr && found->idle()) return found;
+  // Somebody still holds or waits for what was there: it stays, and is not found any more.
+  if (found != nullptr) unlink(*found);
+  Waitable*& bucket = bucket_of(address);
+  auto* made = new (take_cell()) Waitable(Waitable::Kind::word, "", address);
+  made->next_of_bucket = bucket;
+  bucket = made;
+  ++kept;
+  return made;
+}
+
+void forget(Waitable& waitable) {
+  unlink(waitable);
+  if (!waitable.idle()) return;
+  Cell* const cell = reinterpret_cast<Cell*>(&waitable);
+  cell->next_free = first_free;
+  first_free = cell;
+}
+
+const Waitable* waitable_of(const kernel::Object& object) {
+  for (std::size_t i = 0; i < bucket_count; ++i)
+    for (const Waitable* w = buckets[i]; w != nullptr; w = w->next_of_bucket)
+      if (&w->object == &object) return w;
+  return nullptr;
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Waitpoints of a program's threads.
+//
+// A program declares no computing times, so its threads are at one instant until one sleeps. But loops that poll must
+// end: reading a clock and giving way take a little virtual time, and so do some hundred uses of primitives. Where
+// schedules are explored, some dozen readings pass before any does: threads that read clocks are to stay at one instant
+// with the others.
+#pragma once
+
+#include "fibers/kernel/local_clock.hpp"
+#include "fibers/posix/program/processor_timers.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/thread.hpp"
+
+namespace waitpoint::posix {
+
+inline constexpr std::uint32_t operations_at_one_instant = 512;
+/// After so many, others whose time has come have their turn.
+inline constexpr std::uint32_t clock_readings_at_most = 100;
+inline constexpr Duration cost_of_operations = Duration(std::chrono::microseconds(1));
+inline constexpr Duration cost_of_clock_reading = Duration(std::chrono::nanoseconds(50));
+inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microseconds(1));
+
+/// The running thread computes for so long.
+inline void spend(Duration cost) {
+  kernel::Task& task = *kernel::running;
+  Thread& thread = thread_of(task);
+  thread.spent += cost;
+  thread.program->spent += cost;
+  kernel::compute(task, cost);
+  if (__builtin_expect(first_processor_timer != nullptr, 0)) look_at_processor_timers();
+}
+
+/// The same for what loops do that poll, which is paid for now or after some more of it.
+inline void spend_for_look(Duration cost) {
+  Thread& thread = this_thread();
+  const std::uint32_t looks = record->settings.looks_at_once;
+  if (++thread.looks < looks) return;
+  thread.looks = 0;
+  spend(cost * looks);
+}
+
+/// The running thread's event at its place in the order of all; returns when it is the least.
+inline void pass(kernel::Operation operation, kernel::Object* object) {
+  kernel::Task& task = *kernel::running;
+  Thread& thread = thread_of(task);
+  if (++thread.operations >= operations_at_one_instant) {
+    thread.operations = 0;
+    spend(cost_of_operations);
+  }
+  const InKernel within;
+  task.scheduler->waitpoint(operation, object);
+}
+
+/// The same of `task`, which is running, where nothing can come between, which takes no more than a count; else false,
+/// with nothing done.
+[[gnu::always_inline]] inline bool pass_at_once(kernel::Task* task, kernel::Operation operation,
+                                                kernel::Object& object) {
+  if (task == nullptr || !is_thread(*task)) return false;
+  Thread& thread = thread_of(*task);
+  const std::uint32_t operations = thread.operations + 1;
+  if (operations >= operations_at_one_instant) return false;  // or in the kernel
+  if (!kernel::pass_unseen(operation, object)) return false;
+  thread.operations = operations;
+  return true;
+}
+
+/// Blocks the running thread on `object`; false if the deadline came first. Signals wait until it goes on.
+inline bool block(kernel::Object& object, Time deadline) {
+  const InKernel within;
+  return kernel::running->scheduler->block(object, deadline) == kernel::Wake::woken;
+}
+
+/// How a wait ended.
+enum class Wait : std::uint8_t { came, timed_out, interrupted };
+
+/// The same, but a signal that the thread does not block ends the wait: see signals.hpp.
+Wait wait_on(kernel::Object& object, Time deadline);
+
+/// Wakes one of those that wait, of the chooser's choice; null if there is none.
+inline kernel::Task* wake_one(kernel::Object& object) { return kernel::running->scheduler->wake_one(object); }
+
+}  // namespace waitpoint::posix

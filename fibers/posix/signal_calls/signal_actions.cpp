@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is done with signals: sigaction() and its kin, and what the system is told of it. Handlers are never the
+// system's: it knows one of ours, which keeps what comes from outside until a thread can handle it.
+#include <sys/syscall.h>
+#include <time.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/real_waits.hpp"
+#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/timers/notification_threads.hpp"
+#include "fibers/posix/traps/library_calls.hpp"
+#include "fibers/posix/traps/library_range.hpp"
+#include "fibers/posix/traps/library_return.hpp"
+#include "fibers/posix/traps/processor_counter.hpp"
+
+extern "C" void* _dl_allocate_tls(void*);  // of the dynamic linker
+
+namespace waitpoint::posix {
+
+std::atomic<bool> waits_really = false;
+
+namespace {
+
+// Where a handler must not be run on the spot: in here, in the C library, in the dynamic linker.
+LibraryRange guarded[3];
+const LibraryRange& c_library = guarded[1];
+
+std::atomic<bool> has_rung = false;
+bool has_bell = false;
+
+// What has come and was not sent on yet. Written by a handler, which another may interrupt where it lets what the
+// program asked for run.
+constexpr unsigned kept_max = 1024, held_back_from = kept_max - 16;
+struct Kept {
+  std::atomic<bool> is_there;
+  siginfo_t information;
+};
+Kept kept[kept_max];
+std::atomic<unsigned> next_kept = 0, next_taken = 0;
+
+// What the system blocks while ours runs: else what is queued would come all at once, each in front of the one before.
+constexpr SignalSet one_by_one = ~(faults | unblockable);
+// No more of it comes until what has come is sent on: the system keeps it.
+std::atomic<bool> is_held_back = false;
+
+void let_come() {
+  const sigset_t set = to_sigset(one_by_one);
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_UNBLOCK, &set, nullptr);
+}
+
+// Where our handler returns to.
+void hold_back(ucontext_t& interrupted) {
+  is_held_back.store(true);
+  SignalSet blocked = 0;
+  std::memcpy(&blocked, &interrupted.uc_sigmask, sizeof blocked);  // the system's is a word
+  blocked |= one_by_one & ~only(bell);
+  std::memcpy(&interrupted.uc_sigmask, &blocked, sizeof blocked);
+}
+
+void keep(const siginfo_t& information) {
+  const unsigned at = next_kept.fetch_add(1);
+  Kept& place = kept[at % kept_max];
+  if (place.is_there.load()) return;  // nobody has looked for so long: as the system does, it drops what is too much
+  place.information = information;
+  place.is_there.store(true);
+}
+
+bool is_handled(int signal) {
+  const struct sigaction& action = signals_of_program.actions[signal];
+  return (action.sa_flags & SA_SIGINFO) != 0 || (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN);
+}
+
+bool is_of_program(std::uintptr_t at) {
+  bool is_guarded = false;
+  for (const LibraryRange& range : guarded) is_guarded = is_guarded || range.contains(at);
+  return !is_guarded;
+}
+
+// A handler may run at once where the program itself is, or where the C library waits for it.
+bool may_handle_here(const ucontext_t& context) {
+  if (!is_simulated() || waits_really.load()) return false;
+  const auto at = static_cast<std::uintptr_t>(context.uc_mcontext.gregs[REG_RIP]);
+  if (is_of_program(at)) return true;
+  constexpr unsigned char system_call[2] = {0x0F, 0x05};
+  const auto* const code = reinterpret_cast<const unsigned char*>(at);
+  if (std::memcmp(code, system_call, 2) == 0) return true;  // it is made again after
+  return std::memcmp(code - 2, system_call, 2) == 0 && context.uc_mcontext.gregs[REG_RAX] == -EINTR;
+}
+
+// The program may compute for long before its next waitpoint: what could not be handled where it came is tried again,
+// by a timer of the system's, which no child inherits. Where that always meets it in the C library, whose calls may
+// take nearly all of its time, it is handled when such a call returns.
+timer_t retry{};
+pid_t retry_is_of = 0;
+unsigned tries = 0;
+constexpr unsigned tries_max = 10;
+
+bool is_retry(const siginfo_t& information) {
+  return information.si_signo == bell && information.si_code == SI_TIMER && information.si_value.sival_ptr == &retry;
+}
+
+void try_again_soon() {
+  if (!is_simulated() || waits_really.load()) return;
+  if (retry_is_of != getpid()) {
+    struct sigevent event {};
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = bell;
+    event.sigev_value.sival_ptr = &retry;
+    if (WAITPOINT_NEXT(syscall)(SYS_timer_create, CLOCK_MONOTONIC, &event, &retry) != 0) return;
+    retry_is_of = getpid();
+    if (!has_bell) install_bell();
+  }
+  constexpr itimerspec in_a_millisecond{{0, 0}, {0, 1'000'000}};
+  WAITPOINT_NEXT(syscall)(SYS_timer_settime, retry, 0, &in_a_millisecond, nullptr);
+}
+
+void handle_here() {
+  tries = 0;
+  take_in_signals_from_outside();
+  if (deliverable(this_thread()) != 0) let_come();
+  handle_signals();
+}
+
+void handle_what_has_come(ucontext_t& interrupted) {
+  if (may_handle_here(interrupted)) return handle_here();
+  if (next_kept.load() - next_taken.load() >= held_back_from) hold_back(interrupted);
+  try_again_soon();
+  const auto at = static_cast<std::uintptr_t>(interrupted.uc_mcontext.gregs[REG_RIP]);
+  if (is_simulated() && ++tries > tries_max && c_library.contains(at) &&
+      call_after_return(at, c_library, is_of_program, handle_here))
+    tries = 0;
+}
+
+// The processor raised it in the running thread: now or never.
+void handle_fault(int signal, siginfo_t* information, void* context) {
+  if (signal == SIGSEGV && emulate_processor_counter(context)) return;
+  struct sigaction& known = signals_of_program.actions[signal];
+  const SignalSet blocked = is_simulated() ? this_thread().blocked : signals_of_program.blocked_before_main;
+  if (!is_handled(signal) || contains(blocked, signal)) return do_default(signal);
+  const struct sigaction action = known;
+  if ((action.sa_flags & static_cast<int>(SA_RESETHAND)) != 0) {
+    known.sa_handler = SIG_DFL;
+    known.sa_flags &= ~SA_SIGINFO;
+    install(signal);
+  }
+  if (is_simulated())
+    this_thread().blocked |= to_set(action.sa_mask) | ((action.sa_flags & SA_NODEFER) == 0 ? only(signal) : 0);
+  if ((action.sa_flags & SA_SIGINFO) != 0)
+    action.sa_sigaction(signal, information, context);
+  else
+    action.sa_handler(signal);
+  if (is_simulated()) this_thread().blocked = blocked;
+}
+
+void catch_signal(int signal, siginfo_t* information, void* context) {
+  if (signal == bell && family::is_ring(*information)) return has_rung.store(true);
+  if (signal == SIGSYS && answer_library_call(*information, context)) return;
+  const int error = errno;
+  // So does the system when this thread writes what nobody can read.
+  const bool from_itself =
+      (information->si_code == SI_TKILL || signal == SIGPIPE || signal == SIGXFSZ) && information->si_pid == getpid();
+  if (contains(faults, signal) && information->si_code > 0) {
+    handle_fault(signal, information, context);
+  } else if (is_simulated() && from_itself && !waits_really.load()) {
+    // By the C library, which raises what it means to have handled at once: abort() within it, for one.
+    send(*information, &this_thread());
+    let_come();
+    handle_signals();
+  } else {
+    if (!is_retry(*information)) keep(*information);
+    if (has_come_from_outside()) handle_what_has_come(*static_cast<ucontext_t*>(context));
+  }
+  errno = error;
+}
+
+using Handler = void (*)(int);
+
+Handler set_handler(int signal, Handler handler, int flags) {
+  struct sigaction action {
+  }, old{};
+  action.sa_handler = handler;
+  action.sa_flags = flags;
+  if (handler == SIG_ERR || sigaction(signal, &action, &old) != 0) {
+    errno = EINVAL;
+    return SIG_ERR;
+  }
+  return old.sa_handler;
+}
+
+SignalSet interrupting = 0;  // siginterrupt()
+
+}  // namespace
+
+bool has_come_from_outside() {
+  return next_kept.load(std::memory_order_relaxed) != next_taken.load(std::memory_order_relaxed) ||
+         has_rung.load(std::memory_order_relaxed);
+}
+
+bool take_in_signals_from_outside() {
+  bool any = false;
+  has_rung.store(false);
+  // What comes meanwhile is for the next time: others may send as fast as they are taken in here.
+  for (const unsigned end = next_kept.load(); next_taken.load() != end;) {
+    Kept& place = kept[next_taken.load() % kept_max];
+    if (!place.is_there.load()) break;
+    const siginfo_t information = place.information;
+    place.is_there.store(false);
+    next_taken.fetch_add(1);
+    if (!ring_by_signal(information)) send(information, nullptr);
+    any = true;
+  }
+  if (is_held_back.exchange(false)) let_come();
+  return any;
+}
+
+void install(int signal) {
+  const struct sigaction& action = signals_of_program.actions[signal];
+  struct sigaction real {};
+  real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
+  real.sa_sigaction = catch_signal;
+  if (!contains(faults, signal)) real.sa_mask = to_sigset(one_by_one);
+  if (signal == bell) real.sa_flags |= SA_RESTART;  // who asked for none of it is not to see that it came
+  const bool is_default = !is_handled(signal);
+  const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) ||
+                                    (signal == SIGSYS && are_library_calls_trapped()) || (signal == bell && has_bell);
+  const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
+  if (is_default && action.sa_handler == SIG_IGN && !is_looked_for_always) {
+    real.sa_flags &= ~SA_SIGINFO;
+    real.sa_handler = SIG_IGN;
+  } else if (is_default && !is_looked_for) {
+    real.sa_flags &= ~SA_SIGINFO;
+    real.sa_handler = SIG_DFL;
+  }
+  WAITPOINT_NEXT(sigaction)(signal, &real, nullptr);
+}
+
+void install_bell() {
+  has_bell = true;
+  install(bell);
+}
+
+void do_default(int signal) {
+  if (contains(stopping, signal)) {
+    WAITPOINT_NEXT(syscall)(SYS_kill, getpid(), SIGSTOP);
+    return;
+  }
+  struct sigaction real {};
+  real.sa_handler = SIG_DFL;
+  WAITPOINT_NEXT(sigaction)(signal, &real, nullptr);
+  const sigset_t set = to_sigset(only(signal));
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_UNBLOCK, &set, nullptr);
+  WAITPOINT_NEXT(syscall)(SYS_kill, getpid(), signal);
+}
+
+void inherit_signals() {
+  guarded[0] = range_of_library_with(reinterpret_cast<const void*>(&catch_signal));
+  guarded[1] = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
+  guarded[2] = range_of_library_with(reinterpret_cast<const void*>(&_dl_allocate_tls));
+  for (int signal = 1; signal < signals_end; ++signal) {
+    struct sigaction inherited {};
+    if (WAITPOINT_NEXT(sigaction)(signal, nullptr, &inherited) != 0) continue;
+    signals_of_program.actions[signal].sa_handler = inherited.sa_handler == SIG_IGN ? SIG_IGN : SIG_DFL;
+  }
+  sigset_t blocked;
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, nullptr, &blocked);
+  signals_of_program.blocked_before_main = signals_of_program.ever_blocked = to_set(blocked);
+  for (SignalSet set = to_set(blocked); set != 0; set &= set - 1) install(__builtin_ctzll(set) + 1);
+  const sigset_t none = to_sigset(0);
+  WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &none, nullptr);
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int sigaction(int signal, const struct sigaction* action, struct sigaction* old) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(sigaction)(signal, action, old);
+  if (!is_signal(signal) || signal == 32 || signal == 33) return fail(EINVAL);
+  if (action != nullptr && contains(unblockable, signal)) return fail(EINVAL);
+  struct sigaction& known = signals_of_program.actions[signal];
+  const struct sigaction before = known;
+  if (action != nullptr) {
+    known = *action;
+    known.sa_mask = to_sigset(to_set(action->sa_mask) & ~unblockable);
+    if (contains(interrupting, signal) && (action->sa_flags & SA_RESTART) != 0) interrupting &= ~only(signal);
+    install(signal);
+    // What is ignored from now on does not pend either.
+    if (is_simulated() && !is_handled(signal) &&
+        (known.sa_handler == SIG_IGN || contains(ignored_by_default, signal))) {
+      signals_of_program.pending.drop(only(signal));
+      for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+        if (is_thread(*task)) thread_of(*task).pending.drop(only(signal));
+    }
+  }
+  if (old != nullptr) *old = before;
+  return 0;
+}
+WAITPOINT_INTERPOSED int __sigaction(int signal, const struct sigaction* action, struct sigaction* old) noexcept {
+  return sigaction(signal, action, old);
+}
+
+WAITPOINT_INTERPOSED Handler signal(int signal, Handler handler) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(signal)(signal, handler);
+  struct sigaction action {
+  }, old{};
+  if (!is_signal(signal)) {
+    errno = EINVAL;
+    return SIG_ERR;
+  }
+  action.sa_mask = to_sigset(only(signal));
+  action.sa_handler = handler;
+  action.sa_flags = contains(interrupting, signal) ? 0 : SA_RESTART;
+  if (handler == SIG_ERR || sigaction(signal, &action, &old) != 0) {
+    errno = EINVAL;
+    return SIG_ERR;
+  }
+  return old.sa_handler;
+}
+WAITPOINT_INTERPOSED Handler bsd_signal(int number, Handler handler) noexcept { return signal(number, handler); }
+WAITPOINT_INTERPOSED Handler ssignal(int number, Handler handler) noexcept { return signal(number, handler); }
+WAITPOINT_INTERPOSED Handler __sysv_signal(int signal, Handler handler) noexcept {
+  return set_handler(signal, handler, static_cast<int>(SA_RESETHAND) | SA_NODEFER);
+}
+WAITPOINT_INTERPOSED Handler sysv_signal(int signal, Handler handler) noexcept {
+  return __sysv_signal(signal, handler);
+}
+WAITPOINT_INTERPOSED int sigignore(int signal) noexcept {
+  return set_handler(signal, SIG_IGN, 0) == SIG_ERR ? fail(EINVAL) : 0;
+}
+
+WAITPOINT_INTERPOSED int siginterrupt(int number, int flag) noexcept {
+  struct sigaction action {};
+  if (sigaction(number, nullptr, &action) != 0) return -1;
+  if (flag != 0)
+    interrupting |= only(number), action.sa_flags &= ~SA_RESTART;
+  else
+    interrupting &= ~only(number), action.sa_flags |= SA_RESTART;
+  return contains(unblockable, number) ? fail(EINVAL) : sigaction(number, &action, nullptr);
+}

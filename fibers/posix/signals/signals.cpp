@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/signals/signals.hpp"
+
+#include <sys/resource.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/stack_switch.hpp"
+#include "fibers/posix/descriptors/signal_descriptors.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/waiting.hpp"
+
+namespace waitpoint::posix {
+
+constinit SignalsOfProgram signals_of_program{};
+
+namespace {
+
+bool is_discarded(int signal) {
+  const struct sigaction& action = signals_of_program.actions[signal];
+  if ((action.sa_flags & SA_SIGINFO) != 0) return false;
+  return action.sa_handler == SIG_IGN || (action.sa_handler == SIG_DFL && contains(ignored_by_default, signal));
+}
+
+bool wants(const Thread& thread, int signal) {
+  return thread.task != nullptr && (!contains(thread.blocked, signal) || contains(thread.awaited, signal));
+}
+
+// As in Linux the first thread is asked first; of several programs, one of that which sends.
+Thread* taker_of(int signal) {
+  const Program* const of = is_simulated() ? &this_program() : nullptr;
+  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && (of == nullptr || thread_of(*task).program == of) && wants(thread_of(*task), signal))
+      return &thread_of(*task);
+  return nullptr;
+}
+
+void tell(Thread& thread) {
+  kernel::Task& task = *thread.task;
+  if (task.state == kernel::TaskState::blocked && thread.in_wait) {
+    thread.woken_by_signal = true;
+    task.scheduler->wake(task);
+  } else {
+    task.scheduler->attend(task, kernel::attention::signal, true);
+  }
+}
+
+void send_on(PendingSignal& signal, Thread* to) {
+  const int number = signal.information.si_signo;
+  // Stopping and going on take each other back.
+  const SignalSet opposite = number == SIGCONT ? stopping : contains(stopping, number) ? only(SIGCONT) : 0;
+  if (opposite != 0) {
+    signals_of_program.pending.drop(opposite);
+    if (to != nullptr) to->pending.drop(opposite);
+  }
+  Thread* const taker = to != nullptr ? to : taker_of(number);
+  // What is ignored is not even kept, but where it is blocked: then the action may still change.
+  const bool is_kept = taker == nullptr || contains(taker->blocked, number) || !is_discarded(number);
+  PendingSignals& pending = to != nullptr ? to->pending : signals_of_program.pending;
+  if (!is_kept) {
+    if (signal.taken != nullptr)
+      signal.taken(signal);
+    else
+      std::free(&signal);
+    return;
+  }
+  if (!pending.add(signal)) return;
+  if (taker != nullptr && wants(*taker, number)) tell(*taker);
+  show_signal_descriptors();
+}
+
+/// A handler's stack and what it is called with.
+struct Call {
+  const struct sigaction* action;
+  siginfo_t* information;
+  ucontext_t* context;
+};
+
+void call_handler(void* argument) {
+  const Call& call = *static_cast<Call*>(argument);
+  const int signal = call.information->si_signo;
+  if ((call.action->sa_flags & SA_SIGINFO) != 0)
+    call.action->sa_sigaction(signal, call.information, call.context);
+  else
+    call.action->sa_handler(signal);
+}
+
+bool is_on(const stack_t& stack, const void* address) {
+  const auto* const low = static_cast<const char*>(stack.ss_sp);
+  return address >= low && address < low + stack.ss_size;
+}
+
+void run_handler(Thread& thread, const struct sigaction& action, siginfo_t& information, ucontext_t& context) {
+  Call call{&action, &information, &context};
+  if ((action.sa_flags & SA_ONSTACK) != 0 && (thread.alternate.ss_flags & SS_DISABLE) == 0 &&
+      !is_on(thread.alternate, &call))
+    call_on(thread.alternate.ss_sp, thread.alternate.ss_size, call_handler, &call);
+  else
+    call_handler(&call);
+}
+
+// As Linux lays frames of handlers on the stack: what can be delivered beside a signal has its handler run before that
+// one's handler begins.
+void handle_all(Thread& thread, Handled& handled) {
+  siginfo_t information;
+  while (const int signal = take_pending(~thread.blocked, information)) {
+    struct sigaction& known = signals_of_program.actions[signal];
+    if (is_discarded(signal)) continue;
+    if ((known.sa_flags & SA_SIGINFO) == 0 && known.sa_handler == SIG_DFL) {
+      do_default(signal);
+      continue;
+    }
+    const struct sigaction action = known;
+    if ((action.sa_flags & static_cast<int>(SA_RESETHAND)) != 0) {
+      known.sa_handler = SIG_DFL;
+      known.sa_flags &= ~SA_SIGINFO;
+      install(signal);
+    }
+    ucontext_t context{};
+    context.uc_sigmask = to_sigset(thread.has_temporary_mask ? thread.blocked_after : thread.blocked);
+    context.uc_stack = thread.alternate;
+    thread.has_temporary_mask = false;
+    SignalSet blocked = thread.blocked | to_set(action.sa_mask);
+    if ((action.sa_flags & SA_NODEFER) == 0) blocked |= only(signal);
+    thread.blocked = blocked & ~unblockable;
+    handled.any = true;
+    handled.restart = handled.restart && (action.sa_flags & SA_RESTART) != 0;
+    handle_all(thread, handled);
+    run_handler(thread, action, information, context);
+    set_blocked(to_set(context.uc_sigmask));
+  }
+}
+
+}  // namespace
+
+siginfo_t from_here(int signal, int code) {
+  siginfo_t information{};
+  information.si_signo = signal;
+  information.si_code = code;
+  information.si_pid = getpid();
+  information.si_uid = getuid();
+  return information;
+}
+
+bool send(const siginfo_t& information, Thread* to) {
+  auto* const memory = static_cast<PendingSignal*>(std::malloc(sizeof(PendingSignal)));
+  if (memory == nullptr) return false;
+  auto* const signal = new (memory) PendingSignal();
+  signal->information = information;
+  send_on(*signal, to);
+  return true;
+}
+
+void send(PendingSignal& signal, Thread* to) { send_on(signal, to); }
+
+Handled handle_signals() {
+  Thread& thread = this_thread();
+  thread.delivery_due = false;
+  Handled handled;
+  if (deliverable(thread) == 0) return handled;
+  // What handlers do has waits of its own.
+  const bool in_wait = thread.in_wait, in_point = thread.in_cancellation_point;
+  const SignalSet awaited = thread.awaited;
+  thread.in_wait = thread.in_cancellation_point = false;
+  thread.awaited = 0;
+  handle_all(thread, handled);
+  thread.in_wait = in_wait;
+  thread.in_cancellation_point = in_point;
+  thread.awaited = awaited;
+  return handled;
+}
+
+void handle_what_came_with_a_call() {
+  if (!has_come_from_outside()) return;
+  const ErrorNumberKept kept;
+  if (is_simulated() && take_in_signals_from_outside()) handle_signals();
+}
+
+bool is_interrupted(Restart restart) {
+  const Handled handled = handle_signals();
+  return handled.any && !(handled.restart && restart == Restart::if_asked);
+}
+
+int take_pending(SignalSet set, siginfo_t& information) {
+  Thread& thread = this_thread();
+  // Of one's own first, but the least number of both.
+  const SignalSet own = thread.pending.set() & set, all = signals_of_program.pending.set() & set;
+  const bool from_all = own == 0 || (all != 0 && __builtin_ctzll(all) < __builtin_ctzll(own));
+  const int signal = (from_all ? signals_of_program.pending : thread.pending).take(set, information);
+  if (signal != 0) show_signal_descriptors();
+  return signal;
+}
+
+void find_takers() {
+  SignalSet left = signals_of_program.pending.set();
+  while (left != 0) {
+    const int signal = __builtin_ctzll(left) + 1;
+    left &= left - 1;
+    if (Thread* const taker = taker_of(signal); taker != nullptr) tell(*taker);
+  }
+}
+
+void set_blocked(SignalSet blocked) {
+  Thread& thread = this_thread();
+  blocked &= ~unblockable;
+  const SignalSet more = blocked & ~thread.blocked;
+  thread.blocked = blocked;
+  for (SignalSet fresh = more & ~signals_of_program.ever_blocked; fresh != 0; fresh &= fresh - 1) {
+    const int signal = __builtin_ctzll(fresh) + 1;
+    signals_of_program.ever_blocked |= only(signal);
+    install(signal);
+  }
+  if ((more & signals_of_program.pending.set()) != 0) find_takers();
+}
+
+void drop_signals(Thread& thread) {
+  thread.pending.drop(~SignalSet{0});
+  thread.awaited = 0;
+  find_takers();
+}
+
+void forget_pending_signals() {
+  signals_of_program.pending.drop(~SignalSet{0});
+  if (is_simulated()) this_thread().pending.drop(~SignalSet{0});
+}
+
+// In a thread with attention::signal set, at its waitpoint; in one that waits, its call lets handlers run.
+void deliver_signals(kernel::Task& task) {
+  Thread& thread = thread_of(task);
+  if (thread.in_wait) {
+    thread.delivery_due = true;
+    return;
+  }
+  const OutOfKernel outside;
+  handle_signals();
+}
+
+Wait wait_on(kernel::Object& object, Time deadline) {
+  kernel::Task& task = *kernel::running;
+  Thread& thread = thread_of(task);
+  if (has_come_from_outside()) take_in_signals_from_outside();
+  if ((deliverable(thread) | ((thread.pending.set() | signals_of_program.pending.set()) & thread.awaited)) != 0)
+    return Wait::interrupted;
+  thread.woken_by_signal = thread.delivery_due = false;
+  thread.in_wait = true;
+  const bool woken = block(object, deadline);
+  thread.in_wait = false;
+  if (thread.woken_by_signal) return Wait::interrupted;
+  if (thread.delivery_due) task.scheduler->attend(task, kernel::attention::signal, true);
+  return woken ? Wait::came : Wait::timed_out;
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// pthread_cond_t: in its own bytes a word that leads to what is known of it, and the clock of its deadlines.
+#include <pthread.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/cancellation.hpp"
+#include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/sync/mutex.hpp"
+#include "fibers/posix/sync/shared_object.hpp"
+#include "fibers/posix/time/clocks.hpp"
+#include "fibers/switch/sanitizer.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+struct Condition : Waitable {
+  static constexpr Kind kind_of_all = Kind::condition;
+  explicit Condition(const void* address) : Waitable(kind_of_all, "condition variable", address) {}
+};
+
+struct Bytes : SharedBytes<Condition> {
+  clockid_t clock;  // 0: CLOCK_REALTIME
+  // Of one that processes share: who waits has a ticket, and those below `released` go on.
+  std::uint64_t next_ticket;
+  std::uint64_t released;
+  std::uint32_t changes;
+};
+static_assert(sizeof(Bytes) <= sizeof(pthread_cond_t));
+
+Bytes& bytes_of(pthread_cond_t* condition) { return *reinterpret_cast<Bytes*>(condition); }
+
+std::uint64_t take_ticket(Bytes& bytes) {
+  const family::Section section;
+  return bytes.next_ticket++;
+}
+
+// Whose wait ends otherwise leaves a ticket that nobody waits with. The others go on too, unless it is the last: for
+// nothing, as POSIX lets them, and no signal is lost.
+void give_ticket_back(Bytes& bytes, std::uint64_t ticket) {
+  const family::Section section;
+  if (ticket < bytes.released) return;
+  if (ticket + 1 == bytes.next_ticket)
+    --bytes.next_ticket;
+  else
+    bytes.released = bytes.next_ticket;
+  ++bytes.changes;
+}
+
+Wait wait_shared(Condition& known, Bytes& bytes, std::uint64_t ticket, Time deadline, const CancellationPoint& point) {
+  for (;;) {
+    std::uint32_t changes = 0;
+    {
+      const family::Section section;
+      if (ticket < bytes.released) return Wait::came;
+      changes = bytes.changes;
+    }
+    Wait ended = Wait::interrupted;
+    if (!point.was_cancelled())
+      ended = deadline > kernel::running->local_time ? wait_for_change(known.object, bytes.changes, changes, deadline)
+                                                     : Wait::timed_out;
+    if (ended == Wait::came) continue;
+    give_ticket_back(bytes, ticket);
+    tell_change(known.object);
+    return ended;
+  }
+}
+
+void release_shared(Condition& known, Bytes& bytes, bool all) {
+  {
+    const family::Section section;
+    if (bytes.released == bytes.next_ticket) return;
+    bytes.released = all ? bytes.next_ticket : bytes.released + 1;
+    ++bytes.changes;
+  }
+  tell_change(known.object);
+}
+
+int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline) {
+  if (!is_simulated()) refuse("a thread waits before main() begins");
+  Bytes& words = bytes_of(condition);
+  Condition& known = bytes_of(condition).waitable();
+  Mutex& mutex = mutex_of(bytes);
+  const CancellationPoint point;
+  pass(kernel::Operation::wait, &known.object);
+  if (!is_mine(*bytes) && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP) return EPERM;
+  // Unlocked and waiting in one step, without a waitpoint between: nothing else tells what happened before it.
+  if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);
+  const std::uint64_t ticket = words.is_shared() ? take_ticket(words) : 0;
+  const std::uint32_t depth = release(*bytes);
+  // A handler is no reason to wait on: who signals meanwhile does not find it waiting. It comes back as if signalled.
+  Wait ended = Wait::came;
+  if (words.is_shared())
+    ended = wait_shared(known, words, ticket, deadline, point);
+  else if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
+    ended = deadline > kernel::running->local_time ? point.block(known.object, deadline) : Wait::timed_out;
+  if (ended == Wait::interrupted && !point.was_cancelled()) handle_signals();
+  pass(kernel::Operation::lock, &mutex.object);
+  const int error = lock(*bytes, Time::max());
+  if (is_mine(*bytes)) set_depth(*bytes, depth);
+  if (point.was_cancelled()) leave_if_cancelled();
+  return error != 0 ? error : ended == Wait::timed_out ? ETIMEDOUT : 0;
+}
+
+int notify(pthread_cond_t* condition, bool all) {
+  if (!is_simulated()) return 0;
+  Condition& known = bytes_of(condition).waitable();
+  pass(all ? kernel::Operation::notify_all : kernel::Operation::notify_one, &known.object);
+  if (bytes_of(condition).is_shared())
+    release_shared(known, bytes_of(condition), all);
+  else if (all)
+    kernel::running->scheduler->wake_all(known.object);
+  else
+    wake_one(known.object);
+  return 0;
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int pthread_cond_init(pthread_cond_t* condition, const pthread_condattr_t* attributes) noexcept {
+  std::memset(condition, 0, sizeof *condition);
+  if (attributes == nullptr) return 0;
+  int sharing = PTHREAD_PROCESS_PRIVATE;
+  pthread_condattr_getclock(attributes, &bytes_of(condition).clock);
+  pthread_condattr_getpshared(attributes, &sharing);
+  if (sharing == PTHREAD_PROCESS_SHARED) bytes_of(condition).mark = mark_of_shared;
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int pthread_cond_destroy(pthread_cond_t* condition) noexcept {
+  Bytes& bytes = bytes_of(condition);
+  Waitable* const known = bytes.is_shared() ? find_waitable(condition, Waitable::Kind::condition) : bytes.known;
+  if (known != nullptr) forget(*known);
+  bytes.known = nullptr;
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int pthread_cond_signal(pthread_cond_t* condition) noexcept { return notify(condition, false); }
+WAITPOINT_INTERPOSED int pthread_cond_broadcast(pthread_cond_t* condition) noexcept { return notify(condition, true); }
+
+WAITPOINT_INTERPOSED int pthread_cond_wait(pthread_cond_t* condition, pthread_mutex_t* mutex) {
+  return wait_before(condition, mutex, Time::max());
+}
+
+WAITPOINT_INTERPOSED int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
+                                                const timespec* deadline) {
+  if (!is_valid(*deadline) || !is_clock_of_deadlines(clock)) return EINVAL;
+  return wait_before(condition, mutex, when(clock, *deadline));
+}
+
+WAITPOINT_INTERPOSED int pthread_cond_timedwait(pthread_cond_t* condition, pthread_mutex_t* mutex,
+                                                const timespec* deadline) {
+  return pthread_cond_clockwait(condition, mutex, bytes_of(condition).clock, deadline);
+}

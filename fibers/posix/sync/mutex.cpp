@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/sync/mutex.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/sync/robust_mutexes.hpp"
+#include "fibers/posix/sync/shared_mutex.hpp"
+#include "fibers/posix/time/clocks.hpp"
+#include "fibers/switch/sanitizer.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+void hand_on(Mutex& mutex) {
+  kernel::disown(mutex.object);
+  mutex.depth = 0;
+  if (kernel::Task* next = wake_one(mutex.object); next != nullptr) {
+    kernel::own(mutex.object, *next);
+    mutex.depth = 1;
+  }
+}
+
+// Its owner gives it up; one that was not put right is lost.
+void give_up(Mutex& mutex) {
+  if (mutex.sound != Mutex::Sound::not_yet) return hand_on(mutex);
+  mutex.sound = Mutex::Sound::never;
+  kernel::disown(mutex.object);
+  kernel::running->scheduler->wake_all(mutex.object);
+}
+
+// What the new owner is told.
+int enter(Mutex& mutex) {
+  if (mutex.sound != Mutex::Sound::owner_died) return 0;
+  mutex.sound = Mutex::Sound::not_yet;
+  return EOWNERDEAD;
+}
+
+// What locking again comes to for the owner, unless it waits for itself: -1.
+int lock_again(Mutex& mutex, int type) {
+  if (type == PTHREAD_MUTEX_ERRORCHECK_NP) return EDEADLK;
+  if (type != PTHREAD_MUTEX_RECURSIVE_NP) return -1;
+  if (mutex.depth == UINT32_MAX) return EAGAIN;
+  ++mutex.depth;
+  return 0;
+}
+
+int wait_and_lock(Mutex& mutex, int type, Time deadline) {
+  if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+  if (mutex.object.owner == kernel::running)
+    if (const int result = lock_again(mutex, type); result >= 0) return result;
+  while (mutex.object.owner != nullptr) {
+    if (deadline <= kernel::running->local_time) return ETIMEDOUT;
+    const Wait ended = wait_on(mutex.object, deadline);
+    if (ended == Wait::timed_out) return ETIMEDOUT;
+    if (ended == Wait::interrupted) handle_signals();
+    if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+    if (ended == Wait::came) return enter(mutex);
+  }
+  kernel::own(mutex.object, *kernel::running);
+  mutex.depth = 1;
+  return enter(mutex);
+}
+
+// What nobody holds is taken, and what nobody waits for is given up, in a few steps where no event can come between:
+// programs do it more often than anything else.
+[[gnu::always_inline]] inline bool lock_at_once(const pthread_mutex_t& bytes) {
+  Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
+  kernel::Task* const task = kernel::running;
+  if (mutex == nullptr || mutex->object.owner != nullptr || mutex->sound != Mutex::Sound::yes) return false;
+  if (!pass_at_once(task, kernel::Operation::lock, mutex->object)) return false;
+  kernel::own(mutex->object, *task);
+  mutex->depth = 1;
+  return true;
+}
+
+[[gnu::always_inline]] inline bool unlock_at_once(const pthread_mutex_t& bytes) {
+  Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
+  kernel::Task* const task = kernel::running;
+  if (mutex == nullptr || mutex->object.first_waiter != nullptr || mutex->depth != 1 ||
+      mutex->sound != Mutex::Sound::yes || mutex->object.owner != task)
+    return false;
+  if (!pass_at_once(task, kernel::Operation::unlock, mutex->object)) return false;
+  kernel::disown(mutex->object, *task);
+  return true;
+}
+
+[[gnu::noinline]] int lock_before(pthread_mutex_t* bytes, Time deadline, bool is_valid_deadline) {
+  Mutex& mutex = mutex_of(bytes);
+  pass(kernel::Operation::lock, &mutex.object);
+  if (mutex.is_shared) return shared_mutex::lock(*bytes, deadline, is_valid_deadline);
+  // What the owner locks again looks at no deadline, unless it is to wait for itself.
+  const bool is_known = mutex.object.owner == kernel::running && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP &&
+                        type_of(*bytes) != PTHREAD_MUTEX_ADAPTIVE_NP;
+  if (!is_valid_deadline && mutex.object.owner != nullptr && !is_known) return EINVAL;
+  return wait_and_lock(mutex, type_of(*bytes), deadline);
+}
+
+int try_lock(pthread_mutex_t* bytes) {
+  Mutex& mutex = mutex_of(bytes);
+  pass(kernel::Operation::try_lock, &mutex.object);
+  if (mutex.is_shared) return shared_mutex::try_lock(*bytes);
+  if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+  if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP)
+    return lock_again(mutex, PTHREAD_MUTEX_RECURSIVE_NP);
+  // As glibc, which asks the system for these.
+  const bool is_told = mutex.is_robust || inherits_priority(*bytes);
+  if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_ERRORCHECK_NP && is_told)
+    return EDEADLK;
+  if (mutex.object.owner != nullptr) return EBUSY;
+  return wait_and_lock(mutex, type_of(*bytes), Time::max());
+}
+
+[[gnu::noinline]] int unlock(pthread_mutex_t* bytes) {
+  Mutex& mutex = mutex_of(bytes);
+  pass(kernel::Operation::unlock, &mutex.object);
+  if (mutex.is_shared) return shared_mutex::unlock(*bytes);
+  const bool is_mine = mutex.object.owner == kernel::running;
+  if (!is_mine && (type_of(*bytes) == PTHREAD_MUTEX_ERRORCHECK_NP || type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP ||
+                   mutex.is_robust || inherits_priority(*bytes)))
+    return EPERM;
+  // Of the plain kind: glibc lets any thread unlock it, locked or not.
+  if (mutex.object.owner == nullptr) return 0;
+  if (mutex.depth > 1) {
+    --mutex.depth;
+    return 0;
+  }
+  give_up(mutex);
+  return 0;
+}
+
+}  // namespace
+
+int lock(pthread_mutex_t& bytes, Time deadline) {
+  if (is_shared(bytes)) return shared_mutex::lock(bytes, deadline, true);
+  return wait_and_lock(mutex_of(&bytes), type_of(bytes), deadline);
+}
+
+std::uint32_t release(pthread_mutex_t& bytes) {
+  if (is_shared(bytes)) return shared_mutex::release(bytes);
+  Mutex& mutex = mutex_of(&bytes);
+  const std::uint32_t depth = mutex.depth;
+  if (mutex.object.owner != nullptr) give_up(mutex);
+  return depth;
+}
+
+void set_depth(pthread_mutex_t& bytes, std::uint32_t depth) {
+  if (is_shared(bytes)) return shared_mutex::set_depth(bytes, depth);
+  mutex_of(&bytes).depth = depth;
+}
+
+bool is_mine(pthread_mutex_t& bytes) {
+  return is_shared(bytes) ? shared_mutex::is_mine(bytes) : mutex_of(&bytes).object.owner == kernel::running;
+}
+
+void leave_shared_mutexes() {
+  for (kernel::Object *held = kernel::running->held, *next = nullptr; held != nullptr; held = next) {
+    next = held->next_held;
+    const Waitable* const waitable = waitable_of(*held);
+    if (waitable != nullptr && waitable->kind == Waitable::Kind::mutex &&
+        static_cast<const Mutex*>(waitable)->is_shared)
+      kernel::disown(*held);
+  }
+}
+
+void let_robust_mutexes_go() {
+  kernel::Object* held = kernel::running->held;
+  while (held != nullptr) {
+    kernel::Object* const next = held->next_held;
+    if (const Waitable* waitable = waitable_of(*held); waitable != nullptr && waitable->kind == Waitable::Kind::mutex) {
+      auto& mutex = *static_cast<Mutex*>(const_cast<Waitable*>(waitable));
+      if (mutex.is_shared && mutex.is_robust) {
+        shared_mutex::let_go(*static_cast<pthread_mutex_t*>(const_cast<void*>(mutex.address)));
+      } else if (mutex.is_robust) {
+        mutex.sound = Mutex::Sound::owner_died;
+        if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);  // without a waitpoint
+        hand_on(mutex);
+      }
+    }
+    held = next;
+  }
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int pthread_mutex_init(pthread_mutex_t* mutex, const pthread_mutexattr_t* attributes) noexcept {
+  const int error = WAITPOINT_NEXT(pthread_mutex_init)(mutex, attributes);
+  if (error != 0) return error;
+  mutex->__data.__list.__prev = nullptr;
+  // glibc has all robust ones for shared.
+  int sharing = PTHREAD_PROCESS_PRIVATE;
+  if (attributes != nullptr) pthread_mutexattr_getpshared(attributes, &sharing);
+  if (sharing == PTHREAD_PROCESS_PRIVATE) mutex->__data.__kind &= ~Mutex::shared_bit;
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept {
+  auto*& known = reinterpret_cast<Mutex*&>(mutex->__data.__list.__prev);
+  if (is_shared(*mutex)) return shared_mutex::destroy(*mutex);
+  if (known == nullptr) return 0;
+  if (!known->idle()) return EBUSY;
+  forget(*known);
+  known = nullptr;
+  return 0;
+}
+
+// Before main() there is one thread: no lock is in its way.
+WAITPOINT_INTERPOSED int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
+  if (lock_at_once(*mutex)) return 0;
+  return is_simulated() ? lock_before(mutex, Time::max(), true) : 0;
+}
+
+WAITPOINT_INTERPOSED int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
+  return is_simulated() ? try_lock(mutex) : 0;
+}
+
+WAITPOINT_INTERPOSED int pthread_mutex_unlock(pthread_mutex_t* mutex) noexcept {
+  if (unlock_at_once(*mutex)) return 0;
+  return is_simulated() ? unlock(mutex) : 0;
+}
+
+WAITPOINT_INTERPOSED int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid_t clock,
+                                                 const timespec* deadline) noexcept {
+  if (!is_clock_of_deadlines(clock)) return EINVAL;
+  if (!is_simulated()) return 0;
+  return lock_before(mutex, when(clock, *deadline), is_valid(*deadline));
+}
+
+WAITPOINT_INTERPOSED int pthread_mutex_timedlock(pthread_mutex_t* mutex, const timespec* deadline) noexcept {
+  return pthread_mutex_clocklock(mutex, CLOCK_REALTIME, deadline);
+}
+
+// The ceiling is kept where glibc keeps it, which its pthread_mutex_getprioceiling() reads; it changes nothing.
+WAITPOINT_INTERPOSED int pthread_mutex_setprioceiling(pthread_mutex_t* mutex, int ceiling, int* old) noexcept {
+  int before = 0;
+  if (const int error = pthread_mutex_getprioceiling(mutex, &before); error != 0) return error;
+  if (ceiling < sched_get_priority_min(SCHED_FIFO) || ceiling > sched_get_priority_max(SCHED_FIFO)) return EINVAL;
+  if (const int error = pthread_mutex_lock(mutex); error != 0) return error;
+  constexpr int shift_of_ceiling = 19;
+  mutex->__data.__lock = ceiling << shift_of_ceiling;
+  pthread_mutex_unlock(mutex);
+  *old = before;
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int pthread_mutex_consistent(pthread_mutex_t* mutex) noexcept {
+  Mutex& known = mutex_of(mutex);
+  if (known.is_shared) return known.is_robust ? shared_mutex::make_consistent(*mutex) : EINVAL;
+  if (!known.is_robust || known.sound != Mutex::Sound::not_yet || known.object.owner != kernel::running) return EINVAL;
+  known.sound = Mutex::Sound::yes;
+  return 0;
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// pthread_rwlock_t: in its own bytes the preference, where glibc has it, and a word that leads to what is known of it.
+#include <pthread.h>
+
+#include <cerrno>
+
+#include "fibers/kernel/ownership.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/waitable.hpp"
+#include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/sync/shared_rwlock.hpp"
+#include "fibers/posix/time/clocks.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+struct RwLock : Waitable {
+  static constexpr Kind kind_of_all = Kind::rwlock;
+  explicit RwLock(const void* address) : Waitable(kind_of_all, "read-write lock", address) {}
+
+  bool free() const { return object.owner == nullptr && readers == 0; }
+  kernel::Task* first_waiting_writer() const {
+    kernel::Task* task = object.first_waiter;
+    while (task != nullptr && task->shared_wait) task = task->next_waiter;
+    return task;
+  }
+
+  std::uint32_t readers = 0;  ///< who hold it together
+};
+
+// As glibc's: `__flags` is the kind, `__readers` and its kin are not needed.
+RwLock& lock_of(pthread_rwlock_t* lock) {
+  if (shared_rwlock::is_shared(*lock)) return waitable_at<RwLock>(lock);
+  return waitable_at(*reinterpret_cast<RwLock**>(lock), lock);
+}
+
+bool prefers_writers(const pthread_rwlock_t& bytes) {
+  return bytes.__data.__flags == PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP;
+}
+
+// glibc's readers pass waiting writers, but where the lock was made to prefer these.
+bool readers_wait(const pthread_rwlock_t& bytes, const RwLock& lock) {
+  return prefers_writers(bytes) && lock.first_waiting_writer() != nullptr;
+}
+
+int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
+  RwLock& lock = lock_of(bytes);
+  pass(kernel::Operation::lock_shared, &lock.object);
+  if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::read_before(*bytes, lock.object, deadline, valid);
+  if (lock.object.owner == kernel::running) return EDEADLK;
+  for (;;) {
+    if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) {
+      if (lock.readers == UINT32_MAX) return EAGAIN;
+      ++lock.readers;
+      return 0;
+    }
+    if (!valid) return EINVAL;
+    if (deadline <= kernel::running->local_time) return ETIMEDOUT;
+    kernel::running->shared_wait = true;
+    const Wait ended = wait_on(lock.object, deadline);
+    kernel::running->shared_wait = false;
+    if (ended != Wait::interrupted) return ended == Wait::came ? 0 : ETIMEDOUT;
+    handle_signals();
+  }
+}
+
+// All that wait to read hold it together.
+void admit_readers(RwLock& lock) {
+  for (kernel::Task *task = lock.object.first_waiter, *next = nullptr; task != nullptr; task = next) {
+    next = task->next_waiter;
+    if (!task->shared_wait) continue;
+    ++lock.readers;
+    kernel::running->scheduler->wake(*task);
+  }
+}
+
+int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
+  RwLock& lock = lock_of(bytes);
+  pass(kernel::Operation::lock, &lock.object);
+  if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::write_before(*bytes, lock.object, deadline, valid);
+  if (lock.object.owner == kernel::running) return EDEADLK;
+  for (;;) {
+    if (lock.free()) {
+      kernel::own(lock.object, *kernel::running);
+      return 0;
+    }
+    if (!valid) return EINVAL;
+    if (deadline <= kernel::running->local_time) return ETIMEDOUT;
+    const Wait ended = wait_on(lock.object, deadline);
+    if (ended == Wait::came) return 0;
+    // Readers may have waited for this thread alone.
+    if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) admit_readers(lock);
+    if (ended == Wait::timed_out) return ETIMEDOUT;
+    handle_signals();
+  }
+}
+
+// Who was chosen gets the free lock, and if that is a reader, all readers with it.
+void hand_on(RwLock& lock, bool prefers_writers) {
+  kernel::Task* first = prefers_writers ? lock.first_waiting_writer() : nullptr;
+  if (first != nullptr)
+    kernel::running->scheduler->wake(*first);
+  else
+    first = wake_one(lock.object);
+  if (first == nullptr) return;
+  if (!first->shared_wait) return kernel::own(lock.object, *first);
+  ++lock.readers;
+  admit_readers(lock);
+}
+
+int unlock(pthread_rwlock_t* bytes) {
+  RwLock& lock = lock_of(bytes);
+  pass(kernel::Operation::unlock, &lock.object);
+  if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::unlock(*bytes, lock.object);
+  if (lock.object.owner != nullptr)
+    kernel::disown(lock.object);
+  else if (lock.readers > 0)
+    --lock.readers;
+  if (lock.free()) hand_on(lock, prefers_writers(*bytes));
+  return 0;
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int pthread_rwlock_init(pthread_rwlock_t* lock, const pthread_rwlockattr_t* attributes) noexcept {
+  const int error = WAITPOINT_NEXT(pthread_rwlock_init)(lock, attributes);
+  if (error == 0) *reinterpret_cast<RwLock**>(lock) = nullptr;
+  return error;
+}
+
+WAITPOINT_INTERPOSED int pthread_rwlock_destroy(pthread_rwlock_t* lock) noexcept {
+  RwLock*& known = *reinterpret_cast<RwLock**>(lock);
+  Waitable* const waitable =
+      shared_rwlock::is_shared(*lock) ? find_waitable(lock, Waitable::Kind::rwlock) : static_cast<Waitable*>(known);
+  if (waitable != nullptr) forget(*waitable);
+  known = nullptr;
+  return 0;
+}
+
+// Before main() there is one thread: no lock is in its way.
+WAITPOINT_INTERPOSED int pthread_rwlock_rdlock(pthread_rwlock_t* lock) noexcept {
+  return is_simulated() ? read_before(lock, Time::max(), true) : 0;
+}
+WAITPOINT_INTERPOSED int pthread_rwlock_wrlock(pthread_rwlock_t* lock) noexcept {
+  return is_simulated() ? write_before(lock, Time::max(), true) : 0;
+}
+WAITPOINT_INTERPOSED int pthread_rwlock_unlock(pthread_rwlock_t* lock) noexcept {
+  return is_simulated() ? unlock(lock) : 0;
+}
+
+WAITPOINT_INTERPOSED int pthread_rwlock_tryrdlock(pthread_rwlock_t* lock) noexcept {
+  const int error = is_simulated() ? read_before(lock, Time(), true) : 0;
+  return error == ETIMEDOUT || error == EDEADLK ? EBUSY : error;
+}
+WAITPOINT_INTERPOSED int pthread_rwlock_trywrlock(pthread_rwlock_t* lock) noexcept {
+  const int error = is_simulated() ? write_before(lock, Time(), true) : 0;
+  return error == ETIMEDOUT || error == EDEADLK ? EBUSY : error;
+}
+
+WAITPOINT_INTERPOSED int pthread_rwlock_clockrdlock(pthread_rwlock_t* lock, clockid_t clock,
+                                                    const timespec* deadline) noexcept {
+  if (!is_clock_of_deadlines(clock)) return EINVAL;
+  return is_simulated() ? read_before(lock, when(clock, *deadline), is_valid(*deadline)) : 0;
+}
+WAITPOINT_INTERPOSED int pthread_rwlock_clockwrlock(pthread_rwlock_t* lock, clockid_t clock,
+                                                    const timespec* deadline) noexcept {
+  if (!is_clock_of_deadlines(clock)) return EINVAL;
+  return is_simulated() ? write_before(lock, when(clock, *deadline), is_valid(*deadline)) : 0;
+}
+WAITPOINT_INTERPOSED int pthread_rwlock_timedrdlock(pthread_rwlock_t* lock, const timespec* deadline) noexcept {
+  return pthread_rwlock_clockrdlock(lock, CLOCK_REALTIME, deadline);
+}
+WAITPOINT_INTERPOSED int pthread_rwlock_timedwrlock(pthread_rwlock_t* lock, const timespec* deadline) noexcept {
+  return pthread_rwlock_clockwrlock(lock, CLOCK_REALTIME, deadline);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/sync/shared_futexes.hpp"
+
+#include <algorithm>
+
+#include "fibers/posix/family/family.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr int futexes_max = 1024;
+
+struct Futexes {
+  SharedFutex all[futexes_max];
+};
+
+// Within a section; null if there is none.
+SharedFutex* find(Futexes& futexes, const void* address) {
+  SharedFutex* const end = futexes.all + futexes_max;
+  SharedFutex* const found = std::find_if(futexes.all, end, [&](const SharedFutex& each) {
+    return each.address == address && each.waiters + each.woken > 0;
+  });
+  return found != end ? found : nullptr;
+}
+
+}  // namespace
+
+SharedFutex* begin_to_wait(const void* address) {
+  const family::Section section;
+  auto* const futexes = static_cast<Futexes*>(family::common(family::Part::futexes, sizeof(Futexes)));
+  if (futexes == nullptr) return nullptr;
+  SharedFutex* futex = find(*futexes, address);
+  if (futex == nullptr) {
+    SharedFutex* const end = futexes->all + futexes_max;
+    futex = std::find_if(futexes->all, end, [](const SharedFutex& each) { return each.waiters + each.woken == 0; });
+    if (futex == end) return nullptr;
+    futex->address = address;
+  }
+  ++futex->waiters;
+  return futex;
+}
+
+bool end_waiting(SharedFutex& futex, bool by_own) {
+  const family::Section section;
+  const bool by_other = !by_own && futex.woken > 0;
+  --(by_other ? futex.woken : futex.waiters);
+  return by_own || by_other;
+}
+
+bool has_woken(const void* kept) {
+  return __atomic_load_n(&(*static_cast<SharedFutex* const*>(kept))->woken, __ATOMIC_SEQ_CST) > 0;
+}
+
+std::uint32_t wake_others(const void* address, std::uint32_t most, std::uint32_t own) {
+  std::uint32_t woken = 0;
+  {
+    const family::Section section;
+    auto* const futexes = static_cast<Futexes*>(family::common(family::Part::futexes, 0));
+    SharedFutex* const futex = futexes != nullptr ? find(*futexes, address) : nullptr;
+    if (futex == nullptr || futex->waiters <= own) return 0;
+    woken = std::min(most, futex->waiters - own);
+    futex->waiters -= woken;
+    futex->woken += woken;
+  }
+  if (woken > 0) family::ring();
+  return woken;
+}
+
+}  // namespace waitpoint::posix

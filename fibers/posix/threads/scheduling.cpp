@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The calls of Linux on the scheduling of a thread by its number: what was set is told again, and changes nothing.
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/thread.hpp"
+#include "fibers/posix/time/clocks.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+// Null if it is none of ours, which the system is asked about.
+Thread* thread_with(pid_t id) {
+  if (!is_simulated()) return nullptr;
+  if (id == 0) return &this_thread();
+  return thread_with_id(id);
+}
+
+constexpr int least_niceness = -20, greatest_niceness = 19;
+
+// Of a thread that is not the process's first, whose niceness the system keeps; else null.
+Thread* later_thread_with(__priority_which_t which, id_t id) {
+  if (which != PRIO_PROCESS) return nullptr;
+  Thread* const thread = thread_with(static_cast<pid_t>(id));
+  return thread != nullptr && thread->id != getpid() ? thread : nullptr;
+}
+
+int niceness_of_process() { return WAITPOINT_NEXT(getpriority)(PRIO_PROCESS, static_cast<id_t>(getpid())); }
+
+// What the process's first thread changes of its own is not the others'.
+template <class Call>
+int change_niceness_of_process(Call call) {
+  if (!is_simulated()) return call();
+  const int before = niceness_of_process();
+  const int result = call();
+  const ErrorNumberKept kept;
+  const int by = niceness_of_process() - before;
+  for (kernel::Task* task = first_task(); by != 0 && task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id != getpid()) thread_of(*task).niceness -= by;
+  return result;
+}
+
+bool is_priority_of(int policy, int priority) {
+  const int least = sched_get_priority_min(policy);
+  return least >= 0 && priority >= least && priority <= sched_get_priority_max(policy);
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int sched_setscheduler(pid_t id, int policy, const sched_param* parameters) noexcept {
+  Thread* const thread = thread_with(id);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setscheduler)(id, policy, parameters);
+  const int plain = policy & ~SCHED_RESET_ON_FORK;
+  if (parameters == nullptr) return fail(EINVAL);
+  if (!can_be_read(parameters)) return fail(EFAULT);
+  if (!is_priority_of(plain, parameters->sched_priority)) return fail(EINVAL);
+  if (geteuid() != 0 && parameters->sched_priority > 0) return fail(EPERM);
+  thread->policy = plain;
+  thread->priority = parameters->sched_priority;
+  return 0;
+}
+WAITPOINT_INTERPOSED int sched_getscheduler(pid_t id) noexcept {
+  const Thread* const thread = thread_with(id);
+  return thread == nullptr ? WAITPOINT_NEXT(sched_getscheduler)(id) : thread->policy;
+}
+WAITPOINT_INTERPOSED int sched_setparam(pid_t id, const sched_param* parameters) noexcept {
+  const Thread* const thread = thread_with(id);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setparam)(id, parameters);
+  return sched_setscheduler(id, thread->policy, parameters);
+}
+WAITPOINT_INTERPOSED int sched_getparam(pid_t id, sched_param* parameters) noexcept {
+  const Thread* const thread = thread_with(id);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_getparam)(id, parameters);
+  if (parameters == nullptr) return fail(EINVAL);
+  if (!can_be_written(parameters, sizeof *parameters)) return fail(EFAULT);
+  *parameters = {thread->priority};
+  return 0;
+}
+
+// Of those that take turns; of the others what the system says of its own.
+WAITPOINT_INTERPOSED int sched_rr_get_interval(pid_t id, timespec* interval) noexcept {
+  const Thread* const thread = thread_with(id);
+  if (thread == nullptr || thread->policy != SCHED_RR) return WAITPOINT_NEXT(sched_rr_get_interval)(id, interval);
+  if (!can_be_written(interval, sizeof *interval)) return fail(EFAULT);
+  *interval = {0, 100'000'000};
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int sched_setaffinity(pid_t id, std::size_t size, const cpu_set_t* set) noexcept {
+  Thread* const thread = thread_with(id);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setaffinity)(id, size, set);
+  const int error = pthread_setaffinity_np(reinterpret_cast<pthread_t>(thread->area), size, set);
+  return error == 0 ? 0 : fail(error);
+}
+WAITPOINT_INTERPOSED int sched_getaffinity(pid_t id, std::size_t size, cpu_set_t* set) noexcept {
+  const Thread* const thread = thread_with(id);
+  if (thread == nullptr || !thread->has_processors)
+    return WAITPOINT_NEXT(sched_getaffinity)(thread == nullptr ? id : 0, size, set);
+  const int error = pthread_getaffinity_np(reinterpret_cast<pthread_t>(thread->area), size, set);
+  return error == 0 ? 0 : fail(error);
+}
+
+WAITPOINT_INTERPOSED int getpriority(__priority_which_t which, id_t id) noexcept {
+  const Thread* const thread = later_thread_with(which, id);
+  return thread == nullptr ? WAITPOINT_NEXT(getpriority)(which, id) : niceness_of_process() + thread->niceness;
+}
+WAITPOINT_INTERPOSED int setpriority(__priority_which_t which, id_t id, int to) noexcept {
+  Thread* const thread = later_thread_with(which, id);
+  if (thread == nullptr) return change_niceness_of_process([&] { return WAITPOINT_NEXT(setpriority)(which, id, to); });
+  to = to < least_niceness ? least_niceness : to > greatest_niceness ? greatest_niceness : to;
+  const int of_process = niceness_of_process();
+  if (geteuid() != 0 && to < of_process + thread->niceness) return fail(EACCES);
+  thread->niceness = to - of_process;
+  return 0;
+}
+WAITPOINT_INTERPOSED int nice(int by) noexcept {
+  if (!is_simulated() || this_thread().id == getpid())
+    return change_niceness_of_process([&] { return WAITPOINT_NEXT(nice)(by); });
+  const id_t own = static_cast<id_t>(this_thread().id);
+  if (setpriority(PRIO_PROCESS, own, getpriority(PRIO_PROCESS, own) + by) != 0) return fail(EPERM);
+  return getpriority(PRIO_PROCESS, own);
+}
+
+// Always the same one: which it is for real is not of the seed.
+WAITPOINT_INTERPOSED int sched_getcpu() noexcept { return is_simulated() ? 0 : WAITPOINT_NEXT(sched_getcpu)(); }
+WAITPOINT_INTERPOSED int getcpu(unsigned* processor, unsigned* node) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(getcpu)(processor, node);
+  if (processor != nullptr) *processor = 0;
+  if (node != nullptr) *node = 0;
+  return 0;
+}
+
+// Processor time is virtual; what the system counts beside it is not of the seed, but for memory.
+WAITPOINT_INTERPOSED int getrusage(__rusage_who_t who, rusage* usage) noexcept {
+  if (!is_simulated() || static_cast<int>(who) == RUSAGE_CHILDREN) return WAITPOINT_NEXT(getrusage)(who, usage);
+  rusage real{};
+  if (!can_be_written(usage)) return fail(EFAULT);
+  if (WAITPOINT_NEXT(getrusage)(who, &real) != 0) return -1;
+  const clockid_t clock = static_cast<int>(who) == RUSAGE_SELF ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID;
+  const timespec spent = to_timespec(reading_ns(clock, read_clock()));
+  *usage = {};
+  usage->ru_utime = {spent.tv_sec, spent.tv_nsec / 1000};
+  usage->ru_maxrss = real.ru_maxrss;
+  return 0;
+}

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/program/thread.hpp"
+
+#include <limits.h>
+#include <linux/futex.h>
+#include <setjmp.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/stack_switch.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/input_output/asynchronous.hpp"
+#include "fibers/posix/ipc/system_v_ends.hpp"
+#include "fibers/posix/members/members.hpp"
+#include "fibers/posix/processes/children.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/cancellation.hpp"
+#include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/sync/futex.hpp"
+#include "fibers/posix/sync/futex_vectors.hpp"
+#include "fibers/posix/sync/robust_mutexes.hpp"
+#include "fibers/posix/threads/keys.hpp"
+#include "fibers/posix/threads/thread_area.hpp"
+#include "fibers/posix/time/clocks.hpp"
+#include "fibers/posix/traps/library_calls.hpp"
+
+extern "C" {
+// Of the C library, for its own thread library.
+void __ctype_init();
+void __call_tls_dtors();
+int __sigsetjmp(__jmp_buf_tag* buffer, int save_mask) noexcept;
+void __pthread_register_cancel(__pthread_unwind_buf_t* buffer);
+}
+
+namespace waitpoint::posix {
+
+namespace {
+
+Thread* main_thread = nullptr;
+// Threads that have ended, whose areas nobody runs on or asks for any more, but the one that ended last.
+Thread* to_free = nullptr;
+
+void free_thread(Thread& thread) {
+  if (thread.owns_stack) munmap(thread.stack, thread.stack_size);
+  std::free(thread.clock);
+  free_thread_area(thread.area);
+  std::free(&thread);
+}
+
+void free_ended() {
+  if (to_free == nullptr) return;
+  free_thread(*to_free);
+  to_free = nullptr;
+}
+
+// Its task may still be underfoot until the next switch: freed when another is to be.
+void let_go(Thread& thread) {
+  if (&thread == main_thread) return;
+  free_ended();
+  to_free = &thread;
+}
+
+int last_id = 0;
+
+int make_id() {
+  if (last_id == 0) last_id = getpid();
+  return ++last_id;
+}
+
+bool is_detached(const pthread_attr_t* attributes) {
+  int state = PTHREAD_CREATE_JOINABLE;
+  if (attributes != nullptr) pthread_attr_getdetachstate(attributes, &state);
+  return state == PTHREAD_CREATE_DETACHED;
+}
+
+// The stack that the attributes give, or one of their size where that of a task is too small; false without memory.
+bool take_stack(Thread& thread, const pthread_attr_t* attributes) {
+  void* low = nullptr;
+  std::size_t size = 0;
+  if (attributes == nullptr) {
+    pthread_attr_t usual;
+    if (pthread_getattr_default_np(&usual) != 0) return false;
+    pthread_attr_getstacksize(&usual, &thread.told_stack_size);
+    pthread_attr_destroy(&usual);
+    if (thread.told_stack_size <= kernel::bytes(kernel::StackSize::program)) return true;
+    size = thread.told_stack_size;
+  }
+  // glibc keeps the high end: null unless a stack was given.
+  if (attributes != nullptr && pthread_attr_getstack(attributes, &low, &size) == 0 &&
+      reinterpret_cast<std::uintptr_t>(low) + size != 0) {
+    thread.stack = static_cast<char*>(low);
+    thread.stack_size = size;
+    return true;
+  }
+  thread.told_stack_size = size;
+  if (size <= kernel::bytes(kernel::StackSize::program)) return true;
+  low = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
+  if (low == MAP_FAILED) return false;
+  thread.stack = static_cast<char*>(low);
+  thread.stack_size = size;
+  thread.owns_stack = true;
+  return true;
+}
+
+void count_threads(Program& program) {
+  ++program.threads_made;
+  if (has_host) return;
+  ++record->threads_made;
+  const std::uint32_t now = record->scheduler.tasks();
+  if (now > record->threads_most) record->threads_most = now;
+}
+
+// A record and an area for a thread; null without memory.
+Thread* make_thread(Program& program) {
+  auto* const memory = static_cast<Thread*>(std::malloc(sizeof(Thread)));
+  if (memory == nullptr) return nullptr;
+  Thread& thread = *new (memory) Thread();
+  thread.program = &program;
+  thread.id = make_id();
+  thread.area = make_thread_area(thread.id);
+  if (thread.area != nullptr) {
+    thread_of_area(thread.area) = &thread;
+    return &thread;
+  }
+  std::free(memory);
+  return nullptr;
+}
+
+// Its task, which begins now; false where there is none.
+bool give_clock(Thread& thread) {
+  void* const memory = std::malloc(sizeof(ProgramClock));
+  if (memory != nullptr) thread.clock = new (memory) ProgramClock(record->settings.clock);
+  return memory != nullptr;
+}
+
+bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
+  Program& program = *thread.program;
+  char whole_name[kernel::name_size];
+  std::snprintf(whole_name, sizeof whole_name, "%s%s", program.label, name);
+  if (record->settings.has_clock && !give_clock(thread)) return false;
+  kernel::Task* const task = scheduler.spawn(*program.robot,
+                                             {.name = whole_name,
+                                              .stack = kernel::StackSize::program,
+                                              .service = program.is_service,
+                                              .clock = thread.clock != nullptr ? &thread.clock->local() : nullptr},
+                                             run_thread, &thread);
+  if (task == nullptr) return false;
+  // The area of the process's own thread is where all fibers without one find theirs.
+  if (thread.area != own_thread_area()) task->fiber.thread_pointer = thread.area;
+  thread.task = task;
+  count_threads(program);
+  return true;
+}
+
+}  // namespace
+
+kernel::Task* first_task() {
+  if (kernel::running != nullptr) return kernel::running->scheduler->first_task();
+  return has_host || record == nullptr || !record->began ? nullptr : record->scheduler.first_task();
+}
+
+Thread* find(pthread_t id) {
+  void* const area = reinterpret_cast<void*>(id);
+  return area == nullptr ? nullptr : thread_of_area(area);
+}
+
+Duration spent_by(int id) {
+  if (kernel::running == nullptr) return {};
+  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id == id) return thread_of(*task).spent;
+  return {};
+}
+
+void begin_again_as_first(Thread& thread) {
+  main_thread = &thread;
+  thread.id = getpid();
+  last_id = 0;
+}
+
+bool begin_main_thread(Thread& thread, Program& program, kernel::Scheduler& scheduler) {
+  main_thread = &thread;
+  thread.program = &program;
+  thread.area = own_thread_area();
+  thread.id = getpid();
+  thread.blocked = signals_of_program.blocked_before_main;
+  std::strncpy(thread.name, program_invocation_short_name, sizeof thread.name - 1);
+  thread_of_area(thread.area) = &thread;
+  return begin(thread, scheduler, "main");
+}
+
+Thread* make_main_thread(Program& program, kernel::Scheduler& scheduler, void* (*body)(void*), void* argument) {
+  Thread* const thread = make_thread(program);
+  if (thread == nullptr) return nullptr;
+  thread->start.posix = body;
+  thread->argument = argument;
+  std::memcpy(thread->name, program.robot->name, sizeof thread->name - 1);
+  if (begin(*thread, scheduler, "main")) return thread;
+  free_thread(*thread);
+  return nullptr;
+}
+
+void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
+  for (kernel::Task *task = scheduler.first_task(), *next = nullptr; task != nullptr; task = next) {
+    next = task->next;
+    if (task == kernel::running || !is_thread(*task) || thread_of(*task).program != &program) continue;
+    forget_waiter(*task);
+    forget_vector(*task);
+    forget_worker(*task);
+    system_v::forget_waiter(*task);
+    scheduler.end_in_place(*task);
+    free_thread(thread_of(*task));
+    scheduler.free_stack(*task);
+  }
+}
+
+int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument) {
+  if (!is_simulated()) refuse("a thread is made before main() begins");
+  trap_open_mp();
+  pass(kernel::Operation::start, nullptr);
+  Thread* const thread = make_thread(this_program());
+  if (thread == nullptr) return EAGAIN;
+  thread->start = start;
+  thread->is_c11 = is_c11;
+  thread->argument = argument;
+  thread->detached = is_detached(attributes);
+  std::memcpy(thread->name, this_thread().name, sizeof thread->name);
+  thread->niceness = this_thread().niceness;
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  if (const int error = take_attributes(*thread, attributes); error != 0) {
+    free_thread(*thread);
+    return error;
+  }
+  char name[kernel::name_size];
+  std::snprintf(name, sizeof name, "thread %u", this_program().threads_made);
+  if (!take_stack(*thread, attributes) || !begin(*thread, scheduler, name)) {
+    free_thread(*thread);
+    return EAGAIN;
+  }
+  scheduler.enter(thread->end);
+  thread->end.owner = thread->task;
+  __libc_single_threaded = 0;
+  *id = reinterpret_cast<pthread_t>(thread->area);
+  return 0;
+}
+
+namespace {
+
+// On the thread's own stack and area. pthread_exit() and cancellation unwind to the buffer.
+void call_start_routine(void* argument) {
+  Thread& thread = *static_cast<Thread*>(argument);
+  thread.leave_kernel();
+  __ctype_init();
+  __pthread_unwind_buf_t buffer;
+  if (__sigsetjmp(reinterpret_cast<__jmp_buf_tag*>(buffer.__cancel_jmp_buf), 0) == 0) {
+    __pthread_register_cancel(&buffer);
+    if (thread.is_c11)
+      thread.result = reinterpret_cast<void*>(static_cast<std::intptr_t>(thread.start.c11(thread.argument)));
+    else
+      thread.result = thread.start.posix(thread.argument);
+  }
+}
+
+}  // namespace
+
+void run_thread(void* argument) {
+  Thread& thread = *static_cast<Thread*>(argument);
+  if (thread.stack != nullptr)
+    call_on(thread.stack, thread.stack_size, call_start_routine, &thread);
+  else
+    call_start_routine(&thread);
+  end_thread(thread);
+}
+
+void end_thread(Thread& thread) {
+  thread.exiting = true;
+  __call_tls_dtors();
+  destroy_values_of_keys();
+  let_robust_mutexes_go();
+  end_member_with_last_thread();
+  end_running_thread();
+}
+
+namespace {
+
+// The task's stack is whole for the next thread on it, which may be told of another size.
+void unprotect_stack(const Thread& thread) {
+  const kernel::Stack& stack = thread.task->fiber.stack;
+  if (!thread.knows_stack || thread.stack != nullptr) return;
+  mprotect(stack.low, static_cast<std::size_t>(stack.high - stack.low), PROT_READ | PROT_WRITE);
+}
+
+}  // namespace
+
+// From the last waitpoint on nobody else runs before the task has ended: its area can be freed by the next that ends.
+void end_running_thread() {
+  Thread& thread = this_thread();
+  if (std::uint32_t* const word = thread.cleared_at_end; word != nullptr) {
+    *word = 0;
+    futex(word, FUTEX_WAKE, 1, nullptr, nullptr, 0);
+  }
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  pass(kernel::Operation::release, &thread.end);
+  {
+    const InKernel within;
+    scheduler.waitpoint(kernel::Operation::end, nullptr);
+  }
+  thread.ended = true;
+  unprotect_stack(thread);
+  drop_signals(thread);
+  thread.end.owner = nullptr;
+  thread.task = nullptr;
+  scheduler.wake_all(thread.end);
+  if (thread.detached) let_go(thread);
+  scheduler.end_running_task();
+}
+
+int join(pthread_t id, void** result, Time deadline) {
+  Thread* const thread = find(id);
+  if (thread == nullptr) return ESRCH;
+  if (thread == &this_thread()) return deadline == Time() ? EBUSY : EDEADLK;
+  if (thread->detached || thread->has_joiner) return EINVAL;
+  if (!thread->ended)
+    for (const kernel::Task* waiter = this_thread().end.first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
+      if (waiter == thread->task) return EDEADLK;
+  const CancellationPoint point;
+  pass(kernel::Operation::join, &thread->end);
+  if (!thread->ended) {
+    if (deadline <= kernel::running->local_time) return deadline == Time() ? EBUSY : ETIMEDOUT;
+    thread->has_joiner = true;
+    Wait ended = Wait::came;
+    while (!thread->ended && (ended = point.block(thread->end, deadline)) == Wait::interrupted &&
+           !point.was_cancelled())
+      handle_signals();
+    thread->has_joiner = false;
+    if (!thread->ended) {
+      if (point.was_cancelled()) leave_if_cancelled();
+      if (ended == Wait::timed_out) return ETIMEDOUT;
+    }
+  }
+  if (result != nullptr) *result = thread->result;
+  let_go(*thread);
+  return 0;
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int pthread_create(pthread_t* id, const pthread_attr_t* attributes, void* (*start)(void*),
+                                        void* argument) noexcept {
+  if (is_host_code()) return of_c_library(&pthread_create, "pthread_create")(id, attributes, start, argument);
+  return create(id, attributes, {.posix = start}, false, argument);
+}
+
+WAITPOINT_INTERPOSED int pthread_join(pthread_t id, void** result) { return join(id, result, Time::max()); }
+
+// Not while it runs: no time is no deadline.
+WAITPOINT_INTERPOSED int pthread_tryjoin_np(pthread_t id, void** result) noexcept { return join(id, result, Time()); }
+
+WAITPOINT_INTERPOSED int pthread_clockjoin_np(pthread_t id, void** result, clockid_t clock, const timespec* deadline) {
+  if (deadline == nullptr) return join(id, result, Time::max());
+  if (!is_valid(*deadline) || !is_clock_of_deadlines(clock)) return EINVAL;
+  const Time time = when(clock, *deadline);
+  return join(id, result, time > Time() ? time : Time::from_ns(1));
+}
+
+WAITPOINT_INTERPOSED int pthread_timedjoin_np(pthread_t id, void** result, const timespec* deadline) {
+  return pthread_clockjoin_np(id, result, CLOCK_REALTIME, deadline);
+}
+
+WAITPOINT_INTERPOSED int pthread_detach(pthread_t id) noexcept {
+  Thread* const thread = find(id);
+  if (thread == nullptr) return ESRCH;
+  if (thread->detached) return EINVAL;
+  pass(kernel::Operation::release, &thread->end);
+  thread->detached = true;
+  if (thread->ended) let_go(*thread);
+  return 0;
+}
+
+WAITPOINT_INTERPOSED void pthread_exit(void* result) {
+  static constinit decltype(&pthread_exit) known = nullptr;
+  if (is_simulated()) {
+    this_thread().result = result;
+    this_thread().exiting = true;
+  }
+  next(known, "pthread_exit")(result);
+  __builtin_unreachable();
+}

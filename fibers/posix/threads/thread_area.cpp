@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/threads/thread_area.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+#include "fibers/posix/program/randomness.hpp"
+#include "fibers/switch/thread_pointer.hpp"
+
+// Of the dynamic linker and the C library, for the thread libraries that they are made with.
+extern "C" {
+void* _dl_allocate_tls(void* block);
+void _dl_deallocate_tls(void* area, bool free_block);
+extern char _rtld_global[];
+/// {bits, count, offset} of a field.
+extern const std::uint32_t _thread_db_pthread_tid[3];
+extern const std::uint32_t _thread_db_pthread_list[3];
+extern const std::uint32_t _thread_db_rtld_global__dl_stack_user[3];
+}
+
+namespace waitpoint::posix {
+namespace {
+
+// The ABI's head of the control block. The word of the thread is one that the C library keeps unused.
+struct Head {
+  void* pointer;
+  void* vector;
+  void* self;
+  int multiple_threads;
+  int global_flag;
+  std::uintptr_t system_information;
+  std::uintptr_t stack_guard;
+  std::uintptr_t pointer_guard;
+  Thread* thread;
+};
+static_assert(offsetof(Head, stack_guard) == 0x28 && offsetof(Head, pointer_guard) == 0x30);
+
+struct Link {
+  Link* next;
+  Link* previous;
+};
+
+template <class T>
+T& field(void* base, const std::uint32_t (&description)[3]) {
+  return *reinterpret_cast<T*>(static_cast<char*>(base) + description[2]);
+}
+
+Head& head_of(void* area) { return *static_cast<Head*>(area); }
+
+}  // namespace
+
+void* make_thread_area(int thread_id) {
+  void* area = _dl_allocate_tls(nullptr);
+  if (area == nullptr) return nullptr;
+  Head& head = head_of(area);
+  const Head& own = head_of(own_thread_area());
+  head.pointer = head.self = area;
+  head.stack_guard = own.stack_guard;
+  head.pointer_guard = own.pointer_guard;
+  field<int>(area, _thread_db_pthread_tid) = thread_id;
+  // The dynamic linker goes through this list when a library that is loaded later has variables of its own here.
+  Link& all = field<Link>(_rtld_global, _thread_db_rtld_global__dl_stack_user);
+  Link& link = field<Link>(area, _thread_db_pthread_list);
+  link = {all.next, &all};
+  all.next->previous = &link;
+  all.next = &link;
+  return area;
+}
+
+void free_thread_area(void* area) {
+  const Link& link = field<Link>(area, _thread_db_pthread_list);
+  link.previous->next = link.next;
+  link.next->previous = link.previous;
+  _dl_deallocate_tls(area, true);
+}
+
+void draw_stack_guard(void* area) {
+  // The byte of least weight is zero, as the C library has it: so no string goes over it.
+  head_of(area).stack_guard = draw_random() & ~std::uintptr_t{0xFF};
+}
+
+Thread*& thread_of_area(void* area) { return head_of(area).thread; }
+
+void* own_thread_area() { return kernel::thread_pointer(); }
+
+}  // namespace waitpoint::posix

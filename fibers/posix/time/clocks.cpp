@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/time/clocks.hpp"
+
+#include <sys/time.h>
+#include <sys/times.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/waiting.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+
+// How much later, or earlier, the program has set the date.
+std::int64_t set_by_ns = 0;
+
+std::int64_t begin_ns(clockid_t clock) {
+  switch (clock) {
+    case CLOCK_REALTIME:
+    case CLOCK_REALTIME_COARSE:
+    case CLOCK_REALTIME_ALARM:
+    case CLOCK_TAI: return first_date_s * second_ns + set_by_ns;
+    case CLOCK_MONOTONIC:
+    case CLOCK_MONOTONIC_RAW:
+    case CLOCK_MONOTONIC_COARSE:
+    case CLOCK_BOOTTIME:
+    case CLOCK_BOOTTIME_ALARM: return first_uptime_s * second_ns;
+    default: return 0;
+  }
+}
+
+Duration spent_by_program() { return is_simulated() ? this_program().spent : Duration(); }
+
+// Before main(), time stands still at the start of the run.
+Time now() { return is_simulated() ? read_clock() : Time(); }
+
+}  // namespace
+
+// Of processor time: as glibc and the kernel number those of others, the complement of a process, or of a thread, above
+// three bits.
+bool is_clock(clockid_t clock) {
+  if (clock >= 0) return clock <= CLOCK_TAI && clock != 10;
+  const int of = ~(clock >> 3);
+  if (of == 0 || of == getpid()) return true;
+  for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id == of) return true;
+  return WAITPOINT_NEXT(clock_getres)(clock, nullptr) == 0;
+}
+
+std::int64_t reading_ns(clockid_t clock, Time time) {
+  if (clock == CLOCK_PROCESS_CPUTIME_ID) return spent_by_program().ns();
+  if (clock == CLOCK_THREAD_CPUTIME_ID) return is_simulated() ? this_thread().spent.ns() : 0;
+  if (clock < 0) return (clock & 4) == 0 ? spent_by_program().ns() : spent_by(~(clock >> 3)).ns();
+  return begin_ns(clock) + time.ns();
+}
+
+Duration span(const timespec& time) {
+  std::int64_t ns = 0;
+  if (__builtin_mul_overflow(static_cast<std::int64_t>(time.tv_sec), second_ns, &ns) ||
+      __builtin_add_overflow(ns, static_cast<std::int64_t>(time.tv_nsec), &ns))
+    return time.tv_sec < 0 ? Duration() : Duration::max();
+  return Duration::from_ns(ns);
+}
+
+Time later(Time from, Duration span) {
+  std::int64_t ns = 0;
+  return __builtin_add_overflow(from.ns(), span.ns(), &ns) ? Time::max() : Time::from_ns(ns);
+}
+
+Time when(clockid_t clock, const timespec& reading) {
+  const Duration since_its_zero = span(reading);
+  if (since_its_zero == Duration::max()) return Time::max();
+  const std::int64_t ns = since_its_zero.ns() - begin_ns(clock);
+  return ns < 0 ? Time() : Time::from_ns(ns);
+}
+
+Duration passed_since(clockid_t clock, const timespec& reading) {
+  const std::int64_t at = span(reading).ns(), now = reading_ns(clock, kernel::local_time(*kernel::running));
+  return Duration::from_ns(now > at ? now - at : 0);
+}
+
+timespec to_timespec(std::int64_t ns) { return {ns / second_ns, ns % second_ns}; }
+
+int read_clock(clockid_t clock, timespec& time) {
+  if (!is_clock(clock)) return fail(EINVAL);
+  time = to_timespec(reading_ns(clock, posix::now()));
+  return 0;
+}
+
+Time read_clock() {
+  spend_for_look(cost_of_clock_reading);
+  Thread& thread = this_thread();
+  if (++thread.clock_readings >= clock_readings_at_most || (thread.task->attention & kernel::attention::signal) != 0) {
+    thread.clock_readings = 0;
+    pass(kernel::Operation::poll, nullptr);
+  }
+  return kernel::local_time(*kernel::running);
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+// For the kernel's clocks that measure what the machine takes: the linker sends its calls here.
+extern "C" [[gnu::visibility("hidden")]] int __wrap_clock_gettime(clockid_t clock, timespec* time) noexcept {
+  return WAITPOINT_NEXT(clock_gettime)(clock, time);
+}
+
+WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(clock_gettime)(clock, time);
+  // The others' readings are no business of the system's, which does not look at addresses then.
+  if ((clock == CLOCK_PROCESS_CPUTIME_ID || clock == CLOCK_THREAD_CPUTIME_ID) && !can_be_written(time))
+    return fail(EFAULT);
+  return posix::read_clock(clock, *time);
+}
+
+// The simulation's own date, not the machine's.
+WAITPOINT_INTERPOSED int clock_settime(clockid_t clock, const timespec* time) noexcept {
+  if (clock != CLOCK_REALTIME) return fail(EINVAL);
+  if (!is_valid(*time) || time->tv_sec < 0) return fail(EINVAL);
+  if (geteuid() != 0) return fail(EPERM);
+  set_by_ns += time->tv_sec * second_ns + time->tv_nsec - reading_ns(CLOCK_REALTIME, posix::now());
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int settimeofday(const timeval* time, const struct timezone* zone) noexcept {
+  if (time == nullptr) return zone == nullptr ? 0 : fail(EPERM);
+  if (time->tv_usec < 0 || time->tv_usec >= 1'000'000) return fail(EINVAL);
+  const timespec to{time->tv_sec, time->tv_usec * 1000};
+  return clock_settime(CLOCK_REALTIME, &to);
+}
+
+WAITPOINT_INTERPOSED int clock_getres(clockid_t clock, timespec* resolution) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(clock_getres)(clock, resolution);
+  if (!is_clock(clock)) return fail(EINVAL);
+  if (resolution != nullptr) *resolution = {0, 1};
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int gettimeofday(timeval* __restrict time, void* __restrict zone) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(gettimeofday)(time, zone);
+  const timespec read = to_timespec(reading_ns(CLOCK_REALTIME, posix::now()));
+  // The headers promise that there is one, Linux does not ask for it.
+  timeval* const volatile asked = time;
+  if (timeval* const to = asked; to != nullptr) *to = {read.tv_sec, read.tv_nsec / 1000};
+  if (zone != nullptr) *static_cast<struct timezone*>(zone) = {};
+  return 0;
+}
+
+WAITPOINT_INTERPOSED time_t time(time_t* time) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(time)(time);
+  const time_t read = reading_ns(CLOCK_REALTIME, posix::now()) / second_ns;
+  if (time != nullptr) *time = read;
+  return read;
+}
+
+WAITPOINT_INTERPOSED int timespec_get(timespec* time, int base) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(timespec_get)(time, base);
+  if (base != TIME_UTC) return 0;
+  *time = to_timespec(reading_ns(CLOCK_REALTIME, posix::now()));
+  return base;
+}
+
+WAITPOINT_INTERPOSED clock_t clock() noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(clock)();
+  return reading_ns(CLOCK_PROCESS_CPUTIME_ID, posix::now()) / 1000;
+}
+
+WAITPOINT_INTERPOSED clock_t times(tms* buffer) noexcept {
+  if (is_host_code()) return WAITPOINT_NEXT(times)(buffer);
+  const std::int64_t tick_ns = second_ns / sysconf(_SC_CLK_TCK);
+  const Time read = posix::now();
+  if (buffer != nullptr) *buffer = {reading_ns(CLOCK_PROCESS_CPUTIME_ID, read) / tick_ns, 0, 0, 0};
+  return reading_ns(CLOCK_MONOTONIC, read) / tick_ns;
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/timers/signal_timer.hpp"
+
+#include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/time/clocks.hpp"
+
+namespace waitpoint::posix {
+
+constinit int SignalTimer::set_count_ = 0;
+
+void SignalTimer::await() {
+  if (due_ == Time::max()) return;
+  ++set_count_;
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  scheduler.enter(object_);
+  const Time now = kernel::running->local_time;
+  scheduler.schedule(node_.event, due_ > now ? due_ : now, object_);
+}
+
+void SignalTimer::start(Time due, Duration interval, Duration late) {
+  stop();
+  due_ = due;
+  interval_ = interval;
+  if (late > Duration() && interval > Duration()) {
+    missed_ = static_cast<std::uint64_t>(late.ns() / interval.ns());
+    const Time now = kernel::local_time(*kernel::running);
+    // Its last turn was not longer ago than the interval.
+    due_ = Time::from_ns(now.ns() - late.ns() % interval.ns());
+  }
+  await();
+}
+
+void SignalTimer::start(const Duration& spent, Duration due, Duration interval) {
+  stop();
+  interval_ = interval;
+  set_processor_timer(processor_, spent, due);
+}
+
+void SignalTimer::stop() {
+  if (node_.event.in_list()) object_.robot->scheduler->cancel(node_.event);
+  if (processor_.spent != nullptr) unset_processor_timer(processor_);
+  if (due_ != Time::max()) --set_count_;
+  due_ = Time::max();
+  interval_ = Duration();
+  missed_ = 0;
+}
+
+Duration SignalTimer::left() const {
+  const Duration left = processor_.spent != nullptr ? processor_.due - *processor_.spent
+                        : due_ != Time::max()       ? due_ - kernel::local_time(*kernel::running)
+                                                    : Duration();
+  return is_set() && left <= Duration() ? Duration::from_ns(1) : left;
+}
+
+void SignalTimer::expire(kernel::EventNode& node) {
+  SignalTimer& timer = *reinterpret_cast<Node&>(node).timer;
+  kernel::Scheduler& scheduler = *timer.object_.robot->scheduler;
+  const Time now = scheduler.global_time();
+  std::uint64_t count = 1 + timer.missed_;
+  timer.missed_ = 0;
+  if (timer.interval_ > Duration()) {
+    // All that should have been: a thread may have started it late.
+    const std::int64_t more = (now - timer.due_).ns() / timer.interval_.ns();
+    count += static_cast<std::uint64_t>(more);
+    timer.due_ = later(timer.due_, Duration::from_ns((more + 1) * timer.interval_.ns()));
+    scheduler.schedule(timer.node_.event, timer.due_, timer.object_);
+  } else {
+    timer.due_ = Time::max();
+    --set_count_;
+  }
+  timer.ring_(timer, count);
+}
+
+void SignalTimer::expire_by_processor(ProcessorTimer& processor, const Duration& spent) {
+  SignalTimer& timer = *static_cast<Processor&>(processor).timer;
+  std::uint64_t count = 1;
+  if (timer.interval_ > Duration()) {
+    count += static_cast<std::uint64_t>((spent - processor.due).ns() / timer.interval_.ns());
+    const auto passed = Duration::from_ns(static_cast<std::int64_t>(count) * timer.interval_.ns());
+    set_processor_timer(processor, spent, processor.due + passed);
+  }
+  timer.ring_(timer, count);
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/timers/timer_descriptors.hpp"
+
+#include <sys/eventfd.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <new>
+
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/time/clocks.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+void expire(kernel::EventNode& node);
+
+struct TimerDescriptor {
+  TimerDescriptor(int of, clockid_t by, TimerDescriptor* others) : descriptor(of), clock(by), next(others) {
+    event.fire = expire;
+  }
+
+  kernel::EventNode event;  // the node is its first member
+  int descriptor;
+  clockid_t clock;
+  Time due = Time::max();  ///< the next expiration that is not counted
+  Duration interval;       ///< zero: once
+  kernel::Object object{"timer"};
+  TimerDescriptor* next;
+};
+TimerDescriptor* first = nullptr;
+
+TimerDescriptor* timer_of(int descriptor) {
+  TimerDescriptor* timer = first;
+  while (timer != nullptr && timer->descriptor != descriptor) timer = timer->next;
+  return timer;
+}
+
+// Counts all expirations up to `now`.
+void count(TimerDescriptor& timer, Time now) {
+  if (timer.due > now) return;
+  eventfd_t expirations = 1;
+  if (timer.interval > Duration()) {
+    expirations += static_cast<eventfd_t>((now - timer.due).ns() / timer.interval.ns());
+    timer.due = later(timer.due, Duration::from_ns(static_cast<std::int64_t>(expirations) * timer.interval.ns()));
+  } else {
+    timer.due = Time::max();
+  }
+  const ErrorNumberKept kept;
+  [[maybe_unused]] const ssize_t written = WAITPOINT_NEXT(write)(timer.descriptor, &expirations, sizeof expirations);
+}
+
+void expire(kernel::EventNode& node) {
+  auto& timer = reinterpret_cast<TimerDescriptor&>(node);
+  count(timer, timer.object.robot->scheduler->global_time());
+  look_at_descriptors();
+}
+
+void await(TimerDescriptor& timer) {
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  if (timer.event.in_list()) scheduler.cancel(timer.event);
+  if (timer.due == Time::max()) return;
+  scheduler.enter(timer.object);
+  const Time now = kernel::running->local_time;
+  scheduler.schedule(timer.event, timer.due > now ? timer.due : now, timer.object);
+}
+
+timespec left_of(const TimerDescriptor& timer) {
+  if (timer.due == Time::max()) return {};
+  const std::int64_t ns = (timer.due - kernel::running->local_time).ns();
+  return to_timespec(ns > 0 ? ns : 0);
+}
+
+}  // namespace
+
+void forget_timer_descriptor(int descriptor) {
+  for (TimerDescriptor** link = &first; *link != nullptr; link = &(*link)->next) {
+    TimerDescriptor& timer = **link;
+    if (timer.descriptor != descriptor) continue;
+    if (timer.event.in_list()) timer.object.robot->scheduler->cancel(timer.event);
+    *link = timer.next;
+    std::free(&timer);
+    return;
+  }
+}
+
+void bring_up_to_date(int descriptor) {
+  TimerDescriptor* const timer = timer_of(descriptor);
+  if (timer == nullptr) return;
+  count(*timer, kernel::running->local_time);
+  await(*timer);
+}
+
+bool is_timer_descriptor(int descriptor) { return timer_of(descriptor) != nullptr; }
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int timerfd_create(clockid_t clock, int flags) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(timerfd_create)(clock, flags);
+  if (!is_clock_of_deadlines(clock) && clock != CLOCK_BOOTTIME) return fail(EINVAL);
+  static_assert(int{TFD_NONBLOCK} == int{EFD_NONBLOCK} && int{TFD_CLOEXEC} == int{EFD_CLOEXEC});
+  if ((flags & ~(TFD_NONBLOCK | TFD_CLOEXEC)) != 0) return fail(EINVAL);
+  const int descriptor = eventfd(0, flags);
+  if (descriptor < 0) return -1;
+  auto* const memory = static_cast<TimerDescriptor*>(std::malloc(sizeof(TimerDescriptor)));
+  if (memory == nullptr) {
+    close(descriptor);
+    return fail(ENOMEM);
+  }
+  first = new (memory) TimerDescriptor(descriptor, clock, first);
+  return descriptor;
+}
+
+WAITPOINT_INTERPOSED int timerfd_settime(int descriptor, int flags, const itimerspec* to, itimerspec* old) noexcept {
+  TimerDescriptor* const timer = timer_of(descriptor);
+  if (timer == nullptr) return WAITPOINT_NEXT(timerfd_settime)(descriptor, flags, to, old);
+  if (!can_be_read(to) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);
+  if ((flags & ~(TFD_TIMER_ABSTIME | TFD_TIMER_CANCEL_ON_SET)) != 0) return fail(EINVAL);
+  if (!is_valid(to->it_value) || !is_valid(to->it_interval) || to->it_value.tv_sec < 0 || to->it_interval.tv_sec < 0)
+    return fail(EINVAL);
+  pass(kernel::Operation::timer_start, nullptr);
+  if (old != nullptr) *old = {to_timespec(timer->interval.ns()), left_of(*timer)};
+  // What had expired before and was not read is forgotten.
+  pollfd one{descriptor, POLLIN, 0};
+  if (WAITPOINT_NEXT(poll)(&one, 1, 0) == 1) {
+    eventfd_t forgotten = 0;
+    [[maybe_unused]] const ssize_t size = WAITPOINT_NEXT(read)(descriptor, &forgotten, sizeof forgotten);
+  }
+  timer->interval = span(to->it_interval);
+  if (to->it_value.tv_sec == 0 && to->it_value.tv_nsec == 0)
+    timer->due = Time::max();
+  else
+    timer->due = (flags & TFD_TIMER_ABSTIME) != 0 ? when(timer->clock, to->it_value)
+                                                  : later(kernel::running->local_time, span(to->it_value));
+  await(*timer);
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int timerfd_gettime(int descriptor, itimerspec* time) noexcept {
+  const TimerDescriptor* const timer = timer_of(descriptor);
+  if (timer == nullptr) return WAITPOINT_NEXT(timerfd_gettime)(descriptor, time);
+  if (!can_be_written(time)) return fail(EFAULT);
+  *time = {to_timespec(timer->interval.ns()), left_of(*timer)};
+  return 0;
+}

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// timer_create() and its kin. A signal of a timer pends once at most; how often the timer has run out meanwhile is told
+// when it is taken.
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <ctime>
+#include <new>
+
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/time/clocks.hpp"
+#include "fibers/posix/timers/interval_timers.hpp"
+#include "fibers/posix/timers/notification_threads.hpp"
+#include "fibers/posix/timers/signal_timer.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+struct Timer : PendingSignal, SignalTimer {
+  Timer();
+
+  clockid_t clock = CLOCK_REALTIME;
+  const Duration* spent = nullptr;  // by which it goes, on a clock of processor time
+  sigevent notification{};
+  Notice notice;         // of SIGEV_THREAD
+  Thread* to = nullptr;  // of SIGEV_THREAD_ID
+  bool pends = false;
+  std::uint64_t overrun = 0;  // since it pends
+  int told = 0;               // of the signal that was taken last
+};
+
+// By their numbers; grown as needed.
+Timer** timers = nullptr;
+std::size_t timers_end = 0;
+
+int capped(std::uint64_t count) { return count > INT_MAX ? INT_MAX : static_cast<int>(count); }
+
+void note_taken(PendingSignal& signal) {
+  auto& timer = static_cast<Timer&>(signal);
+  timer.pends = false;
+  timer.told = signal.information.si_overrun = capped(timer.overrun);
+}
+
+void ring(SignalTimer& expired, std::uint64_t count) {
+  auto& timer = static_cast<Timer&>(expired);
+  switch (timer.notification.sigev_notify) {
+    case SIGEV_NONE: return;
+    case SIGEV_THREAD: timer.notice.ring(); return;
+    default: break;
+  }
+  if (timer.pends) {
+    timer.overrun += count;
+    return;
+  }
+  if (timer.to != nullptr && timer.to->task == nullptr) return;
+  timer.overrun = count - 1;
+  timer.pends = true;
+  send(timer, timer.to);
+}
+
+Timer::Timer() : SignalTimer(ring) { taken = note_taken; }
+
+Timer* find_timer(timer_t id) {
+  const auto number = reinterpret_cast<std::uintptr_t>(id);
+  return number < timers_end ? timers[number] : nullptr;
+}
+
+// An error, or 0.
+int prepare(Timer& timer, sigevent* event) {
+  if (event == nullptr) {
+    timer.notification.sigev_notify = SIGEV_SIGNAL;
+    timer.notification.sigev_signo = SIGALRM;
+    return 0;
+  }
+  timer.notification = *event;
+  switch (event->sigev_notify) {
+    case SIGEV_NONE: return 0;
+    case SIGEV_SIGNAL: break;
+    case SIGEV_THREAD: return timer.notice.prepare(*event) ? 0 : EAGAIN;
+    case SIGEV_THREAD_ID:
+      for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+        if (is_thread(*task) && thread_of(*task).id == event->_sigev_un._tid) timer.to = &thread_of(*task);
+      if (timer.to == nullptr) return EINVAL;
+      break;
+    default: return EINVAL;
+  }
+  return is_signal(event->sigev_signo) ? 0 : EINVAL;
+}
+
+int number_for_new() {
+  for (std::size_t i = 0; i < timers_end; ++i)
+    if (timers[i] == nullptr) return static_cast<int>(i);
+  auto** const more = static_cast<Timer**>(std::realloc(timers, (timers_end + 1) * sizeof(Timer*)));
+  if (more == nullptr) return -1;
+  timers = more;
+  timers[timers_end] = nullptr;
+  return static_cast<int>(timers_end++);
+}
+
+bool can_count(clockid_t clock) {
+  return clock == CLOCK_REALTIME || clock == CLOCK_MONOTONIC || clock == CLOCK_BOOTTIME || clock == CLOCK_TAI ||
+         clock == CLOCK_PROCESS_CPUTIME_ID || clock == CLOCK_THREAD_CPUTIME_ID;
+}
+
+itimerspec state_of(const Timer& timer) { return {to_timespec(timer.interval().ns()), to_timespec(timer.left().ns())}; }
+
+void free_timer(std::size_t number) {
+  Timer* const timer = timers[number];
+  timer->stop();
+  signals_of_program.pending.remove(*timer);
+  if (timer->to != nullptr) timer->to->pending.remove(*timer);
+  timer->~Timer();
+  std::free(timer);
+  timers[number] = nullptr;
+}
+
+}  // namespace
+
+void forget_timers() {
+  for (std::size_t i = 0; i < timers_end; ++i)
+    if (timers[i] != nullptr) free_timer(i);
+}
+
+}  // namespace waitpoint::posix
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t* id) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(timer_create)(clock, event, id);
+  if ((event != nullptr && !can_be_read(event)) || !can_be_written(id)) return fail(EFAULT);
+  if (!can_count(clock)) return fail(is_clock(clock) ? ENOTSUP : EINVAL);
+  const int number = number_for_new();
+  void* const memory = number >= 0 ? std::malloc(sizeof(Timer)) : nullptr;
+  if (memory == nullptr) return fail(EAGAIN);
+  auto* const timer = new (memory) Timer();
+  timer->clock = clock;
+  if (clock == CLOCK_PROCESS_CPUTIME_ID) timer->spent = &this_program().spent;
+  if (clock == CLOCK_THREAD_CPUTIME_ID) timer->spent = &this_thread().spent;
+  if (const int error = prepare(*timer, event); error != 0) {
+    timer->~Timer();
+    std::free(memory);
+    return fail(error);
+  }
+  timer->information.si_signo = timer->notification.sigev_signo;
+  timer->information.si_code = SI_TIMER;
+  timer->information.si_timerid = number;
+  if (event != nullptr)
+    timer->information.si_value = event->sigev_value;
+  else
+    timer->information.si_int = number;
+  timers[number] = timer;
+  *id = reinterpret_cast<timer_t>(static_cast<std::uintptr_t>(number));
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int timer_settime(timer_t id, int flags, const itimerspec* to, itimerspec* old) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(timer_settime)(id, flags, to, old);
+  if (to == nullptr) return fail(EINVAL);
+  if (!can_be_read(to) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);
+  if (!is_valid(to->it_value) || to->it_value.tv_sec < 0 || !is_valid(to->it_interval) || to->it_interval.tv_sec < 0)
+    return fail(EINVAL);
+  Timer* const timer = find_timer(id);
+  if (timer == nullptr) return fail(EINVAL);
+  pass(kernel::Operation::timer_start, nullptr);
+  const itimerspec before = state_of(*timer);
+  const Duration first = span(to->it_value), interval = span(to->it_interval);
+  const bool is_date = (flags & TIMER_ABSTIME) != 0;
+  timer->overrun = 0;
+  timer->told = 0;
+  if (first == Duration())
+    timer->stop();
+  else if (timer->spent != nullptr)
+    timer->start(*timer->spent, is_date ? first : *timer->spent + first, interval);
+  else
+    timer->start(is_date ? when(timer->clock, to->it_value) : later(kernel::local_time(*kernel::running), first),
+                 interval, is_date ? passed_since(timer->clock, to->it_value) : Duration());
+  if (old != nullptr) *old = before;
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int timer_gettime(timer_t id, itimerspec* state) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(timer_gettime)(id, state);
+  const Timer* const timer = find_timer(id);
+  if (timer == nullptr) return fail(EINVAL);
+  if (!can_be_written(state)) return fail(EFAULT);
+  read_clock();
+  *state = state_of(*timer);
+  return 0;
+}
+
+WAITPOINT_INTERPOSED int timer_getoverrun(timer_t id) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(timer_getoverrun)(id);
+  const Timer* const timer = find_timer(id);
+  return timer == nullptr ? fail(EINVAL) : timer->told;
+}
+
+WAITPOINT_INTERPOSED int timer_delete(timer_t id) noexcept {
+  if (!is_simulated()) return WAITPOINT_NEXT(timer_delete)(id);
+  if (find_timer(id) == nullptr) return fail(EINVAL);
+  pass(kernel::Operation::timer_stop, nullptr);
+  free_timer(reinterpret_cast<std::uintptr_t>(id));
+  return 0;
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/traps/library_calls.hpp"
+
+#include <fcntl.h>
+#include <limits.h>
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/futex.h>
+#include <linux/seccomp.h>
+#include <pthread.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <ucontext.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/input_output/input_output.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/sync/futex.hpp"
+#include "fibers/posix/traps/library_range.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+bool is_trapped = false;
+
+/// The words of a call: by the processor's registers.
+struct Words {
+  explicit Words(const greg_t* registers)
+      : at{registers[REG_RDI], registers[REG_RSI], registers[REG_RDX],
+           registers[REG_R10], registers[REG_R8],  registers[REG_R9]} {}
+  long at[6];
+};
+
+// As the system's: an error is negative. From here, it is none of the C library's.
+long call_system(long number, const Words& words) {
+  long result = number;
+  register long fourth __asm__("r10") = words.at[3];
+  register long fifth __asm__("r8") = words.at[4];
+  register long sixth __asm__("r9") = words.at[5];
+  __asm__ volatile("syscall"
+                   : "+a"(result)
+                   : "D"(words.at[0]), "S"(words.at[1]), "d"(words.at[2]), "r"(fourth), "r"(fifth), "r"(sixth)
+                   : "rcx", "r11", "memory");
+  return result;
+}
+
+// What is not ready is waited for, as read() and write() do; false if a signal's handler ended that.
+bool wait_until_ready(int descriptor, short events) {
+  pollfd one{descriptor, events, 0};
+  if (class_of(descriptor) == DescriptorClass::file || !may_wait_for(descriptor, events)) return true;
+  if (WAITPOINT_NEXT(poll)(&one, 1, 0) != 0) return true;
+  const auto operation = events == POLLIN ? kernel::Operation::receive : kernel::Operation::send;
+  pass(operation, nullptr);
+  return wait_for(descriptor, events, Time::max(), Restart::if_asked) >= 0;
+}
+
+long read_or_write(long number, Words words) {
+  const auto descriptor = static_cast<int>(words.at[0]);
+  if (!wait_until_ready(descriptor, number == SYS_read ? POLLIN : POLLOUT)) return -EINTR;
+  // What is ready takes as much as is atomic; the rest is written by another call.
+  if (number == SYS_write && words.at[2] > PIPE_BUF && class_of(descriptor) == DescriptorClass::pipe)
+    words.at[2] = PIPE_BUF;
+  const long result = call_system(number, words);
+  look_at_descriptors();
+  return result;
+}
+
+long simulated(long number, const Words& words) {
+  if (number != SYS_futex) return read_or_write(number, words);
+  // The C library asks whether the system has those that inherit priorities: no lock of its own is one.
+  const auto operation = static_cast<int>(words.at[1]) & FUTEX_CMD_MASK;
+  if (operation > FUTEX_WAKE_BITSET || operation == FUTEX_LOCK_PI || operation == FUTEX_UNLOCK_PI ||
+      operation == FUTEX_TRYLOCK_PI)
+    return call_system(number, words);
+  const long result = futex(reinterpret_cast<std::uint32_t*>(words.at[0]), static_cast<int>(words.at[1]),
+                            static_cast<std::uint32_t>(words.at[2]), reinterpret_cast<const timespec*>(words.at[3]),
+                            reinterpret_cast<std::uint32_t*>(words.at[4]), static_cast<std::uint32_t>(words.at[5]));
+  return result >= 0 ? result : -errno;
+}
+
+constexpr sock_filter statement(int code, std::uint32_t value) {
+  return {static_cast<std::uint16_t>(code), 0, 0, value};
+}
+constexpr sock_filter jump(int code, std::uint32_t value, std::uint8_t if_so, std::uint8_t if_not) {
+  return {static_cast<std::uint16_t>(code), if_so, if_not, value};
+}
+
+constexpr std::uint32_t low(std::uintptr_t address) { return static_cast<std::uint32_t>(address); }
+constexpr std::uint32_t high(std::uintptr_t address) { return static_cast<std::uint32_t>(address >> 32); }
+
+// A FILE* is locked for each character from a process's second thread on, which the C library learns of by its own
+// pthread_create() alone.
+void tell_of_threads() {
+  pthread_t id = 0;
+  const auto nothing = [](void* unused) { return unused; };
+  const auto create = of_c_library(&pthread_create, "pthread_create");
+  if (create(&id, nullptr, nothing, nullptr) == 0) WAITPOINT_NEXT(pthread_join)(id, nullptr);
+}
+
+bool can_be_told_from_others(LibraryRange range) {
+  return range.begin < range.end && high(range.begin) == high(range.end);
+}
+
+// Futexes, and if they are asked for, reads and writes, of code that lies there; false if the system does not allow it.
+bool trap(LibraryRange range, bool streams_too) {
+  constexpr int load = BPF_LD | BPF_W | BPF_ABS, is = BPF_JMP | BPF_JEQ | BPF_K, is_least = BPF_JMP | BPF_JGE | BPF_K;
+  constexpr std::uint32_t at = offsetof(seccomp_data, instruction_pointer);
+  const std::uint32_t reading = streams_too ? SYS_read : SYS_futex, writing = streams_too ? SYS_write : SYS_futex;
+  sock_filter filter[] = {
+      statement(load, offsetof(seccomp_data, arch)),
+      jump(is, AUDIT_ARCH_X86_64, 0, 10),
+      statement(load, offsetof(seccomp_data, nr)),
+      jump(is, SYS_futex, 2, 0),
+      jump(is, reading, 1, 0),
+      jump(is, writing, 0, 6),
+      statement(load, at + 4),
+      jump(is, high(range.begin), 0, 4),
+      statement(load, at),
+      jump(is_least, low(range.begin), 0, 2),
+      jump(is_least, low(range.end), 1, 0),
+      statement(BPF_RET | BPF_K, SECCOMP_RET_TRAP),
+      statement(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog program{sizeof filter / sizeof *filter, filter};
+  is_trapped = true;
+  install(SIGSYS);
+  return WAITPOINT_NEXT(prctl)(PR_SET_NO_NEW_PRIVS, 1L, 0L, 0L, 0L) == 0 &&
+         WAITPOINT_NEXT(prctl)(PR_SET_SECCOMP, static_cast<long>(SECCOMP_MODE_FILTER), &program) == 0;
+}
+
+}  // namespace
+
+void trap_library_calls() {
+  tell_of_threads();
+  const LibraryRange range = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
+  if (!can_be_told_from_others(range))
+    refuse("--trap-libc: the C library lies where its calls cannot be told from others");
+  if (!trap(range, true)) refuse("--trap-libc: the system does not let its calls be trapped");
+}
+
+void trap_open_mp() {
+  static bool is_done = false;
+  static unsigned long long loaded = 0;
+  if (is_done) return;
+  const unsigned long long now = libraries_loaded();
+  if (now == loaded) return;
+  loaded = now;
+  const LibraryRange range = range_of_library_named("libgomp.so");
+  is_done = can_be_told_from_others(range) && trap(range, false);
+}
+
+bool are_library_calls_trapped() { return is_trapped; }
+
+bool answer_library_call(const siginfo_t& information, void* context) {
+  if (!is_trapped || information.si_code != 1) return false;  // SYS_SECCOMP
+  const ErrorNumberKept kept;
+  greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
+  const Words words(registers);
+  registers[REG_RAX] =
+      is_simulated() ? simulated(information.si_syscall, words) : call_system(information.si_syscall, words);
+  return true;
+}
+
+}  // namespace waitpoint::posix
