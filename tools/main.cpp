@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string_view>
 
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/scenario_reader.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/explore/explore.hpp"

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "modules/bridge/expectation.hpp"
-#include "modules/bridge/scenario_reader.hpp"
-#include "modules/bridge/threaded_experiment.hpp"
+#include "modules/run/expectation.hpp"
+#include "modules/run/threaded_experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/main.hpp"
 #include "tools/papers_modules.hpp"

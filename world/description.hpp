@@ -11,7 +11,7 @@
 
 #include "core/pose.hpp"
 #include "core/time.hpp"
-#include "world/planar/convex_polygon.hpp"
+#include "world/convex_polygon.hpp"
 #include "world/sensor_description.hpp"
 #include "world/triangle_mesh.hpp"
 

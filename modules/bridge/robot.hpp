@@ -15,10 +15,10 @@
 #include "modules/bridge/evaluation.hpp"
 #include "modules/bridge/robot_bridge.hpp"
 #include "modules/bridge/run_result.hpp"
-#include "modules/bridge/scenario.hpp"
 #include "modules/executive/executive.hpp"
 #include "modules/genom/module_type.hpp"
 #include "modules/genom/task_computing.hpp"
+#include "modules/scenario/scenario.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::bridge {

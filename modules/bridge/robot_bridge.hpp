@@ -30,11 +30,11 @@
 
 #include "fibers/sync/threads.hpp"
 #include "modules/bridge/scan_line.hpp"
-#include "modules/bridge/scenario.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/posters/inertial.hpp"
 #include "modules/posters/laser.hpp"
+#include "modules/scenario/scenario.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::bridge {

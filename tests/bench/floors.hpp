@@ -2,7 +2,7 @@
 // A scenario as often as asked, each time on a floor of its own beside the others: more robots, at one density.
 #pragma once
 
-#include "modules/bridge/scenario.hpp"
+#include "modules/scenario/scenario.hpp"
 
 namespace waitpoint::bench {
 

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <map>
 
-#include "modules/bridge/experiment.hpp"
+#include "modules/run/experiment.hpp"
 #include "tests/bench/floors.hpp"
 #include "tests/bench/program.hpp"
 #include "tests/runs/shipped.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "modules/bridge/yaml_tree.hpp"
+#include "modules/scenario/yaml_tree.hpp"
 #include "tests/fuzz/refusal.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

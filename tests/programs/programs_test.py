@@ -20,15 +20,13 @@ class Headers(Installed):
         self.assertFalse(re.search(r"<(Eigen|fcl|yaml-cpp|nlohmann|CLI)/", "".join(path.read_text() for path in
                                    self.prefix.rglob("*.hpp"))), "a header asks for a library that users need not have")
 
-    # Parts of the worlds that are written against Bullet's and FCL's own headers: not for users.
-    OF_OTHER_LIBRARIES = {f"world/bullet/{name}.hpp" for name in ("bullet_shapes", "drive", "hull")} | {
-        "world/fcl/geometry.hpp", "world/fcl/wedge.hpp"}
-
-    def test_the_tree_lacks_no_header(self):
-        for source in HERE.parents[1].rglob("*.hpp"):
-            tree = source.relative_to(HERE.parents[1])
-            if tree.parts[0] in ("core", "fibers", "modules", "tools", "world") and str(tree) not in self.OF_OTHER_LIBRARIES:
-                self.assertTrue((self.prefix / "include/waitpoint" / tree).exists(), f"{tree} is in no list of headers")
+    def test_a_folder_of_a_users_own_is_not_taken_for_one_of_ours(self):
+        (self.folder / "own/core").mkdir(parents=True)
+        (self.folder / "own/core/time.hpp").write_text("#error a user's own header\n")
+        source = self.folder / "own/main.cpp"
+        source.write_text("#include <waitpoint/fibers/explore/explore.hpp>\n#include <waitpoint/modules/genom/module.hpp>\n")
+        run("g++", "-std=c++20", "-fsyntax-only", "-I.", *flags(self.prefix, "--cflags", "waitpoint-robots"), source,
+            cwd=source.parent)
 
 
 class Blinker(Installed):

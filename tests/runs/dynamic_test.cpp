@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "modules/bridge/scenario_reader.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/runs/program.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tests/tools/folder.hpp"

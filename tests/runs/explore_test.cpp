@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "modules/bridge/scenario_reader.hpp"
 #include "modules/genom/module.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/project.hpp"
 #include "tests/runs/program.hpp"
 #include "tests/tools/folder.hpp"

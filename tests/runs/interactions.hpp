@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "modules/bridge/experiment.hpp"
+#include "modules/run/experiment.hpp"
 
 namespace waitpoint::runs {
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "modules/bridge/condition.hpp"
-#include "modules/bridge/journal.hpp"
+#include "modules/run/condition.hpp"
+#include "modules/run/journal.hpp"
 #include "tests/project.hpp"
 #include "tests/runs/program.hpp"
 #include "tests/runs/shipped.hpp"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "fibers/io/datagram_socket.hpp"
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/scenario_reader.hpp"
 #include "modules/posters/base.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/tools/folder.hpp"
 
 namespace waitpoint::runs {

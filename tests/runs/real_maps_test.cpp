@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/scenario_reader.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/project.hpp"
 #include "tools/papers_modules.hpp"
 #include "world/formats/map_server.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/runs/shipped.hpp"
 
-#include "modules/bridge/scenario_reader.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/project.hpp"
 #include "tools/papers_modules.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/scenario.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario.hpp"
 
 namespace waitpoint::runs {
 

@@ -10,11 +10,11 @@
 #include <map>
 
 #include "core/random.hpp"
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/scenario_reader.hpp"
 #include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/posters/laser.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/tools/folder.hpp"
 
 namespace waitpoint::runs {

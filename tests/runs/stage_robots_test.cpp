@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/scenario_reader.hpp"
 #include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/project.hpp"
 #include "tests/tools/folder.hpp"
 #include "tools/papers_modules.hpp"

@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "modules/bridge/scenario_reader.hpp"
 #include "modules/posters/base.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tests/tools/folder.hpp"
 #include "tools/papers_modules.hpp"

@@ -25,7 +25,7 @@ constexpr double cast_m = 1e-11;  // a box is sealed by 1e-12 m (ray.cpp), and a
 double ahead_m(const World& world, Point from = {0, 0}) { return world.cast({from, 0, 0.4}, 30, robot); }
 
 TEST(WorldChanges, AMovedBodyStandsThereAtRestAndItsOdometerDoesNotKnow) {
-  const auto world = make_fcl_world(two_and_a_wall(), 1);
+  const auto world = make_kinematic_world(two_and_a_wall(), 1);
   world->command(robot, {1, 0});
   world->step();
   const OdometerReading before = world->odometer(robot);
@@ -41,7 +41,7 @@ TEST(WorldChanges, AMovedBodyStandsThereAtRestAndItsOdometerDoesNotKnow) {
 }
 
 TEST(WorldChanges, OthersSeeAMovedBodyAndRunIntoIt) {
-  const auto world = make_fcl_world(two_and_a_wall(), 1);
+  const auto world = make_kinematic_world(two_and_a_wall(), 1);
   EXPECT_NEAR(ahead_m(*world), 4.9, cast_m);
   EXPECT_EQ(world->move_body(other, {2, 0, 0}), std::nullopt);
   EXPECT_NEAR(ahead_m(*world), 1.75, cast_m);
@@ -53,7 +53,7 @@ TEST(WorldChanges, OthersSeeAMovedBodyAndRunIntoIt) {
 }
 
 TEST(WorldChanges, WhatIsInTheWayIsNamedAndNothingIsChanged) {
-  const auto world = make_fcl_world(two_and_a_wall(), 1);
+  const auto world = make_kinematic_world(two_and_a_wall(), 1);
   EXPECT_EQ(world->move_body(robot, {4.8, 0, 0}), "wall");
   EXPECT_EQ(world->move_body(robot, {0.2, 3.2, 0}), "other");
   EXPECT_EQ(world->body(robot).pose, (Pose{0, 0, 0}));
@@ -65,7 +65,7 @@ TEST(WorldChanges, WhatIsInTheWayIsNamedAndNothingIsChanged) {
 }
 
 TEST(WorldChanges, ObstaclesComeMoveAndGo) {
-  const auto world = make_fcl_world(two_and_a_wall(), 1);
+  const auto world = make_kinematic_world(two_and_a_wall(), 1);
   EXPECT_EQ(world->put_obstacle({"crate", box({2, 0, 0}, 1, 1), false}), std::nullopt);
   EXPECT_NEAR(ahead_m(*world), 1.5, cast_m);
   EXPECT_EQ(world->put_obstacle({"crate", box({3, 0, 0}, 1, 1), false}), std::nullopt);
@@ -80,7 +80,7 @@ TEST(WorldChanges, ObstaclesComeMoveAndGo) {
 }
 
 TEST(WorldChanges, AResetBringsTheFirstObstaclesBack) {
-  const auto world = make_fcl_world(two_and_a_wall(), 1);
+  const auto world = make_kinematic_world(two_and_a_wall(), 1);
   EXPECT_TRUE(world->remove_obstacle("wall"));
   EXPECT_EQ(world->move_body(robot, {7, 0, 0}), std::nullopt);
   world->reset(1);
@@ -92,7 +92,7 @@ TEST(WorldChanges, AResetBringsTheFirstObstaclesBack) {
 TEST(WorldChanges, SonarsHearTheCornerOfANewObstacle) {
   WorldDescription description = two_and_a_wall();
   description.bodies[0].sonars.emplace_back();
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   std::vector<double> range_m;
   world->sonar(robot, 0, 1, range_m);
   EXPECT_EQ(range_m[0], 3) << "nothing is near";

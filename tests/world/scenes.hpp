@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "world/fcl/fcl_world.hpp"
+#include "world/kinematic/kinematic_world.hpp"
 #include "world/planar/outline.hpp"
 
 namespace waitpoint::world {

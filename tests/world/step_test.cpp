@@ -28,7 +28,7 @@ Place place_after(Kind kind, std::int64_t step_ms) {
   body.base.w_acceleration_rad_s2 = 0.9;
   body.base.climb_acceleration_m_s2 = 0.5;
   description.bodies.push_back(body);
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   for (const Velocity& wanted :
        {Velocity{0.8, 0.9, 0.2, 0.3}, {0.3, -0.7, -0.3, 0.4}, {0.9, 0.4, 0, -0.2}, {-0.2, 0.8, 0.4, 0.1}}) {
     world->command(BodyId(0), wanted);
@@ -68,7 +68,7 @@ TEST(WorldStep, AContactIsWhereItIsAtEveryStep) {
     description.step = Duration(std::chrono::milliseconds(step_ms));
     description.obstacles.push_back({"wall", box({2.0005, 0, 0}, 0.001, 10), true});
     description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.25), {0, 0, 0}));
-    const auto world = make_fcl_world(description, 1);
+    const auto world = make_kinematic_world(description, 1);
     world->command(BodyId(0), {1.3, 0});
     for (std::int64_t t = 0; t < 2000; t += step_ms) world->step();
     EXPECT_NEAR(world->body(BodyId(0)).pose.x, 1.75 - 1e-6, 1e-8);

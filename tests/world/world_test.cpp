@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "tests/world/scenes.hpp"
+#include "world/kinematic/start_check.hpp"
 #include "world/planar/separation.hpp"
-#include "world/start_check.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -27,7 +27,7 @@ WorldDescription wall_ahead() {
 TEST(World, VelocityIsLatchedAtTheNextStepAndHeldUntilAnother) {
   WorldDescription description;
   description.bodies.push_back(nimble_body("robot", disc, {0, 0, 0}));
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   const BodyId robot{0};
   world->command(robot, {5, 0});
   world->command(robot, {1, 0});
@@ -45,7 +45,7 @@ TEST(World, AccelerationIsLimited) {
   WorldDescription description;
   description.bodies.push_back(nimble_body("robot", disc, {0, 0, 0}));
   description.bodies[0].base = {};
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   world->command(BodyId(0), {10, -10});
   world->step();
   EXPECT_NEAR(world->body(BodyId(0)).velocity.v_m_s, 0.01, 1e-15);
@@ -55,7 +55,7 @@ TEST(World, AccelerationIsLimited) {
 }
 
 TEST(World, TheArcOfAStepJoinsItsPoses) {
-  const auto world = make_fcl_world(wall_ahead(), 1);
+  const auto world = make_kinematic_world(wall_ahead(), 1);
   Draws draw(3);
   for (int i = 0; i < 200; ++i) {
     const Pose before = world->body(BodyId(0)).pose;
@@ -68,7 +68,7 @@ TEST(World, TheArcOfAStepJoinsItsPoses) {
 
 TEST(World, NoSpeedPassesAWallThinnerThanAStep) {
   for (const double speed : {0.5, 30.0, 1000.0, 1e5}) {
-    const auto world = make_fcl_world(wall_ahead(), 1);
+    const auto world = make_kinematic_world(wall_ahead(), 1);
     world->command(BodyId(0), {speed, 0});
     for (int i = 0; i < 600; ++i) world->step();
     EXPECT_NEAR(world->body(BodyId(0)).pose.x, 1.75 - 1e-6, 1e-8) << speed;
@@ -79,7 +79,7 @@ TEST(World, NoSpeedPassesAWallThinnerThanAStep) {
 }
 
 TEST(World, LeavingAWallFreesAndMeetingItAgainIsAnotherCollision) {
-  const auto world = make_fcl_world(wall_ahead(), 1);
+  const auto world = make_kinematic_world(wall_ahead(), 1);
   const BodyState& robot = world->body(BodyId(0));
   for (std::uint64_t round = 1; round <= 3; ++round) {
     world->command(BodyId(0), {3, 0});
@@ -101,7 +101,7 @@ TEST(World, BodiesPassUnderWhatIsAboveThem) {
   WorldDescription description = wall_ahead();
   description.obstacles[0].shape.z_low_m = 1;
   description.obstacles[0].shape.z_high_m = 2;
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   world->command(BodyId(0), {10, 0});
   for (int i = 0; i < 100; ++i) world->step();
   EXPECT_NEAR(world->body(BodyId(0)).pose.x, 10, 1e-9);
@@ -119,7 +119,7 @@ void expect_same_under_every_naming(const std::vector<BodyDescription>& bodies, 
       description.bodies.push_back(bodies[i]);
       description.bodies.back().name = numbered("n", description.bodies.size());
     }
-    const auto world = make_fcl_world(description, 1);
+    const auto world = make_kinematic_world(description, 1);
     for (std::size_t k = 0; k < order.size(); ++k) world->command(BodyId(k), commands[order[k]]);
     std::vector<BodyState> states(order.size());
     std::uint64_t counted = 0;
@@ -177,7 +177,7 @@ TEST(World, ABodyFarAwayChangesNothing) {
     if (with_stranger) {
       description.bodies.insert(description.bodies.begin(), nimble_body("stranger", disc, {500, 0, 0}));
     }
-    const auto world = make_fcl_world(description, 5);
+    const auto world = make_kinematic_world(description, 5);
     const BodyId robot{with_stranger ? 1u : 0u};
     if (with_stranger) world->command(BodyId(0), {300, 2});
     Digest digest;
@@ -200,7 +200,7 @@ TEST(World, NeighboursAreSeenWhereTheyWereAStepAgo) {
   description.bodies.push_back(nimble_body("seer", disc, {0, 0, 0}));
   description.bodies.push_back(nimble_body("seen", box({0, 0, 0}, 1, 1), {3, 0, 0}));
   description.bodies[0].lasers.push_back(perfect_laser(0.4));
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   LaserScan scan;
   const auto ahead = [&] {
     world->scan(BodyId(0), 0, 1, scan);
@@ -229,7 +229,7 @@ TEST(World, ResetRunsTheSameAgainAndAnotherSeedDrawsOtherNoise) {
   description.bodies[0].lasers.push_back({});
   description.bodies[0].sonars.push_back({});
   description.bodies[0].base.odometry.turn_noise_rad_per_sqrt_m = 0.02;
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   const auto run = [&] {
     Digest digest;
     LaserScan scan;
@@ -272,7 +272,7 @@ TEST(World, StartsThatOverlapAreNamed) {
 }
 
 TEST(WorldDeathTest, ACommandOfNaNIsABug) {
-  const auto world = make_fcl_world(wall_ahead(), 1);
+  const auto world = make_kinematic_world(wall_ahead(), 1);
   EXPECT_DEATH(world->command(BodyId(0), {0.0 / 0.0, 0}), "NaN");
 }
 

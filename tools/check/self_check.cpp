@@ -10,7 +10,7 @@
 
 #include "core/number_text.hpp"
 #include "fibers/sync/duration_record.hpp"
-#include "modules/bridge/experiment.hpp"
+#include "modules/run/experiment.hpp"
 #include "tools/check/event_comparison.hpp"
 #include "tools/check/event_log.hpp"
 #include "tools/check/perturbed_memory.hpp"

@@ -13,8 +13,8 @@
 #include <span>
 #include <string>
 
-#include "modules/bridge/scenario.hpp"
 #include "modules/genom/module_type.hpp"
+#include "modules/scenario/scenario.hpp"
 #include "tools/options.hpp"
 
 namespace waitpoint::tools {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "modules/bridge/robot_program.hpp"
+#include "modules/run/robot_program.hpp"
 #include "tools/command/installed_part.hpp"
 
 namespace waitpoint::tools {

@@ -2,7 +2,7 @@
 // What robots' programs stand on in this process: a library in front of the C library (fibers/posix/guests/guests.hpp).
 #pragma once
 
-#include "modules/bridge/scenario.hpp"
+#include "modules/scenario/scenario.hpp"
 
 namespace waitpoint::tools {
 

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
-#include "modules/bridge/scenario_reader.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/explore/failure_report.hpp"

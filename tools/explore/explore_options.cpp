@@ -11,7 +11,7 @@
 #include "core/number_text.hpp"
 #include "fibers/explore/schedules/token.hpp"
 #include "fibers/explore/strategies/strategy.hpp"
-#include "modules/bridge/expectation.hpp"
+#include "modules/scenario/scenario.hpp"
 #include "tools/command/option_values.hpp"
 #include "tools/explore/depth_first.hpp"
 
@@ -53,7 +53,7 @@ std::string assignment_of(const std::string& property) {
   const std::size_t equals = property.find('=');
   if (equals == std::string::npos || equals == 0) throw BadInput(option, "expected key=value");
   const std::string key = property.substr(0, equals);
-  const auto known = bridge::expectation_keys();
+  constexpr auto known = bridge::expectation_keys;
   if (std::find(known.begin(), known.end(), key) == known.end()) {
     std::string all;
     for (const std::string_view name : known) all.append(all.empty() ? "" : ", ").append(name);

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "modules/bridge/scenario.hpp"
 #include "modules/genom/module_type.hpp"
+#include "modules/scenario/scenario.hpp"
 #include "tools/explore/explore_options.hpp"
 
 namespace waitpoint::tools {

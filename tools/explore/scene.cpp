@@ -12,7 +12,7 @@
 #include "fibers/explore/schedules/trail_recorder.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/sync/source_lines.hpp"
-#include "modules/bridge/expectation.hpp"
+#include "modules/run/expectation.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "fibers/explore/report/narrator.hpp"
 #include "fibers/explore/schedules/explorer.hpp"
-#include "modules/bridge/experiment.hpp"
+#include "modules/run/experiment.hpp"
 #include "tools/explore/target.hpp"
 
 namespace waitpoint::tools {

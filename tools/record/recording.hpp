@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "modules/bridge/experiment.hpp"
+#include "modules/run/experiment.hpp"
 
 namespace waitpoint::tools {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/record/viewer_recording.hpp"
 
-#include "modules/bridge/plan.hpp"
+#include "modules/run/plan.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fibers/sync/duration_record.hpp"
-#include "modules/bridge/experiment.hpp"
+#include "modules/run/experiment.hpp"
 #include "tools/options.hpp"
 #include "tools/output/output_file.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
-#include "modules/bridge/condition.hpp"
-#include "modules/bridge/words.hpp"
+#include "modules/run/condition.hpp"
+#include "modules/scenario/words.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/output/recorders.hpp"
 #include "tools/run/pacing.hpp"

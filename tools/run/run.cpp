@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <optional>
 
-#include "modules/bridge/expectation.hpp"
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/journal.hpp"
-#include "modules/bridge/plan.hpp"
-#include "modules/bridge/scenario_reader.hpp"
+#include "modules/run/expectation.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/run/journal.hpp"
+#include "modules/run/plan.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tools/check/self_check.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `waitpoint run`: carries out a scenario, shows how far it has come, writes what was asked for.
 //
-// At once, or from a prompt (prompt.hpp), or as a journal says (modules/bridge/journal.hpp).
+// At once, or from a prompt (prompt.hpp), or as a journal says (modules/run/journal.hpp).
 #pragma once
 
 #include <span>

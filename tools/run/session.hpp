@@ -7,8 +7,8 @@
 #include <functional>
 #include <optional>
 
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/journal.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/run/journal.hpp"
 #include "tools/output/progress.hpp"
 #include "tools/run/journal_file.hpp"
 #include "tools/run/pacing.hpp"

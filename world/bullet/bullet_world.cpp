@@ -7,10 +7,10 @@
 #include "core/error.hpp"
 #include "world/bullet/drive_forces.hpp"
 #include "world/bullet/dynamics.hpp"
-#include "world/fcl/vehicle_world.hpp"
+#include "world/kinematic/start_check.hpp"
+#include "world/kinematic/vehicle_world.hpp"
 #include "world/motion/first_contact.hpp"
 #include "world/planar/separation.hpp"
-#include "world/start_check.hpp"
 
 namespace waitpoint::world {
 namespace {

@@ -17,8 +17,8 @@
 
 namespace waitpoint::world {
 
-/// A world at its start; null where this library was built without Bullet. As for make_fcl_world(), bodies that overlap
-/// something are a bug here.
+/// A world at its start; null where this library was built without Bullet. As for make_kinematic_world(), bodies that
+/// overlap something are a bug here.
 std::unique_ptr<World> make_bullet_world(const WorldDescription& description, std::uint64_t seed);
 
 }  // namespace waitpoint::world

@@ -40,7 +40,7 @@ struct TreeNode {
 };
 
 /// How far coordinates of at most `extent_m`, rounded to float, can lie beside themselves, and much more than doubles
-/// and sealed boxes (world/planar/ray.cpp) can.
+/// and sealed boxes (world/planar/hit.cpp) can.
 constexpr double float_margin_m(double extent_m) { return extent_m * 0x1p-22 + 1e-6; }
 
 class Tree {

@@ -9,7 +9,7 @@
 #include "tests/bench/kernel/meter.hpp"
 #include "tests/bench/world/crowds.hpp"
 #include "tests/bench/world/grounds.hpp"
-#include "world/fcl/fcl_world.hpp"
+#include "world/kinematic/kinematic_world.hpp"
 
 namespace waitpoint::bench {
 namespace {
@@ -69,7 +69,7 @@ struct Cost {
 };
 
 Cost cost(std::size_t robots, Duration warm, Duration measured) {
-  const std::unique_ptr<world::World> world = world::make_fcl_world(described(robots), 1);
+  const std::unique_ptr<world::World> world = world::make_kinematic_world(described(robots), 1);
   Simulation simulation;
   simulation.spawn(simulation.environment(), {.name = "world", .phase = kernel::Phase::world, .service = true}, [&] {
     for (std::int64_t k = 1;; ++k) {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "modules/bridge/experiment.hpp"
-#include "modules/bridge/scenario_reader.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tests/bench/kernel/meter.hpp"
 #include "tests/bench/world/crowds.hpp"
 #include "tests/project.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/world/bullet/worlds.hpp"
-#include "world/fcl/fcl_world.hpp"
+#include "world/kinematic/kinematic_world.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -19,7 +19,7 @@ TEST_F(Driving, OnAFreeFloorIsThatOfTheKinematicWorld) {
     if (kind == Kind::ackermann) body.shape = box({0.25, 0, 0}, 0.8, 0.5);  // the origin is above the rear axle
     description_.bodies = {body};
     start();
-    const auto kinematic = make_fcl_world(description_, 1);
+    const auto kinematic = make_kinematic_world(description_, 1);
     for (int k = 0; k < 600; ++k) {
       const Velocity wanted = {k < 400 ? 0.6 : 0, k % 200 < 100 ? 0.8 : -0.5, 0.2, k < 300 ? 0.3 : -0.5};
       for (World* world : {world_.get(), kinematic.get()}) {

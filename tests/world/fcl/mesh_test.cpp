@@ -9,8 +9,8 @@
 #include "tests/world/meshes.hpp"
 #include "tests/world/placements.hpp"
 #include "world/fcl/mesh_tree.hpp"
+#include "world/kinematic/start_check.hpp"
 #include "world/mesh/surfaces.hpp"
-#include "world/start_check.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -207,9 +207,9 @@ TEST(MeshWorld, BothEnginesAreOneToTheLastBit) {
     description.bodies.push_back(body);
     while (!start_overlaps(description).empty()) description.bodies.back().start = {draw(-9, 9), draw(-9, 9), 0};
   }
-  const auto fcl = make_fcl_world(description, 1);
+  const auto fcl = make_kinematic_world(description, 1);
   description.engine = Engine::slice;
-  const auto slice = make_fcl_world(description, 1);
+  const auto slice = make_kinematic_world(description, 1);
   std::uint64_t collisions = 0;
   LaserScan a, b;
   std::vector<double> sonar_a, sonar_b;

@@ -11,7 +11,7 @@
 #include "world/formats/segments.hpp"
 #include "world/formats/stage_robot.hpp"
 #include "world/formats/world_file.hpp"
-#include "world/start_check.hpp"
+#include "world/kinematic/start_check.hpp"
 
 namespace waitpoint::world {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "tests/world/meshes.hpp"
 #include "world/bullet/bullet_world.hpp"
+#include "world/kinematic/start_check.hpp"
 #include "world/mesh/surfaces.hpp"
-#include "world/start_check.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -42,7 +42,7 @@ TriangleMesh ramp(double slope) {
 
 TEST(MeshWorld, ABodyStopsAMicrometreBeforeAWallAtAnySpeed) {
   for (const double speed_m_s : {0.5, 40.0, 10'000.0}) {
-    const auto world = make_fcl_world(world_of(box_mesh({3, -1, 0}, {4, 1, 2}), disc({})), 1);
+    const auto world = make_kinematic_world(world_of(box_mesh({3, -1, 0}, {4, 1, 2}), disc({})), 1);
     world->command(only, {speed_m_s, 0});
     for (int step = 0; step < 1000 && world->body(only).collisions == 0; ++step) world->step();
     EXPECT_EQ(world->body(only).collisions, 1u);
@@ -51,7 +51,7 @@ TEST(MeshWorld, ABodyStopsAMicrometreBeforeAWallAtAnySpeed) {
 }
 
 TEST(MeshWorld, ASlopeIsMetAtTheFloorForItIsHighestBehind) {
-  const auto world = make_fcl_world(world_of(ramp(1), disc({})), 1);
+  const auto world = make_kinematic_world(world_of(ramp(1), disc({})), 1);
   world->command(only, {5, 0});
   for (int step = 0; step < 100; ++step) world->step();
   EXPECT_NEAR(world->body(only).pose.x, 1.75 - 1e-6, 2e-9);
@@ -61,7 +61,7 @@ TEST(MeshWorld, AnOverhangIsMetAtTheBodysHeight) {
   // It comes down from 3 m at x = 2 to the floor at x = 5: at the body's upper face, 1 m, it is at x = 4.
   TriangleMesh mesh;
   add_quad(mesh, {2, -2, 3}, {5, -2, 0}, {5, 2, 0}, {2, 2, 3});
-  const auto world = make_fcl_world(world_of(mesh, disc({})), 1);
+  const auto world = make_kinematic_world(world_of(mesh, disc({})), 1);
   world->command(only, {5, 0});
   for (int step = 0; step < 200; ++step) world->step();
   EXPECT_NEAR(world->body(only).pose.x, 3.75 - 1e-6, 2e-9);
@@ -71,7 +71,7 @@ TEST(MeshWorld, WhatIsAboveOrInsideIsNotInTheWay) {
   // A hall with its floor and ceiling, and a table top above the body.
   TriangleMesh mesh = box_mesh({-10, -10, 0}, {10, 10, 3});
   add_quad(mesh, {1, -1, 1}, {3, -1, 1}, {3, 1, 1}, {1, 1, 1});
-  const auto world = make_fcl_world(world_of(mesh, disc({})), 1);
+  const auto world = make_kinematic_world(world_of(mesh, disc({})), 1);
   world->command(only, {5, 0});
   for (int step = 0; step < 400; ++step) world->step();
   EXPECT_NEAR(world->body(only).pose.x, 9.75 - 1e-6, 2e-9);
@@ -80,7 +80,7 @@ TEST(MeshWorld, WhatIsAboveOrInsideIsNotInTheWay) {
 TEST(MeshWorld, ADescendingBodyStandsOnASlopeAndLeavesItAgain) {
   for (const double speed_m_s : {0.3, 500.0}) {
     // Over x = 5 the ramp is 3 m high less what the disc reaches back: its rim is over 3.25.
-    const auto world = make_fcl_world(world_of(ramp(1), flyer({4, 0, 0}, 5)), 1);
+    const auto world = make_kinematic_world(world_of(ramp(1), flyer({4, 0, 0}, 5)), 1);
     world->command(only, {0, 0, 0, -speed_m_s});
     for (int step = 0; step < 1000; ++step) world->step();
     const double touches_m = 4 + 0.25 - 2;
@@ -102,7 +102,7 @@ TEST(MeshWorld, AClimbingBodyNeverGetsThroughTriangles) {
     WorldDescription description = world_of(mesh, flyer({draw(-3, 3), draw(-3, 3), 0}, draw(0, 3)));
     if (!start_overlaps(description).empty()) continue;
     const Surfaces surfaces(description.meshes);
-    const auto world = make_fcl_world(description, 1);
+    const auto world = make_kinematic_world(description, 1);
     for (int step = 0; step < 60; ++step) {
       world->command(only, {draw(-20, 20), draw(-2, 2), 0, draw(-20, 20)});
       world->step();
@@ -123,7 +123,7 @@ TEST(MeshWorld, ABodyCannotStartOrBePutWithinReachOfATriangle) {
   EXPECT_FALSE(start_overlaps(description)[0].other_is_body);
   description.bodies[0].start = {};
   ASSERT_TRUE(start_overlaps(description).empty());
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   EXPECT_EQ(world->move_body(only, {2.8, 0, 0}), "mesh");
   EXPECT_EQ(world->move_body(only, {2.7, 0, 0}), std::nullopt);
 }
@@ -137,7 +137,7 @@ TEST(MeshWorld, SensorsSeeIt) {
     body.bumpers.emplace();
     WorldDescription description = world_of(box_mesh({3, -1, 0}, {4, 1, 2}), body);
     description.engine = engine;
-    const auto world = make_fcl_world(description, 1);
+    const auto world = make_kinematic_world(description, 1);
     EXPECT_EQ(world->bumpers(only) & 1u, 1u);
     EXPECT_EQ(world->move_body(only, {1, 0, 0}), std::nullopt);
     EXPECT_EQ(world->bumpers(only), 0u);

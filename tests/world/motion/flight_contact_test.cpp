@@ -184,7 +184,7 @@ TEST(Flight, LandsOnARobotThatDrivesOnBelowIt) {
   WorldDescription description;
   description.bodies.push_back(drone("drone", {0, 0, 0}, 3));
   description.bodies.push_back(nimble_body("robot", between(box({0, 0, 0}, 2, 2), 0, 1), {0, 0, 0}));
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   world->command(BodyId(0), {0, 0, 0, -50});
   for (int i = 0; i < 20; ++i) world->step();
   EXPECT_NEAR(world->body(BodyId(0)).height_m, 1 + 1e-6, 1e-8);
@@ -202,7 +202,7 @@ TEST(Flight, TwoMeetInTheAirAndOthersPassBelow) {
   description.bodies.push_back(drone("a", {-2, 0, 0}, 2));
   description.bodies.push_back(drone("b", {2, 0, exact::pi}, 2.1));
   description.bodies.push_back(nimble_body("robot", between(cylinder({0, 0}, 0.25), 0, 1.2), {0, -2, exact::pi / 2}));
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   world->command(BodyId(0), {7, 0});
   world->command(BodyId(1), {7, 0});
   world->command(BodyId(2), {7, 0});
@@ -217,7 +217,7 @@ TEST(Flight, APersonPutsItDownAtItsOwnHeight) {
   WorldDescription description;
   description.bodies.push_back(drone("drone", {0, 0, 0}, 2));
   description.obstacles.push_back({"desk", between(box({3, 0, 0}, 1, 1), 0, 0.75), true});
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   EXPECT_EQ(world->move_body(BodyId(0), {3, 0, 0}), std::nullopt) << "above the desk";
   EXPECT_EQ(world->put_obstacle({"shelf", between(box({3, 0, 0}, 1, 1), 0, 2.1), true}), "drone");
   EXPECT_EQ(world->body(BodyId(0)).height_m, 2);

@@ -17,7 +17,7 @@ WorldDescription facing_a_wall(double heading) {
 }
 
 TEST(Bumper, ThePanelThatMeetsTheWallIsPressedWhileItTouches) {
-  const auto world = make_fcl_world(facing_a_wall(0), 1);
+  const auto world = make_kinematic_world(facing_a_wall(0), 1);
   EXPECT_EQ(world->bumpers(BodyId(0)), 0u);
   world->command(BodyId(0), {20, 0});
   for (int i = 0; i < 5; ++i) world->step();
@@ -31,7 +31,7 @@ TEST(Bumper, ThePanelThatMeetsTheWallIsPressedWhileItTouches) {
 TEST(Bumper, PanelsLookAroundCounterClockwise) {
   const double panel_rad = 2 * exact::pi / 14;
   for (const int panel : {1, 3, 7, 11, 13}) {
-    const auto world = make_fcl_world(facing_a_wall(-panel * panel_rad + 0.1), 1);
+    const auto world = make_kinematic_world(facing_a_wall(-panel * panel_rad + 0.1), 1);
     ASSERT_EQ(world->move_body(BodyId(0), {0.7495, 0, -panel * panel_rad + 0.1}), std::nullopt);
     EXPECT_EQ(world->bumpers(BodyId(0)), 1u << panel);
   }
@@ -44,7 +44,7 @@ TEST(Bumper, TwoWallsPressTwoPanelsAndOnlyWhatIsAsHigh) {
   low.z_high_m = 0.05;
   description.obstacles.push_back({"sill", low, true});
   description.bodies[0].shape.z_low_m = 0.06;
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   ASSERT_EQ(world->move_body(BodyId(0), {0.7495, 0.7495, 0.1}), std::nullopt);
   EXPECT_EQ(world->bumpers(BodyId(0)), 1u << 0 | 1u << 3);
   ASSERT_EQ(world->move_body(BodyId(0), {0, -0.7495, 0.1}), std::nullopt);
@@ -54,7 +54,7 @@ TEST(Bumper, TwoWallsPressTwoPanelsAndOnlyWhatIsAsHigh) {
 TEST(Bumper, AnotherRobotPressesToo) {
   WorldDescription description = facing_a_wall(0);
   description.bodies.push_back(nimble_body("other", box({0, 0, 0}, 0.5, 0.5), {-0.5005, 0, 0}));
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   EXPECT_EQ(world->bumpers(BodyId(0)), 1u << 7);
   EXPECT_EQ(world->bumpers(BodyId(1)), 0u) << "which has no bumper";
 }

@@ -48,7 +48,7 @@ TEST(Imu, MeasuresTurnAccelerationAndWhatACurveAndGravityTake) {
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
   description.bodies[0].base.v_acceleration_m_s2 = 2;
   description.bodies[0].imu = ImuDescription{};
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   EXPECT_EQ(world->imu(BodyId(0)).number, 0u);
   world->command(BodyId(0), {0.5, 0});
   world->step();

@@ -59,7 +59,7 @@ TEST(Infrared, ARingLooksAroundCounterClockwiseAtItsHeight) {
   std::vector<double> slice_v, volts;
   for (const Engine engine : {Engine::slice, Engine::fcl}) {
     description.engine = engine;
-    make_fcl_world(description, 1)->infrareds(BodyId(0), 1, volts);
+    make_kinematic_world(description, 1)->infrareds(BodyId(0), 1, volts);
     ASSERT_EQ(volts.size(), 24u);
     if (engine == Engine::slice) slice_v = volts;
   }

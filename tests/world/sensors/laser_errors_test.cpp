@@ -30,7 +30,7 @@ WorldDescription world_of(const std::vector<Shape>& shapes, const LaserDescripti
 }
 
 std::vector<double> ranges_of(const std::vector<Shape>& shapes, const LaserDescription& laser, int scans) {
-  const auto world = make_fcl_world(world_of(shapes, laser), 1);
+  const auto world = make_kinematic_world(world_of(shapes, laser), 1);
   std::vector<double> ranges;
   LaserScan scan;
   for (int i = 1; i <= scans; ++i) {
@@ -115,7 +115,7 @@ TEST(LaserErrors, TheBiasOfAColdDeviceFadesExponentially) {
   laser.range_bias_m = 0.002;
   laser.warm_up_bias_m = 0.02;
   laser.warm_up_s = 0.5;
-  const auto world = make_fcl_world(world_of({wall}, laser), 1);
+  const auto world = make_kinematic_world(world_of({wall}, laser), 1);
   LaserScan scan;
   for (int step = 0; step <= 200; ++step) {
     world->scan(BodyId(0), 0, 1, scan);

@@ -75,7 +75,7 @@ struct Ride {
       description.obstacles.push_back({numbered("o", description.obstacles.size()), shape, true});
     description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0.3, -0.2, 0.7}));
     description.bodies[0].lasers.push_back(laser);
-    world = make_fcl_world(description, 1);
+    world = make_kinematic_world(description, 1);
     world->command(BodyId(0), velocity);
     for (int i = 0; i < steps; ++i) world->step();
     world->scan(BodyId(0), 0, 1, scan);

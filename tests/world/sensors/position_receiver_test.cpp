@@ -33,7 +33,7 @@ TEST(PositionReceiver, IsRightUpToItsResolutionWithoutKeysAndGivesItsAntennaAtIt
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {2, 3, exact::pi / 2}));
   description.bodies[0].gps =
       PositionReceiverDescription{.antenna = {0.3, 0.1}, .period = std::chrono::milliseconds(500)};
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   for (int i = 1; i <= 49; ++i) world->step();
   EXPECT_EQ(world->position_fix(BodyId(0)).number, 0u);
   world->step();

@@ -27,7 +27,7 @@ double range(const std::vector<Shape>& shapes, double heading, const SonarRingDe
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, heading}));
   description.bodies[0].sonars.push_back(ring);
   std::vector<double> ranges;
-  make_fcl_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
+  make_kinematic_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
   return ranges.at(0);
 }
 
@@ -93,7 +93,7 @@ TEST(Sonar, ARingLooksAroundCounterClockwise) {
   ring.range_noise_relative = 0;
   description.bodies[0].sonars.push_back(ring);
   std::vector<double> ranges;
-  make_fcl_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
+  make_kinematic_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
   ASSERT_EQ(ranges.size(), 24u);
   for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(ranges[i] == 3, i != 6) << i;
   EXPECT_NEAR(ranges[6], 1.75, 1e-9);
@@ -114,7 +114,7 @@ std::unique_ptr<World> among_things(const std::vector<SonarRingDescription>& rin
     description.obstacles.push_back({numbered("o", description.obstacles.size()), shape, true});
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
   description.bodies[0].sonars = rings;
-  return make_fcl_world(description, 1);
+  return make_kinematic_world(description, 1);
 }
 
 TEST(Sonar, BanksFireOneMemberEachInTheOrderGiven) {

@@ -30,7 +30,7 @@ std::vector<double> readings(WorldDescription description, const Pose& at, Engin
   description.engine = engine;
   description.bodies = {body};
   std::vector<double> ranges;
-  make_fcl_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
+  make_kinematic_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
   return ranges;
 }
 
@@ -95,7 +95,7 @@ TEST(SurfaceCorners, AWallOfManyTrianglesHasEdgesAtItsEndsOnly) {
   ring.ring_radius_m = 0;
   body.sonars = {ring};
   wall.bodies = {body};
-  const auto world = make_fcl_world(wall, 1);
+  const auto world = make_kinematic_world(wall, 1);
   std::vector<double> ranges;
   const auto read = [&](double x, double heading) {
     world->move_body(BodyId(0), {x, 0, heading});

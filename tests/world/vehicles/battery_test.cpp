@@ -101,7 +101,7 @@ WorldDescription short_drive(BaseDescription::Kind kind) {
 }
 
 TEST(Battery, WithoutItABaseBrakesToStandStillAndHearsNoCommand) {
-  const auto world = make_fcl_world(short_drive(BaseDescription::Kind::synchro), 1);
+  const auto world = make_kinematic_world(short_drive(BaseDescription::Kind::synchro), 1);
   for (int i = 0; i < 200; ++i) {
     world->command(BodyId(0), {0.5, 0});
     world->step();
@@ -120,7 +120,7 @@ TEST(Battery, WithoutItABaseBrakesToStandStillAndHearsNoCommand) {
 }
 
 TEST(Battery, WithoutItWhatFliesSinksToTheFloor) {
-  const auto world = make_fcl_world(short_drive(BaseDescription::Kind::aerial), 1);
+  const auto world = make_kinematic_world(short_drive(BaseDescription::Kind::aerial), 1);
   for (int i = 0; i < 200; ++i) world->step();
   EXPECT_EQ(world->body(BodyId(0)).height_m, 1);
   for (int i = 0; i < 300; ++i) world->step();

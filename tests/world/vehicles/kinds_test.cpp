@@ -26,7 +26,7 @@ BodyDescription body_on(Kind kind) {
 std::unique_ptr<World> world_of(const BodyDescription& body) {
   WorldDescription description;
   description.bodies.push_back(body);
-  return make_fcl_world(description, 1);
+  return make_kinematic_world(description, 1);
 }
 
 void drive(World& world, const Velocity& velocity, int steps) {
@@ -208,7 +208,7 @@ TEST(AerialBase, SeesWhatIsAtItsHeight) {
     description.bodies[1].lasers.push_back(perfect_laser(0.2));
     description.obstacles.push_back({"desk", box({3, 0, 0}, 1, 4), true});
     description.obstacles[0].shape.z_high_m = 0.75;
-    const auto world = make_fcl_world(description, 1);
+    const auto world = make_kinematic_world(description, 1);
     const auto ahead = [&](BodyId id) {
       LaserScan scan;
       world->scan(id, 0, 1, scan);
@@ -310,7 +310,7 @@ TEST_P(EveryBase, NoSpeedPassesAWallThinnerThanAStep) {
     WorldDescription description;
     description.obstacles.push_back({"wall", box({2.0005, 0, 0}, 0.001, 10), true});
     description.bodies.push_back(body_on(GetParam()));
-    const auto world = make_fcl_world(description, 1);
+    const auto world = make_kinematic_world(description, 1);
     drive(*world, {speed, 0}, 600);
     EXPECT_NEAR(world->body(robot).pose.x, 1.75 - 1e-6, 1e-8) << speed;
     EXPECT_TRUE(world->body(robot).stalled);

@@ -49,7 +49,7 @@ Pose return_position(const OdometryErrors& errors, double sense) {
   WorldDescription description;
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
   description.bodies[0].base.odometry = errors;
-  const auto world = make_fcl_world(description, 1);
+  const auto world = make_kinematic_world(description, 1);
   DeadReckoning reckoning(errors);
   const auto drive = [&](Velocity velocity, int steps) {
     world->command(BodyId(0), velocity);

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/run/assembly.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/number_text.hpp"
+#include "modules/run/known_map.hpp"
+#include "modules/scenario/scenario_checks.hpp"
+#include "world/bullet/bullet_world.hpp"
+#include "world/kinematic/kinematic_world.hpp"
+#include "world/planar/outline.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+GoalPlace place_on(const OccupancyGrid& map, Point goal) {
+  const std::optional<CellIndex> cell = map.cell_at(goal);
+  if (!cell || map[*cell] == Cell::unknown) return GoalPlace::outside_map;
+  return map[*cell] == Cell::occupied ? GoalPlace::inside_obstacle : GoalPlace::free;
+}
+
+/// Of each robot; those that are as high as another share its map.
+class KnownMaps {
+ public:
+  KnownMaps(const Scenario& scenario, const world::WorldFile* file) : scenario_(scenario), file_(file) {}
+
+  std::shared_ptr<const executive::KnownSpace> of(const RobotScenario& robot) {
+    const world::Shape shape = raised(robot.body.shape, robot.body.start_height_m);
+    const std::pair heights(shape.z_low_m, shape.z_high_m);
+    auto& map = maps_[heights];
+    if (map == nullptr) map = std::make_shared<const executive::KnownSpace>(known_map(scenario_, file_, robot));
+    return map;
+  }
+
+ private:
+  const Scenario& scenario_;
+  const world::WorldFile* file_;
+  std::map<std::pair<double, double>, std::shared_ptr<const executive::KnownSpace>> maps_;
+};
+
+}  // namespace
+
+Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
+                   std::uint64_t seed)
+    : scenario_(scenario) {
+  world::WorldDescription description = scenario.world_without_map();
+  std::shared_ptr<const world::WorldFile> file;
+  if (scenario.map) {
+    file = load(*scenario.map);
+    description.obstacles.insert(description.obstacles.end(), file->obstacles.begin(), file->obstacles.end());
+    description.meshes.insert(description.meshes.end(), file->meshes.begin(), file->meshes.end());
+  }
+  KnownMaps maps(scenario, file.get());
+  check_goals(scenario, [&](const RobotScenario& robot, Point goal) { return place_on(maps.of(robot)->map(), goal); });
+  check_starts(scenario, world::start_overlaps(description));
+  make_world(description, seed);
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+    robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
+                                              world::BodyId(i), network, seed));
+  warnings_.insert(warnings_.end(), scenario.warnings.begin(), scenario.warnings.end());
+  // Robots of one type have one file.
+  for (const RobotScenario& robot : scenario.robots)
+    for (const std::string& warning : robot.warnings)
+      if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
+  check_step();
+}
+
+std::shared_ptr<const world::WorldFile> Assembly::load(MapFile map) {
+  map.read();
+  const world::WorldFile& file = *map.contents;
+  if (map.height_m && file.has_heights)
+    throw map.written.bad("expected no height_m: '" + map.file.string() + "' says how high things are");
+  warnings_ = file.warnings;
+  if (const std::size_t left_out = file.bodies.size() - map.robots_taken; left_out > 0)
+    warnings_.push_back(
+        map.file.string() + ": " + counted(left_out, "robot") + " of the file left out: " +
+        (map.robots_taken == 0 ? "the robots are the scenario's" : "robots_from_map has no row for them"));
+  return map.contents;
+}
+
+void Assembly::make_world(const world::WorldDescription& description, std::uint64_t seed) {
+  if (scenario_.engine == world::Engine::bullet) {
+    check_dynamic(scenario_, world::loose_overlaps(description));
+    world_ = world::make_bullet_world(description, seed);
+    if (world_ == nullptr)
+      throw scenario_.engine_written.bad(
+          "engine bullet is not in this program: install libbullet-dev (Bullet in double precision) and build it "
+          "again");
+    return;
+  }
+  const auto loose = std::count_if(description.obstacles.begin(), description.obstacles.end(),
+                                   [](const world::Obstacle& obstacle) { return obstacle.loose(); });
+  if (loose > 0)
+    warnings_.push_back(counted(static_cast<std::size_t>(loose), "shape") +
+                        " with mass_kg taken to stand fast: only engine bullet lets things be pushed");
+  world_ = world::make_kinematic_world(description, seed);
+}
+
+// A coarse step is a legitimate choice, but rarely meant.
+void Assembly::check_step() {
+  const Robot* quickest = nullptr;
+  std::size_t quicker = 0;
+  for (const auto& robot : robots_) {
+    const std::optional<Duration> least = robot->least_period();
+    if (!least || scenario_.step <= *least) continue;
+    ++quicker;
+    if (quickest == nullptr || *least < *quickest->least_period()) quickest = robot.get();
+  }
+  if (quickest == nullptr) return;
+  const std::string others = quicker == 1 ? "" : ", and of " + counted(quicker - 1, "other robot");
+  warnings_.push_back("the world's step of " + to_string(scenario_.step) + " s exceeds the least period of " +
+                      quickest->name() + "'s software, " + to_string(*quickest->least_period()) + " s" + others);
+}
+
+std::size_t Assembly::goals_reached() const {
+  std::size_t count = 0;
+  for (const auto& robot : robots_) count += robot->goals_reached();
+  return count;
+}
+
+std::size_t Assembly::goals() const {
+  std::size_t count = 0;
+  for (const auto& robot : robots_) count += robot->goals();
+  return count;
+}
+
+RunResult Assembly::result() const {
+  RunResult result;
+  result.scenario = scenario_.name;
+  result.warnings = warnings_;
+  for (const auto& robot : robots_) result.robots.push_back(robot->result());
+  return result;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run can be stopped at: a comparison of a robot's figure with a number.
+//
+//   rackham.goals >= 2      figures: goals (reached), collisions, travelled_m, x_m, y_m, stalled (0 or 1)
+//   rackham.x_m < 12.5      comparisons: < <= == >= >
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/location.hpp"
+
+namespace waitpoint::bridge {
+
+/// Whether it holds now. It only looks, and may be asked after every event.
+using Condition = std::function<bool()>;
+
+/// Throws BadInput at `written` for what is no condition on this experiment, which must outlive the condition.
+Condition parse_condition(std::string_view text, const Experiment& experiment, const Location& written);
+
+}  // namespace waitpoint::bridge

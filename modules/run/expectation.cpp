@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/run/expectation.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace waitpoint::bridge {
+namespace {
+
+std::string goals_text(const RunTotals& sum) {
+  return fmt::format("{} of {} goals reached", sum.goals_reached, sum.goals);
+}
+
+// With so many digits, three at least, that it is not the same as `limit`, which it exceeds.
+std::string greater_text(double value, double limit) {
+  for (int digits = 3; digits < std::numeric_limits<double>::max_digits10; ++digits)
+    if (std::string text = fmt::format("{:.{}g}", value, digits); text != fmt::format("{:.{}g}", limit, digits))
+      return text;
+  return fmt::format("{}", value);
+}
+
+}  // namespace
+
+std::vector<std::string> broken(const Expectation& expect, const RunTotals& figures) {
+  std::vector<std::string> lines;
+  if (expect.goals_reached && figures.goals_reached > *expect.goals_reached)
+    lines.push_back(goals_text(figures) + ", expected " + std::to_string(*expect.goals_reached));
+  if (expect.collisions && figures.collisions > *expect.collisions)
+    lines.push_back(fmt::format("{} collisions, expected {}", figures.collisions, *expect.collisions));
+  if (expect.position_error_max_m && !(figures.position_error_max_m <= *expect.position_error_max_m))
+    lines.push_back(fmt::format("position error of {} m, expected at most {:g} m",
+                                greater_text(figures.position_error_max_m, *expect.position_error_max_m),
+                                *expect.position_error_max_m));
+  return lines;
+}
+
+std::vector<std::string> unmet(const Expectation& expect, const RunResult& result) {
+  std::vector<std::string> lines;
+  const RunTotals sum = totals(result);
+  if (result.outcome == Outcome::deadlock) lines.push_back("the run ended in a deadlock");
+  if (result.outcome == Outcome::no_progress) lines.push_back("the run made no progress");
+  if (expect.all_goals_reached && sum.goals_reached != sum.goals) lines.push_back(goals_text(sum) + ", expected all");
+  if (expect.goals_reached && sum.goals_reached < *expect.goals_reached)
+    lines.push_back(goals_text(sum) + ", expected " + std::to_string(*expect.goals_reached));
+  if (expect.collisions && sum.collisions < *expect.collisions)
+    lines.push_back(fmt::format("{} collisions, expected {}", sum.collisions, *expect.collisions));
+  for (std::string& line : broken(expect, sum)) lines.push_back(std::move(line));
+  return lines;
+}
+
+}  // namespace waitpoint::bridge

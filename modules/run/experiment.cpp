@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/run/experiment.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "fibers/sync/thread.hpp"
+#include "fibers/sync/threads.hpp"
+#include "modules/run/heap_pages.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+// Of so many robots the processor does not find the memory on small pages.
+constexpr std::size_t crowd = 200;
+
+Outcome outcome_of(RunEnd end) {
+  switch (end) {
+    case RunEnd::time_reached: return Outcome::time_limit;
+    case RunEnd::ended: return Outcome::finished;
+    case RunEnd::deadlock: return Outcome::deadlock;
+    case RunEnd::no_progress: return Outcome::no_progress;
+  }
+  return Outcome::time_limit;
+}
+
+}  // namespace
+
+namespace {
+
+constexpr std::uint64_t loose_state = 0x6C6F6F7365;  // "loose"
+
+/// In the explored order, until somebody else decides.
+class FirstInFirstOut final : public kernel::Decisions {
+  std::uint32_t next(kernel::Task* const*, std::uint32_t) override { return 0; }
+  std::uint32_t among(kernel::Choice, const kernel::Task&, std::uint32_t) override { return 0; }
+  Duration computing(const kernel::Task&, Duration, Duration greatest) override { return greatest; }
+};
+
+void decide_in_the_explored_order(kernel::Scheduler& scheduler) {
+  static FirstInFirstOut usual;  // it has no state
+  scheduler.set_decisions(usual);
+}
+
+/// Asks after each event whether it is enough, beside the watch that there is.
+class PauseWatch : private kernel::Watch {
+ public:
+  PauseWatch(kernel::Scheduler& scheduler, const std::function<bool(const kernel::EventRecord&)>& enough)
+      : Watch{&PauseWatch::see}, scheduler_(scheduler), other_(scheduler.watch()), enough_(enough) {
+    scheduler_.set_watch(this);
+  }
+  ~PauseWatch() { scheduler_.set_watch(other_); }
+  PauseWatch(const PauseWatch&) = delete;
+  PauseWatch& operator=(const PauseWatch&) = delete;
+
+  bool paused() const { return paused_; }
+
+ private:
+  static void see(kernel::Watch& watch, const kernel::EventRecord& record) {
+    PauseWatch& self = static_cast<PauseWatch&>(watch);
+    if (self.other_ != nullptr) self.other_->event(*self.other_, record);
+    if (self.paused_ || !self.enough_(record)) return;
+    self.paused_ = true;
+    self.scheduler_.pause();
+  }
+
+  kernel::Scheduler& scheduler_;
+  kernel::Watch* other_;
+  const std::function<bool(const kernel::EventRecord&)>& enough_;
+  bool paused_ = false;
+};
+
+}  // namespace
+
+Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
+                       const ExperimentOptions& options)
+    : options_(options), simulation_({options.order, options.seed, options.replay}) {
+  if (options.order == kernel::Order::explored) decide_in_the_explored_order(simulation_.scheduler());
+  make_network(scenario);
+  assembly_.emplace(scenario, types, &*network_, options.seed);
+  operator_.emplace(assembly_->world(), robots(), lanes_);
+  simulation_.spawn(
+      simulation_.environment(),
+      {.name = "world", .stack = kernel::StackSize::large, .phase = kernel::Phase::world, .service = true},
+      [this] { run_world(); });
+  for (const auto& robot : robots()) spawn(*robot);
+  if (scenario.medium) programs_.set_network(*network_);
+  for (std::size_t i = 0; i < lanes_.size(); ++i)
+    for (const ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
+  if (robots().size() >= crowd) put_heap_on_large_pages();
+}
+
+void Experiment::unwind() {
+  programs_.take_away();
+  simulation_.unwind();
+}
+
+// Distances are those of the true positions at the last step of the world.
+void Experiment::make_network(const Scenario& scenario) {
+  network_.emplace(simulation_);
+  if (scenario.medium) network_->declare(*scenario.medium);
+  network_->set_distance([this](const std::string& from, const std::string& to) {
+    const world::BodyState* const a = body_of(from);
+    const world::BodyState* const b = body_of(to);
+    // The environment's tasks are nowhere.
+    if (a == nullptr || b == nullptr) return 0.0;
+    const double over = length(b->pose.position() - a->pose.position()), higher = b->height_m - a->height_m;
+    return higher == 0 ? over : exact::hypot(over, higher);
+  });
+}
+
+const world::BodyState* Experiment::body_of(const std::string& robot) const {
+  for (std::size_t i = 0; i < robots().size(); ++i)
+    if (robots()[i]->name() == robot) return &world().body(world::BodyId(i));
+  return nullptr;
+}
+
+// A robot with goals is alive until its executive ends; one without does not keep the run alive.
+void Experiment::spawn(Robot& robot) {
+  kernel::Robot& lane = simulation_.add_robot(robot.name());
+  lanes_.push_back(&lane);
+  simulation_.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true},
+                    [&robot] { robot.bridge().run(); });
+  const genom::TaskComputing& computing = robot.computing();
+  sync::start_thread(simulation_.scheduler(), lane,
+                     {.name = "executive", .stack = kernel::StackSize::large, .service = robot.goals() == 0},
+                     sync::make_call([&robot] { robot.run(); }), {computing.clock, computing.on, computing.priority});
+}
+
+void Experiment::run_world() {
+  for (std::int64_t k = 1;; ++k) {
+    this_thread::sleep_until(Time() + assembly_->scenario().step * k);
+    operator_->act(now());
+    assembly_->world().step();
+    for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
+    constexpr std::size_t ahead = 6;  // of crowds little is in the cache
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      if (i + 2 * ahead < lanes_.size()) robots()[i + 2 * ahead]->fetch_evaluation();
+      if (i + ahead < lanes_.size()) robots()[i + ahead]->fetch_path();
+      if (!lanes_[i]->ended) robots()[i]->observe(now());
+      robots()[i]->bridge().stepped();
+    }
+    if (observer_) observer_(now());
+  }
+}
+
+RunEnd Experiment::run_before(Time until) {
+  paused_ = false;
+  try {
+    end_ = simulation_.run_before(until);
+  } catch (const BadInput&) {
+    throw;
+  } catch (...) {
+    throw std::runtime_error(simulation_.trouble());
+  }
+  return end_;
+}
+
+RunEnd Experiment::run_before(Time until, const std::function<bool(const kernel::EventRecord&)>& enough) {
+  kernel::Scheduler& scheduler = simulation_.scheduler();
+  PauseWatch watch(scheduler, enough);
+  const RunEnd end = run_before(until);
+  paused_ = watch.paused() && end == RunEnd::time_reached;
+  return end;
+}
+
+Time Experiment::intervene(Intervention intervention, std::optional<Time> date) {
+  const Duration step = assembly_->scenario().step;
+  const Time next = Time() + step * static_cast<std::int64_t>(world().steps() + 1);
+  if (date && *date < next)
+    throw intervention.written.bad(to_string(*date) + " s is past: the world's next step is at " + to_string(next) +
+                                   " s");
+  const std::int64_t steps = date ? (date->since_start() + step - Duration::from_ns(1)) / step : 0;
+  const Time at = date ? Time() + step * steps : next;
+  operator_->add(at, std::move(intervention));
+  return at;
+}
+
+RunTotals Experiment::figures() const {
+  RunTotals sum;
+  sum.goals = goals();
+  sum.goals_reached = goals_reached();
+  for (std::size_t i = 0; i < robots().size(); ++i) {
+    sum.collisions += world().body(world::BodyId(i)).collisions;
+    sum.position_error_max_m = std::max(sum.position_error_max_m, robots()[i]->position_error_max_m());
+  }
+  return sum;
+}
+
+RunResult Experiment::result() const {
+  RunResult result = assembly_->result();
+  result.seed = options_.seed;
+  result.digest = simulation_.digest();
+  result.environment_digest = simulation_.environment().digest.digest();
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    RobotResult& robot = result.robots[i];
+    robot.digest = lanes_[i]->digest.digest();
+    const std::vector<std::optional<int>> statuses = programs_.exit_statuses(*lanes_[i]);
+    for (std::size_t k = 0; k < statuses.size(); ++k)
+      robot.programs.push_back({assembly_->scenario().robots[i].programs[k].name, statuses[k]});
+  }
+  result.events = simulation_.scheduler().events();
+  result.trouble = simulation_.trouble();
+  result.outcome = outcome_of(end_);
+  return result;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/run/heap_pages.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+namespace waitpoint::bridge {
+namespace {
+
+// MADV_COLLAPSE, which the C library's headers have since 2.37.
+constexpr int collapse = 25;
+
+// It would not ask whether they are wanted.
+bool are_large_pages_wanted() {
+  std::string words;
+  std::getline(std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"), words);
+  return words.find("[madvise]") != std::string::npos || words.find("[always]") != std::string::npos;
+}
+
+// The heap comes before the stacks, of which there may be a million. Null without one.
+char* begin_of_heap() {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);)
+    if (line.ends_with("[heap]")) return reinterpret_cast<char*>(std::strtoull(line.c_str(), nullptr, 16));
+  return nullptr;
+}
+
+}  // namespace
+
+void put_heap_on_large_pages() {
+  if (!are_large_pages_wanted()) return;
+  char* const begin = begin_of_heap();
+  char* const end = static_cast<char*>(sbrk(0));
+  if (begin != nullptr && begin < end) madvise(begin, static_cast<std::size_t>(end - begin), collapse);
+}
+
+}  // namespace waitpoint::bridge

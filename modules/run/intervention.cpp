@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/run/intervention.hpp"
+
+#include <algorithm>
+
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
+#include "modules/scenario/shape_reader.hpp"
+#include "modules/scenario/words.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+constexpr double height_default_m = 2;
+
+using What = decltype(Intervention::what);
+
+std::string require(std::string_view& text, const char* expected, const Location& written) {
+  std::string word = take_word(text, written);
+  if (word.empty()) throw written.bad(std::string("expected ") + expected);
+  return word;
+}
+
+// As the poses of a scenario.
+Pose require_pose(std::string_view& text, const Location& written) {
+  std::string list = "[";
+  for (int i = 0; i < 3; ++i) {
+    const std::string word = take_word(text, written);
+    if (i == 2 && word.empty()) break;
+    double number = 0;
+    if (!parse_number(word, number)) throw written.bad("expected a place, X Y [HEADING_DEG], found '" + word + "'");
+    list += (i == 0 ? "" : ", ") + word;
+  }
+  require_end(text, written);
+  return read_pose(parse_yaml(list + "]", written.text(), false), "the place");
+}
+
+What parse_request(std::string_view text, const Location& written) {
+  ModuleRequest request;
+  request.robot = require(text, "a robot", written);
+  request.module = require(text, "a module", written);
+  request.request = require(text, "a request", written);
+  for (std::string word = take_word(text, written); !word.empty(); word = take_word(text, written)) {
+    const std::size_t equals = word.find('=');
+    if (equals == 0 || equals == std::string::npos) throw written.bad("expected FIELD=VALUE, found '" + word + "'");
+    Setting setting{word.substr(0, equals), word.substr(equals + 1), written.file, written.line};
+    const auto same = [&](const Setting& other) { return other.key == setting.key; };
+    if (std::any_of(request.arguments.begin(), request.arguments.end(), same))
+      throw written.bad("'" + setting.key + "' is given twice");
+    request.arguments.push_back(std::move(setting));
+  }
+  return request;
+}
+
+What parse_move(std::string_view text, const Location& written) {
+  std::string robot = require(text, "a robot", written);
+  return RobotMove{std::move(robot), require_pose(text, written)};
+}
+
+What parse_obstacle(std::string_view text, const Location& written) {
+  const YamlNode node = parse_yaml(std::string(trimmed(text)), written.text(), false);
+  if (name_of(node).empty()) throw written.bad("expected {name: ..., ...}, a shape with a name");
+  return ObstaclePut{read_obstacle(node, height_default_m, 1)};
+}
+
+What parse_obstacle_move(std::string_view text, const Location& written) {
+  std::string name = require(text, "an obstacle", written);
+  return ObstacleMove{std::move(name), require_pose(text, written)};
+}
+
+What parse_removal(std::string_view text, const Location& written) {
+  ObstacleRemoval removal{require(text, "an obstacle", written)};
+  require_end(text, written);
+  return removal;
+}
+
+// At most a day: a force is something that a person does.
+constexpr double force_n_max = 1e6, time_s_max = 86400;
+
+What parse_push(std::string_view text, const Location& written) {
+  Push push{require(text, "a robot or an obstacle", written), {}, {}};
+  const auto number = [&](const char* expected, double low, double high) {
+    const std::string word = take_word(text, written);
+    double value = 0;
+    if (!parse_number(word, value) || value < low || value > high)
+      throw written.bad(std::string("expected ") + expected + ", found '" + word + "'");
+    return value;
+  };
+  push.force_n.x = number("a force, FX_N FY_N, within 1000000 N", -force_n_max, force_n_max);
+  push.force_n.y = number("a force, FX_N FY_N, within 1000000 N", -force_n_max, force_n_max);
+  push.time = Duration::from_seconds(number("a time in seconds, at most 86400", 0, time_s_max));
+  require_end(text, written);
+  return push;
+}
+
+struct Verb {
+  std::string_view name;
+  What (*parse)(std::string_view text, const Location& written);
+};
+
+constexpr Verb verbs[] = {{"request", parse_request},         {"move", parse_move},
+                          {"obstacle", parse_obstacle},       {"move-obstacle", parse_obstacle_move},
+                          {"remove-obstacle", parse_removal}, {"push", parse_push}};
+
+}  // namespace
+
+std::vector<std::string_view> intervention_verbs() {
+  std::vector<std::string_view> names;
+  for (const Verb& verb : verbs) names.push_back(verb.name);
+  return names;
+}
+
+Intervention parse_intervention(std::string_view text, const Location& written) {
+  // It is a line of a journal.
+  if (trimmed(text).find('\n') != std::string_view::npos) throw written.bad("expected one line");
+  std::string_view rest = text;
+  const std::string word = take_word(rest, written);
+  for (const Verb& verb : verbs)
+    if (verb.name == word) return {std::string(trimmed(text)), written, verb.parse(rest, written)};
+  const std::string hint = did_you_mean(word, intervention_verbs());
+  throw written.bad(
+      "unknown intervention '" + word + "'" +
+      (hint.empty() ? ", expected request, move, obstacle, move-obstacle, remove-obstacle or push" : hint));
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/run/journal.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "core/number_text.hpp"
+#include "modules/scenario/words.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+constexpr std::string_view first_line = "waitpoint journal 1";
+constexpr std::size_t decimals = 9;
+constexpr std::size_t seconds_digits_max = 9;
+
+const char* name(kernel::Order order) { return order == kernel::Order::seeded ? "seeded" : "fifo"; }
+
+/// A line of what may be any file at all, fit to be shown.
+std::string shown(std::string_view line) {
+  constexpr std::size_t letters_max = 60;
+  std::string text(line.substr(0, letters_max));
+  for (char& letter : text)
+    if (letter < ' ' || letter > '~') letter = '?';
+  return line.size() > letters_max ? text + "..." : text;
+}
+
+/// The lines of a file, each with its number.
+class Lines {
+ public:
+  explicit Lines(const std::filesystem::path& file) : at_{file.string(), 0} {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(file)) throw at_.bad("cannot be read");
+    text_.assign(std::istreambuf_iterator<char>(stream), {});
+    rest_ = text_;
+  }
+
+  /// False at the end. A last line without its newline was cut off.
+  bool next(std::string_view& line) {
+    if (rest_.empty()) return false;
+    ++at_.line;
+    const std::size_t end = rest_.find('\n');
+    if (end == std::string_view::npos) throw at_.bad("the journal ends within this line");
+    line = rest_.substr(0, end);
+    rest_.remove_prefix(end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return true;
+  }
+  void expect(std::string_view expected, const std::string& otherwise) {
+    std::string_view line;
+    if (!next(line))
+      throw Location{at_.file, at_.line + 1}.bad("the journal ends early, expected '" + std::string(expected) + "'");
+    if (line != expected)
+      throw at_.bad(otherwise + ": expected '" + std::string(expected) + "', found '" + shown(line) + "'");
+  }
+  const Location& at() const { return at_; }
+
+ private:
+  Location at_;
+  std::string text_;
+  std::string_view rest_;
+};
+
+Time require_time(std::string_view& line, const Location& at) {
+  const std::string word = take_word(line, at);
+  const std::optional<Time> time = parse_time(word);
+  if (!time) throw at.bad("expected a time in seconds, found '" + word + "'");
+  return *time;
+}
+
+JournalEnd read_end(std::string_view line, const Location& at) {
+  JournalEnd end;
+  end.time = require_time(line, at);
+  const std::string after = take_word(line, at), events = take_word(line, at), unit = take_word(line, at);
+  end.digest = take_word(line, at);
+  if (after != "after" || unit != "events" || !parse_number(events, end.events) || end.digest.empty() ||
+      !take_word(line, at).empty())
+    throw at.bad("expected 'end TIME after N events DIGEST'");
+  return end;
+}
+
+std::string scenario_line(const JournalHead& head) {
+  std::string name = head.scenario;
+  std::replace(name.begin(), name.end(), '\n', ' ');
+  return "scenario " + name + " " + to_string(head.fingerprint);
+}
+
+}  // namespace
+
+JournalHead journal_head(const Scenario& scenario, std::uint64_t seed, kernel::Order order) {
+  return {scenario.name, Digest(scenario.fingerprint), seed, order};
+}
+
+std::string to_text(const JournalHead& head) {
+  return std::string(first_line) + "\n" + scenario_line(head) + "\nseed " + std::to_string(head.seed) + "\norder " +
+         name(head.order) + "\n";
+}
+
+std::string to_text(Time date, const Intervention& intervention) {
+  return "at " + to_string(date) + " " + intervention.text + "\n";
+}
+
+std::string to_text(const JournalEnd& end) {
+  return "end " + to_string(end.time) + " after " + std::to_string(end.events) + " events " + end.digest + "\n";
+}
+
+Journal read_journal(const std::filesystem::path& file, const JournalHead& head) {
+  Lines lines(file);
+  lines.expect(first_line, "this is no journal");
+  lines.expect(scenario_line(head), "the journal of another scenario");
+  lines.expect("seed " + std::to_string(head.seed), "the journal of another seed");
+  lines.expect(std::string("order ") + name(head.order), "the journal of another order");
+  Journal journal;
+  std::string_view line;
+  while (lines.next(line)) {
+    if (journal.end) throw lines.at().bad("nothing may follow the end");
+    const std::string word = take_word(line, lines.at());
+    if (word == "end") {
+      journal.end = read_end(line, lines.at());
+    } else if (word == "at") {
+      const Time date = require_time(line, lines.at());
+      journal.interventions.push_back({date, parse_intervention(line, lines.at())});
+    } else {
+      throw lines.at().bad("expected 'at' or 'end', found '" + word + "'");
+    }
+  }
+  return journal;
+}
+
+std::optional<Time> parse_time(std::string_view text) {
+  const std::size_t dot = std::min(text.find('.'), text.size());
+  const std::string_view whole = text.substr(0, dot), part = text.substr(std::min(dot + 1, text.size()));
+  constexpr std::string_view digits = "0123456789";
+  if (whole.empty() || whole.size() > seconds_digits_max || part.size() > decimals ||
+      (dot < text.size() && part.empty()) || whole.find_first_not_of(digits) != std::string_view::npos ||
+      part.find_first_not_of(digits) != std::string_view::npos)
+    return std::nullopt;
+  std::int64_t ns = 0;
+  const std::string all = std::string(whole) + std::string(part) + std::string(decimals - part.size(), '0');
+  if (!parse_number(all, ns)) return std::nullopt;
+  return Time::from_ns(ns);
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/run/operator.hpp"
+
+#include <algorithm>
+
+#include "core/nearest_name.hpp"
+#include "fibers/sync/thread.hpp"
+#include "modules/genom/client.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+constexpr std::uint64_t by_the_operator = 0x6F70657261746F72;  // "operator"
+
+std::string placed(const std::optional<std::string>& in_the_way) {
+  return in_the_way ? "refused, '" + *in_the_way + "' is in the way" : "done";
+}
+
+std::string no_obstacle(const std::string& name) { return "refused, there is no obstacle '" + name + "'"; }
+
+std::string text_of(genom::Report report) {
+  const std::string text = genom::name(report);
+  return text == "own report" ? text + " " + std::to_string(genom::code_of(report)) : text;
+}
+
+[[noreturn]] void unknown(const Location& written, const std::string& what, const std::string& name,
+                          const std::vector<std::string_view>& known) {
+  throw written.bad("there is no " + what + " '" + name + "'" + did_you_mean(name, known));
+}
+
+}  // namespace
+
+void Operator::add(Time date, Intervention intervention) {
+  if (added_ == interventions_max)
+    throw intervention.written.bad("more than " + std::to_string(interventions_max) + " interventions in a run");
+  check(intervention);
+  ++added_;
+  const auto place = std::upper_bound(planned_.begin(), planned_.end(), date,
+                                      [](Time time, const Planned& other) { return time < other.date; });
+  planned_.insert(place, {date, std::move(intervention)});
+}
+
+void Operator::act(Time now) {
+  while (!planned_.empty() && planned_.front().date <= now) {
+    const Intervention intervention = std::move(planned_.front().intervention);
+    planned_.pop_front();
+    const std::string outcome = intervention.text + ": " + carry_out(intervention);
+    outcomes_.push_back({now, outcome});
+    Digest digest;
+    digest.add(std::string_view(outcome));
+    kernel::running->scheduler->record_output(by_the_operator, digest.value());
+  }
+}
+
+// --- what can be told before it happens ---
+
+void Operator::check(const Intervention& intervention) const {
+  if (const auto* request = std::get_if<ModuleRequest>(&intervention.what)) check(*request, intervention.written);
+  if (const auto* move = std::get_if<RobotMove>(&intervention.what))
+    (void)index_of(move->robot, robots_, intervention.written);
+}
+
+void Operator::check(const ModuleRequest& request, const Location& written) const {
+  Robot& owner = *robots_[index_of(request.robot, robots_, written)];
+  const genom::Module* module = owner.names().find_module(request.module);
+  if (module == nullptr) {
+    std::vector<std::string_view> known;
+    for (const auto& [name, entry] : owner.names().modules()) known.push_back(name);
+    unknown(written, "module", request.module, known);
+  }
+  const genom::RequestType* type = module->find_request(request.request);
+  if (type == nullptr) {
+    std::vector<std::string_view> known;
+    for (const genom::RequestType& other : module->requests()) known.push_back(other.name);
+    unknown(written, "request", request.request, known);
+  }
+  genom::Settings arguments(request.arguments);
+  (void)type->read_input(arguments);
+}
+
+// --- when it happens ---
+
+std::string Operator::carry_out(const Intervention& intervention) {
+  return std::visit([&](const auto& what) { return carry_out(what, intervention); }, intervention.what);
+}
+
+std::string Operator::carry_out(const ModuleRequest& request, const Intervention& whole) {
+  const std::size_t index = index_of(request.robot, robots_, whole.written);
+  Robot& owner = *robots_[index];
+  genom::Settings arguments(request.arguments);
+  const genom::Payload input =
+      owner.names().find_module(request.module)->find_request(request.request)->read_input(arguments);
+  auto ask = [this, &owner, request, input, text = whole.text] {
+    genom::Client client(owner.names(), "operator");
+    const genom::Reply reply = client.call(request.module, request.request, input);
+    outcomes_.push_back({now(), text + ": " + text_of(reply.report)});
+  };
+  kernel::Robot& lane = *lanes_[index];
+  sync::start_thread(*lane.scheduler, lane, {.name = "operator", .service = true}, sync::make_call(std::move(ask)));
+  return "sent";
+}
+
+std::string Operator::carry_out(const RobotMove& move, const Intervention& whole) {
+  return placed(world_.move_body(world::BodyId(index_of(move.robot, robots_, whole.written)), move.pose));
+}
+
+std::string Operator::carry_out(const ObstacleMove& move, const Intervention&) {
+  for (const world::Obstacle& obstacle : world_.description().obstacles) {
+    if (obstacle.name != move.name) continue;
+    world::Obstacle moved = obstacle;
+    moved.shape.pose = move.pose;
+    return placed(world_.put_obstacle(moved));
+  }
+  return no_obstacle(move.name);
+}
+
+std::string Operator::carry_out(const ObstaclePut& put, const Intervention&) {
+  return placed(world_.put_obstacle(put.obstacle));
+}
+
+std::string Operator::carry_out(const ObstacleRemoval& removal, const Intervention&) {
+  return world_.remove_obstacle(removal.name) ? "done" : no_obstacle(removal.name);
+}
+
+std::string Operator::carry_out(const Push& push, const Intervention&) {
+  const std::optional<std::string> why_not = world_.push(push.name, push.force_n, push.time);
+  return why_not ? "refused, " + *why_not : "done";
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The person at the controls of a run: carries out interventions, each at a step of the world.
+//
+// What is to happen at step k happens in the world's task, just before that step, in the order in which it was asked
+// for, and is part of the environment's digest. Nothing is put into the event list before: so it makes no difference
+// whether an intervention is known long before its time (from a journal) or since a moment ago (from a prompt). A
+// request is sent by a task of the robot's own, a service called "operator", which starts at that instant and waits for
+// the final reply.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/time.hpp"
+#include "fibers/kernel/scheduler.hpp"
+#include "modules/bridge/robot.hpp"
+#include "modules/run/intervention.hpp"
+#include "world/world.hpp"
+
+namespace waitpoint::bridge {
+
+/// Interventions of one run.
+inline constexpr std::size_t interventions_max = 100'000;
+
+/// What came of an intervention, or the reply to a request.
+struct InterventionOutcome {
+  Time date;
+  std::string text;  ///< "move rackham 1 2: done"
+};
+
+class Operator {
+ public:
+  /// All must outlive the operator; lanes in the order of the robots.
+  Operator(world::World& world, const std::vector<std::unique_ptr<Robot>>& robots,
+           const std::vector<kernel::Robot*>& lanes)
+      : world_(world), robots_(robots), lanes_(lanes) {}
+
+  /// To be carried out at `date`, a step of the world that has not been made. A robot, module, request or field that
+  /// does not exist, or one intervention too many, is BadInput.
+  void add(Time date, Intervention intervention);
+
+  /// In the world's task, before the step at `now`.
+  void act(Time now);
+
+  /// So far, in the order of their dates.
+  const std::vector<InterventionOutcome>& outcomes() const { return outcomes_; }
+
+ private:
+  struct Planned {
+    Time date;
+    Intervention intervention;
+  };
+
+  void check(const Intervention& intervention) const;
+  void check(const ModuleRequest& request, const Location& written) const;
+  std::string carry_out(const Intervention& intervention);
+  std::string carry_out(const ModuleRequest& request, const Intervention& whole);
+  std::string carry_out(const RobotMove& move, const Intervention& whole);
+  std::string carry_out(const ObstacleMove& move, const Intervention& whole);
+  std::string carry_out(const ObstaclePut& put, const Intervention& whole);
+  std::string carry_out(const ObstacleRemoval& removal, const Intervention& whole);
+  std::string carry_out(const Push& push, const Intervention& whole);
+
+  world::World& world_;
+  const std::vector<std::unique_ptr<Robot>>& robots_;
+  const std::vector<kernel::Robot*>& lanes_;
+  std::deque<Planned> planned_;  // by date
+  std::size_t added_ = 0;
+  std::vector<InterventionOutcome> outcomes_;
+};
+
+}  // namespace waitpoint::bridge

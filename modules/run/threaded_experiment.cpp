@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/run/threaded_experiment.hpp"
+
+#include <algorithm>
+
+namespace waitpoint::bridge {
+namespace {
+
+constexpr Duration look_period = std::chrono::milliseconds(100);  // for interruptions
+
+}  // namespace
+
+ThreadedExperiment::ThreadedExperiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
+                                       std::uint64_t seed)
+    : assembly_(scenario, types, nullptr, seed), seed_(seed) {
+  for (const RobotScenario& robot : scenario.robots)
+    if (!robot.programs.empty())
+      throw robot.programs.front().written.bad("programs of robots run in virtual time alone: by `waitpoint run`");
+}
+
+void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& interrupted) {
+  const Time start = threads::now();
+  threads::thread world({.name = "world", .stack = kernel::StackSize::large}, [this] { run_world(); });
+  std::vector<threads::thread> rounds;
+  for (const auto& robot : robots())
+    rounds.emplace_back(threads::thread_attributes{.name = "executive", .stack = kernel::StackSize::large},
+                        [this, &robot] {
+                          robot->run();
+                          if (robot->goals() > 0) round_ended_.release();
+                        });
+  outcome_ = wait_for_rounds(start + limit, interrupted);
+  for (const auto& robot : robots()) robot->stop();
+  for (threads::thread& round : rounds) round.join();
+  std::vector<threads::thread> ends;
+  for (const auto& robot : robots())
+    ends.emplace_back(threads::thread_attributes{.name = "end"}, [&robot] { robot->end_modules(); });
+  for (threads::thread& end : ends) end.join();
+  world_ends_.release();
+  world.join();
+  took_ = threads::now() - start;
+}
+
+// Robots without goals never come to an end of their own.
+Outcome ThreadedExperiment::wait_for_rounds(Time end, const std::function<bool()>& interrupted) {
+  const auto with_goals =
+      std::count_if(robots().begin(), robots().end(), [](auto& robot) { return robot->goals() > 0; });
+  for (std::ptrdiff_t ended = 0; ended < with_goals || with_goals == 0;) {
+    if (interrupted()) return Outcome::interrupted;
+    const Duration left = end - threads::now();
+    if (left <= Duration()) return Outcome::time_limit;
+    if (round_ended_.try_acquire_for(std::chrono::nanoseconds(std::min(left, look_period).ns()))) ++ended;
+  }
+  return Outcome::finished;
+}
+
+void ThreadedExperiment::run_world() {
+  const Time start = threads::now();
+  exchange(start);
+  for (std::int64_t k = 1;; ++k) {
+    const Time due = start + assembly_.scenario().step * k;
+    if (world_ends_.try_acquire_for(std::chrono::nanoseconds((due - threads::now()).ns()))) return;
+    assembly_.world().step();
+    exchange(due);
+  }
+}
+
+void ThreadedExperiment::exchange(Time date) {
+  for (const auto& robot : robots()) {
+    robot->bridge().exchange(date);
+    robot->observe(date);
+  }
+}
+
+RunResult ThreadedExperiment::result() const {
+  RunResult result = assembly_.result();
+  result.seed = seed_;
+  result.outcome = outcome_;
+  result.simulated = took_;
+  return result;
+}
+
+}  // namespace waitpoint::bridge

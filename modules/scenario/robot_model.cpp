@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/robot_model.hpp"
+
+#include <algorithm>
+
+#include "core/exact_math.hpp"
+#include "core/nearest_name.hpp"
+#include "world/formats/file_contents.hpp"
+#include "world/formats/limits.hpp"
+#include "world/formats/upright.hpp"
+
+namespace waitpoint::bridge {
+
+std::optional<RobotModel> read_robot_model(const YamlMap& robot) {
+  const YamlNode* named = robot.find("urdf");
+  if (named == nullptr) return std::nullopt;
+  const std::string file = named->written.resolve(read_text(*named, "urdf")).string();
+  world::LeftOut left_out;
+  RobotModel model;
+  model.robot = world::parse_urdf(world::file_contents(file, "a URDF", world::tree_bytes_max), file, left_out);
+  model.warnings = left_out.warnings();
+  return model;
+}
+
+void mount_at_frame(const YamlNode& laser, const std::optional<RobotModel>& model, world::LaserDescription& device) {
+  const YamlNode* frame = laser.find("frame");
+  if (frame == nullptr) return;
+  if (!model) throw frame->written.bad("expected no frame: the robot has no urdf");
+  for (const char* other : {"mount", "height_m"})
+    if (laser.find(other) != nullptr) throw frame->written.bad(std::string("expected either frame or ") + other);
+  const std::string name = read_text(*frame, "frame");
+  const std::vector<world::UrdfFrame>& frames = model->robot.frames;
+  const auto found = std::find_if(frames.begin(), frames.end(), [&](const auto& link) { return link.link == name; });
+  if (found == frames.end()) {
+    std::vector<std::string_view> names;
+    for (const world::UrdfFrame& link : frames) names.push_back(link.link);
+    throw frame->written.bad("there is no link '" + name + "' in the urdf" + did_you_mean(name, names));
+  }
+  const world::SpacePose& pose = found->pose;
+  if (exact::hypot(pose.axes[2].x, pose.axes[2].y) > world::tilt_max_rad || pose.axes[2].z < 0)
+    throw frame->written.bad("expected link '" + name + "' to be upright: scans are level");
+  device.mount = {pose.position.x, pose.position.y, exact::atan2(pose.axes[0].y, pose.axes[0].x)};
+  device.height_m = pose.position.z;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/robot_reader.hpp"
+
+#include <algorithm>
+
+#include "core/nearest_name.hpp"
+#include "modules/scenario/body_reader.hpp"
+#include "modules/scenario/shape_reader.hpp"
+#include "modules/scenario/yaml_override.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+constexpr std::size_t letters_max = 40;  // the kernel keeps names in place
+
+bool is_reserved(const std::string& name) { return name == "environment" || name == "base"; }
+
+bool fits_names(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
+/// Names go into paths of --set, names of posters and names of files.
+std::string read_name(const YamlNode& node, std::string_view what) {
+  std::string name = read_text(node, what);
+  if (!std::all_of(name.begin(), name.end(), fits_names)) {
+    throw node.written.bad("expected " + std::string(what) + " to be of letters, digits, '_' and '-', found '" + name +
+                           "'");
+  }
+  if (name.size() > letters_max || is_reserved(name))
+    throw node.written.bad("expected " + std::string(what) + " to have at most " + std::to_string(letters_max) +
+                           " letters and not to be 'environment' or 'base', found '" + name + "'");
+  return name;
+}
+
+bool is_setting(const std::string& key) { return key != "name" && key != "type" && key != "enabled"; }
+
+std::vector<ModuleScenario> read_modules(const YamlNode& node) {
+  std::vector<ModuleScenario> modules;
+  for (const YamlNode& item : read_list(node, "modules")) {
+    if (item.kind != YamlNode::Kind::map)
+      throw item.written.bad("expected a module with a name, found " + described(item));
+    const YamlNode* name = item.find("name");
+    if (name == nullptr) throw item.written.bad("expected key 'name' in a module");
+    ModuleScenario module;
+    module.written = item.written;
+    module.name = read_name(*name, "the name of a module");
+    const YamlNode* type = item.find("type");
+    module.type = type == nullptr ? module.name : read_name(*type, "type");
+    if (const YamlNode* enabled = item.find("enabled")) module.enabled = read_truth(*enabled, "enabled");
+    for (const ModuleScenario& other : modules) {
+      if (other.name != module.name) continue;
+      throw item.written.bad("there are two modules called '" + module.name + "', the first at " +
+                             other.written.text());
+    }
+    for (const YamlEntry& entry : item.entries) {
+      if (!is_setting(entry.key)) continue;
+      for (Setting& setting : flattened(entry.value, entry.key)) module.settings.push_back(std::move(setting));
+    }
+    modules.push_back(std::move(module));
+  }
+  return modules;
+}
+
+std::string read_dotted(const YamlMap& row, std::string_view key) {
+  std::string text = row.text(key);
+  const std::size_t dot = text.find('.');
+  if (dot == std::string::npos || dot == 0 || dot + 1 == text.size()) {
+    throw row.require(key).written.bad("expected " + std::string(key) + " to be two names joined by a dot, found '" +
+                                       text + "'");
+  }
+  return text;
+}
+
+std::vector<BridgeRow> read_bridge(const YamlNode& node) {
+  std::vector<BridgeRow> rows;
+  for (const YamlNode& item : read_list(node, "bridge")) {
+    const YamlMap map(item, "a row of the bridge", {"poster", "device", "latency_us"});
+    BridgeRow row{read_dotted(map, "poster"), read_dotted(map, "device"), Duration(), item.written};
+    if (map.has("latency_us")) row.latency = Duration::from_seconds(map.number("latency_us", number_from_zero) * 1e-6);
+    for (const BridgeRow& other : rows) {
+      const bool twice = other.poster == row.poster || other.device == row.device;
+      if (!twice) continue;
+      throw item.written.bad("'" + (other.poster == row.poster ? row.poster : row.device) +
+                             "' is in the bridge's table twice, first at " + other.written.text());
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<std::string> read_processors(const YamlNode& node) {
+  std::vector<std::string> names;
+  for (const YamlNode& item : read_list(node, "processors")) {
+    names.push_back(read_name(item, "the name of a processor"));
+    if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
+      throw item.written.bad("there are two processors called '" + names.back() + "'");
+  }
+  return names;
+}
+
+std::vector<ProgramScenario> read_programs(const YamlNode& node) {
+  std::vector<ProgramScenario> programs;
+  for (const YamlNode& item : read_list(node, "programs")) {
+    const YamlMap map(item, "a program", {"name", "file", "arguments", "enabled"});
+    ProgramScenario program;
+    program.written = item.written;
+    program.name = read_name(map.require("name"), "the name of a program");
+    const YamlNode& file = map.require("file");
+    program.file = file.written.resolve(read_text(file, "file"));
+    if (const YamlNode* arguments = map.find("arguments"))
+      for (const YamlNode& argument : read_list(*arguments, "arguments"))
+        program.arguments.push_back(read_text(argument, "an argument"));
+    for (const ProgramScenario& other : programs)
+      if (other.name == program.name)
+        throw item.written.bad("there are two programs called '" + program.name + "', the first at " +
+                               other.written.text());
+    bool enabled = true;
+    map.read("enabled", enabled);
+    if (enabled) programs.push_back(std::move(program));
+  }
+  return programs;
+}
+
+std::vector<Goal> read_goals(const YamlNode& node) {
+  std::vector<Goal> goals;
+  for (const YamlNode& item : read_list(node, "goals")) {
+    Goal goal;
+    goal.written = item.written;
+    if (item.kind == YamlNode::Kind::map) {
+      const YamlMap map(item, "a goal", {"x_m", "y_m", "name"});
+      goal.position.x = map.number("x_m", any_number);
+      goal.position.y = map.number("y_m", any_number);
+      goal.name = map.text("name", "");
+    } else {
+      goal.position = read_point(item, "a goal");
+    }
+    goals.push_back(std::move(goal));
+  }
+  return goals;
+}
+
+/// What a type has: everything but name, start and goals.
+RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = nullptr) {
+  RobotScenario robot;
+  BodyReading reading = read_body(map, given);
+  robot.body = std::move(reading.body);
+  robot.laser_names = std::move(reading.laser_names);
+  robot.warnings = std::move(reading.warnings);
+  if (const YamlNode* modules = map.find("modules")) robot.modules = read_modules(*modules);
+  if (const YamlNode* bridge = map.find("bridge")) robot.bridge = read_bridge(*bridge);
+  if (const YamlNode* programs = map.find("programs")) robot.programs = read_programs(*programs);
+  if (const YamlNode* processors = map.find("processors")) robot.processors = read_processors(*processors);
+  if (const YamlNode* executive = map.find("executive")) {
+    if (executive->kind != YamlNode::Kind::map) {
+      throw executive->written.bad("expected executive to be a map of keys, found " + described(*executive));
+    }
+    robot.executive = flattened(*executive);
+  }
+  return robot;
+}
+
+const YamlNode& type_of(const YamlMap& robot, const YamlNode* types) {
+  const YamlNode& node = robot.require("type");
+  const std::string name = read_text(node, "type");
+  if (const YamlNode* type = types == nullptr ? nullptr : types->find(name)) return *type;
+  std::vector<std::string_view> names;
+  if (types != nullptr) {
+    for (const YamlEntry& entry : types->entries) names.push_back(entry.key);
+  }
+  throw node.written.bad("there is no robot type '" + name + "'" + did_you_mean(name, names));
+}
+
+}  // namespace
+
+RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
+  const std::string title = name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'";
+  const auto keys = {std::string_view("name"),           std::string_view("type"),      std::string_view("start"),
+                     std::string_view("goals"),          std::string_view("shape"),     std::string_view("base"),
+                     std::string_view("lasers"),         std::string_view("sonars"),    std::string_view("modules"),
+                     std::string_view("bridge"),         std::string_view("executive"), std::string_view("processors"),
+                     std::string_view("start_height_m"), std::string_view("bumpers"),   std::string_view("infrareds"),
+                     std::string_view("urdf"),           std::string_view("imu"),       std::string_view("gps"),
+                     std::string_view("battery"),        std::string_view("programs")};
+  const YamlMap own(node, title, keys);
+  const std::string name = read_name(own.require("name"), "the name of a robot");
+  const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
+  RobotScenario robot = read_equipment(YamlMap(whole, title, keys));
+  robot.name = name;
+  robot.written = node.written;
+  robot.body.name = name;
+  const YamlNode& start = own.require("start");
+  robot.body.start = read_pose(start, "start");
+  robot.start_written = start.written;
+  if (const YamlNode* height = own.find("start_height_m")) {
+    if (robot.body.base.kind != world::BaseDescription::Kind::aerial)
+      throw height->written.bad("expected no start_height_m: " + title + " does not fly");
+    own.read("start_height_m", robot.body.start_height_m, number_from_zero);
+  }
+  if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
+  return robot;
+}
+
+RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, const std::string& name,
+                                const BodyReading& given) {
+  const std::string title = "robot '" + name + "' of the map";
+  const auto keys = {std::string_view("model"),     std::string_view("type"),       std::string_view("goals"),
+                     std::string_view("shape"),     std::string_view("urdf"),       std::string_view("base"),
+                     std::string_view("lasers"),    std::string_view("sonars"),     std::string_view("bumpers"),
+                     std::string_view("infrareds"), std::string_view("imu"),        std::string_view("gps"),
+                     std::string_view("battery"),   std::string_view("modules"),    std::string_view("bridge"),
+                     std::string_view("executive"), std::string_view("processors"), std::string_view("programs")};
+  const YamlMap own(node, title, keys);
+  const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
+  RobotScenario robot = read_equipment(YamlMap(whole, title, keys), &given);
+  robot.name = robot.body.name = name;
+  robot.written = node.written;
+  if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
+  return robot;
+}
+
+std::string fitting_name(const std::string& name) {
+  constexpr std::size_t number_letters = 8;  // that tell it from others of the name
+  std::string fitting = name.substr(0, letters_max - number_letters);
+  for (char& c : fitting)
+    if (!fits_names(c)) c = '_';
+  return is_reserved(fitting) ? fitting + "_" : fitting;
+}
+
+void check_robot_type(const YamlEntry& type, bool for_map) {
+  const BodyReading of_map;
+  read_equipment(YamlMap(type.value, "robot type '" + type.key + "'",
+                         {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "imu", "gps", "battery",
+                          "modules", "bridge", "executive", "processors", "programs"}),
+                 for_map ? &of_map : nullptr);
+}
+
+std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix) {
+  std::vector<Setting> settings;
+  const auto append = [&](const YamlNode& value, const std::string& key) {
+    const std::string path = prefix.empty() ? key : prefix + "." + key;
+    for (Setting& setting : flattened(value, path)) settings.push_back(std::move(setting));
+  };
+  switch (node.kind) {
+    case YamlNode::Kind::null: break;
+    case YamlNode::Kind::scalar: settings.push_back({prefix, node.text, node.written.file, node.written.line}); break;
+    case YamlNode::Kind::list:
+      for (std::size_t i = 0; i < node.items.size(); ++i) append(node.items[i], std::to_string(i));
+      break;
+    case YamlNode::Kind::map:
+      for (const YamlEntry& entry : node.entries) append(entry.value, entry.key);
+      break;
+  }
+  return settings;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/scenario_document.hpp"
+
+#include "modules/scenario/yaml_override.hpp"
+#include "modules/scenario/yaml_reader.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+void check_format(const YamlNode& document) {
+  if (document.kind != YamlNode::Kind::map) {
+    throw document.written.bad("expected keys such as 'format: 1', found " + described(document));
+  }
+  const YamlNode* format = document.find("format");
+  if (format == nullptr) throw document.written.bad("expected key 'format: 1'");
+  read_count(*format, "format", scenario_format, scenario_format);
+}
+
+/// The floor of a file as the part of a world. Its default height is written into its shapes: the world's is its own.
+YamlNode load_floor(const std::filesystem::path& file) {
+  YamlNode floor = load_yaml(file);
+  check_format(floor);
+  const YamlMap map(floor, "the floor", {"format", "name", "description", "map", "shape_height_m", "shapes"});
+  if (YamlEntry* shapes = floor.entry("shapes"); shapes != nullptr && map.has("shape_height_m")) {
+    const YamlNode& height = map.require("shape_height_m");
+    for (YamlNode& shape : shapes->value.items) {
+      if (shape.kind == YamlNode::Kind::map && shape.find("height_m") == nullptr) {
+        shape.entries.push_back({"height_m", height.written, height});
+      }
+    }
+  }
+  YamlNode world;
+  world.kind = YamlNode::Kind::map;
+  world.written = floor.written;
+  for (const YamlEntry& entry : floor.entries) {
+    if (entry.key == "map" || entry.key == "shapes") world.entries.push_back(entry);
+  }
+  return world;
+}
+
+/// The path written at `include`, checked.
+std::filesystem::path included_file(const YamlNode& include) {
+  std::filesystem::path file = include.written.resolve(read_text(include, "include"));
+  if (!std::filesystem::exists(file)) throw include.written.bad("there is no file '" + file.string() + "' to include");
+  return file;
+}
+
+/// The floor's shapes, changed by those of the same name, then the others.
+YamlNode joined_shapes(const YamlNode& floor, const YamlNode& own) {
+  if (floor.kind != YamlNode::Kind::list || own.kind != YamlNode::Kind::list) return own;
+  YamlNode shapes = floor;
+  for (const YamlNode& shape : own.items) {
+    YamlNode* same = nullptr;
+    for (YamlNode& other : shapes.items) {
+      if (!name_of(shape).empty() && name_of(other) == name_of(shape)) same = &other;
+    }
+    if (same != nullptr) {
+      *same = laid_over(*same, shape);
+    } else {
+      shapes.items.push_back(shape);
+    }
+  }
+  return shapes;
+}
+
+/// Puts the included floor, if any, in the place of `world.include`.
+void include_floor(YamlNode& document) {
+  YamlEntry* world = document.entry("world");
+  const YamlNode* include = world == nullptr ? nullptr : world->value.find("include");
+  if (include == nullptr) return;
+  YamlNode result = load_floor(included_file(*include));
+  result.written = world->value.written;
+  for (const YamlEntry& entry : world->value.entries) {
+    if (entry.key == "include") continue;
+    YamlEntry* below = result.entry(entry.key);
+    if (below == nullptr) {
+      result.entries.push_back(entry);
+    } else {
+      below->value = entry.key == "shapes" ? joined_shapes(below->value, entry.value) : entry.value;
+    }
+  }
+  world->value = std::move(result);
+}
+
+/// Puts the included robot types, if any, under the scenario's own.
+void include_robot_types(YamlNode& document) {
+  YamlEntry* types = document.entry("robot_types");
+  const YamlNode* include = types == nullptr ? nullptr : types->value.find("include");
+  if (include == nullptr) return;
+  YamlNode file = load_yaml(included_file(*include));
+  check_format(file);
+  const YamlNode& included =
+      YamlMap(file, "the file of robot types", {"format", "name", "description", "robot_types"}).require("robot_types");
+  YamlNode own = types->value;
+  std::erase_if(own.entries, [](const YamlEntry& entry) { return entry.key == "include"; });
+  types->value = laid_over(included, own);
+}
+
+}  // namespace
+
+YamlNode scenario_document(const std::filesystem::path& file, const std::vector<std::string>& assignments) {
+  YamlNode document = load_yaml(file);
+  check_format(document);
+  for (const std::string& text : assignments) {
+    const Assignment assignment(text);
+    if (assignment.path != "world" && assignment.path != "world.include") include_floor(document);
+    if (assignment.path != "robot_types" && assignment.path != "robot_types.include") include_robot_types(document);
+    assign(document, assignment);
+  }
+  include_floor(document);
+  include_robot_types(document);
+  return document;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/scenario_reader.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "modules/scenario/map_robots.hpp"
+#include "modules/scenario/medium_reader.hpp"
+#include "modules/scenario/robot_reader.hpp"
+#include "modules/scenario/scenario_document.hpp"
+#include "modules/scenario/shape_reader.hpp"
+#include "modules/scenario/surface_reader.hpp"
+#include "modules/scenario/yaml_reader.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t count_max = 1'000'000'000;
+constexpr double height_default_m = 2;
+
+Expectation read_expectation(const YamlNode& node) {
+  const YamlMap map(node, "expect", expectation_keys);
+  Expectation expect;
+  if (const YamlNode* goals = map.find("goals_reached")) {
+    expect.all_goals_reached = goals->kind == YamlNode::Kind::scalar && goals->text == "all";
+    const bool number_like =
+        expect.all_goals_reached || (goals->text.find_first_not_of("0123456789") == std::string::npos);
+    if (!number_like || goals->kind != YamlNode::Kind::scalar) {
+      throw goals->written.bad("expected goals_reached to be 'all' or a number, found " + described(*goals));
+    }
+    if (!expect.all_goals_reached) expect.goals_reached = read_count(*goals, "goals_reached", 0, count_max);
+  }
+  if (const YamlNode* collisions = map.find("collisions"))
+    expect.collisions = read_count(*collisions, "collisions", 0, count_max);
+  if (map.has("position_error_max_m"))
+    expect.position_error_max_m = map.number("position_error_max_m", number_from_zero);
+  return expect;
+}
+
+MapFile read_map(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::scalar)
+    return {.file = node.written.resolve(read_text(node, "map")), .written = node.written};
+  const YamlMap map(node, "the map", {"file", "height_m"});
+  const YamlNode& file = map.require("file");
+  MapFile result = {.file = file.written.resolve(read_text(file, "file")), .written = file.written};
+  if (map.has("height_m")) result.height_m = map.number("height_m", positive_number);
+  return result;
+}
+
+void read_shapes(const YamlNode& list, double height_m, Scenario& scenario) {
+  std::map<std::string, Location> names;
+  world::LeftOut left_out;
+  std::size_t number = 0;
+  for (const YamlNode& item : read_list(list, "shapes")) {
+    const std::string name = shape_name(item, ++number);
+    if (item.find("mesh") != nullptr) {
+      scenario.meshes.push_back(read_mesh(item, name, left_out));
+      scenario.meshes_written.push_back(item.written);
+    } else if (item.find("octomap") != nullptr) {
+      for (world::Obstacle& box : read_octomap(item, name, left_out)) scenario.shapes.push_back(std::move(box));
+    } else {
+      scenario.shapes.push_back(read_obstacle(item, height_m, number));
+    }
+    scenario.shapes_written.resize(scenario.shapes.size(), item.written);
+    const auto [first, is_new] = names.emplace(name, item.written);
+    if (!is_new)
+      throw item.written.bad("there are two shapes called '" + name + "', the first at " + first->second.text());
+  }
+  for (std::string& warning : left_out.warnings()) scenario.warnings.push_back(std::move(warning));
+}
+
+void read_world(const YamlNode& node, Scenario& scenario) {
+  const YamlMap map(node, "the world", {"step_ms", "engine", "include", "map", "shape_height_m", "shapes"});
+  if (const YamlNode* step = map.find("step_ms")) {
+    map.read("step_ms", scenario.step, 1ms);
+    if (scenario.step > Duration(1s))
+      throw step->written.bad("expected step_ms to be at most 1000, found " + described(*step));
+  }
+  constexpr world::Engine engines[] = {world::Engine::fcl, world::Engine::slice, world::Engine::bullet};
+  scenario.engine = engines[map.one_of("engine", {"fcl", "slice", "bullet"}, 0)];
+  if (const YamlNode* engine = map.find("engine")) scenario.engine_written = engine->written;
+  if (const YamlNode* map_file = map.find("map")) scenario.map = read_map(*map_file);
+  double height_m = height_default_m;
+  map.read("shape_height_m", height_m, positive_number);
+  if (const YamlNode* shapes = map.find("shapes")) read_shapes(*shapes, height_m, scenario);
+}
+
+void read_robots(const YamlNode& list, const YamlNode* types, Scenario& scenario) {
+  if (read_list(list, "robots").empty()) throw list.written.bad("expected at least one robot");
+  for (const YamlNode& item : list.items) {
+    RobotScenario robot = read_robot(item, types);
+    for (const RobotScenario& other : scenario.robots) {
+      if (other.name != robot.name) continue;
+      throw item.written.bad("there are two robots called '" + robot.name + "', the first at " + other.written.text());
+    }
+    scenario.robots.push_back(std::move(robot));
+  }
+}
+
+}  // namespace
+
+void MapFile::read() {
+  if (contents == nullptr)
+    contents = std::make_shared<const world::WorldFile>(
+        world::read_world_file(file.string(), height_m.value_or(height_default_m)));
+}
+
+world::WorldDescription Scenario::world_without_map() const {
+  world::WorldDescription world;
+  world.step = step;
+  world.engine = engine;
+  world.obstacles = shapes;
+  world.meshes = meshes;
+  for (const RobotScenario& robot : robots) world.bodies.push_back(robot.body);
+  return world;
+}
+
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments) {
+  const YamlNode document = scenario_document(file, assignments);
+  const YamlMap map(document, "the scenario",
+                    {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots",
+                     "robots_from_map"});
+  Scenario scenario;
+  scenario.file = file.string();
+  scenario.fingerprint = fingerprint(document);
+  scenario.name = map.text("name", file.stem().string());
+  scenario.description = map.text("description", "");
+  if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);
+  map.read("until_s", scenario.until, 1s);
+  if (const YamlNode* world = map.find("world")) read_world(*world, scenario);
+  if (const YamlNode* medium = map.find("medium")) scenario.medium = read_medium(*medium);
+  const YamlNode* types = map.find("robot_types");
+  const YamlNode* from_map = map.find("robots_from_map");
+  if (types != nullptr) {
+    if (types->kind != YamlNode::Kind::map) {
+      throw types->written.bad("expected robot_types to be a map of keys, found " + described(*types));
+    }
+    for (const YamlEntry& type : types->entries) check_robot_type(type, from_map != nullptr);
+  }
+  if (from_map == nullptr || map.has("robots")) read_robots(map.require("robots"), types, scenario);
+  if (from_map != nullptr) read_robots_from_map(*from_map, types, scenario);
+  return scenario;
+}
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads a scenario file. docs/scenario.md describes the format, scenarios/ has examples.
+//
+//   format: 1
+//   name: office
+//   expect: {goals_reached: all, collisions: 0}
+//   until_s: 900
+//   world: {step_ms: 10, include: office-floor.yaml, shapes: [...], map: {file: x.yaml, height_m: 2}}
+//   robot_types: {rackham: {shape: ..., base: ..., lasers: [...], modules: [...], bridge: [...]}}
+//   robots: [{name: rackham, type: rackham, start: [x, y, heading_deg], goals: [[x, y], ...]}]
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "modules/scenario/scenario.hpp"
+
+namespace waitpoint::bridge {
+
+/// Reads the file with the options `--set key=value` (given without "--set ") applied. Throws BadInput(file, line, what
+/// was expected); for a value that an option set, the option is named instead.
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments = {});
+
+}  // namespace waitpoint::bridge

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/shape_reader.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "core/exact_math.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+using world::Shape;
+
+constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
+constexpr NumberRange turn{-3600, 3600, "degrees within ten turns"};
+
+/// From -pi to pi; 0 where it is left out.
+double read_heading(const YamlMap& map) {
+  double heading_rad = 0;
+  map.read_degrees("heading_deg", heading_rad, turn);
+  return exact::wrap_angle(heading_rad);
+}
+
+void read_corners(const YamlMap& map, Shape& shape) {
+  if (map.has("centre_m") || map.has("size_m") || map.has("radius_m") || map.has("heading_deg")) {
+    throw map.node().written.bad("expected " + map.what() +
+                                 " to have corners_m alone, or centre_m with size_m or radius_m");
+  }
+  const YamlNode& node = map.require("corners_m");
+  const std::vector<double> c = read_numbers(node, "corners_m", 4, 4, coordinate);
+  shape.length_m = std::fabs(c[2] - c[0]);
+  shape.width_m = std::fabs(c[3] - c[1]);
+  if (shape.length_m == 0 || shape.width_m == 0)
+    throw node.written.bad("expected corners_m to be opposite corners of a box");
+  shape.pose = {(c[0] + c[2]) / 2, (c[1] + c[3]) / 2, 0};
+}
+
+void read_about_centre(const YamlMap& map, bool centre_needed, Shape& shape) {
+  if (map.has("size_m") == map.has("radius_m")) {
+    throw map.node().written.bad("expected " + map.what() + " to have " +
+                                 (centre_needed ? "corners_m, or centre_m with " : "either ") + "size_m or radius_m");
+  }
+  Point centre;
+  if (centre_needed || map.has("centre_m")) centre = read_point(map.require("centre_m"), "centre_m");
+  shape.pose = {centre.x, centre.y, read_heading(map)};
+  if (map.has("radius_m")) {
+    shape.kind = Shape::Kind::cylinder;
+    shape.radius_m = map.number("radius_m", positive_number);
+  } else {
+    const std::vector<double> size = read_numbers(map.require("size_m"), "size_m", 2, 2, positive_number);
+    shape.length_m = size[0];
+    shape.width_m = size[1];
+  }
+}
+
+Shape read_shape(const YamlMap& map, bool of_world, std::optional<double> height_m) {
+  Shape shape;
+  if (of_world && map.has("corners_m")) {
+    read_corners(map, shape);
+  } else {
+    read_about_centre(map, of_world, shape);
+  }
+  map.read("low_m", shape.z_low_m, number_from_zero);
+  shape.z_high_m = height_m && !map.has("height_m") ? *height_m : map.number("height_m", positive_number);
+  if (shape.z_high_m <= shape.z_low_m) {
+    throw map.node().written.bad("expected height_m of " + map.what() + " to be above its low_m");
+  }
+  return shape;
+}
+
+}  // namespace
+
+Shape read_body_shape(const YamlNode& node) {
+  const YamlMap map(node, "the shape", {"centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m"});
+  return read_shape(map, false, std::nullopt);
+}
+
+std::string shape_name(const YamlNode& node, std::size_t number) {
+  const std::string_view given = name_of(node);
+  return given.empty() ? "shape " + std::to_string(number) : std::string(given);
+}
+
+world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number) {
+  const std::string name = shape_name(node, number);
+  const YamlMap map(node, "'" + name + "'",
+                    {"name", "corners_m", "centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m", "known",
+                     "mass_kg", "friction"});
+  map.text("name", name);
+  world::Obstacle obstacle{name, read_shape(map, true, height_m)};
+  map.read("known", obstacle.known);
+  map.read("mass_kg", obstacle.mass_kg, mass_number);
+  if (const YamlNode* friction = map.find("friction")) {
+    if (!obstacle.loose()) throw friction->written.bad("expected no friction: " + map.what() + " has no mass_kg");
+    map.read("friction", obstacle.friction, number_from_zero);
+  }
+  return obstacle;
+}
+
+Point read_point(const YamlNode& node, std::string_view what) {
+  if (node.kind == YamlNode::Kind::map) {
+    const YamlMap map(node, std::string(what), {"x_m", "y_m"});
+    const double x = map.number("x_m", coordinate);
+    return {x, map.number("y_m", coordinate)};
+  }
+  const std::vector<double> xy = read_numbers(node, what, 2, 2, coordinate);
+  return {xy[0], xy[1]};
+}
+
+Pose read_pose(const YamlNode& node, std::string_view what) {
+  if (node.kind == YamlNode::Kind::map) {
+    const YamlMap map(node, std::string(what), {"x_m", "y_m", "heading_deg"});
+    const double x = map.number("x_m", coordinate), y = map.number("y_m", coordinate);
+    return {x, y, read_heading(map)};
+  }
+  const std::vector<double> numbers = read_numbers(node, what, 2, 3, coordinate);
+  const double heading_deg = numbers.size() == 3 ? read_number(node.items[2], "heading_deg", turn) : 0;
+  return {numbers[0], numbers[1], exact::wrap_angle(radians(heading_deg))};
+}
+
+}  // namespace waitpoint::bridge

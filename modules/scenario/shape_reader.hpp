@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes as a scenario writes them: a box by two opposite corners, a turned box by centre and size, an upright cylinder
+// by centre and radius, each from `low_m` (default 0) up to `height_m` above the floor.
+//
+//   {corners_m: [x0, y0, x1, y1]}      {centre_m: [x, y], size_m: [length, width], heading_deg: 30}
+//   {centre_m: [x, y], radius_m: 0.3}
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "modules/scenario/yaml_reader.hpp"
+#include "world/description.hpp"
+
+namespace waitpoint::bridge {
+
+inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
+
+/// A robot's body, about its own origin: `centre_m` may be left out, `height_m` may not.
+world::Shape read_body_shape(const YamlNode& node);
+
+/// What a shape is called: as it says, or "shape N", N its place in the list, from 1: `number`.
+std::string shape_name(const YamlNode& node, std::size_t number);
+
+/// A shape of the world; a cylinder or turned box needs its centre. `height_m` is what it has if it does not say.
+world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number);
+
+/// `[x, y]` or `{x_m: x, y_m: y}`.
+Point read_point(const YamlNode& node, std::string_view what);
+
+/// `[x, y, heading_deg]`, `[x, y]` or `{x_m: x, y_m: y, heading_deg: h}`.
+Pose read_pose(const YamlNode& node, std::string_view what);
+
+}  // namespace waitpoint::bridge

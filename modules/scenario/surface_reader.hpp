@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes that a scenario takes from files: a mesh, or the occupied cells of an octree.
+//
+//   {mesh: hall.stl, at_m: [2, 3, 0], heading_deg: 90, scale: 0.001}      scale: a number, or one for each axis
+//   {octomap: yard.bt, at_m: [2, 3], heading_deg: 90}
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "modules/scenario/yaml_reader.hpp"
+#include "world/description.hpp"
+#include "world/formats/left_out.hpp"
+
+namespace waitpoint::bridge {
+
+/// What is left out of the file is told. BadInput as of world::read_mesh_file().
+world::MeshObstacle read_mesh(const YamlNode& node, const std::string& name, world::LeftOut& left_out);
+
+/// Boxes called "NAME 0", "NAME 1", .... BadInput as of world::read_octree().
+std::vector<world::Obstacle> read_octomap(const YamlNode& node, const std::string& name, world::LeftOut& left_out);
+
+}  // namespace waitpoint::bridge

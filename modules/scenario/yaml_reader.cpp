@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/yaml_reader.hpp"
+
+#include <span>
+
+#include "core/exact_math.hpp"
+#include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+[[noreturn]] void refuse(const YamlNode& node, std::string_view what, const std::string& expected) {
+  throw node.written.bad("expected " + std::string(what) + " to be " + expected + ", found " + described(node));
+}
+
+template <class Number>
+bool parse(const YamlNode& node, Number& number) {
+  return node.kind == YamlNode::Kind::scalar && !node.quoted && parse_number(node.text, number);
+}
+
+std::string joined(std::span<const std::string_view> words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+double read_number(const YamlNode& node, std::string_view what, const NumberRange& range) {
+  double number = 0;
+  // Negated, so that "nan" is refused too.
+  if (!parse(node, number) || !(number >= range.low && number <= range.high)) {
+    refuse(node, what, std::string(range.phrase));
+  }
+  return number;
+}
+
+std::uint64_t read_count(const YamlNode& node, std::string_view what, std::uint64_t low, std::uint64_t high) {
+  std::uint64_t number = 0;
+  if (!parse(node, number) || number < low || number > high) {
+    refuse(node, what, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return number;
+}
+
+bool read_truth(const YamlNode& node, std::string_view what) {
+  const bool plain = node.kind == YamlNode::Kind::scalar && !node.quoted;
+  if (plain && node.text == "true") return true;
+  if (plain && node.text == "false") return false;
+  refuse(node, what, "true or false");
+}
+
+std::string read_text(const YamlNode& node, std::string_view what) {
+  if (node.kind != YamlNode::Kind::scalar || node.text.empty()) refuse(node, what, "a text");
+  return node.text;
+}
+
+std::vector<double> read_numbers(const YamlNode& node, std::string_view what, std::size_t size_min,
+                                 std::size_t size_max, const NumberRange& range) {
+  if (node.kind != YamlNode::Kind::list || node.items.size() < size_min || node.items.size() > size_max) {
+    const std::string size = std::to_string(size_min) + (size_max > size_min ? " or " + std::to_string(size_max) : "");
+    refuse(node, what, "a list of " + size + " numbers");
+  }
+  std::vector<double> numbers;
+  for (const YamlNode& item : node.items) numbers.push_back(read_number(item, what, range));
+  return numbers;
+}
+
+const std::vector<YamlNode>& read_list(const YamlNode& node, std::string_view what) {
+  if (node.kind != YamlNode::Kind::list) refuse(node, what, "a list");
+  return node.items;
+}
+
+YamlMap::YamlMap(const YamlNode& node, std::string what, std::initializer_list<std::string_view> known)
+    : node_(node), what_(std::move(what)) {
+  if (node.kind != YamlNode::Kind::map) refuse(node, what_, "a map of keys");
+  const std::span<const std::string_view> names(known.begin(), known.size());
+  for (const YamlEntry& entry : node.entries) {
+    bool is_known = false;
+    for (const std::string_view name : names) is_known = is_known || name == entry.key;
+    if (is_known) continue;
+    const std::string hint = did_you_mean(entry.key, names);
+    throw entry.written.bad("unknown key '" + entry.key + "' in " + what_ +
+                            (hint.empty() ? ", expected " + joined(names) : hint));
+  }
+}
+
+const YamlNode& YamlMap::require(std::string_view key) const {
+  const YamlNode* value = find(key);
+  if (value == nullptr) throw node_.written.bad("expected key '" + std::string(key) + "' in " + what_);
+  return *value;
+}
+
+double YamlMap::number(std::string_view key, const NumberRange& range) const {
+  return read_number(require(key), key, range);
+}
+
+std::string YamlMap::text(std::string_view key) const { return read_text(require(key), key); }
+
+std::string YamlMap::text(std::string_view key, const std::string& otherwise) const {
+  return has(key) ? text(key) : otherwise;
+}
+
+std::size_t YamlMap::one_of(std::string_view key, std::initializer_list<std::string_view> words,
+                            std::size_t otherwise) const {
+  if (!has(key)) return otherwise;
+  const std::string text = read_text(*find(key), key);
+  const std::span<const std::string_view> names(words.begin(), words.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == text) return i;
+  }
+  refuse(*find(key), key, joined(names));
+}
+
+void YamlMap::read(std::string_view key, double& value, const NumberRange& range) const {
+  if (has(key)) value = number(key, range);
+}
+
+void YamlMap::read(std::string_view key, std::uint32_t& value, std::uint32_t low, std::uint32_t high) const {
+  if (has(key)) value = static_cast<std::uint32_t>(read_count(*find(key), key, low, high));
+}
+
+void YamlMap::read(std::string_view key, std::uint64_t& value, std::uint64_t low, std::uint64_t high) const {
+  if (has(key)) value = read_count(*find(key), key, low, high);
+}
+
+void YamlMap::read(std::string_view key, bool& value) const {
+  if (has(key)) value = read_truth(*find(key), key);
+}
+
+void YamlMap::read(std::string_view key, Duration& value, Duration unit) const {
+  if (!has(key)) return;
+  const double seconds = number(key, {1e-6, 1e9, "a positive number"}) * unit.seconds();
+  const Duration duration = Duration::from_seconds(seconds);
+  if (duration <= Duration()) refuse(*find(key), key, "at least a nanosecond");
+  value = duration;
+}
+
+void YamlMap::read_degrees(std::string_view key, double& value_rad, const NumberRange& range) const {
+  if (has(key)) value_rad = radians(number(key, range));
+}
+
+double radians(double degrees) { return degrees / 180 * exact::pi; }
+
+}  // namespace waitpoint::bridge

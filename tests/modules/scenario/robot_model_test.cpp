@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/robot_model.hpp"
+
+#include "tests/modules/scenario/bad_case.hpp"
+
+namespace waitpoint::bridge {
+namespace {
+
+constexpr const char* rover = R"(<robot name="rover">
+  <link name="base"><collision><geometry><box size="0.6 0.4 0.2"/></geometry></collision></link>
+  <link name="mast"/>
+  <link name="tilted"/>
+  <joint name="a" type="fixed"><parent link="base"/><child link="mast"/><origin xyz="0.2 0 0.3" rpy="0 0 0.5"/></joint>
+  <joint name="b" type="fixed"><parent link="base"/><child link="tilted"/><origin rpy="0 0.3 0"/></joint>
+</robot>)";
+
+const std::string own_shape = "shape: {radius_m: 0.26, height_m: 1.2}";
+const std::string own_mount = "mount: [0.1, 0, 0]";
+
+class RobotModelOfAScenario : public ::testing::Test {
+ protected:
+  RobotModelOfAScenario() { folder_.write("rover.urdf", rover); }
+  Scenario read(const std::string& laser) const {
+    std::string text = changed(own_shape, "urdf: rover.urdf");
+    return read_scenario(folder_.write("s.yaml", text.replace(text.find(own_mount), own_mount.size(), laser)));
+  }
+  std::string complaint(const std::string& laser) const {
+    return message_of<BadInput>([&] { read(laser); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(RobotModelOfAScenario, gives_shape_and_lasers_their_places) {
+  const world::BodyDescription body = read("frame: mast").robots.at(0).body;
+  EXPECT_EQ(body.shape.kind, world::Shape::Kind::box);
+  EXPECT_EQ(body.shape.length_m, 0.6);
+  EXPECT_EQ(body.shape.z_low_m, 0);
+  const world::LaserDescription& laser = body.lasers.at(0);
+  EXPECT_NEAR(laser.mount.x, 0.2, 1e-12);
+  EXPECT_NEAR(laser.mount.heading, 0.5, 1e-12);
+  EXPECT_NEAR(laser.height_m, 0.4, 1e-12);  // the body stands on the floor, not in it
+}
+
+TEST_F(RobotModelOfAScenario, that_cannot_be_meant_is_one_line) {
+  EXPECT_NE(complaint("frame: mst").find("there is no link 'mst' in the urdf, did you mean 'mast'?"), std::string::npos)
+      << complaint("frame: mst");
+  EXPECT_NE(complaint("frame: tilted").find("expected link 'tilted' to be upright"), std::string::npos);
+  EXPECT_NE(complaint("frame: mast, height_m: 0.4").find("expected either frame or height_m"), std::string::npos);
+  const auto file = folder_.write("s.yaml", changed(own_mount, "frame: mast"));
+  EXPECT_NE(message_of<BadInput>([&] { read_scenario(file); }).find("expected no frame: the robot has no urdf"),
+            std::string::npos);
+  const auto both = folder_.write("s.yaml", changed(own_shape, own_shape + "\n    urdf: rover.urdf"));
+  EXPECT_NE(message_of<BadInput>([&] { read_scenario(both); }).find("to have either shape or urdf"), std::string::npos)
+      << message_of<BadInput>([&] { read_scenario(both); });
+  const auto missing = folder_.write("s.yaml", changed(own_shape, "urdf: none.urdf"));
+  EXPECT_NE(message_of<BadInput>([&] { read_scenario(missing); }).find("none.urdf"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace waitpoint::bridge

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Lays out headers for users' own code: install_headers.py [--stamp FILE --depfile FILE --to FOLDER] ROOT FOLDER...
+
+Each header of the FOLDERs of the tree ROOT becomes TO/waitpoint/PATH-IN-THE-TREE, and what it includes of the tree is named
+<waitpoint/...> there: users need one folder on their path, and a `core/` of their own beside it does no harm. Left out are
+headers that need FCL's or Bullet's own. TO is by default where Meson installs headers.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+
+OWN = re.compile(r'^(\s*#\s*include\s*)"([^"]+)"', re.MULTILINE)
+OF_OTHERS = re.compile(r"^\s*#\s*include\s*<(fcl|ccd|bt|Bullet|LinearMath)", re.MULTILINE)
+
+
+def is_public(header, root, known):
+    """Whether neither the header nor what it includes needs a library that users need not have."""
+    if header not in known:
+        text = (root / header).read_text()
+        known[header] = True  # while it is looked at
+        known[header] = not OF_OTHERS.search(text) and all(is_public(name, root, known) for _, name in OWN.findall(text))
+    return known[header]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--to", type=pathlib.Path)
+    parser.add_argument("--stamp", type=pathlib.Path)
+    parser.add_argument("--depfile", type=pathlib.Path)
+    parser.add_argument("root", type=pathlib.Path)
+    parser.add_argument("folders", nargs="+")
+    arguments = parser.parse_args()
+    root, known = arguments.root.resolve(), {}
+    to = arguments.to or pathlib.Path(os.environ["MESON_INSTALL_DESTDIR_PREFIX"]) / "include"
+    headers = sorted(path.relative_to(root) for folder in arguments.folders for path in (root / folder).rglob("*.hpp"))
+    for header in headers:
+        if not is_public(str(header), root, known):
+            continue
+        text = OWN.sub(r"\1<waitpoint/\2>", (root / header).read_text())
+        copy = to / "waitpoint" / header
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        if not copy.exists() or copy.read_text() != text:
+            copy.write_text(text)
+    if arguments.stamp:
+        arguments.stamp.write_text("#pragma once\n")
+        arguments.depfile.write_text(f"{arguments.stamp}: {' '.join(str(root / header) for header in headers)}\n")
+
+
+if __name__ == "__main__":
+    main()

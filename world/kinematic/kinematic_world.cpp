@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/kinematic/kinematic_world.hpp"
+
+#include "core/error.hpp"
+#include "world/kinematic/start_check.hpp"
+#include "world/kinematic/vehicle_world.hpp"
+#include "world/motion/meetings.hpp"
+#include "world/planar/separation.hpp"
+#include "world/slice/footprints.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+Footprints footprints_of(const WorldDescription& description) {
+  return Footprints(description.engine == Engine::slice ? shapes_of(description.obstacles) : std::vector<Shape>{});
+}
+
+bool climbs(const Vehicle& vehicle) { return vehicle.description().base.kind == BaseDescription::Kind::aerial; }
+
+class KinematicWorld final : public VehicleWorld, private MeetingPlace {
+ public:
+  KinematicWorld(const WorldDescription& description, std::uint64_t seed);
+
+  void step() override;
+  void reset(std::uint64_t seed) override;
+
+  std::optional<std::string> move_body(BodyId id, const Pose& pose) override;
+  std::optional<std::string> put_obstacle(const Obstacle& obstacle) override;
+  bool remove_obstacle(const std::string& name) override;
+  std::optional<std::string> push(const std::string&, Point, Duration) override {
+    return "there are no forces in a kinematic world";
+  }
+
+  std::span<const LooseState> loose() const override { return {}; }
+
+ private:
+  void latch();
+  void move();
+  void publish();
+
+  const Outline& outline(std::uint32_t body) const override { return vehicles_[body].outline(); }
+  Mover mover(std::uint32_t body) const override;
+  void near(std::uint32_t body, const Bounds& bounds, std::vector<std::uint32_t>& found) const override;
+  Mover obstacle(std::uint32_t obstacle) const override;
+  double gap_m(std::uint32_t body, std::uint32_t obstacle) const override;
+
+  void change_obstacles(std::vector<Obstacle> obstacles);
+
+  std::optional<std::vector<Obstacle>> first_obstacles_;  // of the start, once they have been changed
+  Footprints footprints_;                                 // the same obstacles; none where FCL finds neighbours
+
+  std::vector<double> reaches_m_;  // of the bodies
+  Meetings meetings_;
+
+  mutable std::vector<std::uint32_t> near_;  // of one call
+
+  // Of one step.
+  std::vector<Arc> arcs_;
+  std::vector<Meetings::Motion> motions_;
+};
+
+KinematicWorld::KinematicWorld(const WorldDescription& description, std::uint64_t seed)
+    : VehicleWorld(description, shapes_of(description.obstacles), shapes_of(description.bodies)),
+      footprints_(footprints_of(description)),
+      meetings_(*this, shapes_of(description.bodies)) {
+  for (const BodyDescription& body : description_.bodies) reaches_m_.push_back(reach_m(body.shape));
+  reset(seed);
+}
+
+void KinematicWorld::reset(std::uint64_t seed) {
+  steps_ = 0;
+  if (first_obstacles_) {
+    change_obstacles(*first_obstacles_);
+    first_obstacles_.reset();
+  }
+  vehicles_.clear();
+  vehicles_.reserve(description_.bodies.size());
+  for (const BodyDescription& body : description_.bodies) vehicles_.emplace_back(body, seed);
+  meetings_.forget();
+  senses_.restart(seed);
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) senses_.place(i, vehicles_[i]);
+}
+
+void KinematicWorld::step() {
+  ++steps_;
+  latch();
+  move();
+  publish();
+  senses_.make_expected_scans(vehicles_, elapsed_s());
+}
+
+void KinematicWorld::latch() {
+  arcs_.clear();
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
+    Vehicle& vehicle = vehicles_[i];
+    if (vehicle.state().arc.moves()) senses_.place(i, vehicle);
+    arcs_.push_back(vehicle.latch(steps_, description_.step));
+  }
+}
+
+void KinematicWorld::move() {
+  motions_.clear();
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i)
+    motions_.push_back({path_m(arcs_[i], reaches_m_[i]), arcs_[i].moves()});
+  meetings_.step(motions_);
+}
+
+Mover KinematicWorld::mover(std::uint32_t body) const {
+  const Vehicle& vehicle = vehicles_[body];
+  return {vehicle.description().shape, vehicle.outline(), arcs_[body], vehicle.state().height_m};
+}
+
+// Behind the obstacles come the triangles of meshes.
+Mover KinematicWorld::obstacle(std::uint32_t obstacle) const {
+  const std::uint32_t solids = senses_.standing().size();
+  if (obstacle >= solids)
+    return {senses_.surfaces().triangle(obstacle - solids), senses_.surfaces().outline(obstacle - solids)};
+  const Shape& shape = description_.obstacles[obstacle].shape;
+  return Mover(senses_.standing().outline(obstacle), {shape.z_low_m, shape.z_high_m});
+}
+
+double KinematicWorld::gap_m(std::uint32_t body, std::uint32_t obstacle) const {
+  const Vehicle& vehicle = vehicles_[body];
+  const std::uint32_t solids = senses_.standing().size();
+  if (obstacle < solids) return separation(vehicle.outline(), senses_.standing().outline(obstacle)).distance_m;
+  const Surfaces& surfaces = senses_.surfaces();
+  if (climbs(vehicle)) return separation(vehicle.outline(), surfaces.outline(obstacle - solids)).distance_m;
+  const Shape& shape = vehicle.description().shape;
+  return surfaces.separation(vehicle.outline(), shape.z_low_m, shape.z_high_m, obstacle - solids).distance_m;
+}
+
+void KinematicWorld::near(std::uint32_t body, const Bounds& bounds, std::vector<std::uint32_t>& found) const {
+  const Heights any;
+  if (description_.engine == Engine::slice)
+    footprints_.near(bounds, Scene::padding_m, any.low_m, any.high_m, found);
+  else
+    senses_.standing().near(bounds, any.low_m, any.high_m, found);
+  if (senses_.surfaces().size() == 0) return;
+  const Vehicle& vehicle = vehicles_[body];
+  const Shape& shape = vehicle.description().shape;
+  const Heights own = climbs(vehicle) ? any : Heights{shape.z_low_m, shape.z_high_m};
+  senses_.surfaces().near(bounds, own.low_m, own.high_m, near_);
+  for (const std::uint32_t number : near_) found.push_back(senses_.standing().size() + number);
+}
+
+void KinematicWorld::publish() {
+  for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
+    vehicles_[i].publish(steps_, description_.step, arcs_[i], meetings_.stop(i));
+    senses_.moved(i, vehicles_[i], steps_);
+  }
+}
+
+std::optional<std::string> KinematicWorld::move_body(BodyId id, const Pose& pose) {
+  const std::uint32_t own = number(id);
+  Vehicle& vehicle = vehicles_.at(index(id));
+  const Shape shape = vehicle.shape();
+  const Outline outline = outline_of(shape, pose);
+  std::vector<std::uint32_t> obstacles;
+  senses_.standing().near(bounds_of(outline).grown(2 * contact_gap_m), shape.z_low_m, shape.z_high_m, obstacles);
+  for (const std::uint32_t obstacle : obstacles) {
+    if (separation(outline, senses_.standing().outline(obstacle)).distance_m <= contact_gap_m)
+      return description_.obstacles[obstacle].name;
+  }
+  if (auto mesh = mesh_met(shape, outline)) return mesh;
+  if (auto other = body_met(shape, outline, own)) return other;
+  vehicle.put(pose);
+  meetings_.forget();
+  senses_.put(own, pose);
+  // To the others' sensors it stands there already, as if it had been published so at the last step but one.
+  senses_.place(own, vehicle);
+  return std::nullopt;
+}
+
+std::optional<std::string> KinematicWorld::put_obstacle(const Obstacle& obstacle) {
+  if (auto body = body_met(obstacle.shape, outline_of(obstacle.shape), Scene::none)) return body;
+  std::vector<Obstacle> obstacles = description_.obstacles;
+  const std::size_t place = find_obstacle(obstacle.name);
+  if (place < obstacles.size())
+    obstacles[place] = obstacle;
+  else
+    obstacles.push_back(obstacle);
+  change_obstacles(std::move(obstacles));
+  return std::nullopt;
+}
+
+bool KinematicWorld::remove_obstacle(const std::string& name) {
+  const std::size_t place = find_obstacle(name);
+  std::vector<Obstacle> obstacles = description_.obstacles;
+  if (place == obstacles.size()) return false;
+  obstacles.erase(obstacles.begin() + static_cast<std::ptrdiff_t>(place));
+  change_obstacles(std::move(obstacles));
+  return true;
+}
+
+// All anew: a person's hand is slow.
+void KinematicWorld::change_obstacles(std::vector<Obstacle> obstacles) {
+  if (!first_obstacles_) first_obstacles_ = description_.obstacles;
+  description_.obstacles = std::move(obstacles);
+  senses_.stand(shapes_of(description_.obstacles));
+  footprints_ = footprints_of(description_);
+  meetings_.forget();
+}
+
+}  // namespace
+
+std::unique_ptr<World> make_kinematic_world(const WorldDescription& description, std::uint64_t seed) {
+  return std::make_unique<KinematicWorld>(description, seed);
+}
+
+}  // namespace waitpoint::world

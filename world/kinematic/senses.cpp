@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/kinematic/senses.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "world/planar/separation.hpp"
+#include "world/sensors/bumper.hpp"
+#include "world/sensors/infrared.hpp"
+#include "world/sensors/laser_timing.hpp"
+
+namespace waitpoint::world {
+namespace {
+
+// Movers' bounding boxes are this much wider than the movers: at walking speed the tree changes twice a second.
+constexpr double roam_m = 0.4;
+
+double longest_scan_s(const BodyDescription& body) {
+  double longest_s = 0;
+  for (const LaserDescription& laser : body.lasers) longest_s = std::max(longest_s, scan_span_s(laser));
+  return longest_s;
+}
+
+bool has_sonars(const BodyDescription& body) { return !body.sonars.empty(); }
+
+/// The rays of one sensor of a body.
+class SensorRays final : public RayCaster {
+ public:
+  SensorRays(const BeamCaster& caster, double height_m, std::uint32_t own, double range_max_m)
+      : caster_(caster), height_m_(height_m), own_(own), range_max_m_(range_max_m) {}
+
+  double distance_m(const Ray& ray) const override {
+    return caster_.cast(ray.origin, ray.direction, height_m_, own_, range_max_m_);
+  }
+
+ private:
+  const BeamCaster& caster_;
+  double height_m_;
+  std::uint32_t own_;
+  double range_max_m_;
+};
+
+}  // namespace
+
+std::vector<Shape> shapes_of(std::span<const Obstacle> obstacles) {
+  std::vector<Shape> shapes;
+  for (const Obstacle& obstacle : obstacles) shapes.push_back(obstacle.shape);
+  return shapes;
+}
+
+std::vector<Shape> shapes_of(std::span<const BodyDescription> bodies) {
+  std::vector<Shape> shapes;
+  for (const BodyDescription& body : bodies) {
+    shapes.push_back(raised(body.shape, body.start_height_m));
+    shapes.back().pose = compose(body.start, body.shape.pose);
+  }
+  return shapes;
+}
+
+Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64_t seed, LaserKinds& kinds)
+    : trail(longest_scan_s(body), step_s, body.start), infrared_noise(world::infrared_noise(seed, body.name)) {
+  lasers.reserve(body.lasers.size());
+  for (std::size_t i = 0; i < body.lasers.size(); ++i)
+    lasers.emplace_back(kinds.of(body.lasers[i]), seed, body.name, i);
+  looks_back = !std::all_of(lasers.begin(), lasers.end(), [](const Laser& laser) { return laser.plain(); });
+  for (std::size_t i = 0; i < body.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, body.name, i));
+  if (body.imu) imu = std::make_unique<Imu>(*body.imu, seed, body.name);
+  if (body.gps) gps = std::make_unique<PositionReceiver>(*body.gps, seed, body.name);
+}
+
+Senses::Senses(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers)
+    : description_(description),
+      surfaces_(description.meshes),
+      standing_(std::span<const Shape>()),
+      movers_(std::span<const Shape>()),
+      caster_(description, surfaces_, standing_, movers_),
+      sonar_echoes_(standing_, surfaces_, caster_) {
+  stand(standing);
+  move(movers);
+}
+
+void Senses::restart(std::uint64_t seed) {
+  devices_.clear();
+  LaserKinds kinds;
+  for (const BodyDescription& body : description_.bodies)
+    devices_.emplace_back(body, description_.step.seconds(), seed, kinds);
+  expected_.restart(devices_.size());
+}
+
+void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t step) {
+  Devices& devices = devices_[body];
+  const BodyState& state = vehicle.state();
+  if (devices.looks_back) devices.trail.add(state.arc);
+  const Duration now = description_.step * static_cast<std::int64_t>(step);
+  if (devices.imu) devices.imu->add(now, description_.step, state.arc, state.velocity);
+  if (devices.gps) devices.gps->add(now, description_.step, state.pose, state.height_m);
+}
+
+void Senses::add_scan_to(WorkingSet& set, std::uint32_t body) const {
+  const Devices& devices = devices_.at(body);
+  set.add_between(&devices, &devices.trail);
+  set.add(devices.lasers.data(), devices.lasers.size() * sizeof(Laser));
+}
+
+const ImuSample& Senses::imu(std::uint32_t own) const {
+  WAITPOINT_CHECK(devices_.at(own).imu != nullptr, "a body without an inertial measurement unit is asked for it");
+  return devices_[own].imu->sample();
+}
+
+const PositionFix& Senses::position_fix(std::uint32_t own) const {
+  WAITPOINT_CHECK(devices_.at(own).gps != nullptr, "a body without a receiver of positions is asked for it");
+  return devices_[own].gps->fix();
+}
+
+void Senses::put(std::uint32_t body, const Pose& pose) {
+  devices_[body].trail.restart(pose);
+  expected_.forget();
+}
+
+void Senses::stand(std::span<const Shape> standing) {
+  expected_.forget();
+  standing_ = Scene(standing);
+  caster_.stand(standing);
+  if (std::any_of(description_.bodies.begin(), description_.bodies.end(), has_sonars)) sonar_echoes_.stand(standing);
+}
+
+void Senses::move(std::span<const Shape> movers) {
+  expected_.forget();
+  movers_ = Scene(movers, roam_m);
+  caster_.move(movers);
+}
+
+void Senses::place(std::uint32_t mover, const Outline& outline, double z_low_m, double z_high_m) {
+  caster_.place(mover, outline, z_low_m, z_high_m);
+}
+
+void Senses::place(std::uint32_t mover, const Vehicle& vehicle) {
+  const Shape shape = vehicle.shape();
+  place(mover, vehicle.outline(), shape.z_low_m, shape.z_high_m);
+}
+
+void Senses::make_expected_scans(std::span<const Vehicle> vehicles, double time_s) {
+  if (!expected_.begin()) return;
+  caster_.list_movers(in_turn_);
+  constexpr std::size_t ahead = 2;  // of a crowd's bodies little is in the cache
+  const auto body_in = [&](std::size_t turn) { return std::min<std::size_t>(in_turn_[turn], vehicles.size() - 1); };
+  for (std::size_t turn = 0; turn < in_turn_.size(); ++turn) {
+    if (turn + 2 * ahead < in_turn_.size()) __builtin_prefetch(&devices_[body_in(turn + 2 * ahead)]);
+    if (turn + ahead < in_turn_.size()) {
+      const std::size_t next = body_in(turn + ahead);
+      __builtin_prefetch(devices_[next].lasers.data());
+      __builtin_prefetch(&vehicles[next].state());
+    }
+    const std::uint32_t mover = in_turn_[turn];
+    if (mover >= vehicles.size()) continue;  // what is pushed about has no lasers
+    expected_.make(mover, [&](const ExpectedScans::Entry& expected, LaserScan& scan) {
+      make_scan(vehicles[mover], mover, expected.laser, expected.number, time_s, scan);
+    });
+  }
+}
+
+void Senses::scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number,
+                  double time_s, LaserScan& out) const {
+  if (!expected_.find(own, static_cast<std::uint32_t>(laser), scan_number, out))
+    make_scan(vehicle, own, laser, scan_number, time_s, out);
+}
+
+void Senses::make_scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser_number, std::uint64_t scan_number,
+                       double time_s, LaserScan& out) const {
+  const Laser& laser = devices_[own].lasers.at(laser_number);
+  const LaserDescription& device = laser.description();
+  out.first_angle_rad = laser.first_angle_rad();
+  out.angle_step_rad = laser.angle_step_rad();
+  out.range_max_m = device.range_max_m;
+  out.range_m.resize(laser.directions().size());
+  const double height_m = device.height_m + vehicle.state().height_m;
+  if (laser.plain()) {
+    const Pose at = compose(vehicle.state().pose, device.mount);
+    const auto [s, c] = exact::sincos(at.heading);
+    caster_.cast({at.position(), {c, s}, laser.angle_step_rad(), laser.directions()}, height_m, own, device.range_max_m,
+                 out.range_m);
+  } else {
+    laser.look(scan_number, devices_[own].trail, SensorRays(caster_, height_m, own, device.range_max_m), out.range_m);
+  }
+  laser.measure(scan_number, time_s, out.range_m);
+}
+
+double Senses::cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const {
+  const auto [s, c] = exact::sincos(beam.heading_rad);
+  return caster_.cast(beam.origin, {c, s}, beam.height_m, own ? static_cast<std::uint32_t>(*own) : Scene::none,
+                      range_max_m);
+}
+
+void Senses::sonar(const Vehicle& vehicle, std::uint32_t own, std::size_t ring_number, std::uint64_t firing_number,
+                   std::vector<double>& range_m) const {
+  const SonarRingDescription& ring = vehicle.description().sonars.at(ring_number);
+  if (range_m.size() != ring.count) range_m.assign(ring.count, ring.range_max_m);
+  distances_.resize(ring.count);
+  sonar_echoes_.fire(vehicle, own, ring_number, firing_number, distances_);
+  for (std::uint32_t i = 0; i < ring.count; ++i) {
+    if (fires(ring, i, firing_number))
+      range_m[i] = sonar_range_m(ring, distances_[i], devices_[own].sonar_noise[ring_number].normal(firing_number, i));
+  }
+}
+
+std::uint32_t Senses::bumpers(const Vehicle& vehicle, std::uint32_t own) const {
+  if (!vehicle.description().bumpers) return 0;
+  const BumperDescription& bumper = *vehicle.description().bumpers;
+  const Shape shape = vehicle.shape();
+  const Bounds reach = bounds_of(vehicle.outline()).grown(bumper.travel_m);
+  std::uint32_t pressed = 0;
+  const auto touch = [&](const Scene& scene) {
+    scene.near(reach, shape.z_low_m, shape.z_high_m, near_);
+    for (const std::uint32_t other : near_) {
+      if (&scene == &movers_ && other == own) continue;
+      pressed |=
+          pressed_panel(bumper, vehicle.state().pose.heading, separation(vehicle.outline(), scene.outline(other)));
+    }
+  };
+  touch(standing_);
+  touch(movers());
+  surfaces_.near(reach, shape.z_low_m, shape.z_high_m, near_);
+  for (const std::uint32_t number : near_)
+    pressed |= pressed_panel(bumper, vehicle.state().pose.heading,
+                             surfaces_.separation(vehicle.outline(), shape.z_low_m, shape.z_high_m, number));
+  return pressed;
+}
+
+void Senses::infrareds(const Vehicle& vehicle, std::uint32_t own, std::uint64_t reading_number,
+                       std::vector<double>& volts) const {
+  WAITPOINT_CHECK(vehicle.description().infrareds.has_value(),
+                  "a body without infrared range finders is asked for them");
+  const InfraredRingDescription& ring = *vehicle.description().infrareds;
+  volts.resize(ring.count);
+  for (std::uint32_t i = 0; i < ring.count; ++i) {
+    const Pose finder = compose(vehicle.state().pose, infrared_mount(ring, i));
+    const double height_m = ring.height_m + vehicle.state().height_m;
+    const double range_m = cast({finder.position(), finder.heading, height_m}, ring.range_max_m, BodyId(own));
+    volts[i] = infrared_v(ring, range_m, devices_[own].infrared_noise.normal(reading_number, i));
+  }
+}
+
+}  // namespace waitpoint::world

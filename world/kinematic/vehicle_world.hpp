@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all world servers have alike: vehicles that are told where to go and senses that tell what they see. How things
+// move is for the server to say.
+#pragma once
+
+#include "world/kinematic/senses.hpp"
+#include "world/vehicles/vehicle.hpp"
+#include "world/world.hpp"
+
+namespace waitpoint::world {
+
+constexpr std::uint32_t number(BodyId id) { return static_cast<std::uint32_t>(id); }
+
+class VehicleWorld : public World {
+ public:
+  const WorldDescription& description() const final { return description_; }
+  void command(BodyId id, Velocity velocity) final { vehicles_.at(index(id)).command(velocity, steps_); }
+  std::uint64_t steps() const final { return steps_; }
+
+  const BodyState& body(BodyId id) const final { return vehicles_.at(index(id)).state(); }
+  const OdometerReading& odometer(BodyId id) const final { return vehicles_.at(index(id)).odometer(); }
+  BatteryState battery(BodyId id) const final { return vehicles_.at(index(id)).battery(elapsed_s()); }
+  const ImuSample& imu(BodyId id) const final { return senses_.imu(number(id)); }
+  const PositionFix& position_fix(BodyId id) const final { return senses_.position_fix(number(id)); }
+
+  void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const final {
+    senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, elapsed_s(), out);
+  }
+  void expect_scan(BodyId id, std::size_t laser, std::uint64_t scan_number) final {
+    senses_.expect_scan(number(id), laser, scan_number);
+  }
+  void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const final {
+    senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
+  }
+  std::uint32_t bumpers(BodyId id) const final { return senses_.bumpers(vehicles_.at(index(id)), number(id)); }
+  void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const final {
+    senses_.infrareds(vehicles_.at(index(id)), number(id), reading_number, volts);
+  }
+  void add_to(WorkingSet& set, BodyId id) const final { vehicles_.at(index(id)).add_to(set); }
+  void add_scan_to(WorkingSet& set, BodyId id) const final { senses_.add_scan_to(set, number(id)); }
+  double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const final {
+    return senses_.cast(beam, range_max_m, own);
+  }
+
+ protected:
+  /// Without vehicles: those are made by the server's reset(). The shapes are as Senses takes them.
+  VehicleWorld(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers);
+
+  double elapsed_s() const { return static_cast<double>(steps_) * step_s_; }
+  /// The place of the first one of that name; behind the last if there is none.
+  std::size_t find_obstacle(const std::string& name) const;
+  /// The name of a body that something of that shape would touch there, leaving out number `except`.
+  std::optional<std::string> body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const;
+  /// The name of a mesh that it would touch there.
+  std::optional<std::string> mesh_met(const Shape& shape, const Outline& outline) const;
+
+  WorldDescription description_;
+  const double step_s_;
+  std::uint64_t steps_ = 0;
+  std::vector<Vehicle> vehicles_;
+  Senses senses_;  // bodies as published at the last step but one: where the last step began
+};
+
+}  // namespace waitpoint::world
