@@ -12,7 +12,7 @@ Module::Module(ModuleSetup& setup, std::uint16_t number, threads::kind)
       of_control_task_(read_computing(settings_, "tasks.control.", names_, of_all_tasks_)),
       mailbox_(setup.name),
       control_(*this, names_.create_poster<ModuleStatus>(setup.name + ".control", setup.name)) {
-  names_.add(*this);
+  names_.add(name_, *this);
   add_control<AbortInput>("Abort",
                           [this](const AbortInput& input, Nothing&) { return control_.abort(input.activity); });
 }

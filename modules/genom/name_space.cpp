@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/genom/name_space.hpp"
 
-#include "modules/genom/module.hpp"
-
 namespace waitpoint::genom {
 namespace {
 
@@ -45,9 +43,9 @@ void NameSpace::add(std::unique_ptr<PosterBase> poster) {
   if (!added) throw BadInput("poster '" + name + "'", "written by '" + place->second->writer() + "' and by another");
 }
 
-void NameSpace::add(Module& module) {
-  if (!modules_.emplace(module.name(), &module).second)
-    throw BadInput("module '" + module.name() + "'", "there is another of that name on this robot");
+void NameSpace::add(const std::string& name, Module& module) {
+  if (!modules_.emplace(name, &module).second)
+    throw BadInput("module '" + name + "'", "there is another of that name on this robot");
 }
 
 }  // namespace waitpoint::genom

@@ -30,7 +30,7 @@ class NameSpace {
   threads::processor& add_processor(const std::string& name);
   threads::processor* find_processor(const std::string& name) const;
   /// A second module of the same name is BadInput.
-  void add(Module& module);
+  void add(const std::string& name, Module& module);
 
   const std::map<std::string, std::unique_ptr<PosterBase>>& posters() const { return posters_; }
   const std::map<std::string, Module*>& modules() const { return modules_; }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/fuzz/refusal.hpp"
-#include "world/formats/grey_image.hpp"
+#include "world/formats/image_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string contents(reinterpret_cast<const char*>(data), size);

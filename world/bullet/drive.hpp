@@ -8,7 +8,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "world/bullet/dynamics.hpp"
+#include "world/bullet/drive_aim.hpp"
 
 namespace waitpoint::world {
 

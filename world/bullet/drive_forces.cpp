@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "world/bullet/loose_solid.hpp"
+
 namespace waitpoint::world {
 namespace {
 

@@ -2,7 +2,7 @@
 // How strong a base's drive is in a dynamic world.
 #pragma once
 
-#include "world/bullet/dynamics.hpp"
+#include "world/bullet/drive_aim.hpp"
 
 namespace waitpoint::world {
 

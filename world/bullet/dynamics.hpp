@@ -15,20 +15,12 @@
 #include <memory>
 #include <span>
 
+#include "world/bullet/drive_aim.hpp"
 #include "world/bullet/loose_solid.hpp"
 #include "world/triangle_mesh.hpp"
 #include "world/vehicles/vehicle.hpp"
 
 namespace waitpoint::world {
-
-/// Of hulls; of floor and standing solids it is 1.
-inline constexpr double hull_friction = 0.5;
-
-/// What a drive is to reach by the end of a step, and the forces that it has for it.
-struct DriveAim {
-  Velocity velocity;
-  double force_n = 0, side_force_n = 0, torque_nm = 0, climb_force_n = 0;
-};
 
 class Dynamics {
  public:

@@ -8,8 +8,12 @@
 #include <memory>
 
 #include "world/bullet/drive.hpp"
+#include "world/vehicles/vehicle.hpp"
 
 namespace waitpoint::world {
+
+/// Of hulls; of floor and standing solids it is 1.
+inline constexpr double hull_friction = 0.5;
 
 class Hull {
  public:

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
 #include "world/formats/file_contents.hpp"
-#include "world/formats/grey_image.hpp"
+#include "world/formats/image_file.hpp"
 #include "world/formats/limits.hpp"
 
 namespace waitpoint::world {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "world/formats/file_contents.hpp"
-#include "world/formats/grey_image.hpp"
+#include "world/formats/image_file.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/merged_cells.hpp"
 #include "world/formats/segments.hpp"

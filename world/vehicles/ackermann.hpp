@@ -5,7 +5,8 @@
 // cannot move sideways:  w = v tan(steering) / wheelbase.
 #pragma once
 
-#include "world/vehicles/base.hpp"
+#include "world/description.hpp"
+#include "world/vehicles/base_motion.hpp"
 
 namespace waitpoint::world {
 

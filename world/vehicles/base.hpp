@@ -16,6 +16,7 @@
 
 #include "world/arc.hpp"
 #include "world/description.hpp"
+#include "world/vehicles/base_motion.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::world {
@@ -26,12 +27,6 @@ Velocity limited(const BaseDescription& base, Velocity wanted);
 
 /// The velocity nearest to how a body moves, whatever moved it, that its base could hold.
 Velocity nearest_held(const BaseDescription& base, Velocity moving);
-
-/// How a base moves: its body, and where its wheels point (Ackermann; 0 is straight ahead).
-struct BaseMotion {
-  Velocity velocity;
-  double steering_rad = 0;
-};
 
 /// The motion one step after `now`: towards limited(wanted), each component by at most its acceleration (or rate of
 /// steering) times the step. `now` is within the limits, and so is the result.

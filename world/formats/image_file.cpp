@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/formats/grey_image.hpp"
+#include "world/formats/image_file.hpp"
 
 #include <png.h>
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a base's drive.
+#pragma once
+
+#include "world/world.hpp"
+
+namespace waitpoint::world {
+
+/// How a base moves: its body, and where its wheels point (Ackermann; 0 is straight ahead).
+struct BaseMotion {
+  Velocity velocity;
+  double steering_rad = 0;
+};
+
+}  // namespace waitpoint::world
