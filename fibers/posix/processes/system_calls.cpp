@@ -30,6 +30,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
+#include <optional>
 
 extern "C" {
 #include <sys/pidfd.h>  // says nothing of C++
@@ -62,8 +63,9 @@ long call_system(long number, const CallWords& words) {
 
 bool may_be_written(void* address) { return address == nullptr || can_be_written(address); }
 
-long simulated_call(long number, const CallWords& words) {
-  const auto timer = reinterpret_cast<timer_t>(static_cast<std::uintptr_t>(words.at[0]));
+// Each group answers the calls that it knows.
+
+std::optional<long> call_about_threads(long number, const CallWords& words) {
   switch (number) {
     case SYS_futex: return words.call(futex);
     case SYS_futex_waitv: return is_simulated() ? wait_for_any_futex(words) : call_system(number, words);
@@ -86,14 +88,25 @@ long simulated_call(long number, const CallWords& words) {
     case SYS_epoll_pwait: return call_about_signals(number, words);
     case SYS_sigaltstack: return words.call(sigaltstack);
     case SYS_pause: return pause();
+    default: return std::nullopt;
+  }
+}
 
+std::optional<long> call_about_scheduling(long number, const CallWords& words) {
+  switch (number) {
     case SYS_sched_yield: return sched_yield();
     case SYS_setpriority:
       return setpriority(static_cast<__priority_which_t>(words.at[0]), words.word<id_t>(1), words.word<int>(2));
     case SYS_getcpu: return words.call(getcpu);
     case SYS_getrandom: return words.call(getrandom);
     case SYS_getrusage: return getrusage(static_cast<__rusage_who_t>(words.at[0]), words.word<rusage*>(1));
+    default: return std::nullopt;
+  }
+}
 
+std::optional<long> call_about_time(long number, const CallWords& words) {
+  const auto timer = reinterpret_cast<timer_t>(static_cast<std::uintptr_t>(words.at[0]));
+  switch (number) {
     case SYS_nanosleep: return words.call(nanosleep);
     case SYS_clock_nanosleep: {
       const long error = words.call(clock_nanosleep);
@@ -123,7 +136,12 @@ long simulated_call(long number, const CallWords& words) {
     case SYS_timerfd_create: return words.call(timerfd_create);
     case SYS_timerfd_settime: return words.call(timerfd_settime);
     case SYS_timerfd_gettime: return words.call(timerfd_gettime);
+    default: return std::nullopt;
+  }
+}
 
+std::optional<long> call_about_ipc(long number, const CallWords& words) {
+  switch (number) {
     case SYS_semget: return words.call(semget);
     case SYS_semop: return words.call(semop);
     case SYS_semtimedop: return words.call(semtimedop);
@@ -144,7 +162,12 @@ long simulated_call(long number, const CallWords& words) {
       return words.at[4] != 0 ? words.call(mq_timedreceive)
                               : mq_receive(words.word<mqd_t>(0), words.word<char*>(1), words.word<std::size_t>(2),
                                            words.word<unsigned*>(3));
+    default: return std::nullopt;
+  }
+}
 
+std::optional<long> call_about_processes(long number, const CallWords& words) {
+  switch (number) {
     case SYS_fork: return fork();
     case SYS_vfork: return vfork();
     case SYS_clone:
@@ -156,7 +179,12 @@ long simulated_call(long number, const CallWords& words) {
       return waitid(static_cast<idtype_t>(words.at[0]), words.word<id_t>(1), words.word<siginfo_t*>(2),
                     words.word<int>(3));
     case SYS_execve: return words.call(execve);
+    default: return std::nullopt;
+  }
+}
 
+std::optional<long> call_about_descriptors(long number, const CallWords& words) {
+  switch (number) {
     case SYS_open: return open(words.word<const char*>(0), words.word<int>(1), words.word<mode_t>(2));
     case SYS_openat:
       return openat(words.word<int>(0), words.word<const char*>(1), words.word<int>(2), words.word<mode_t>(3));
@@ -185,6 +213,12 @@ long simulated_call(long number, const CallWords& words) {
     case SYS_tee: return words.call(tee);
     case SYS_vmsplice: return words.call(vmsplice);
     case SYS_sendfile: return words.call(sendfile);
+    default: return std::nullopt;
+  }
+}
+
+std::optional<long> call_about_sockets(long number, const CallWords& words) {
+  switch (number) {
     case SYS_socket: return words.call(socket);
     case SYS_socketpair: return words.call(socketpair);
     case SYS_connect: return connect(words.word<int>(0), words.word<const sockaddr*>(1), words.word<socklen_t>(2));
@@ -200,8 +234,15 @@ long simulated_call(long number, const CallWords& words) {
     case SYS_sendmsg: return words.call(sendmsg);
     case SYS_recvmsg: return words.call(recvmsg);
     case SYS_shutdown: return words.call(shutdown);
-    default: return call_system(number, words);
+    default: return std::nullopt;
   }
+}
+
+long simulated_call(long number, const CallWords& words) {
+  for (const auto about : {call_about_threads, call_about_scheduling, call_about_time, call_about_ipc,
+                           call_about_processes, call_about_descriptors, call_about_sockets})
+    if (const std::optional<long> result = about(number, words)) return *result;
+  return call_system(number, words);
 }
 
 }  // namespace
