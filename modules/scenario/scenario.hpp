@@ -33,8 +33,10 @@ struct Expectation {
 };
 
 /// The keys of `expect`, one for each of its figures.
-inline constexpr std::initializer_list<std::string_view> expectation_keys = {"goals_reached", "collisions",
-                                                                             "position_error_max_m"};
+inline std::initializer_list<std::string_view> expectation_keys() {
+  static const std::initializer_list<std::string_view> keys = {"goals_reached", "collisions", "position_error_max_m"};
+  return keys;
+}
 
 /// A file of another's making that says what stands in the world: world/formats/world_file.hpp lists the kinds.
 struct MapFile {

@@ -22,7 +22,7 @@ constexpr std::uint64_t count_max = 1'000'000'000;
 constexpr double height_default_m = 2;
 
 Expectation read_expectation(const YamlNode& node) {
-  const YamlMap map(node, "expect", expectation_keys);
+  const YamlMap map(node, "expect", expectation_keys());
   Expectation expect;
   if (const YamlNode* goals = map.find("goals_reached")) {
     expect.all_goals_reached = goals->kind == YamlNode::Kind::scalar && goals->text == "all";
