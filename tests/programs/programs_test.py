@@ -41,7 +41,7 @@ class Blinker(Installed):
         digests = [re.findall(r"wp1:[0-9a-f]{16}", output) for output in outputs]
         self.assertTrue(digests[0])
         self.assertEqual(digests[0], digests[1])
-        self.assertIn(digests[0][-1], (HERE.parents[1] / "README.md").read_text(), "the README shows another digest")
+        self.assertIn(digests[0][-1], (HERE.parents[1] / "docs/robots.md").read_text(), "docs/robots.md shows another digest")
         self.assertIn("lighthouse", (self.folder / "events").read_text())
 
         other = run(program, "run", HERE / "blinker/blinker.yaml", "--set", "robots.0.modules.watchman.flashes=1")
