@@ -6,8 +6,10 @@
 
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
+#include "tools/check/self_check.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/exec/exec.hpp"
+#include "tools/exec/program_process.hpp"
 #include "tools/explore/explore.hpp"
 #include "tools/gdb/debug.hpp"
 #include "tools/options.hpp"
@@ -39,7 +41,8 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
   try {
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
-    if (const auto* run = std::get_if<tools::RunOptions>(&options)) return tools::run(*run, types);
+    if (const auto* run = std::get_if<tools::RunOptions>(&options))
+      return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
     if (const auto* executed = std::get_if<tools::ExecOptions>(&options)) return tools::exec(*executed);

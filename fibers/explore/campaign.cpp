@@ -12,6 +12,7 @@
 #include "fibers/explore/explain.hpp"
 #include "fibers/explore/play.hpp"
 #include "fibers/explore/races/races.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {

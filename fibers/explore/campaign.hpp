@@ -4,7 +4,9 @@
 
 #include <unordered_set>
 
-#include "fibers/explore/explore.hpp"
+#include "fibers/explore/body.hpp"
+#include "fibers/explore/explore_options.hpp"
+#include "fibers/explore/explore_report.hpp"
 #include "fibers/explore/minimize.hpp"
 #include "fibers/explore/report/timeline.hpp"
 #include "fibers/explore/schedules/token.hpp"

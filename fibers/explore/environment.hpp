@@ -4,7 +4,8 @@
 #pragma once
 
 #include "core/error.hpp"
-#include "fibers/explore/explore.hpp"
+#include "fibers/explore/body.hpp"
+#include "fibers/explore/explore_options.hpp"
 
 namespace waitpoint::exploration {
 

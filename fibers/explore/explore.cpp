@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/explore.hpp"
 
-#include <ostream>
-
 #include "core/error.hpp"
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/environment.hpp"
-#include "fibers/explore/strategies/strategy.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 
 namespace waitpoint {
 namespace {
@@ -53,14 +51,6 @@ ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<voi
     exploration::refuse_environment(input);
     throw;
   }
-}
-
-std::ostream& operator<<(std::ostream& out, const ExploreReport& report) {
-  if (!report.passed) return out << report.text;
-  out << "passed " << report.schedules << " schedules, " << report.distinct << " distinct";
-  if (!report.scope.empty()) out << ", which are " << report.scope;
-  if (report.leaked_bytes > 0) out << "; each leaves " << report.leaked_bytes << " bytes on the heap";
-  return out;
 }
 
 }  // namespace waitpoint

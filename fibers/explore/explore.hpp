@@ -18,51 +18,16 @@
 // allows. With compute(least, greatest) between them, only those that the times allow.
 #pragma once
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <iosfwd>
-#include <string>
 
-#include "core/time.hpp"
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/explore_options.hpp"
+#include "fibers/explore/explore_report.hpp"
 #ifdef GTEST_TEST
 #include "fibers/explore/googletest.hpp"
 #endif
 
 namespace waitpoint {
-
-/// Each is replaced by the environment's WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT and _SCHEDULE_LIMIT
-/// (seconds), _REPLAY where that is set.
-struct ExploreOptions {
-  std::string strategy = "portfolio";
-  std::uint64_t seed = 1;
-  std::uint64_t iterations = 10'000;    ///< schedules, at most
-  double time_limit_s = 0;              ///< of the wall clock; 0: none
-  std::uint32_t schedule_limit_s = 60;  ///< of one: what takes longer ends the program; 0: none does
-  std::string replay = {};              ///< a token: that schedule alone
-  bool races = true;                    ///< a data race is a failure, though it did no harm; see races/races.hpp
-  bool minimize = true;                 ///< what failed, to the fewest switches that still fail
-  Time until = Time() + std::chrono::hours(1);  ///< a schedule that has not ended then fails
-  std::uint32_t steps_max = 100'000;            ///< switch points at one instant, after which there is no progress
-};
-
-struct ExploreReport {
-  bool passed = false;
-  std::string text;  ///< of a failure: what happened, where, why, and the line that repeats it; else empty
-  std::uint64_t schedules = 0;
-  std::uint64_t distinct = 0;
-  bool complete = false;   ///< all there are were tried, as an exhaustive strategy knows, but for spurious wake-ups
-  std::string scope = {};  ///< where an exhaustive strategy came to its end: of what it tried all, in words
-  std::size_t leaked_bytes = 0;  ///< of the heap, that the default schedule leaves in use each time
-  double seconds = 0;
-  std::uint64_t failed_at = 0;     ///< the number of the schedule that failed
-  exploration::Schedule schedule;  ///< that failed; the least that was found
-  std::string replay;              ///< the token of the failure
-};
-
-std::ostream& operator<<(std::ostream& out, const ExploreReport& report);
 
 /// Tries `body` under schedule after schedule until one fails, or `options` say that it is enough. BadInput for options
 /// that cannot be meant; what the environment asks for and cannot be meant ends the program with a line and status 2.

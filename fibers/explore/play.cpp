@@ -2,8 +2,8 @@
 #include "fibers/explore/play.hpp"
 
 #include "core/error.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
 

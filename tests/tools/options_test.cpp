@@ -162,6 +162,10 @@ TEST_F(CommandLine, two_files_of_one_name_are_refused) {
   const std::string link = folder / "link", file = folder / "file";
   EXPECT_EQ(message({"run", "a", "--trajectory", link.c_str(), "--record-durations", file.c_str()}),
             "--record-durations: '" + file + "' is the file that --trajectory writes");
+  EXPECT_EQ(message({"run", "a", "--record", "f", "--picture", "f"}),
+            "--record: 'f' is the file that --picture writes");
+  EXPECT_EQ(message({"run", "a", "--replay-durations", "d", "--events", "d"}),
+            "--replay-durations: 'd' is the file that --events writes");
   EXPECT_EQ(message({"run", "a", "--journal", "j", "--replay-journal", "./j"}),
             "--replay-journal: './j' is the file that --journal writes");
   EXPECT_EQ(message({"run", "a", "--summary", "/dev/null", "--events", "/dev/null"}), "");

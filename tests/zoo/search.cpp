@@ -2,6 +2,7 @@
 #include "tests/zoo/search.hpp"
 
 #include "fibers/explore/explore.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 
 namespace waitpoint::zoo {
 

@@ -11,11 +11,15 @@
 #include "core/number_text.hpp"
 #include "fibers/sync/duration_record.hpp"
 #include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
 #include "tools/check/event_comparison.hpp"
 #include "tools/check/event_log.hpp"
 #include "tools/check/perturbed_memory.hpp"
 #include "tools/check/perturbed_process.hpp"
 #include "tools/check/system_threads.hpp"
+#include "tools/command/interruption.hpp"
+#include "tools/command/program_layer.hpp"
+#include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
 #include "tools/run/duration_files.hpp"
 
@@ -208,11 +212,9 @@ int SelfCheck::all() {
   return tell(cut_off(log.file(), shared->equal, "the process " + how), "the run in a perturbed process");
 }
 
-}  // namespace
+bool is_interrupted() { return interruption() != 0; }
 
-int self_check(const RunOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types,
-               const std::string& replay, bool (*interrupted)()) {
-  SelfCheck check(options, scenario, types, replay, interrupted);
+int status_of(SelfCheck& check) {
   const std::optional<PerturbedFiles> files = files_of_perturbed_process();
   if (!files) return check.all();
   struct Call {
@@ -227,6 +229,19 @@ int self_check(const RunOptions& options, const bridge::Scenario& scenario, std:
       },
       &call);
   return call.status;
+}
+
+}  // namespace
+
+int self_check(const RunOptions& options, std::span<const genom::ModuleType> types) {
+  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  begin_with_program_layer(scenario);
+  heed_signals();
+  const std::string replay = replay_line(options, options.seed);
+  SelfCheck check(options, scenario, types, replay, is_interrupted);
+  const int status = status_of(check);
+  flush_standard_output();
+  return status;
 }
 
 }  // namespace waitpoint::tools

@@ -11,17 +11,14 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "modules/genom/module_type.hpp"
-#include "modules/scenario/scenario.hpp"
-#include "tools/options.hpp"
+#include "tools/run/run_options.hpp"
 
 namespace waitpoint::tools {
 
-/// Returns the exit status: 0 if all three runs are equal, 1 if two differ, 130 if `interrupted` became true. Throws
-/// BadInput where a run would, and if there is no place for the log or no way to start a process.
-int self_check(const RunOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types,
-               const std::string& replay, bool (*interrupted)());
+/// Returns the exit status: 0 if all three runs are equal, 1 if two differ, 130 if a signal ended it. Throws BadInput
+/// where a run would, and if there is no place for the log or no way to start a process.
+int self_check(const RunOptions& options, std::span<const genom::ModuleType> types);
 
 }  // namespace waitpoint::tools

@@ -17,7 +17,4 @@ int exec(const ExecOptions& options);
 /// What a run with this seed is to do.
 posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed);
 
-/// Exit status where it cannot be run.
-inline constexpr int exec_failed = 125;
-
 }  // namespace waitpoint::tools

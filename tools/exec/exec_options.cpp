@@ -1,46 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/exec/exec_options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 
 #include "core/error.hpp"
 
 namespace waitpoint::tools {
 
-ExecArguments::ExecArguments(CLI::App& app)
-    : command_(app.add_subcommand("exec",
-                                  "Runs a program with its threads as simulated ones, in virtual time (docs/exec.md):\n"
-                                  "  waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS...]")) {
-  command_
-      ->add_option("--seed", seed_,
-                   "from which the schedule and random numbers follow (default:\n$WAITPOINT_SEED, or 1)")
-      ->type_name("N");
-  command_
-      ->add_option("--seeds", seeds_,
-                   "run each seed from A to B, until one ends with another status than 0; what the\n"
-                   "program writes is shown of that one")
-      ->type_name("A..B");
-  command_
-      ->add_option("--strategy", strategy_,
-                   "random, the default: threads that could go on at one instant do so in an\n"
-                   "order of the seed's; fifo: a thread goes on until it waits")
-      ->type_name("S");
-  command_
-      ->add_option("--trace", trace_,
-                   "write what each thread did, up to the end or the crash, for the viewers of\n"
-                   "Chrome and Perfetto")
-      ->type_name("FILE.json");
-  conditions_.add_to(*command_);
-  command_->add_flag("--quiet", quiet_, "no line about the run at its end, unless it failed")->disable_flag_override();
-  command_->footer(
+ExecArguments::ExecArguments(CommandLine& line)
+    : command_(line.add_command("exec",
+                                "Runs a program with its threads as simulated ones, in virtual time (docs/exec.md):\n"
+                                "  waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS...]")) {
+  command_.option("--seed", seed_, "N",
+                  "from which the schedule and random numbers follow (default:\n$WAITPOINT_SEED, or 1)");
+  command_.option("--seeds", seeds_, "A..B",
+                  "run each seed from A to B, until one ends with another status than 0; what the\n"
+                  "program writes is shown of that one");
+  command_.option("--strategy", strategy_, "S",
+                  "random, the default: threads that could go on at one instant do so in an\n"
+                  "order of the seed's; fifo: a thread goes on until it waits");
+  command_.option("--trace", trace_, "FILE.json",
+                  "write what each thread did, up to the end or the crash, for the viewers of\n"
+                  "Chrome and Perfetto");
+  conditions_.add_to(command_);
+  command_.flag("--quiet", quiet_, "no line about the run at its end, unless it failed");
+  command_.footer(
       "Several programs in one process, built as shared objects: exec -- a.so ARGUMENTS :: NAME=b.so ARGUMENTS\n"
       "The exit status is the program's own; 124 if its threads wait for each other for ever, 125 if it\n"
       "cannot be run; with --seeds 1 if a seed failed. Data races (programs compiled with -fsanitize=thread) are\n"
       "told and change no status: waitpoint explore --exec takes them for failures.");
 }
-
-bool ExecArguments::parsed() const { return command_->parsed(); }
 
 ExecOptions ExecArguments::options(const std::vector<std::string>& words) const {
   if (words.empty()) throw BadInput("exec", "expected what to run: waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");

@@ -9,12 +9,9 @@
 #include <vector>
 
 #include "fibers/kernel/chooser.hpp"
+#include "tools/command/command_line.hpp"
 #include "tools/command/option_values.hpp"
 #include "tools/exec/program_conditions.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace waitpoint::tools {
 
@@ -32,15 +29,15 @@ struct ExecOptions {
 class ExecArguments {
  public:
   /// Adds the command with its options.
-  explicit ExecArguments(CLI::App& app);
+  explicit ExecArguments(CommandLine& line);
 
   /// Whether the command line has it.
-  bool parsed() const;
+  bool parsed() const { return command_.parsed(); }
   /// What they say, for a program of these words; BadInput where they cannot be meant.
   ExecOptions options(const std::vector<std::string>& words) const;
 
  private:
-  CLI::App* command_;
+  Command command_;
   std::string seed_, seeds_, trace_, strategy_ = "random";
   bool quiet_ = false;
   ConditionArguments conditions_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/exec/program_conditions.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -96,31 +95,23 @@ std::string ProgramConditions::words() const {
   return all;
 }
 
-void ConditionArguments::add_to(CLI::App& command) {
-  command
-      .add_option("--clock", clock_,
-                  "what a thread's code costs from one call to the next: fixed:US, interval:US..US\n"
-                  "(chosen by the seed), counted[:NS] (a nanosecond, or so many, for each basic block of\n"
-                  "a program compiled with -fsanitize-coverage=trace-pc), or as measured, which does not repeat: cpu, "
-                  "proportional,\n"
-                  "with :xFACTOR of that (default: nothing)")
-      ->type_name("CLOCK");
-  command
-      .add_option("--children", children_,
-                  "programs that it starts (exec, posix_spawn, system, popen): native, the default, or\n"
-                  "simulated, each on its own; those that it forks are simulated in any case")
-      ->type_name("KIND");
-  command.add_flag("--isolate", isolate_, "what would leave this machine fails (EACCES)")->disable_flag_override();
-  command
-      .add_flag("--trap-rdtsc", trap_rdtsc_,
-                "the processor's counter shows virtual time, a nanosecond a tick, where the\n"
-                "program reads it by an instruction (some microseconds each)")
-      ->disable_flag_override();
-  command
-      .add_flag("--trap-libc", trap_library_,
-                "what the C library waits for within itself (its own locks, a FILE* on a pipe) is\n"
-                "simulated too, by traps of its system calls (some microseconds each)")
-      ->disable_flag_override();
+void ConditionArguments::add_to(Command& command) {
+  command.option("--clock", clock_, "CLOCK",
+                 "what a thread's code costs from one call to the next: fixed:US, interval:US..US\n"
+                 "(chosen by the seed), counted[:NS] (a nanosecond, or so many, for each basic block of\n"
+                 "a program compiled with -fsanitize-coverage=trace-pc), or as measured, which does not repeat: cpu, "
+                 "proportional,\n"
+                 "with :xFACTOR of that (default: nothing)");
+  command.option("--children", children_, "KIND",
+                 "programs that it starts (exec, posix_spawn, system, popen): native, the default, or\n"
+                 "simulated, each on its own; those that it forks are simulated in any case");
+  command.flag("--isolate", isolate_, "what would leave this machine fails (EACCES)");
+  command.flag("--trap-rdtsc", trap_rdtsc_,
+               "the processor's counter shows virtual time, a nanosecond a tick, where the\n"
+               "program reads it by an instruction (some microseconds each)");
+  command.flag("--trap-libc", trap_library_,
+               "what the C library waits for within itself (its own locks, a FILE* on a pipe) is\n"
+               "simulated too, by traps of its system calls (some microseconds each)");
 }
 
 ProgramConditions ConditionArguments::conditions(bool is_repeated) const {

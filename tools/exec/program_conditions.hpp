@@ -8,10 +8,7 @@
 
 #include "fibers/clocks/clock_options.hpp"
 #include "fibers/posix/program/record.hpp"
-
-namespace CLI {
-class App;
-}
+#include "tools/command/command_line.hpp"
 
 namespace waitpoint::tools {
 
@@ -33,7 +30,7 @@ struct ProgramConditions {
 /// The options as they are written.
 class ConditionArguments {
  public:
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   /// BadInput where they cannot be meant. `is_repeated`: what does not repeat cannot.
   ProgramConditions conditions(bool is_repeated) const;
   /// The first of them that was given; empty without any.

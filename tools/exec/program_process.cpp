@@ -13,7 +13,6 @@
 
 #include "core/error.hpp"
 #include "tools/command/installed_part.hpp"
-#include "tools/exec/exec.hpp"
 #include "tools/exec/program_file.hpp"
 
 namespace waitpoint::tools {

@@ -29,6 +29,9 @@ struct ProgramFiles {
 /// What the environment of the process holds beside what is there: "NAME=VALUE". The record's descriptor is inherited.
 std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemory& memory);
 
+/// Exit status where a program cannot be run.
+inline constexpr int exec_failed = 125;
+
 /// Starts the process of the programs. It reads and writes where this process does, but for a
 /// descriptor `output`, if it is none of -1, that takes both of its streams. It ends with this process.
 pid_t start_program(const ProgramFiles& files, const RunMemory& memory, int output = -1);

@@ -2,6 +2,7 @@
 #include "tools/explore/depth_first.hpp"
 
 #include "fibers/explore/strategies/dfs.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 
 namespace waitpoint::tools {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/explore_options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
@@ -10,8 +9,10 @@
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "fibers/explore/schedules/token.hpp"
-#include "fibers/explore/strategies/strategy.hpp"
+#include "fibers/explore/strategies/factory.hpp"
+#include "modules/run/expectation.hpp"
 #include "modules/scenario/scenario.hpp"
+#include "tools/command/distinct_files.hpp"
 #include "tools/command/option_values.hpp"
 #include "tools/explore/depth_first.hpp"
 
@@ -76,53 +77,48 @@ std::optional<std::filesystem::path> file(const std::string& name) {
 
 }  // namespace
 
-ExploreArguments::ExploreArguments(CLI::App& app)
-    : command_(app.add_subcommand("explore",
-                                  "Runs a scenario, or a program, under many schedules; tells the first failure.")) {
-  const auto add = [this](const char* name, std::string& value, const char* type, const std::string& description) {
-    command_->add_option(name, value, description)->type_name(type);
-  };
-  const auto add_all = [this](const char* name, std::vector<std::string>& values, const char* description) {
-    command_->add_option(name, values, description)->type_name("KEY=VALUE")->allow_extra_args(false);
-  };
-  command_->add_option("SCENARIO", scenario_, "the scenario file")->type_name(" ");
-  command_
-      ->add_flag("--exec", is_program_,
-                 "instead of a scenario, a program as `waitpoint exec` runs it (docs/exec.md):\n"
-                 "  waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]\n"
-                 "a schedule fails whose exit status is not 0, that a signal ends, or that is stuck")
-      ->disable_flag_override();
-  add("--strategy", strategy_, "S",
-      "how schedules are drawn (default: $WAITPOINT_STRATEGY, or portfolio):\n" +
-          exploration::strategy_names(exploration::Kinds::drawing) + "\n(of a program dfs and bounded:K too)");
-  add("--iterations", iterations_, "N",
+ExploreArguments::ExploreArguments(CommandLine& line)
+    : command_(line.add_command("explore",
+                                "Runs a scenario, or a program, under many schedules; tells the first failure.")) {
+  command_.argument("SCENARIO", scenario_, "the scenario file", Command::Presence::optional);
+  command_.flag("--exec", is_program_,
+                "instead of a scenario, a program as `waitpoint exec` runs it (docs/exec.md):\n"
+                "  waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]\n"
+                "a schedule fails whose exit status is not 0, that a signal ends, or that is stuck");
+  command_.option("--strategy", strategy_, "S",
+                  "how schedules are drawn (default: $WAITPOINT_STRATEGY, or portfolio):\n" +
+                      exploration::strategy_names(exploration::Kinds::drawing) +
+                      "\n(of a program dfs and bounded:K too)");
+  command_.option(
+      "--iterations", iterations_, "N",
       "schedules, at most (default: $WAITPOINT_ITERATIONS, or 1000, or no end\nwhere there is a time limit)");
-  add("--time-limit", time_limit_, "SECONDS", "no schedule is begun after that (default: $WAITPOINT_TIME_LIMIT)");
-  add("--schedule-limit", schedule_limit_, "SECONDS",
-      "of the wall clock: a schedule that takes longer has failed, 0 for no limit\n"
-      "(default: $WAITPOINT_SCHEDULE_LIMIT, or a minute and ten times the default order's)");
-  add("--jobs", jobs_, "J", "so many processes at once (default: 1)");
-  add("--seed", seed_, "N", "from which all else follows (default: $WAITPOINT_SEED, or 1)");
-  add_all("--property", properties_,
-          "what is to hold in every run, in place of the scenario's `expect`:\n"
-          "goals_reached, collisions, position_error_max_m");
-  add("--until", until_, "S", "runs end at this virtual time, in seconds (default: the scenario's until_s)");
-  add("--from", from_, "S", "up to this virtual time all runs are one, in the default order; they part there");
-  add_all("--set", assignments_, "set a value of the scenario, as in waitpoint run");
-  add("--shard", shard_, "I/N", "of the schedules, only each N-th, from the I-th on: for several machines");
-  add("--results", results_, "FILE", "try all, and write a line for each: number, digest, outcome");
-  add("--replay", replay_, "TOKEN|FILE", "run this schedule alone (default: $WAITPOINT_REPLAY)");
-  add("--schedule", schedule_, "FILE", "write the failing schedule, minimised, for --replay");
-  add("--trace", trace_, "FILE.json",
-      "write the last seconds before the failure for the viewers of Chrome and Perfetto");
-  conditions_.add_to(*command_);
-  command_->add_flag("--no-minimize", keep_all_, "tell the failure as it was found")->disable_flag_override();
-  command_->footer(
+  command_.option("--time-limit", time_limit_, "SECONDS",
+                  "no schedule is begun after that (default: $WAITPOINT_TIME_LIMIT)");
+  command_.option("--schedule-limit", schedule_limit_, "SECONDS",
+                  "of the wall clock: a schedule that takes longer has failed, 0 for no limit\n"
+                  "(default: $WAITPOINT_SCHEDULE_LIMIT, or a minute and ten times the default order's)");
+  command_.option("--jobs", jobs_, "J", "so many processes at once (default: 1)");
+  command_.option("--seed", seed_, "N", "from which all else follows (default: $WAITPOINT_SEED, or 1)");
+  command_.repeated("--property", properties_, "KEY=VALUE",
+                    "what is to hold in every run, in place of the scenario's `expect`:\n"
+                    "goals_reached, collisions, position_error_max_m");
+  command_.option("--until", until_, "S",
+                  "runs end at this virtual time, in seconds (default: the scenario's until_s)");
+  command_.option("--from", from_, "S",
+                  "up to this virtual time all runs are one, in the default order; they part there");
+  command_.repeated("--set", assignments_, "KEY=VALUE", "set a value of the scenario, as in waitpoint run");
+  command_.option("--shard", shard_, "I/N", "of the schedules, only each N-th, from the I-th on: for several machines");
+  command_.option("--results", results_, "FILE", "try all, and write a line for each: number, digest, outcome");
+  command_.option("--replay", replay_, "TOKEN|FILE", "run this schedule alone (default: $WAITPOINT_REPLAY)");
+  command_.option("--schedule", schedule_, "FILE", "write the failing schedule, minimised, for --replay");
+  command_.option("--trace", trace_, "FILE.json",
+                  "write the last seconds before the failure for the viewers of Chrome and Perfetto");
+  conditions_.add_to(command_);
+  command_.flag("--no-minimize", keep_all_, "tell the failure as it was found");
+  command_.footer(
       "Exit status: 0 no failure was found, 1 one was, 2 bad input, 130 stopped by a signal, after telling what was\n"
       "done. docs/exploring-scenarios.md has the rest.");
 }
-
-bool ExploreArguments::parsed() const { return command_->parsed(); }
 
 // A program has no such thing.
 void ExploreArguments::check_program() const {
@@ -187,6 +183,11 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   if (options.from && options.until && *options.from >= *options.until)
     refuse("--from", "a time before --until", from_);
   if (!shard_.empty()) options.shard = shard_of(shard_);
+  const bool is_file = !replay_.empty() && !exploration::is_token(replay_);
+  check_distinct({{"--results", results_},
+                  {"--schedule", schedule_},
+                  {"--trace", trace_},
+                  {"--replay", is_file ? replay_ : "", NamedFile::Use::read}});
   options.results = file(results_);
   options.trace = file(trace_);
   options.schedule = file(schedule_);

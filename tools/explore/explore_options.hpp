@@ -9,11 +9,8 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "tools/command/command_line.hpp"
 #include "tools/exec/program_conditions.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace waitpoint::tools {
 
@@ -50,10 +47,10 @@ struct ExploreOptions {
 class ExploreArguments {
  public:
   /// Adds the command with its options.
-  explicit ExploreArguments(CLI::App& app);
+  explicit ExploreArguments(CommandLine& line);
 
   /// Whether the command line has it.
-  bool parsed() const;
+  bool parsed() const { return command_.parsed(); }
   /// What they say, with the words behind `--`; BadInput where they cannot be meant.
   ExploreOptions options(const std::vector<std::string>& words) const;
 
@@ -61,7 +58,7 @@ class ExploreArguments {
   void check_program() const;
   void check_exhaustive(const std::string& where, const ExploreOptions& options) const;
 
-  CLI::App* command_;
+  Command command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
   std::string results_, trace_, schedule_, replay_;
   std::vector<std::string> assignments_, properties_;

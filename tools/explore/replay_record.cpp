@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/schedules/token.hpp"
-#include "fibers/explore/strategies/strategy.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -61,12 +61,7 @@ void debug(const DebugOptions& options) {
     throw BadInput("gdb", "there is no program '" + options.words.front() + "'");
   std::vector<std::string> words = options.words;
   if (options.own) words.insert(words.begin(), own_program().string());
-  if (options.own && words[1] == "exec") {
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    const Options inner = read_options(static_cast<int>(arguments.size()), arguments.data(), "");
-    if (const auto* const program = std::get_if<ExecOptions>(&inner)) debug_program(options, *program);
-  }
+  if (options.program) debug_program(options, *options.program);
   become_gdb(options, {}, words);
 }
 

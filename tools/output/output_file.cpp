@@ -68,4 +68,8 @@ void OutputFile::commit() {
   stream_.reset();
 }
 
+void flush_standard_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw BadInput("standard output", "cannot be written");
+}
+
 }  // namespace waitpoint::tools

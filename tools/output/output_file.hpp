@@ -42,4 +42,7 @@ class OutputFile {
   std::unique_ptr<std::FILE, Close> stream_;
 };
 
+/// Throws BadInput if anything printed so far could not be written.
+void flush_standard_output();
+
 }  // namespace waitpoint::tools

@@ -6,8 +6,6 @@
 #pragma once
 
 #include <exception>
-#include <filesystem>
-#include <memory>
 
 #include "modules/run/experiment.hpp"
 
@@ -30,8 +28,5 @@ class Recording {
 
   std::exception_ptr failure_;
 };
-
-/// Of the kind that the file's extension says; BadInput for another one, or where the file cannot be written.
-std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const bridge::Scenario& scenario);
 
 }  // namespace waitpoint::tools

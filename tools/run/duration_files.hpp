@@ -7,8 +7,8 @@
 
 #include "fibers/sync/duration_record.hpp"
 #include "modules/run/experiment.hpp"
-#include "tools/options.hpp"
 #include "tools/output/output_file.hpp"
+#include "tools/run/run_options.hpp"
 
 namespace waitpoint::tools {
 

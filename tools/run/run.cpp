@@ -12,7 +12,6 @@
 #include "modules/run/journal.hpp"
 #include "modules/run/plan.hpp"
 #include "modules/scenario/scenario_reader.hpp"
-#include "tools/check/self_check.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/output/output_file.hpp"
@@ -20,7 +19,7 @@
 #include "tools/output/recorders.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/output/trajectory.hpp"
-#include "tools/record/recording.hpp"
+#include "tools/record/formats.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/journal_file.hpp"
 #include "tools/run/prompt.hpp"
@@ -78,21 +77,6 @@ class Outputs {
   std::optional<EventRecorder> events_;
   std::unique_ptr<Recording> recording_;
 };
-
-void flush_stdout() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw BadInput("standard output", "cannot be written");
-}
-
-std::string replay_line(const RunOptions& options, std::uint64_t seed) {
-  std::string line = "waitpoint run " + options.scenario.string() + " --seed " + std::to_string(seed);
-  if (options.order == kernel::Order::seeded) line += " --order seeded";
-  if (options.replay_durations) line += " --replay-durations " + options.replay_durations->string();
-  // What is written of this run is what another one has to read.
-  if (const auto& journal = options.journal ? options.journal : options.replay_journal)
-    line += " --replay-journal " + journal->string();
-  for (const std::string& assignment : options.assignments) line += " --set '" + assignment + "'";
-  return line;
-}
 
 bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool interrupted) {
   bridge::RunResult result = session.result();
@@ -186,7 +170,7 @@ int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::
     summary->write(summary_json(results));
     summary->commit();
   }
-  flush_stdout();
+  flush_standard_output();
   return interruption() != 0 ? 130 : worst;
 }
 
@@ -196,12 +180,6 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   heed_signals();
-  if (options.check) {
-    const auto is_interrupted = [] { return interruption() != 0; };
-    const int status = self_check(options, scenario, types, replay_line(options, options.seed), is_interrupted);
-    flush_stdout();
-    return status;
-  }
   if (options.seeds) return run_seeds(options, scenario, types);
   bridge::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
   const bridge::JournalHead head = bridge::journal_head(scenario, options.seed, options.order);
@@ -223,7 +201,7 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   durations.finish(result.outcome == bridge::Outcome::finished);
   std::fputs(summary_text(result).c_str(), stdout);
   outputs.write(experiment, result);
-  flush_stdout();
+  flush_standard_output();
   if (journal) tell_of(*journal, same);
   return same ? status(scenario, result) : 1;
 }

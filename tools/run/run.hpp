@@ -7,11 +7,11 @@
 #include <span>
 
 #include "modules/genom/module_type.hpp"
-#include "tools/options.hpp"
+#include "tools/run/run_options.hpp"
 
 namespace waitpoint::tools {
 
-/// Returns the exit status: 0 if the run came to what the scenario expects (with --check: is the same again), 1 if not,
+/// Returns the exit status: 0 if the run came to what the scenario expects, 1 if not,
 /// 130 if a signal ended it. Throws BadInput before anything is run or written.
 int run(const RunOptions& options, std::span<const genom::ModuleType> types);
 

@@ -2,6 +2,7 @@
 #include "fibers/explore/schedules/course.hpp"
 
 #include "fibers/explore/schedules/continuation.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
-#include "fibers/explore/strategies/strategy.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 
 namespace waitpoint::exploration {
 namespace {

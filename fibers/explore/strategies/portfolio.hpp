@@ -2,6 +2,9 @@
 // Several strategies in turn, a schedule each: no single one finds what all others find.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {

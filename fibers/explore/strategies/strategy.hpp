@@ -8,10 +8,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "fibers/explore/strategies/draws.hpp"
 #include "fibers/explore/strategies/profile.hpp"
@@ -52,16 +50,5 @@ class Strategy {
   /// Whether end() will tell when all schedules have been tried.
   virtual bool is_exhaustive() const { return false; }
 };
-
-enum class Kinds {
-  all,
-  drawing,  ///< those that draw a schedule without the ones before it: no exhaustive ones
-};
-
-/// The strategy of that name: "random", "pct:3". Throws BadInput, which names those there are of `named`.
-std::unique_ptr<Strategy> make_strategy(const std::string& name, Kinds named = Kinds::all);
-
-/// Of all strategies, with their parameters, as --help shows them.
-std::string strategy_names(Kinds kinds = Kinds::all);
 
 }  // namespace waitpoint::exploration

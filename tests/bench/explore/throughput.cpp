@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "fibers/explore/body.hpp"
 #include "fibers/explore/body_watch.hpp"
-#include "fibers/explore/strategies/strategy.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 #include "tests/bench/explore/body.hpp"
 
 namespace waitpoint::bench {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/mutex.hpp"

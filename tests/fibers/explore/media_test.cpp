@@ -5,6 +5,7 @@
 #include <set>
 
 #include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/io/datagram_socket.hpp"
 #include "fibers/sync/thread.hpp"

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/schedules/token.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/explore/faulty_bodies.hpp"

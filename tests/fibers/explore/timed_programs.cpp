@@ -2,7 +2,6 @@
 #include "tests/fibers/explore/timed_programs.hpp"
 
 #include "fibers/sync/clock.hpp"
-#include "tests/fibers/explore/timed_together.hpp"
 
 namespace waitpoint::timed {
 

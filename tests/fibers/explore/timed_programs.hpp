@@ -41,7 +41,11 @@ struct Program {
   void (*body)(Times& times);
 };
 
-/// Twenty of them.
+/// By their kind: what must be done before something else; what must not be done at the same time.
+extern const std::vector<Program> orders;
+extern const std::vector<Program> exclusions;
+
+/// Twenty of them: all of both kinds.
 std::vector<Program> programs();
 
 }  // namespace waitpoint::timed

@@ -20,8 +20,4 @@ void together(Bodies&&... bodies) {
   for (thread& t : threads) t.join();
 }
 
-/// By their kind: what must be done before something else; what must not be done at the same time.
-extern const std::vector<Program> orders;
-extern const std::vector<Program> exclusions;
-
 }  // namespace waitpoint::timed

@@ -126,6 +126,10 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
   EXPECT_EQ(refusal({"a", "--strategy", "dpro"}).find("dpor"), std::string::npos);
   EXPECT_EQ(refusal({"a", "--replay", "wx1.0.zz"}),
             "replay: expected eight hexadecimal digits of a digest, not 'zz', in the token 'wx1.0.zz'");
+  EXPECT_EQ(refusal({"a", "--results", "out", "--trace", "out"}), "--trace: 'out' is the file that --results writes");
+  EXPECT_EQ(refusal({"a", "--schedule", "out", "--trace", "./out"}),
+            "--trace: './out' is the file that --schedule writes");
+  EXPECT_EQ(refusal({"a", "--replay", "f", "--trace", "f"}), "--replay: 'f' is the file that --trace writes");
   EXPECT_EQ(refusal({"a", "--replay", "f", "--results", "r"}), "--replay: cannot be used together with --results");
 }
 

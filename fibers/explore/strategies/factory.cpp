@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/explore/strategies/strategy.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 
-#include <optional>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"

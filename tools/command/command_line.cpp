@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/command/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/nearest_name.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// What CLI11 did not understand, in one line with the nearest known name.
+BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
+  const std::string where = "command line";
+  const std::vector<std::string> extra = app.remaining(true);
+  if (extra.empty()) return BadInput(where, error.what());
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options()) names.push_back(option->get_name());
+  if (command == &app) {
+    for (const std::string& name : commands_of(app)) names.push_back(name);
+  }
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const std::string word = extra.front().substr(0, extra.front().find('='));
+  const std::string hint = did_you_mean(word, known);
+  const std::string kind = word.starts_with('-') ? "option" : command == &app ? "command" : "argument";
+  return BadInput(where,
+                  "unknown " + kind + " '" + word + "'" + (hint.empty() ? "; --help lists what there is" : hint));
+}
+
+// Mostly an unset variable of a script: the default is not meant.
+void refuse_empty_words(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& word : option->results())
+      if (word.empty()) throw BadInput(option->get_name(), "expected a value, found ''");
+}
+
+}  // namespace
+
+void Command::argument(const char* name, std::string& value, const char* description, Presence presence) {
+  app_->add_option(name, value, description)->required(presence == Presence::required)->type_name(" ");
+}
+
+void Command::option(const char* name, std::string& value, const char* type, const std::string& description) {
+  app_->add_option(name, value, description)->type_name(type);
+}
+
+void Command::repeated(const char* name, std::vector<std::string>& values, const char* type,
+                       const std::string& description) {
+  app_->add_option(name, values, description)->type_name(type)->allow_extra_args(false);
+}
+
+void Command::flag(const char* name, bool& value, const std::string& description) {
+  app_->add_flag(name, value, description)->disable_flag_override();
+}
+
+void Command::footer(const std::string& text) { app_->footer(text); }
+
+bool Command::parsed() const { return app_->parsed(); }
+
+CommandLine::CommandLine(const std::string& program, const std::string& description)
+    : app_(std::make_unique<CLI::App>(description, program)) {
+  app_->set_help_flag("-h,--help", "print this text");
+  app_->require_subcommand(0, 1);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::add_command(const char* name, const char* description) {
+  return Command(*app_->add_subcommand(name, description));
+}
+
+std::vector<std::string> CommandLine::commands() const { return commands_of(*app_); }
+
+void CommandLine::version(const std::string& text, const char* description) {
+  app_->set_version_flag("--version", text, description);
+}
+
+void CommandLine::footer(const std::string& text) { app_->footer(text); }
+
+std::optional<std::string> CommandLine::parse(int argc, const char* const* argv) {
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return app_->help();
+  } catch (const CLI::CallForVersion&) {
+    return app_->version() + "\n";
+  } catch (const CLI::ParseError& error) {
+    throw bad_argument(*app_, error);
+  }
+  for (const CLI::App* command : app_->get_subcommands()) refuse_empty_words(*command);
+  return std::nullopt;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/record/formats.hpp"
+
+#include "core/error.hpp"
+#include "tools/record/carmen_recording.hpp"
+#include "tools/record/mcap_recording.hpp"
+
+#ifdef WAITPOINT_ROS_BAGS
+#include "tools/record/ros_bag_recording.hpp"
+#endif
+
+namespace waitpoint::tools {
+namespace {
+
+std::unique_ptr<Recording> make_bag(const std::filesystem::path& path,
+                                    [[maybe_unused]] const bridge::Scenario& scenario) {
+#ifdef WAITPOINT_ROS_BAGS
+  return std::make_unique<RosBagRecording>(path, scenario);
+#else
+  throw BadInput(path.string(),
+                 "this waitpoint was built without rosbag_storage (Debian: librosbag-storage-dev): it writes no bags");
+#endif
+}
+
+}  // namespace
+
+std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const bridge::Scenario& scenario) {
+  if (path.extension() == ".mcap") return std::make_unique<McapRecording>(path, scenario);
+  if (path.extension() == ".log") return std::make_unique<CarmenRecording>(path, scenario);
+  if (path.extension() == ".bag") return make_bag(path, scenario);
+  throw BadInput("--record",
+                 "expected a file .mcap (Foxglove), .bag (ROS 1) or .log (CARMEN), found '" + path.string() + "'");
+}
+
+}  // namespace waitpoint::tools

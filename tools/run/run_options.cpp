@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/run/run_options.hpp"
+
+#include <cstdlib>
+#include <initializer_list>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "tools/command/distinct_files.hpp"
+#include "tools/run/pacing.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using Given = std::initializer_list<std::pair<const char*, const std::string&>>;
+
+void check_not_together(const char* option, const Given& others) {
+  for (const auto& [name, value] : others) {
+    if (!value.empty()) throw BadInput(option, std::string("cannot be used together with ") + name);
+  }
+}
+
+}  // namespace
+
+std::string replay_line(const RunOptions& options, std::uint64_t seed) {
+  std::string line = "waitpoint run " + options.scenario.string() + " --seed " + std::to_string(seed);
+  if (options.order == kernel::Order::seeded) line += " --order seeded";
+  if (options.replay_durations) line += " --replay-durations " + options.replay_durations->string();
+  // What is written of this run is what another one has to read.
+  if (const auto& journal = options.journal ? options.journal : options.replay_journal)
+    line += " --replay-journal " + journal->string();
+  for (const std::string& assignment : options.assignments) line += " --set '" + assignment + "'";
+  return line;
+}
+
+void ScenarioArguments::add_file(Command& command) {
+  command.argument("SCENARIO", file, "the scenario file", Command::Presence::required);
+}
+
+void ScenarioArguments::add_set(Command& command) {
+  command.repeated("--set", assignments, "KEY=VALUE",
+                   "set a value of the scenario, as often as needed. KEY is keys joined by dots,\n"
+                   "elements of lists by their number from 0 or their name; VALUE is YAML. A file\n"
+                   "named here is relative to the current directory. For example:\n"
+                   "  robots.0.goals=[[1,2],[3,4]]\n"
+                   "  robot_types.rackham.modules.segloc.enabled=false");
+}
+
+RunArguments::RunArguments(CommandLine& line)
+    : command_(line.add_command("run", "Simulates a scenario; a summary and the digest at the end.")) {
+  scenario_.add_file(command_);
+  command_.option("--seed", seed_, "N",
+                  "seed of the random streams and of the seeded order (default:\n$WAITPOINT_SEED, or 1)");
+  command_.option(
+      "--seeds", seeds_, "A..B",
+      "run each seed from A to B and print a row for each; of the files, only\n--summary can be written, of all runs");
+  command_.option("--order", order_, "ORDER",
+                  "order of events of one instant: fifo, the default, or seeded, by hashes\nof the seed");
+  command_.option("--until", until_, "S", "end at this virtual time, in seconds (default: the scenario's until_s)");
+  command_.option("--speed", speed_, "X",
+                  "pace to X simulated seconds a second; 0, the default, is as fast as it goes");
+  command_.flag("--interactive", interactive_,
+                "take commands from standard input: step, stop at a time or a condition, change\n"
+                "the speed, send requests, move robots and obstacles; type help there");
+  command_.option("--journal", journal_, "FILE", "write what was done at the prompt, each at its virtual time");
+  command_.option("--replay-journal", replay_journal_, "FILE",
+                  "do again what a journal says, and check that the run comes to its digest");
+  command_.option("--summary", summary_, "FILE.json", "write the summary as JSON");
+  command_.option("--picture", picture_, "FILE.svg", "draw the floor and the paths");
+  command_.option("--trajectory", trajectory_, "FILE.tum",
+                  "write the paths in TUM format: the true one to FILE.tum, beside it\n"
+                  "FILE.estimated.tum and FILE.odometry.tum; with the robots' names if several");
+  command_.option("--record", record_, "FILE.mcap",
+                  "write scans, poses, frames, requests and the world over time for Foxglove, or\n"
+                  "with a name FILE.bag as a ROS 1 bag, with FILE.log for CARMEN's tools");
+  command_.option("--digests", digests_, "FILE", "write a digest per robot and simulated second");
+  command_.option("--events", events_, "FILE", "write every event as a line of text");
+  command_.option("--record-durations", record_durations_, "FILE",
+                  "write what local clocks measured, counted or chose (docs/clocks.md)");
+  command_.option(
+      "--replay-durations", replay_durations_, "FILE",
+      "take these durations from a record of the same scenario and seed:\nthe same run again, with the same digest");
+  command_.flag("--check", check_,
+                "run it twice in this process and once in a perturbed one (addresses,\n"
+                "memory, environment, clocks, directories) and compare event by event:\n"
+                "tells the first event that differs, with status 1, or that none does\n"
+                "(docs/determinism.md)");
+  scenario_.add_set(command_);
+}
+
+/// What is written of a single run, or done to it, has no place where the runs are many.
+void RunArguments::check_of_many(const char* option) const {
+  if (interactive_) throw BadInput(option, "cannot be used together with --interactive");
+  check_not_together(option, {{"--journal", journal_},
+                              {"--replay-journal", replay_journal_},
+                              {"--picture", picture_},
+                              {"--trajectory", trajectory_},
+                              {"--record", record_},
+                              {"--digests", digests_},
+                              {"--events", events_},
+                              {"--record-durations", record_durations_}});
+}
+
+/// A self-check compares runs and writes nothing of them.
+void RunArguments::check_writes_nothing() const {
+  check_not_together("--check", {{"--seeds", seeds_}, {"--speed", speed_}, {"--summary", summary_}});
+  check_of_many("--check");
+}
+
+/// A range of seeds is many runs, of which one summary is written.
+void RunArguments::check_alone() const {
+  check_not_together("--seeds", {{"--seed", seed_}, {"--replay-durations", replay_durations_}});
+  check_of_many("--seeds");
+}
+
+RunOptions RunArguments::options() const {
+  RunOptions options;
+  options.scenario = scenario_.file;
+  options.assignments = scenario_.assignments;
+  const char* const environment = std::getenv("WAITPOINT_SEED");
+  if (!seed_.empty()) {
+    options.seed = seed_of("--seed", seed_);
+  } else if (environment != nullptr && *environment != '\0') {
+    options.seed = seed_of("WAITPOINT_SEED", environment);
+  }
+  options.check = check_;
+  if (options.check) check_writes_nothing();
+  if (!seeds_.empty()) {
+    check_alone();
+    options.seeds = seed_range_of("--seeds", seeds_);
+  }
+  if (order_ == "seeded") {
+    options.order = kernel::Order::seeded;
+  } else if (!order_.empty() && order_ != "fifo") {
+    refuse("--order", "fifo or seeded", order_);
+  }
+  options.until = positive_seconds("--until", until_);
+  if (!speed_.empty() && (!parse_number(speed_, options.speed) || !is_speed(options.speed)))
+    refuse("--speed", speeds, speed_);
+  check_distinct({{"--summary", summary_},
+                  {"--picture", picture_},
+                  {"--trajectory", trajectory_},
+                  {"--record", record_},
+                  {"--digests", digests_},
+                  {"--events", events_},
+                  {"--record-durations", record_durations_},
+                  {"--journal", journal_},
+                  {"--replay-journal", replay_journal_, NamedFile::Use::read},
+                  {"--replay-durations", replay_durations_, NamedFile::Use::read}});
+  const auto file = [](const std::string& name) {
+    return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
+  };
+  options.interactive = interactive_;
+  options.journal = file(journal_);
+  options.replay_journal = file(replay_journal_);
+  if (options.interactive && options.replay_journal)
+    throw BadInput("--replay-journal", "cannot be used together with --interactive");
+  options.summary = file(summary_);
+  options.picture = file(picture_);
+  options.trajectory = file(trajectory_);
+  options.record = file(record_);
+  options.digests = file(digests_);
+  options.events = file(events_);
+  options.record_durations = file(record_durations_);
+  options.replay_durations = file(replay_durations_);
+  if (options.record_durations && options.replay_durations)
+    throw BadInput("--record-durations", "cannot be used together with --replay-durations");
+  return options;
+}
+
+}  // namespace waitpoint::tools
