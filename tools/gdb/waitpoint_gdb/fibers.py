@@ -11,7 +11,6 @@ HOLDERS_SHOWN = 4
 PARTS = {0: "agenda_.events.heap_.entries_", 1: "agenda_.events.run_", 2: "agenda_.events.calendar_.chunks_"}
 RUN = 1  # the part in whose entries a node may have been moved up since it was told where it is
 CALENDAR = 2  # the one that has them in chunks: see Calendar::entry_at()
-CHUNK_INDEX_BITS = 5
 READY = 0xFFFFFFFE  # the place of an event that is due now: see ready_set.hpp and present_queue.hpp
 
 
@@ -107,8 +106,9 @@ def due(task, scheduler):
     part, index = location >> 30, location & (2**30 - 1)
     entry, size = scheduler.number(PARTS[part]), records.record_type("EventEntry").sizeof
     if part == CALENDAR:
-        entry += (index >> CHUNK_INDEX_BITS) * records.record_type("Calendar::Chunk").sizeof
-        index &= 2**CHUNK_INDEX_BITS - 1
+        index_bits = records.constant("kernel::Calendar", "chunk_index_bits")
+        entry += (index >> index_bits) * records.record_type("Calendar::Chunk").sizeof
+        index &= 2**index_bits - 1
     entry += index * size
     if part == RUN:
         offset, width, _ = records.place("EventEntry", "node")

@@ -43,9 +43,18 @@ def enumerators(name):
     return {field.enumval: field.name.rsplit("::", 1)[-1] for field in record_type(name).fields()}
 
 
+@functools.lru_cache(maxsize=None)
+def constant(record, name):
+    """The static constant `name` of the class `record`, with its namespace, from the debugging information."""
+    try:
+        return int(gdb.parse_and_eval(f"waitpoint::{record}::{name}"))
+    except gdb.error:
+        raise gdb.GdbError(f"{record} has no constant {name}: these commands are of another version of waitpoint") from None
+
+
 def forget():
     """Another program has other offsets."""
-    for cache in (record_type, place, enumerators):
+    for cache in (record_type, place, enumerators, constant):
         cache.cache_clear()
 
 
@@ -115,15 +124,13 @@ def scheduler():
     return found
 
 
-KEY_STEP_INVERSE = 0xF1DE83E19937733D  # of PairDigest: core/digest.hpp
-
-
 def events_of(run):
     """How many events were executed in the run of this scheduler, as Scheduler::events()."""
-    hashed = run.number("unheard_.last_key_") * KEY_STEP_INVERSE
+    inverse = constant("PairDigest", "inverse_of_step")
+    hashed = run.number("unheard_.last_key_") * inverse
     robot = run.follow("first_robot_", "Robot")
     while robot:
-        hashed += robot.number("digest.last_key_") * KEY_STEP_INVERSE
+        hashed += robot.number("digest.last_key_") * inverse
         robot = robot.follow("next", "Robot")
     return (hashed - run.number("outputs_")) % 2**64
 
