@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "modules/genom/module.hpp"
-
 namespace waitpoint::genom {
 namespace {
 
@@ -16,42 +14,42 @@ bool names(const std::vector<std::string>& list, const std::string& name) {
 
 void ControlTask::run() {
   for (;;) {
-    module_.mailbox().event().acquire();
-    const Module::BothLocks locks(module_);
+    data_.mailbox.event().acquire();
+    const BothLocks locks(data_);
     end_activities();
     Letter letter;
-    if (module_.mailbox().take(letter)) {
+    if (data_.mailbox.take(letter)) {
       handle(letter);
-      for (ExecutionTask& task : module_.tasks_) task.signal();
+      for (ExecutionTask& task : tasks_) task.signal();
     }
     start_activities();
     write_status();
-    if (!ending_) continue;
-    const bool all_ended = std::all_of(module_.tasks_.begin(), module_.tasks_.end(), [](auto& t) { return t.ended(); });
+    if (!data_.ending) continue;
+    const bool all_ended = std::all_of(tasks_.begin(), tasks_.end(), [](auto& t) { return t.ended(); });
     if (all_ended) return;
   }
 }
 
 void ControlTask::end_activities() {
-  for (Activity& a : module_.activities().used()) {
+  for (Activity& a : data_.activities.used()) {
     if (a.state == State::zombie && !a.replied) {
-      if (a.report == ok) a.report = module_.report(StandardReport::activity_failed);
+      if (a.report == ok) a.report = data_.report(StandardReport::activity_failed);
       a.replied = true;
       reply(LetterKind::final_reply, a);
     }
     if (a.state != State::ether) continue;
-    if (a.interrupted) a.report = module_.report(StandardReport::activity_interrupted);
+    if (a.interrupted) a.report = data_.report(StandardReport::activity_interrupted);
     if (a.type->kind == RequestKind::init && a.report == ok) init_done_ = true;
     reply(LetterKind::final_reply, a);
-    module_.activities().free(a);
+    data_.activities.free(a);
   }
 }
 
 void ControlTask::handle(const Letter& letter) {
   Payload output;
-  if (letter.request >= module_.requests_.size() || !module_.requests_[letter.request].accepts(letter.payload))
-    return reply(LetterKind::final_reply, letter, module_.report(StandardReport::system_error), output);
-  const RequestType& type = module_.requests_[letter.request];
+  if (letter.request >= data_.requests.size() || !data_.requests[letter.request].accepts(letter.payload))
+    return reply(LetterKind::final_reply, letter, data_.report(StandardReport::system_error), output);
+  const RequestType& type = data_.requests[letter.request];
   tell(LetterKind::request, type);
   if (type.kind == RequestKind::control) {
     const Report report = type.control(letter.payload, output);
@@ -65,14 +63,14 @@ void ControlTask::handle(const Letter& letter) {
 
 // Allocates an activity; its START comes when those that it interrupts are gone.
 Report ControlTask::execute(const RequestType& type, const Letter& letter) {
-  if (ending_ || type.task->ended()) return module_.report(StandardReport::system_error);
-  for (const ExecutionTask& task : module_.tasks_)
-    if (task.suspended()) return module_.report(StandardReport::exec_task_suspended);
-  if (!init_done_ && type.kind != RequestKind::init) return module_.report(StandardReport::wait_init_request);
-  ActivityTable& table = module_.activities();
+  if (data_.ending || type.task->ended()) return data_.report(StandardReport::system_error);
+  for (const ExecutionTask& task : tasks_)
+    if (task.suspended()) return data_.report(StandardReport::exec_task_suspended);
+  if (!init_done_ && type.kind != RequestKind::init) return data_.report(StandardReport::wait_init_request);
+  ActivityTable& table = data_.activities;
   for (const Activity& a : table.used())
-    if (a.state == State::zombie) return module_.report(StandardReport::wait_abort_zombie_activity);
-  if (table.full()) return module_.report(StandardReport::too_many_activities);
+    if (a.state == State::zombie) return data_.report(StandardReport::wait_abort_zombie_activity);
+  if (table.full()) return data_.report(StandardReport::too_many_activities);
   Payload output;
   if (const Report refused = type.control(letter.payload, output); refused != ok) return refused;
   interrupt_incompatible(type);
@@ -86,7 +84,7 @@ Report ControlTask::execute(const RequestType& type, const Letter& letter) {
 }
 
 void ControlTask::interrupt_incompatible(const RequestType& type) {
-  for (Activity& a : module_.activities().used())
+  for (Activity& a : data_.activities.used())
     if (names(type.interrupts, a.type->name)) interrupt(a);
 }
 
@@ -97,11 +95,11 @@ bool ControlTask::interruptible(State state) const {
 
 void ControlTask::interrupt(Activity& a) {
   if (a.state == State::init) {
-    a.report = module_.report(StandardReport::activity_interrupted);
+    a.report = data_.report(StandardReport::activity_interrupted);
     reply(LetterKind::final_reply, a);
-    module_.activities().free(a);
+    data_.activities.free(a);
   } else if (a.state == State::zombie) {
-    module_.activities().free(a);
+    data_.activities.free(a);
   } else if (interruptible(a.state)) {
     a.interrupt = true;
     a.type->task->signal();
@@ -110,25 +108,25 @@ void ControlTask::interrupt(Activity& a) {
 
 Report ControlTask::abort(std::int32_t activity) {
   if (activity == AbortInput::end_module) {
-    if (!module_.activities().empty()) return module_.report(StandardReport::system_error);
-    ending_ = true;
-    module_.mailbox().event().release();
+    if (!data_.activities.empty()) return data_.report(StandardReport::system_error);
+    data_.ending = true;
+    data_.mailbox.event().release();
     return ok;
   }
   if (activity == AbortInput::resume_tasks) {
-    for (ExecutionTask& task : module_.tasks_) task.resume();
+    for (ExecutionTask& task : tasks_) task.resume();
     return ok;
   }
-  if (!ActivityTable::is_number(activity)) return module_.report(StandardReport::unknown_activity);
-  Activity* const found = module_.activities().find(activity);
-  if (found == nullptr) return module_.report(StandardReport::activity_already_ended);
+  if (!ActivityTable::is_number(activity)) return data_.report(StandardReport::unknown_activity);
+  Activity* const found = data_.activities.find(activity);
+  if (found == nullptr) return data_.report(StandardReport::activity_already_ended);
   interrupt(*found);
   return ok;
 }
 
 // Whether an activity that `candidate` has to wait for is still there: a ZOMBIE does nothing any more.
 bool ControlTask::blocked(const Activity& candidate) const {
-  for (const Activity& a : module_.activities().used()) {
+  for (const Activity& a : data_.activities.used()) {
     if (&a == &candidate || a.state == State::init || a.state == State::zombie) continue;
     if (names(candidate.type->interrupts, a.type->name)) return true;
   }
@@ -136,7 +134,7 @@ bool ControlTask::blocked(const Activity& candidate) const {
 }
 
 void ControlTask::start_activities() {
-  for (Activity& a : module_.activities().used()) {
+  for (Activity& a : data_.activities.used()) {
     if (a.state != State::init || blocked(a)) continue;
     a.state = State::start;
     reply(LetterKind::intermediate_reply, a);
@@ -146,9 +144,8 @@ void ControlTask::start_activities() {
 
 void ControlTask::write_status() {
   ModuleStatus status;
-  for (const Activity& a : module_.activities().used())
-    status.activities.push_back({a.number, a.type->number, a.state});
-  for (const ExecutionTask& task : module_.tasks_) {
+  for (const Activity& a : data_.activities.used()) status.activities.push_back({a.number, a.type->number, a.state});
+  for (const ExecutionTask& task : tasks_) {
     status.missed_periods += static_cast<std::uint64_t>(task.missed_periods());
     status.suspended |= task.suspended();
   }
@@ -162,7 +159,7 @@ void ControlTask::reply(LetterKind kind, const Letter& request, Report report, c
   letter.send_id = request.send_id;
   letter.report = report;
   letter.payload = output;
-  if (request.request < module_.requests_.size()) tell(kind, module_.requests_[request.request], -1, report);
+  if (request.request < data_.requests.size()) tell(kind, data_.requests[request.request], -1, report);
   // A client whose mailbox is full loses the reply, as in GenoM: the module does not wait for it.
   if (request.reply_to != nullptr) (void)request.reply_to->post(letter);
 }

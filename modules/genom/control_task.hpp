@@ -11,7 +11,10 @@
 // them.
 #pragma once
 
-#include "modules/genom/activity_table.hpp"
+#include <deque>
+
+#include "modules/genom/execution_task.hpp"
+#include "modules/genom/module_data.hpp"
 #include "modules/genom/module_watch.hpp"
 #include "modules/genom/poster.hpp"
 
@@ -43,14 +46,24 @@ struct ModuleStatus {
   }
 };
 
+/// Input of the request "Abort", which every module has.
+struct AbortInput {
+  static constexpr std::int32_t end_module = -99;    ///< refused while activities run
+  static constexpr std::int32_t resume_tasks = -88;  ///< after a forbidden transition
+  std::int32_t activity = 0;                         ///< the activity to end, or one of the above
+
+  static constexpr auto fields() { return std::tuple(field("activity", &AbortInput::activity)); }
+};
+
 class ControlTask {
  public:
-  ControlTask(Module& module, Poster<ModuleStatus>& poster) : module_(module), poster_(poster) {}
+  /// `tasks` are those of the module, which is passed on to the watch.
+  ControlTask(const Module& module, ModuleData& data, std::deque<ExecutionTask>& tasks, Poster<ModuleStatus>& poster)
+      : module_(module), data_(data), tasks_(tasks), poster_(poster) {}
 
   /// The task's own code; returns when the module is ended.
   void run();
 
-  bool ending() const { return ending_; }
   void expect_init() { init_done_ = false; }
   void set_interrupt_end(bool value) { interrupt_end_ = value; }
   /// Null: nobody. Before the module is started.
@@ -72,11 +85,12 @@ class ControlTask {
   void reply(LetterKind kind, const Activity& activity);
   void tell(LetterKind kind, const RequestType& request, std::int32_t activity = -1, Report report = ok) const;
 
-  Module& module_;
+  const Module& module_;
+  ModuleData& data_;
+  std::deque<ExecutionTask>& tasks_;
   Poster<ModuleStatus>& poster_;
   ModuleWatch* watch_ = nullptr;
   bool init_done_ = true;
-  bool ending_ = false;
   bool interrupt_end_ = true;
 };
 

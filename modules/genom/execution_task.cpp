@@ -3,11 +3,9 @@
 
 #include <algorithm>
 
-#include "modules/genom/module.hpp"
-
 namespace waitpoint::genom {
 
-ExecutionTask::ExecutionTask(Module& module, std::string name, TaskOptions options, TaskComputing computing)
+ExecutionTask::ExecutionTask(ModuleData& module, std::string name, TaskOptions options, TaskComputing computing)
     : module_(module), options_(options), name_(std::move(name)), computing_(computing) {}
 
 void ExecutionTask::signal() {
@@ -17,33 +15,33 @@ void ExecutionTask::signal() {
 }
 
 // Its own, what it gives, and of the module what all its tasks touch.
-void ExecutionTask::find_working_set() {
+void ExecutionTask::find_working_set(const AddModule& add_module) {
   constexpr std::size_t of_stack = 192;
   if (periodic())
     working_set_.add_between(this, &missed_deadlines_);
   else
     working_set_.add_between(this, &start_);
-  module_.add_to(working_set_);
+  add_module(working_set_);
   for (const OutputPosterBase* poster : posters_) poster->add_to(working_set_);
   working_set_.add_stack_below(of_stack);
   threads::this_thread::set_working_set(working_set_);
 }
 
-void ExecutionTask::run() {
-  find_working_set();
+void ExecutionTask::run(const AddModule& add_module) {
+  find_working_set(add_module);
   if (periodic()) timer_.emplace(Period::every(options_.period_ms), options_.delay_ms, "task period");
   {
-    const Module::BothLocks locks(module_);
+    const BothLocks locks(module_);
     call_permanent(start_);
   }
   while (wake_up(wait())) threads::this_thread::yield();
   {
-    const Module::BothLocks locks(module_);
+    const BothLocks locks(module_);
     call_permanent(end_);
     ended_ = true;
   }
   timer_.reset();
-  module_.mailbox().event().release();
+  module_.mailbox.event().release();
 }
 
 // The number of periods that passed meanwhile.
@@ -65,21 +63,21 @@ std::int64_t ExecutionTask::wait() {
 
 // False when the module is being ended.
 bool ExecutionTask::wake_up(std::int64_t periods) {
-  const Module::BothLocks locks(module_);
+  const BothLocks locks(module_);
   signalled_ = false;
   missed_periods_ += periods - 1;
-  if (module_.ending()) return false;
+  if (module_.ending) return false;
   if (suspended_) return true;
   call_permanent(permanent_);
   bool state_changed = false;
-  for (Activity& activity : module_.activities().used())
+  for (Activity& activity : module_.activities.used())
     if (activity.type->task == this) state_changed |= step(activity);
   call_permanent(second_permanent_);
   for (OutputPosterBase* poster : posters_) {
     poster->update();
     poster->give();
   }
-  if (state_changed) module_.mailbox().event().release();
+  if (state_changed) module_.mailbox.event().release();
   return true;
 }
 

@@ -16,14 +16,13 @@
 #include <string>
 #include <vector>
 
+#include "modules/genom/module_data.hpp"
 #include "modules/genom/output_poster.hpp"
 #include "modules/genom/request.hpp"
 #include "modules/genom/settings.hpp"
 #include "modules/genom/task_computing.hpp"
 
 namespace waitpoint::genom {
-
-class Module;
 
 /// How a task is woken and what it costs; a scenario may overwrite these under `tasks.<task>`, the cost only of a task
 /// that has permanent codels.
@@ -40,7 +39,7 @@ struct TaskOptions {
 
 class ExecutionTask {
  public:
-  ExecutionTask(Module& module, std::string name, TaskOptions options, TaskComputing computing = {});
+  ExecutionTask(ModuleData& module, std::string name, TaskOptions options, TaskComputing computing = {});
 
   const std::string& name() const { return name_; }
   const TaskOptions& options() const { return options_; }
@@ -70,11 +69,14 @@ class ExecutionTask {
   Duration greatest_lateness() const { return greatest_lateness_; }
   bool ended() const { return ended_; }
 
+  /// Adds to a working set what all tasks of the module touch.
+  using AddModule = std::function<void(WorkingSet& set)>;
+
   /// The task's own code; returns when the module is ended.
-  void run();
+  void run(const AddModule& add_module);
 
  private:
-  void find_working_set();
+  void find_working_set(const AddModule& add_module);
   std::int64_t wait();
   bool wake_up(std::int64_t periods);
   void call_permanent(const std::function<void()>& codel);
@@ -82,7 +84,7 @@ class ExecutionTask {
   void after_codel(Duration cost);
 
   // What every wake-up of a periodic task touches comes first.
-  Module& module_;
+  ModuleData& module_;
   TaskOptions options_;
   bool signalled_ = false;  // and not yet awake
   bool suspended_ = false;

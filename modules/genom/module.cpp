@@ -6,12 +6,11 @@ namespace waitpoint::genom {
 Module::Module(ModuleSetup& setup, std::uint16_t number, threads::kind)
     : names_(setup.names),
       name_(setup.name),
-      number_(number),
       settings_(setup.settings),
       of_all_tasks_(read_processor(settings_, "", names_)),
       of_control_task_(read_computing(settings_, "tasks.control.", names_, of_all_tasks_)),
-      mailbox_(setup.name),
-      control_(*this, names_.create_poster<ModuleStatus>(setup.name + ".control", setup.name)) {
+      data_(setup.name, number),
+      control_(*this, data_, tasks_, names_.create_poster<ModuleStatus>(setup.name + ".control", setup.name)) {
   names_.add(name_, *this);
   add_control<AbortInput>("Abort",
                           [this](const AbortInput& input, Nothing&) { return control_.abort(input.activity); });
@@ -22,16 +21,15 @@ Module::~Module() = default;
 ExecutionTask& Module::add_task(const std::string& name, TaskOptions options) {
   settings_.read(options, "tasks." + name + ".");
   const TaskComputing computing = read_computing(settings_, "tasks." + name + ".", names_, of_all_tasks_);
-  return tasks_.emplace_back(*this, name, options, computing);
+  return tasks_.emplace_back(data_, name, options, computing);
 }
 
 // The locks, the links, and what a class of its own adds, of which little is touched if it is large.
 void Module::add_to(WorkingSet& set) const {
   constexpr std::size_t of_own_max = 512;
-  set.add(control_data_);
-  set.add(functional_data_);
-  set.add(control_);
-  set.add(&activities_, 1);
+  set.add_between(&data_.control_lock, &data_.functional_lock);
+  set.add(data_.functional_lock);
+  set.add(&data_.activities, 1);
   for (const Link& link : links_) link.poster->add_to(set);
   set.add(reinterpret_cast<const char*>(this) + sizeof(Module), std::min(size_ - sizeof(Module), of_own_max));
 }
@@ -46,16 +44,16 @@ void Module::check_costs(const Settings& settings) const {
 
 RequestType& Module::add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts) {
   WAITPOINT_CHECK(find_request(name) == nullptr, "a module declares two requests of one name");
-  RequestType& type = requests_.emplace_back();
+  RequestType& type = data_.requests.emplace_back();
   type.name = name;
   type.kind = kind;
-  type.number = static_cast<std::uint32_t>(requests_.size() - 1);
+  type.number = static_cast<std::uint32_t>(data_.requests.size() - 1);
   type.interrupts = std::move(interrupts);
   return type;
 }
 
 const RequestType* Module::find_request(const std::string& name) const {
-  for (const RequestType& type : requests_)
+  for (const RequestType& type : data_.requests)
     if (type.name == name) return &type;
   return nullptr;
 }
@@ -84,7 +82,10 @@ void Module::start() {
     threads_.emplace_back(attributes, run);
   };
   start_task(name_ + ".control", of_control_task_, [this] { control_.run(); });
-  for (ExecutionTask& task : tasks_) start_task(name_ + "." + task.name(), task.computing(), [&task] { task.run(); });
+  for (ExecutionTask& task : tasks_) {
+    start_task(name_ + "." + task.name(), task.computing(),
+               [this, &task] { task.run([this](WorkingSet& set) { add_to(set); }); });
+  }
 }
 
 void Module::join() {

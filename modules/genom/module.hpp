@@ -17,13 +17,12 @@
 
 #include <deque>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "modules/genom/control_task.hpp"
 #include "modules/genom/execution_task.hpp"
-#include "modules/genom/mailbox.hpp"
+#include "modules/genom/module_data.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/genom/request.hpp"
 #include "modules/genom/settings.hpp"
@@ -45,15 +44,6 @@ struct ModuleSetup {
   io::Network* network = nullptr;
 };
 
-/// Input of the request "Abort", which every module has.
-struct AbortInput {
-  static constexpr std::int32_t end_module = -99;    ///< refused while activities run
-  static constexpr std::int32_t resume_tasks = -88;  ///< after a forbidden transition
-  std::int32_t activity = 0;                         ///< the activity to end, or one of the above
-
-  static constexpr auto fields() { return std::tuple(field("activity", &AbortInput::activity)); }
-};
-
 class Module {
  public:
   virtual ~Module();
@@ -61,11 +51,11 @@ class Module {
   Module& operator=(const Module&) = delete;
 
   const std::string& name() const { return name_; }
-  Mailbox& mailbox() { return mailbox_; }
-  const std::deque<RequestType>& requests() const { return requests_; }
+  Mailbox& mailbox() { return data_.mailbox; }
+  const std::deque<RequestType>& requests() const { return data_.requests; }
   /// Null if the module has no request of that name.
   const RequestType* find_request(const std::string& name) const;
-  Report report(StandardReport code) const { return make_report(number_, code); }
+  Report report(StandardReport code) const { return data_.report(code); }
   const std::deque<ExecutionTask>& tasks() const { return tasks_; }
 
   /// Throws BadInput for a cost in `settings`, those it was made from, that no codel of the module has.
@@ -112,7 +102,7 @@ class Module {
   PosterLink<T>& read_poster(const std::string& name, bool required = true);
 
   /// A report of the module's own, by its code from first_own_report on.
-  Report own_report(std::uint16_t code) const { return make_report(number_, code); }
+  Report own_report(std::uint16_t code) const { return make_report(data_.number, code); }
 
   /// Whether an activity whose END codel runs can be interrupted: GenoM's code says so, its guide says not. Default:
   /// yes.
@@ -121,22 +111,8 @@ class Module {
  private:
   template <class M>
   friend ModuleType module_type(std::string name);
-  friend class ControlTask;
-  friend class ExecutionTask;
-
-  // Control data before functional data, in this order everywhere.
-  class BothLocks {
-   public:
-    explicit BothLocks(Module& module) : control_(module.control_data_), functional_(module.functional_data_) {}
-
-   private:
-    std::lock_guard<threads::mutex> control_;
-    std::lock_guard<threads::mutex> functional_;
-  };
 
   RequestType& add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts);
-  ActivityTable& activities() { return activities_; }
-  bool ending() const { return control_.ending(); }
   void add_to(WorkingSet& set) const;
 
   struct Link {
@@ -146,15 +122,9 @@ class Module {
 
   NameSpace& names_;
   std::string name_;
-  std::uint16_t number_;
   Settings& settings_;  // of the setup: only while the module is being made
   TaskComputing of_all_tasks_, of_control_task_;
-  Mailbox mailbox_;
-  // Each wake-up of a task takes both: each is to be in as few cache lines as can be.
-  alignas(64) threads::mutex control_data_{"control data"};
-  alignas(64) threads::mutex functional_data_{"functional data"};
-  std::deque<RequestType> requests_;
-  ActivityTable activities_;
+  ModuleData data_;
   std::deque<ExecutionTask> tasks_;
   std::vector<std::unique_ptr<OutputPosterBase>> outputs_;
   std::vector<Link> links_;

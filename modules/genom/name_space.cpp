@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/genom/name_space.hpp"
 
+#include "core/error.hpp"
+
 namespace waitpoint::genom {
-namespace {
-
-std::uint64_t hash(const std::string& text) {
-  Digest digest;
-  digest.add(std::string_view(text));
-  return digest.value();
-}
-
-}  // namespace
-
-PosterBase::PosterBase(std::string name, std::string writer)
-    : name_(std::move(name)), writer_(std::move(writer)), name_hash_(hash(name_)) {}
 
 PosterBase* NameSpace::find_poster(const std::string& name) const {
   const auto found = posters_.find(name);
