@@ -83,6 +83,19 @@ struct Agenda {
   /// Whether an event of the list is due in this window.
   bool is_due_later() const { return !events.empty() && events.least().key.time < until; }
 
+  /// Whether the present queue's first event is the least, and in this window.
+  bool is_present_next() const {
+    return !present.empty() && now < until && !(events.least().key < EventKey{now, present.order()});
+  }
+  /// Whether the event of a task at its own waitpoint is the least: it goes on then. In the explored order that is
+  /// chosen.
+  bool is_next(const Task& task) { return __builtin_expect(!is_explored(), 1) && precedes(task, next_key()); }
+  /// Time comes to `time` without an event out of the list; none in it is due before.
+  void advance(Time time) {
+    now = time;
+    events.advance(time);
+  }
+
   /// Whether the task's event, were it in the list, would come before `other`.
   bool precedes(const Task& task, const EventKey& other) {
     if (task.local_time != other.time) return task.local_time < other.time;

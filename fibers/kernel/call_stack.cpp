@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/scheduler_steps.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
 
 namespace waitpoint::kernel {
@@ -35,12 +36,12 @@ std::size_t capture_call_stack(void** frames, std::size_t room) {
 
 // After a task got control back: as long as it is only asked for its call stack, it is not its turn yet. False when the
 // run is over.
-bool Scheduler::rest() {
+bool Scheduler::answer_interrupt() {
   Task& task = *running;
   while (task.describe) {
     task.describe = false;
     frames_found_ = capture_call_stack(frames_, frames_room_);
-    leave_to_main(state_);
+    exit_run(state_);
   }
   return !unwinding_;
 }
@@ -54,8 +55,8 @@ std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
   frames_room_ = room;
   const bool interrupted = interrupted_;
   task.describe = interrupted_ = true;
-  ordinary_ = false;  // until the run goes on
-  switch_to(task);
+  fast_allowed_ = false;  // until the run goes on
+  enter_run(resume(task));
   interrupted_ = interrupted;
   task.state = state;
   state_ = run_state;

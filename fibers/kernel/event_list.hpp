@@ -58,7 +58,7 @@ class EventList {
   /// `node` must be in the list.
   void remove(EventNode& node);
   /// The same where nothing else is to be done for it, as mostly with few events; else false, with nothing done.
-  bool remove_at_once(EventNode& node) {
+  bool try_remove_fast(EventNode& node) {
     EventEntry& entry = run_[node.index()];
     if (is_large() || node.part() != EventNode::Part::run || entry.node != &node) return false;
     entry.node = nullptr;
@@ -71,7 +71,7 @@ class EventList {
     return true;
   }
   /// As insert(), where its place is near the end of the run; else false, with nothing done.
-  bool insert_at_once(EventNode& node, EventKey key) {
+  bool try_insert_fast(EventNode& node, EventKey key) {
     if (size_ >= capacity_ || node.in_list() || !belongs_near_end(key)) return false;
     ++size_;
     put_near_end(node, key);

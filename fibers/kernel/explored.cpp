@@ -50,31 +50,31 @@ void Scheduler::let_time_pass() {
   }
 }
 
-Fiber& Scheduler::next_explored() {
+Fiber& Scheduler::dispatch_explored() {
   for (;;) {
     if (agenda_.ready.empty() ||
         (!agenda_.events.empty() && is_before_tasks_at(agenda_.events.least().key, agenda_.now))) {
       EventNode* node = agenda_.events.pop_before(agenda_.until);
-      if (node == nullptr) return outside(pending_events() == 0 ? RunState::idle : RunState::reached);
+      if (node == nullptr) return end_window(pending_events() == 0 ? RunState::idle : RunState::reached);
       agenda_.now = agenda_.events.present();
       if (node->fire != nullptr) {
         node->fire(*node);
         continue;
       }
       Task& task = task_of(*node);
-      if (task.phase != Phase::tasks) return go(task).fiber;
+      if (task.phase != Phase::tasks) return dispatch_task(task);
       agenda_.ready.add(task);
       while (is_of_tasks(agenda_.events.least().key) && agenda_.events.least().key.time == agenda_.now)
         agenda_.ready.add(task_of(agenda_.events.pop()));
     }
-    if (agenda_.now >= agenda_.until) return outside(RunState::reached);
+    if (agenda_.now >= agenda_.until) return end_window(RunState::reached);
     const std::uint32_t chosen = agenda_.chooser.decisions()->next(agenda_.ready.tasks(), agenda_.ready.size());
-    if (cause_ != StopCause::none) return outside(RunState::stopped);
+    if (cause_ != StopCause::none) return end_window(RunState::stopped);
     if (__builtin_expect(chosen == Decisions::later, 0)) {
       let_time_pass();
       continue;
     }
-    return go(agenda_.ready.take(chosen)).fiber;
+    return dispatch_task(agenda_.ready.take(chosen));
   }
 }
 

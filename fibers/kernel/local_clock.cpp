@@ -26,7 +26,7 @@ void consume(Task& task, Duration cost) {
   if (task.seat != nullptr) {
     use_processor(task, cost);
   } else {
-    task.scheduler->end_free_pass();
+    task.scheduler->close_fast_path();
     task.local_time += cost;
   }
 }
@@ -38,7 +38,7 @@ void access_hardware(Task& task, Duration latency) {
   if (task.seat != nullptr) {
     task.scheduler->sleep_until(after);  // others use the processor meanwhile
   } else {
-    task.scheduler->end_free_pass();
+    task.scheduler->close_fast_path();
     task.local_time = after;
   }
 }
@@ -60,41 +60,6 @@ Duration Scheduler::choose(Task& task, Duration least, Duration greatest) {
 
 Duration Scheduler::pass(const Task& task, Duration cost) {
   return durations_ != nullptr ? durations_->pass(*durations_, task, cost) : cost;
-}
-
-// False when the run is over: it may end while the task shares its processor with others, or with a record of
-// durations.
-bool Scheduler::end_segment(Task& task) {
-  if (task.clock != nullptr && task.clock->end != nullptr) task.clock->end(*task.clock, task);
-  return !unwinding_;
-}
-
-void Scheduler::start_waiting(Task& task, Object& object) {
-  if (task.seat == nullptr) return;
-  leave_processor(task);
-  reconsider_priority(object.owner);
-}
-
-void Scheduler::stop_waiting(Task& task, Object& object) {
-  if (task.seat != nullptr) reconsider_priority(object.owner);
-}
-
-// The task goes on with `operation`, unless a signal comes first: what its handler does takes time, and the operation
-// has its place in the order of time after that.
-bool Scheduler::begin_segment(Task& task, Operation operation, Object* object) {
-  if (task.seat != nullptr && !take_processor(task)) return false;
-  while ((task.attention & attention::signal) != 0) {
-    task.attention = static_cast<std::uint8_t>(task.attention & ~attention::signal);
-    if (task.clock != nullptr && task.clock->begin != nullptr) task.clock->begin(*task.clock, task);
-    WAITPOINT_CHECK(deliver_ != nullptr, "a signal is pending, and nobody delivers it");
-    deliver_(task);
-    if (unwinding_ || !end_segment(task)) return false;
-    task.operation = operation;
-    task.at = object;
-    if (!arrive_after_signal(task)) return false;
-  }
-  if (task.clock != nullptr && task.clock->begin != nullptr) task.clock->begin(*task.clock, task);
-  return true;
 }
 
 }  // namespace waitpoint::kernel

@@ -8,6 +8,9 @@
 // Hand-over is direct, from the fiber that cannot go on to the one whose event is next. A task whose own event is the
 // least already does not switch at all. The context that called run_before() is re-entered only when the run stops.
 //
+// The plain path is waitpoint.cpp and waiting.cpp; fast_path.hpp and fast_calls.cpp come to the same events in fewer
+// steps.
+//
 // Nothing here throws, allocates while running, or prints.
 #pragma once
 
@@ -16,7 +19,7 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/agenda.hpp"
-#include "fibers/kernel/free_pass.hpp"
+#include "fibers/kernel/fast_path.hpp"
 #include "fibers/kernel/limits.hpp"
 #include "fibers/kernel/run_state.hpp"
 #include "fibers/kernel/spawn_options.hpp"
@@ -39,6 +42,9 @@ class Scheduler {
 
   /// In the explored order, before the first run_before(): who decides. It must outlive the run.
   void set_decisions(Decisions& decisions);
+
+  /// Before the first task: whether events may take the fast paths (they do by default). The run is the same without.
+  void use_fast_paths(bool used);
 
   /// After unwind(): all is as in a new scheduler of this seed, which has no robot yet; but its memory is in place.
   /// Takes a microsecond.
@@ -84,38 +90,37 @@ class Scheduler {
 
   /// The task's event stands at its local time; returns when it is the least. False while unwinding.
   bool waitpoint(Operation operation, Object* object) {
-    if (object != nullptr && pass_unseen(operation, *object)) return true;
-    return waitpoint_in_any_case(operation, object);
+    if (object != nullptr && try_fast_waitpoint(operation, *object)) return true;
+    return waitpoint_slow(operation, object);
   }
-  /// The same for who has tried to pass unseen already.
-  bool waitpoint_in_any_case(Operation operation, Object* object);
-  /// The running task looks at its clock: no event, but what it does again and again must end, so that others get a
-  /// turn after as many looks as waitpoints at one instant. False when the run is over.
-  bool look_at_clock(Time& local) {
+  /// The same for a caller that has tried the fast path already.
+  bool waitpoint_slow(Operation operation, Object* object);
+  /// The running task reads its clock: no event, but a task that reads it again and again gives others a turn after as
+  /// many reads as waitpoints at one instant. False when the run is over.
+  bool read_clock(Time& local) {
     Task& task = *running;
-    if (__builtin_expect(!free_pass_.holds_for(task), 0)) return look_at_clock_slowly(task, local);
+    if (__builtin_expect(!fast_path_.holds_for(task), 0)) return read_clock_slow(task, local);
     ++task.turns;
     local = task.local_time;
     return true;
   }
   /// The running task's local time moves on: it is not of the present instant any more.
-  void end_free_pass() { free_pass_.end(); }
+  void close_fast_path() { fast_path_.close(); }
   /// As waitpoint, but behind all tasks of this instant; in the seeded order anywhere among them.
   bool yield();
   /// Moves the task to `time` (not before its local time) and waits there.
   [[gnu::always_inline]] bool sleep_until(Time time) {
-    const Departure away = start_sleeping(time);
-    return away.leads_away() ? end_sleeping(depart(away)) : wake_of(away) != Wake::unwinding;
+    const Departure away = start_sleep(time);
+    return away.leads_away() ? end_sleep(depart(away)) : wake_of(away) != Wake::unwinding;
   }
   /// Blocks the running task on `object` until it is woken or `deadline` comes; Time::max() is for ever.
   [[gnu::always_inline]] Wake block(Object& object, Time deadline) {
-    const bool is_finite = deadline != Time::max();
-    const Departure away = is_finite ? start_blocking_until(object, deadline) : start_blocking(object);
-    return away.leads_away() ? end_blocking(depart(away), object, is_finite) : wake_of(away);
+    const Departure away = start_block(object, deadline);
+    return away.leads_away() ? end_block(depart(away), object, deadline != Time::max()) : wake_of(away);
   }
   /// Wakes one waiter of `object`, of the chooser's choice; null if there is none. The waiter's local time becomes the
   /// global.
-  Task* wake_one(Object& object) { return object.first_waiter == nullptr ? nullptr : wake_a_waiter(object); }
+  Task* wake_one(Object& object) { return object.first_waiter == nullptr ? nullptr : wake_waiter(object); }
   void wake_all(Object& object);
   /// Wakes `task`, which must be blocked: for primitives that choose among their waiters themselves.
   void wake(Task& task);
@@ -198,10 +203,10 @@ class Scheduler {
   void attend(Task& task, std::uint8_t reason, bool needed);
   /// What delivers a task's signals, at its next waitpoint after attention::signal is set; called in the task, it may
   /// compute and pass waitpoints itself.
-  void set_delivery(void (*deliver)(Task&)) { deliver_ = deliver; }
+  void set_signal_delivery(void (*deliver)(Task&)) { deliver_ = deliver; }
   /// What is asked when a task has blocked for ever in a cycle: whether the run goes on all the same. Null: it does
   /// not.
-  void set_cycles(bool (*go_on)(Task&)) { go_on_in_cycle_ = go_on; }
+  void set_cycle_handler(bool (*goes_on)(Task&)) { cycle_handler_ = goes_on; }
   /// What the layer above hangs on the run.
   void set_client(void* client) { client_ = client; }
   void* client() const { return client_; }
@@ -211,97 +216,101 @@ class Scheduler {
   std::size_t call_stack(Task& task, void** frames, std::size_t room);
 
  private:
+  // Tasks: tasks.cpp.
   static void task_main(void* task);
   [[noreturn]] void end_task(Task& task);
   bool count_end(const Task& task);
   void unlink(Task& task);
   bool refuse();
-  void adopt(Object& object);
-  void begin(Task& task);
-  bool waitpoint_in_the_list(Task& task, Operation operation, Object* object);
-  bool look_at_clock_slowly(Task& task, Time& local);
-  bool arrive(Task& task);
-  bool take_place(Task& task, Operation operation, Object* object);
-  bool arrive_after_signal(Task& task);
+  void reclaim_ended();
+  static Task& task_of(EventNode& node) { return reinterpret_cast<Task&>(node); }  // the node is its first member
+
+  // Algorithm 1, the plain path: waitpoint.cpp. What returns a fiber made its task the running one: it is to be entered
+  // at once.
+  bool announce(Task& task, Operation operation, Object* object);
+  bool await_turn(Task& task);
+  bool end_waitpoint(Task& task);
   bool end_segment(Task& task);
-  void start_waiting(Task& task, Object& object);
-  void stop_waiting(Task& task, Object& object);
   bool begin_segment(Task& task, Operation operation, Object* object);
-  Departure sleep_in_any_case(Time time);
-  bool sleep_slowly(Time time);
-  Departure leave_sleeping(Task& task, const EventEntry& least);
-  Departure start_blocking(Object& object);
-  Departure start_blocking_until(Object& object, Time deadline);
-  [[gnu::always_inline]] Wake end_blocking(const Arrival& arrival, Object& object, bool is_finite) {
-    note_where_left(arrival);
-    Task& task = *running;
-    if (!turn.is_unseen()) return go_on(task, object);
-    const Wake wake = is_finite ? task.wake : Wake::woken;
-    count_event(task, wake == Wake::woken ? Operation::resume : Operation::timeout, &object, turn.at);
-    return wake;
-  }
-  // In which run's objects the task that goes on passes unseen: nobody watches, and nothing is to be done first.
-  std::uint64_t unseen_in() const { return watched_ || interrupted_ || ended_ != nullptr ? Turn::no_epoch : epoch_; }
-  Departure block_in_any_case(Object& object, Time deadline);
-  Departure start_sleeping(Time time);
-  [[gnu::always_inline]] bool end_sleeping(const Arrival& arrival) {
-    note_where_left(arrival);
-    Task& task = *running;
-    if (!turn.is_unseen()) return go_on_from_waitpoint(task);
-    count_event(task, Operation::sleep, nullptr, turn.at);
-    return true;
-  }
-  static Wake wake_of(const Departure& none) { return static_cast<Wake>(none.outcome()); }
-  static Departure stay(Wake wake) { return Departure::none(static_cast<std::uintptr_t>(wake)); }
-  bool departs(Fiber& from, Fiber& to);
-  bool stay_until(Task& task, const Object& object, Time deadline);
-  Wake go_on(Task& task, Object& object);
-  bool go_on_from_waitpoint(Task& task);
-  bool act_for_timer(Task& task, Operation operation, Object* object);
-  Task* wake_a_waiter(Object& object);
-  Task* choose_waiter(Object& object);
-  // The task's event is executed, and shown to who watches.
+  Fiber& dispatch_instead_of(Task& task);
+  Fiber& dispatch();
+  Fiber& dispatch_explored();
+  Fiber* dispatch_event(EventNode& node);
+  Fiber& dispatch_task(Task& task);
+  Fiber& resume(Task& task);
+  void switch_fibers(Fiber& from, Fiber& to);
+  Departure sleep_slow(Time time);
+  bool give_turn(Task& task);
+  void check_progress(Task& task);
+  bool read_clock_slow(Task& task, Time& local);
+  bool timer_waitpoint(Task& task, Operation operation, Object* object);
+  void execute_start(Task& task);
+  // The task's event is executed, and shown to the watch.
   [[gnu::always_inline]] void execute(Task& task, Operation operation, const Object* object) {
     count_event(task, operation, object, agenda_.now);
     if (__builtin_expect(watched_, 0)) show(operation, object);
   }
   void show(Operation operation, const Object* object);
-  bool give_turn(Task& task);
-  void check_progress(Task& task);
-  Fiber& give_way(Task& task, const EventEntry& least);
-  Fiber& give_way_to_present(Task& task);
-  Fiber& wait_for_window(Task& task);
-  Fiber& park(Task& task, Object& object, Time deadline);
-  Fiber& next_fiber();
-  Fiber& next_explored();
-  void let_time_pass();
-  Fiber& outside(RunState state);
-  static Task& task_of(EventNode& node) { return reinterpret_cast<Task&>(node); }  // the node is its first member
-  Task* due(EventNode& node, Time time);
-  Task& go(Task& task);
-  void resume(Task& task);
   void hash_events_of(Robot& robot);
   void set_local_time(Task& task, Time time);
-  void make_ready(Task& task);
-  bool can_hand_over(const Task& task) const;
-  Departure hand_over(Task& task);
-  void allow_short_ways();
+
+  // Algorithm 2, and what deadlocks are: waiting.cpp, wait_graph.cpp.
+  void adopt(Object& object);
+  Departure block_slow(Object& object, Time deadline);
+  Wake end_block_slow(Task& task, Object& object);
+  Task* wake_one_slow(Object& object);
+  void lend_priority(Task& task, Object& object);
+  void reclaim_priority(Task& task, Object& object);
   void put(EventNode& node, const EventKey& key);
-  void leave(Fiber& from, Fiber& to);
-  void enter_run(Fiber& to);
-  void switch_to(Task& task);
-  void leave_to_main(RunState state);
-  void leave_for_next(Task& task);
-  bool rest();
-  void reclaim_ended();
+  bool is_deadlock(Task& task, const Object& object);
   bool closes_a_cycle(Task& task);
   bool ends_in_cycle(Task& task);
+
+  // The run: run.cpp, explored.cpp, call_stack.cpp.
+  void enter_run(Fiber& to);
+  void exit_run(RunState state);
+  Fiber& end_window(RunState state);
+  Fiber& wait_for_window(Task& task);
+  void let_time_pass();
+  bool answer_interrupt();
+
+  // The fast paths: fast_calls.cpp. A call that may leave its fiber comes in two parts, see departure.hpp.
+  static Wake wake_of(const Departure& none) { return static_cast<Wake>(none.outcome()); }
+  static Departure stay(Wake wake) { return Departure::none(static_cast<std::uintptr_t>(wake)); }
+  void allow_fast_paths();
+  // In which run's objects the running task may take the fast path: no watch looks on, and nothing is to be done first.
+  std::uint64_t fast_epoch() const { return watched_ || interrupted_ || ended_ != nullptr ? Turn::no_epoch : epoch_; }
+  bool can_exchange() const { return agenda_.present.empty() && fast_path_.is_enabled() && !agenda_.is_explored(); }
+  Fiber& exchange_with_least(Task& task);
+  bool waitpoint_at_present(Task& task, Operation operation, Object* object);
+  Departure start_sleep(Time time);
+  Departure depart_sleeping(Task& task);
+  [[gnu::always_inline]] bool end_sleep(const Arrival& arrival) {
+    note_where_left(arrival);
+    Task& task = *running;
+    if (!turn.is_fast()) return end_waitpoint(task);
+    count_event(task, Operation::sleep, nullptr, turn.at);
+    return true;
+  }
+  bool can_dispatch_present() const;
+  bool try_fast_wait(Task& task, Object& object, Time deadline);
+  Departure start_block(Object& object, Time deadline);
+  [[gnu::always_inline]] Wake end_block(const Arrival& arrival, Object& object, bool is_finite) {
+    note_where_left(arrival);
+    Task& task = *running;
+    if (!turn.is_fast()) return end_block_slow(task, object);
+    const Wake wake = is_finite ? task.wake : Wake::woken;
+    count_event(task, wake == Wake::woken ? Operation::resume : Operation::timeout, &object, turn.at);
+    return wake;
+  }
+  bool departs(Fiber& from, Fiber& to);
+  Task* wake_waiter(Object& object);
 
   // So many that are ready may be out of the cache.
   static constexpr std::uint32_t many_ready = 32;
 
   Agenda agenda_;
-  FreePass free_pass_;
+  FastPath fast_path_;
   StackArena arena_;
   Fiber main_;
   Duration lookahead_ = Duration::max();
@@ -319,7 +328,7 @@ class Scheduler {
   const char* replay_ = "";
   void* client_ = nullptr;
   void (*deliver_)(Task&) = nullptr;
-  bool (*go_on_in_cycle_)(Task&) = nullptr;
+  bool (*cycle_handler_)(Task&) = nullptr;
   std::uint64_t epoch_;
   std::uint64_t searches_ = 0;
   std::uint64_t outputs_ = 0;  // hashed among the events
@@ -334,7 +343,7 @@ class Scheduler {
   StopCause cause_ = StopCause::none;
   PairDigest* lane_ = nullptr;  // as the turn has it, for who reads the scheduler from another process
   PairDigest unheard_;          // of robots that ended
-  bool ordinary_ = false;       // tasks may take the short ways of scheduler_steps.hpp
+  bool fast_allowed_ = false;   // tasks may take the calls of fast_calls.cpp
   bool unwinding_ = false;
   bool interrupted_ =
       false;                 // tasks that get control are not to go on: they are unwound, or asked for their call stack

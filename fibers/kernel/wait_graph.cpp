@@ -65,7 +65,7 @@ bool Scheduler::closes_a_cycle(Task& task) {
 
 bool Scheduler::ends_in_cycle(Task& task) {
   if (!closes_a_cycle(task)) return false;
-  if (go_on_in_cycle_ == nullptr || !go_on_in_cycle_(task)) return true;
+  if (cycle_handler_ == nullptr || !cycle_handler_(task)) return true;
   culprit_ = nullptr;
   return false;
 }

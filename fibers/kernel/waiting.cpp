@@ -2,6 +2,7 @@
 //
 // Waiting on objects and being woken (the paper's Algorithm 2), and the events of timers and messages.
 #include "core/error.hpp"
+#include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
 
@@ -23,40 +24,80 @@ void Scheduler::adopt(Object& object) {
   object.first_waiter = object.last_waiter = nullptr;
 }
 
-// The task waits from now on: the fiber to leave for.
-Fiber& Scheduler::park(Task& task, Object& object, Time deadline) {
-  free_pass_.end();
-  if (sanitizer::present) sanitizer::release(&object);
-  append_waiter(object, task);
-  if (needs_attention(task)) start_waiting(task, object);
-  if (!stay_until(task, object, deadline)) return outside(RunState::stopped);
-  return next_fiber();
+// --- what a task that blocks lends of its processor's urgency ---
+
+void Scheduler::lend_priority(Task& task, Object& object) {
+  if (task.seat == nullptr) return;
+  leave_processor(task);
+  reconsider_priority(object.owner);
 }
 
-void Scheduler::wake(Task& task) { make_ready(task); }
+void Scheduler::reclaim_priority(Task& task, Object& object) {
+  if (task.seat != nullptr) reconsider_priority(object.owner);
+}
+
+// --- Algorithm 2: block, and wake ---
+
+// The running task stands among the waiters of `object`, without an event or with one at its deadline, until it is
+// woken or that event is the least.
+[[gnu::noinline]] Departure Scheduler::block_slow(Object& object, Time deadline) {
+  if (unwinding_) {
+    refuse();
+    return stay(Wake::unwinding);
+  }
+  Task& task = *running;
+  WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
+  fast_path_.close();
+  if (sanitizer::present) sanitizer::release(&object);
+  append_waiter(object, task);
+  if (needs_attention(task)) lend_priority(task, object);
+  task.state = TaskState::blocked;
+  task.finite_wait = deadline != Time::max();
+  if (task.finite_wait) agenda_.place_timeout(task, deadline < agenda_.now ? agenda_.now : deadline);
+  Fiber& to = is_deadlock(task, object) ? end_window(RunState::stopped) : dispatch();
+  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
+  return stay(end_block_slow(*running, object));
+}
+
+// The task was woken, or its wait ran out: the next segment begins.
+[[gnu::noinline]] Wake Scheduler::end_block_slow(Task& task, Object& object) {
+  if (ended_ != nullptr) reclaim_ended();
+  if (interrupted_ && !answer_interrupt()) return Wake::unwinding;
+  const Wake wake = task.wake;  // it may wait for its processor too, before it goes on
+  const Operation operation = wake == Wake::woken ? Operation::resume : Operation::timeout;
+  if (needs_attention(task) && !begin_segment(task, operation, &object)) return Wake::unwinding;
+  execute(task, operation, &object);
+  return wake;
+}
+
+// The woken task takes the global time as its local one.
+void Scheduler::wake(Task& task) {
+  if (__builtin_expect(sanitizer::present, 0)) sanitizer::release(task.blocked_on);
+  remove_waiter(task);
+  // One whose wait has just run out stands among those that are ready, and stays there.
+  const bool placed = __builtin_expect(ReadySet::contains(task), 0);
+  if (task.finite_wait && !placed) agenda_.events.remove(task.event);
+  task.wake = Wake::woken;
+  task.state = TaskState::ready;
+  set_local_time(task, agenda_.now);
+  if (!placed) agenda_.place(task, agenda_.now);
+  fast_path_.note_present_event(task.phase);
+}
+
+// Whether `task` waits for ever for tasks of which one waits for it, and that ends the run.
+bool Scheduler::is_deadlock(Task& task, const Object& object) {
+  if (task.finite_wait || (object.owner == nullptr && object.holder_count == 0)) return false;
+  if (!ends_in_cycle(task)) return false;
+  cause_ = StopCause::deadlock;
+  return true;
+}
 
 void Scheduler::move_waiter(Task& task, Object& to) {
   remove_waiter(task);
   append_waiter(to, task);
 }
 
-// As make_ready() of the first, where that is all. What is rare is left to a function that is called last: each
-// register that is kept over a call is saved first.
-Task* Scheduler::wake_a_waiter(Object& object) {
-  Task& first = *object.first_waiter;
-  const bool is_usual = __builtin_expect(ordinary_, 1) && object.epoch == epoch_ && first.phase == Phase::tasks;
-  if (__builtin_expect(!is_usual, 0)) return choose_waiter(object);
-  if (first.finite_wait && __builtin_expect(!agenda_.events.remove_at_once(first.event), 0))
-    return choose_waiter(object);
-  remove_first_waiter(object);
-  first.wake = Wake::woken;
-  first.state = TaskState::ready;
-  set_local_time(first, agenda_.now);
-  agenda_.present.add(first, agenda_.chooser.tie_of_next());
-  return &first;
-}
-
-[[gnu::noinline]] Task* Scheduler::choose_waiter(Object& object) {
+[[gnu::noinline]] Task* Scheduler::wake_one_slow(Object& object) {
   Task* chosen = object.first_waiter;
   if (unwinding_ || object.epoch != epoch_) return nullptr;
   if (agenda_.chooser.order() != Order::fifo) {
@@ -64,21 +105,35 @@ Task* Scheduler::wake_a_waiter(Object& object) {
     for (Task* t = chosen; t != nullptr && count < choice_of_waiters_max; t = t->next_waiter) ++count;
     for (std::uint32_t i = agenda_.chooser.waiter(*running, count); i > 0; --i) chosen = chosen->next_waiter;
   }
-  make_ready(*chosen);
+  wake(*chosen);
   return chosen;
 }
 
 Task* Scheduler::wake_first(Object& object) {
   if (unwinding_ || object.epoch != epoch_ || object.first_waiter == nullptr) return nullptr;
   Task* first = object.first_waiter;
-  make_ready(*first);
+  wake(*first);
   return first;
 }
 
 void Scheduler::wake_all(Object& object) {
   if (unwinding_ || object.epoch != epoch_) return;
-  while (object.first_waiter != nullptr) make_ready(*object.first_waiter);
+  while (object.first_waiter != nullptr) wake(*object.first_waiter);
 }
+
+// Blocks without an event of its own: for processors.
+bool Scheduler::suspend(Object& object) {
+  if (unwinding_) return false;
+  Task& task = *running;
+  fast_path_.close();
+  append_waiter(object, task);
+  task.state = TaskState::blocked;
+  task.finite_wait = false;
+  switch_fibers(task.fiber, dispatch());
+  return !interrupted_ || answer_interrupt();
+}
+
+// --- timers and messages ---
 
 void Scheduler::schedule(EventNode& node, Time time, const Object& timer, Phase phase) {
   put(node, {time, make_order(phase, Chooser::tie(timer))});

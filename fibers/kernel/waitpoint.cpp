@@ -1,90 +1,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The waitpoint: how a task's events find their place in the order of virtual time, and are executed.
+// The paper's Algorithm 1, and nothing faster: the waitpoint, sleeping, yielding, and the dispatch of the least event.
+// fast_calls.cpp and fast_path.hpp take short cuts to the same events.
 #include "fibers/kernel/access.hpp"
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
-#include "fibers/switch/runtime_state.hpp"
-#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 
-// Goes on when the task's event is the least; false when the run is over.
-[[gnu::always_inline]] inline bool Scheduler::arrive(Task& task) {
-  if (__builtin_expect(agenda_.is_explored(), 0)) {
-    task.state = TaskState::ready;
-    agenda_.place(task, task.local_time);
-    leave(task.fiber, next_fiber());
-    return !interrupted_ || rest();
+// --- the waitpoint ---
+
+bool Scheduler::waitpoint_slow(Operation operation, Object* object) {
+  Task& task = *running;
+  if (fast_path_.holds_for(task)) return waitpoint_at_present(task, operation, object);
+  if (unwinding_) return refuse();
+  fast_path_.close();
+  if (needs_attention(task)) {
+    if ((task.attention & attention::timer) != 0) return timer_waitpoint(task, operation, object);
+    if (!end_segment(task)) return false;
   }
-  const EventEntry& least = agenda_.events.least();
-  if (__builtin_expect(!agenda_.present.empty(), 0)) {
-    if (!agenda_.precedes(task, agenda_.next_key())) {
-      leave(task.fiber, give_way_to_present(task));
-      return !interrupted_ || rest();
-    }
-  } else if (!agenda_.precedes(task, least.key)) {
-    leave(task.fiber, give_way(task, least));
-    return !interrupted_ || rest();
-  }
-  if (task.local_time >= agenda_.until) {
-    leave(task.fiber, wait_for_window(task));
-    if (interrupted_ && !rest()) return false;
-  }
-  agenda_.now = task.local_time;
-  agenda_.events.advance(agenda_.now);
-  if (free_pass_.may_stay(agenda_.now < least.key.time)) free_pass_.give(task, agenda_.now, unseen_in());
+  if (!announce(task, operation, object) || !await_turn(task)) return false;
+  // The task that returns is the running one, and its record has the operation: no register is kept over the switch.
+  Task& next = *running;
+  if (__builtin_expect(next.attention != 0 || watched_, 0)) return end_waitpoint(next);
+  count_event(next, next.operation, next.at, agenda_.now);
   return true;
 }
 
-bool Scheduler::arrive_after_signal(Task& task) { return arrive(task); }
-
-// The waitpoint of a task whose segment has ended. Inline in all its callers: each frame of a parked task is a cache
-// line that its next event waits for.
-inline bool Scheduler::take_place(Task& task, Operation operation, Object* object) {
+// The segment has ended: what the task does next stands in its record. False when the run is over. Inline in its
+// callers, as await_turn(): each frame of a parked task is a cache line that its next event waits for.
+inline bool Scheduler::announce(Task& task, Operation operation, Object* object) {
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
   if (task.local_time != agenda_.now)
     task.turns = 1;
-  else if (++task.turns > turns_max && !give_turn(task))
-    return false;
-  return arrive(task);
-}
-
-bool Scheduler::waitpoint_in_any_case(Operation operation, Object* object) {
-  Task& task = *running;
-  if (!free_pass_.holds_for(task)) return waitpoint_in_the_list(task, operation, object);
-  ++task.turns;
-  task.operation = operation;
-  task.at = object;
-  if (object != nullptr) enter(*object);
-  execute(task, operation, object);
-  if (free_pass_.holds_for(task)) free_pass_.give(task, agenda_.now, unseen_in());  // a watch may have ended it
+  else if (++task.turns > turns_max)
+    return give_turn(task);
   return true;
 }
 
-bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* object) {
-  if (unwinding_) return refuse();
-  free_pass_.end();
-  if (needs_attention(task)) {
-    if ((task.attention & attention::timer) != 0) return act_for_timer(task, operation, object);
-    if (!end_segment(task)) return false;
+// The event stands at the local time; returns when it is the least. False when the run is over.
+[[gnu::always_inline]] inline bool Scheduler::await_turn(Task& task) {
+  if (!agenda_.is_next(task)) {
+    switch_fibers(task.fiber, dispatch_instead_of(task));
+    return !interrupted_ || answer_interrupt();
   }
-  if (!take_place(task, operation, object)) return false;
-  // Whoever comes back is running, and where it is stands in its record: it kept no registers for that.
-  Task& next = *running;
-  if (__builtin_expect(next.attention != 0 || watched_, 0)) return go_on_from_waitpoint(next);
-  count_event(next, next.operation, next.at, agenda_.now);
+  if (task.local_time >= agenda_.until) {
+    switch_fibers(task.fiber, wait_for_window(task));
+    if (interrupted_ && !answer_interrupt()) return false;
+  }
+  agenda_.advance(task.local_time);
+  if (fast_path_.may_stay(agenda_.now < agenda_.events.least().key.time))
+    fast_path_.open(task, agenda_.now, fast_epoch());
   return true;
 }
 
-[[gnu::noinline]] bool Scheduler::go_on_from_waitpoint(Task& task) {
+// The event is the one now executing: the next segment begins. False when the run is over.
+[[gnu::noinline]] bool Scheduler::end_waitpoint(Task& task) {
   if (ended_ != nullptr) reclaim_ended();
-  if (interrupted_ && !rest()) return false;
+  if (interrupted_ && !answer_interrupt()) return false;
   const Operation operation = task.operation;
   Object* const object = task.at;
   if (needs_attention(task) && !begin_segment(task, operation, object)) return false;
@@ -92,22 +70,82 @@ bool Scheduler::waitpoint_in_the_list(Task& task, Operation operation, Object* o
   return true;
 }
 
-bool Scheduler::look_at_clock_slowly(Task& task, Time& local) {
-  const Time before = task.local_time;
-  local = local_time(task);
-  if ((task.attention & attention::timer) != 0) return true;
-  free_pass_.end();
-  if (local != before)
-    task.turns = 0;
-  else if (++task.turns > turns_max && !unwinding_ && give_turn(task))
-    local = local_time(task);
-  return unwinding_ ? refuse() : true;
+// --- segments: what is computed between two waitpoints, see local_clock.hpp ---
+
+// False when the run is over: it may end while the task shares its processor with others, or with a record of
+// durations.
+bool Scheduler::end_segment(Task& task) {
+  if (task.clock != nullptr && task.clock->end != nullptr) task.clock->end(*task.clock, task);
+  return !unwinding_;
+}
+
+// The task goes on with `operation`, unless a signal comes first: what its handler does takes time, and the operation
+// has its place in the order of time after that.
+[[gnu::noinline]] bool Scheduler::begin_segment(Task& task, Operation operation, Object* object) {
+  if (task.seat != nullptr && !take_processor(task)) return false;
+  while ((task.attention & attention::signal) != 0) {
+    task.attention = static_cast<std::uint8_t>(task.attention & ~attention::signal);
+    if (task.clock != nullptr && task.clock->begin != nullptr) task.clock->begin(*task.clock, task);
+    WAITPOINT_CHECK(deliver_ != nullptr, "a signal is pending, and nobody delivers it");
+    deliver_(task);
+    if (unwinding_ || !end_segment(task)) return false;
+    task.operation = operation;
+    task.at = object;
+    if (!await_turn(task)) return false;
+  }
+  if (task.clock != nullptr && task.clock->begin != nullptr) task.clock->begin(*task.clock, task);
+  return true;
+}
+
+// --- the least event ---
+
+// The task's event goes into the list and the least comes out.
+inline Fiber& Scheduler::dispatch_instead_of(Task& task) {
+  task.state = TaskState::ready;
+  if (can_exchange()) return exchange_with_least(task);
+  agenda_.place(task, task.local_time);
+  return dispatch();
+}
+
+// Takes out the least event, and executes those of timers and messages until one is a task's: its fiber, for which the
+// caller leaves its own. Where the window or the run ends, the fiber of the context outside.
+Fiber& Scheduler::dispatch() {
+  if (__builtin_expect(agenda_.is_explored(), 0)) return dispatch_explored();
+  for (;;) {
+    if (agenda_.is_present_next()) {
+      Task& task = agenda_.present.take();
+      if (agenda_.present.size() >= many_ready) fetch_coming(agenda_.present);
+      return resume(task);
+    }
+    EventNode* node = agenda_.events.pop_before(agenda_.until);
+    if (node == nullptr) return end_window(pending_events() == 0 ? RunState::idle : RunState::reached);
+    if (Fiber* fiber = dispatch_event(*node)) return *fiber;
+  }
+}
+
+// --- sleeping and yielding ---
+
+[[gnu::noinline]] Departure Scheduler::sleep_slow(Time time) {
+  if (unwinding_) {
+    refuse();
+    return stay(Wake::unwinding);
+  }
+  Task& task = *running;
+  fast_path_.close();
+  if (needs_attention(task)) {
+    WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
+    if (!end_segment(task)) return stay(Wake::unwinding);
+    if (task.seat != nullptr && time > task.local_time) leave_processor(task);
+  }
+  if (time > task.local_time) task.local_time = time;
+  const bool goes_on = announce(task, Operation::sleep, nullptr) && await_turn(task) && end_waitpoint(*running);
+  return stay(goes_on ? Wake::woken : Wake::unwinding);
 }
 
 bool Scheduler::yield() {
   if (unwinding_) return refuse();
   Task& task = *running;
-  free_pass_.end();
+  fast_path_.close();
   if (needs_attention(task)) {
     WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
     if (!end_segment(task)) return false;
@@ -120,92 +158,8 @@ bool Scheduler::yield() {
   if (unwinding_) return false;
   agenda_.place(task, task.local_time);
   task.state = TaskState::ready;
-  leave(task.fiber, next_fiber());
-  if (interrupted_ && !rest()) return false;
-  if (needs_attention(task) && !begin_segment(task, Operation::yield, nullptr)) return false;
-  execute(task, Operation::yield, nullptr);
-  return true;
-}
-
-// Whether the caller is to depart for `to`; else all is done.
-[[gnu::always_inline]] inline bool Scheduler::departs(Fiber& from, Fiber& to) {
-  if (__builtin_expect(&to == &from || !can_switch_in_parts(from, to) || sanitizer::present, 0)) {
-    leave(from, to);
-    return false;
-  }
-  ++switches_;
-  return true;
-}
-
-// A task that only lets time pass, beside others that do, must be quick: what is rare is left to functions that are
-// called last, since each register that is kept over a call is saved first.
-Departure Scheduler::start_sleeping(Time time) {
-  Task& task = *running;
-  const bool is_plain = ordinary_ && task.attention == 0 && time > task.local_time && time < agenda_.until;
-  if (__builtin_expect(!is_plain || !agenda_.present.empty() || watched_, 0)) return sleep_in_any_case(time);
-  task.local_time = time;
-  task.operation = Operation::sleep;
-  task.at = nullptr;
-  task.turns = 1;
-  const EventEntry& least = agenda_.events.least();
-  if (!agenda_.precedes(task, least.key)) return leave_sleeping(task, least);
-  agenda_.now = time;
-  agenda_.events.advance(time);
-  free_pass_.give(task, time, epoch_);
-  count_event(task, Operation::sleep, nullptr, time);
-  return stay(Wake::woken);
-}
-
-[[gnu::noinline]] Departure Scheduler::leave_sleeping(Task& task, const EventEntry& least) {
-  free_pass_.end();
-  Fiber& to = give_way(task, least);
-  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
-  return stay(go_on_from_waitpoint(*running) ? Wake::woken : Wake::unwinding);
-}
-
-[[gnu::noinline]] Departure Scheduler::sleep_in_any_case(Time time) {
-  return stay(sleep_slowly(time) ? Wake::woken : Wake::unwinding);
-}
-
-bool Scheduler::sleep_slowly(Time time) {
-  if (unwinding_) return refuse();
-  Task& task = *running;
-  free_pass_.end();
-  if (needs_attention(task)) {
-    WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
-    if (!end_segment(task)) return false;
-    if (task.seat != nullptr && time > task.local_time) leave_processor(task);
-  }
-  if (time > task.local_time) task.local_time = time;
-  return take_place(task, Operation::sleep, nullptr) && go_on_from_waitpoint(*running);
-}
-
-// Whatever a timer does, it does in its turn: its event is the one now executing.
-bool Scheduler::act_for_timer(Task& task, Operation operation, Object* object) {
-  task.operation = operation;
-  task.at = object;
-  if (object != nullptr) enter(*object);
-  hash_events_of(*task.robot);
-  execute(task, operation, object);
-  return true;
-}
-
-void Scheduler::set_watch(Watch* watch) {
-  free_pass_.end();  // or who runs would pass its waitpoints unseen
-  watch_ = watch;
-  watched_ = watch != nullptr || sanitizer::present || debugger_view.watching;
-}
-
-void Scheduler::show(Operation operation, const Object* object) {
-  // Every use of an object comes after all earlier ones; not so of memory.
-  if (object != nullptr && object->kind != memory_kind && sanitizer::present) sanitizer::use(object);
-  if (watch_ != nullptr) watch_->event(*watch_, {agenda_.now, running, operation, object});
-  if (debugger_view.watching) show_debugger(agenda_.now, *running, operation, object);
-}
-
-void Scheduler::begin(Task& task) {
-  if (needs_attention(task) && !begin_segment(task, Operation::start, nullptr)) return;
-  execute(task, Operation::start, nullptr);
+  switch_fibers(task.fiber, dispatch());
+  return end_waitpoint(*running);
 }
 
 // A task that passes many waitpoints at one instant gives its ties a turn; false when the run is over.
@@ -219,7 +173,7 @@ bool Scheduler::give_turn(Task& task) {
   return true;
 }
 
-// If all tasks of an instant do nothing but give each other turns, the run is stuck.
+// If all tasks of an instant only give each other turns, the run is stuck.
 void Scheduler::check_progress(Task& task) {
   if (turns_given_at_ != agenda_.now) {
     turns_given_at_ = agenda_.now;
@@ -230,68 +184,46 @@ void Scheduler::check_progress(Task& task) {
   stop(StopCause::no_progress);
 }
 
+// --- events beside the waitpoint ---
+
+bool Scheduler::read_clock_slow(Task& task, Time& local) {
+  const Time before = task.local_time;
+  local = local_time(task);
+  if ((task.attention & attention::timer) != 0) return true;
+  fast_path_.close();
+  if (local != before)
+    task.turns = 0;
+  else if (++task.turns > turns_max && !unwinding_ && give_turn(task))
+    local = local_time(task);
+  return unwinding_ ? refuse() : true;
+}
+
+// A timer acts in its turn: its event is the one now executing.
+bool Scheduler::timer_waitpoint(Task& task, Operation operation, Object* object) {
+  task.operation = operation;
+  task.at = object;
+  if (object != nullptr) enter(*object);
+  hash_events_of(*task.robot);
+  execute(task, operation, object);
+  return true;
+}
+
+void Scheduler::execute_start(Task& task) {
+  if (needs_attention(task) && !begin_segment(task, Operation::start, nullptr)) return;
+  execute(task, Operation::start, nullptr);
+}
+
 void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
   if (unwinding_) return;
   ++outputs_;
   turn.lane->add(name, value);
 }
 
-Departure Scheduler::start_blocking(Object& object) {
-  Task& task = *running;
-  // Who waits for one that can go on closes no cycle.
-  if (__builtin_expect(object.holder_count != 0, 0) ||
-      (object.owner != nullptr && __builtin_expect(object.owner->state != TaskState::ready, 0)) ||
-      __builtin_expect(!can_hand_over(task), 0))
-    return block_in_any_case(object, Time::max());
-  append_waiter(object, task);
-  task.state = TaskState::blocked;
-  task.finite_wait = false;
-  return hand_over(task);
-}
-
-Departure Scheduler::start_blocking_until(Object& object, Time deadline) {
-  Task& task = *running;
-  const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next())};
-  if (__builtin_expect(
-          !can_hand_over(task) || deadline <= agenda_.now || !agenda_.events.insert_at_once(task.event, key), 0))
-    return block_in_any_case(object, deadline);
-  append_waiter(object, task);
-  task.state = TaskState::blocked;
-  task.finite_wait = true;
-  return hand_over(task);
-}
-
-[[gnu::noinline]] Departure Scheduler::block_in_any_case(Object& object, Time deadline) {
-  if (unwinding_) {
-    refuse();
-    return stay(Wake::unwinding);
-  }
-  Task& task = *running;
-  WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
-  Fiber& to = park(task, object, deadline);
-  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
-  return stay(go_on(*running, object));
-}
-
-[[gnu::noinline]] Wake Scheduler::go_on(Task& task, Object& object) {
-  if (ended_ != nullptr) reclaim_ended();
-  if (interrupted_ && !rest()) return Wake::unwinding;
-  const Wake wake = task.wake;  // it may wait for its processor too, before it goes on
-  const Operation operation = wake == Wake::woken ? Operation::resume : Operation::timeout;
-  if (needs_attention(task) && !begin_segment(task, operation, &object)) return Wake::unwinding;
-  execute(task, operation, &object);
-  return wake;
-}
-
-bool Scheduler::suspend(Object& object) {
-  if (unwinding_) return false;
-  Task& task = *running;
-  free_pass_.end();
-  append_waiter(object, task);
-  task.state = TaskState::blocked;
-  task.finite_wait = false;
-  leave(task.fiber, next_fiber());
-  return !interrupted_ || rest();
+void Scheduler::show(Operation operation, const Object* object) {
+  // Every use of an object comes after all earlier ones; not so of memory.
+  if (object != nullptr && object->kind != memory_kind && sanitizer::present) sanitizer::use(object);
+  if (watch_ != nullptr) watch_->event(*watch_, {agenda_.now, running, operation, object});
+  if (debugger_view.watching) show_debugger(agenda_.now, *running, operation, object);
 }
 
 }  // namespace waitpoint::kernel

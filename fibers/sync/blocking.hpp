@@ -38,8 +38,8 @@ inline bool before_releasing(kernel::Operation operation, kernel::Object& object
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
   return waitpoint_unseen(operation, object);
 #else
-  if (kernel::pass_unseen(operation, object)) return true;
-  return running_task().scheduler->waitpoint_in_any_case(operation, &object);
+  if (kernel::try_fast_waitpoint(operation, object)) return true;
+  return running_task().scheduler->waitpoint_slow(operation, &object);
 #endif
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/clock.hpp"
 
-#include "fibers/sync/simulation.hpp"
+#include "fibers/sync/run_context.hpp"
 
 namespace waitpoint {
 
@@ -10,8 +10,7 @@ system_clock::time_point system_clock::now() {
 }
 
 std::int64_t sync::start_date_ns() {
-  const Simulation& simulation = Simulation::of(*running_task().scheduler);
-  return simulation.options().start_date.time_since_epoch().count();
+  return RunContext::of(*running_task().scheduler).start_date().time_since_epoch().count();
 }
 
 }  // namespace waitpoint

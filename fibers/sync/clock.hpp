@@ -23,7 +23,7 @@ namespace waitpoint {
 /// of them lets time pass, the run makes no progress.
 inline Time now() {
   Time local;
-  if (!sync::running_task().scheduler->look_at_clock(local)) sync::unwind();
+  if (!sync::running_task().scheduler->read_clock(local)) sync::unwind();
   return local;
 }
 

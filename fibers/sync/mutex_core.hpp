@@ -34,7 +34,7 @@ class MutexCore {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
     if (__builtin_expect(is_owned_by_caller(), 1)) return release_here();
 #endif
-    release_in_any_case();
+    release_slow();
   }
 
  private:
@@ -52,7 +52,7 @@ class MutexCore {
     if (kernel::Task* next = wake_one(object_); next != nullptr) kernel::own(object_, *next);
   }
   bool acquire_unseen(Time deadline);
-  void release_in_any_case();
+  void release_slow();
 
   Object object_;
 };

@@ -10,7 +10,7 @@ bool SemaphoreCore::pass(kernel::Operation operation) {
   return scheduler.waitpoint(operation, &object_);
 }
 
-void SemaphoreCore::release_in_any_case(std::ptrdiff_t units) {
+void SemaphoreCore::release_slow(std::ptrdiff_t units) {
   if (!pass(kernel::Operation::release)) return;
   WAITPOINT_CHECK(units >= 0, about(object_, "a semaphore is released by a negative number"));
   WAITPOINT_CHECK(units <= most_ - count_, about(object_, "a semaphore is released beyond its greatest count"));
@@ -23,7 +23,7 @@ bool SemaphoreCore::try_acquire() {
   return take();
 }
 
-SemaphoreCore::Outcome SemaphoreCore::acquire_in_any_case(Time deadline) {
+SemaphoreCore::Outcome SemaphoreCore::acquire_slow(Time deadline) {
   if (!pass(kernel::Operation::acquire)) unwind();
   return take_before(*kernel::running, deadline);
 }

@@ -29,12 +29,12 @@ class SemaphoreCore {
 
   [[gnu::always_inline]] void release(std::ptrdiff_t units) {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
-    if (units == 1 && count_ < most_ && kernel::pass_unseen(kernel::Operation::release, object_)) {
+    if (units == 1 && count_ < most_ && kernel::try_fast_waitpoint(kernel::Operation::release, object_)) {
       if (wake_one(object_) == nullptr) ++count_;
       return;
     }
 #endif
-    release_in_any_case(units);
+    release_slow(units);
   }
   [[gnu::always_inline]] bool acquire_before(Time deadline) {
     const Outcome outcome = acquire_now(deadline);
@@ -47,9 +47,9 @@ class SemaphoreCore {
 
   [[gnu::always_inline]] Outcome acquire_now(Time deadline) {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
-    if (kernel::pass_unseen(kernel::Operation::acquire, object_)) return take_before(*kernel::running, deadline);
+    if (kernel::try_fast_waitpoint(kernel::Operation::acquire, object_)) return take_before(*kernel::running, deadline);
 #endif
-    return acquire_in_any_case(deadline);
+    return acquire_slow(deadline);
   }
   Outcome take_before(const kernel::Task& task, Time deadline) {
     if (take()) return Outcome::acquired;
@@ -60,8 +60,8 @@ class SemaphoreCore {
     --count_;
     return true;
   }
-  Outcome acquire_in_any_case(Time deadline);
-  void release_in_any_case(std::ptrdiff_t units);
+  Outcome acquire_slow(Time deadline);
+  void release_slow(std::ptrdiff_t units);
   bool pass(kernel::Operation operation);
 
   Object object_;

@@ -7,7 +7,7 @@
 #include "core/digest.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/robot_state.hpp"
-#include "fibers/sync/simulation.hpp"
+#include "fibers/sync/run_context.hpp"
 
 namespace waitpoint {
 namespace sync {
@@ -85,7 +85,7 @@ void deliver_signals(kernel::Task& task) {
   } catch (const Unwind&) {
     // The call whose waitpoint this is throws it again, if it may.
   } catch (...) {
-    if (!task.scheduler->unwinding()) Simulation::of(*task.scheduler).fail(std::current_exception());
+    if (!task.scheduler->unwinding()) RunContext::of(*task.scheduler).fail(std::current_exception());
   }
   set_attention(task, signals);
 }

@@ -36,14 +36,20 @@ std::string what(const std::exception_ptr& failure) {
   }
 }
 
+bool are_fast_paths_off() {
+  const char* const asked = std::getenv("WAITPOINT_FAST_PATHS");
+  return asked != nullptr && std::string_view(asked) == "0";
+}
+
 }  // namespace
 
 Simulation::Simulation(SimulationOptions options)
     : options_(checked(std::move(options))), scheduler_(options_.order, options_.seed) {
-  scheduler_.set_client(this);
+  scheduler_.set_client(static_cast<sync::RunContext*>(this));
   scheduler_.set_most_tasks(options_.most_tasks);
+  if (!options_.fast_paths || are_fast_paths_off()) scheduler_.use_fast_paths(false);
   scheduler_.set_replay(options_.replay.c_str());
-  scheduler_.set_delivery(sync::deliver_signals);
+  scheduler_.set_signal_delivery(sync::deliver_signals);
   add(environment_, "environment");
 }
 

@@ -21,6 +21,7 @@
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/robot_state.hpp"
+#include "fibers/sync/run_context.hpp"
 
 namespace waitpoint {
 
@@ -35,6 +36,9 @@ struct SimulationOptions {
   unsigned hardware_concurrency = 4;  ///< what threads are told; each has a processor of its own nevertheless
   /// Threads at once, from 1 to kernel::tasks_max: one more is a std::system_error.
   std::uint32_t most_tasks = kernel::tasks_max;
+  /// Without them each event takes the kernel's plain path: for comparing, since the run is the same.
+  /// WAITPOINT_FAST_PATHS=0 in the environment asks for that in every simulation.
+  bool fast_paths = true;
 };
 
 /// How a run ended, or that it did not.
@@ -45,7 +49,7 @@ enum class RunEnd : std::uint8_t {
   no_progress,   ///< tasks spin while virtual time stands still
 };
 
-class Simulation {
+class Simulation final : public sync::RunContext {
  public:
   /// Throws std::system_error where the process may not have the address space that a run takes.
   explicit Simulation(SimulationOptions options = {});
@@ -91,9 +95,11 @@ class Simulation {
   kernel::Scheduler& scheduler() { return scheduler_; }
   const kernel::Scheduler& scheduler() const { return scheduler_; }
 
-  static Simulation& of(kernel::Scheduler& scheduler) { return *static_cast<Simulation*>(scheduler.client()); }
+  static Simulation& of(kernel::Scheduler& scheduler) { return static_cast<Simulation&>(RunContext::of(scheduler)); }
+  std::chrono::sys_time<std::chrono::nanoseconds> start_date() const override { return options_.start_date; }
+  unsigned hardware_concurrency() const override { return options_.hardware_concurrency; }
   /// From within a task: ends the run with an exception. `how` and the task's name begin what trouble() says of it.
-  void fail(std::exception_ptr failure, const char* how = "an exception escaped from");
+  void fail(std::exception_ptr failure, const char* how = "an exception escaped from") override;
 
  private:
   SimulationOptions options_;

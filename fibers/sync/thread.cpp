@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "fibers/sync/misuse.hpp"
-#include "fibers/sync/simulation.hpp"
+#include "fibers/sync/run_context.hpp"
 
 namespace waitpoint {
 namespace sync {
@@ -34,7 +34,7 @@ void run_thread(void* argument) {
   } catch (const Unwind&) {
   } catch (...) {
     // While unwinding, this is what a task made of Unwind.
-    if (!scheduler.unwinding()) Simulation::of(scheduler).fail(std::current_exception());
+    if (!scheduler.unwinding()) RunContext::of(scheduler).fail(std::current_exception());
   }
   for (const std::function<void()>& make_ready : std::exchange(state.at_end, {})) make_ready();
   if (before_releasing(kernel::Operation::release, state.ended)) {
@@ -164,7 +164,7 @@ void thread::detach() {
 
 unsigned thread::hardware_concurrency() noexcept {
   if (kernel::running == nullptr) return 0;
-  return Simulation::of(*kernel::running->scheduler).options().hardware_concurrency;
+  return sync::RunContext::of(*kernel::running->scheduler).hardware_concurrency();
 }
 
 std::ostream& operator<<(std::ostream& out, thread::id of) {

@@ -8,6 +8,7 @@
 #                                  x86-64-v3, the processors with AVX2 and FMA
 #   build                          the one that everyone uses, as it is
 #   build-no-fma                   the same program, told that the processor has neither FMA nor AVX2
+#   build-plain-path               the same program, told to take no fast path of the kernel
 #
 # Each runs the office for the 120 s in which the robot meets the blocked door, and must give the digest and the
 # fingerprint of the math that the first one gives. Status 77 where a compiler or libc++ is missing.
@@ -19,7 +20,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/dev/packages.sh"
 source "$root/tools/dev/build.sh"
 
-all_builds=({g++,clang++,clang++-libc++}-O{0,2,3} {g++,clang++,clang++-libc++}-O3-v3 build-no-fma)
+all_builds=({g++,clang++,clang++-libc++}-O{0,2,3} {g++,clang++,clang++-libc++}-O3-v3 build-no-fma build-plain-path)
 
 # glibc chooses its sine by what the processor has; python's is glibc's.
 no_fma=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2
@@ -72,6 +73,7 @@ outcome_of() {
   case $1 in
     build) outcome "$root/build" ;;
     build-no-fma) GLIBC_TUNABLES=$no_fma outcome "$root/build" ;;
+    build-plain-path) WAITPOINT_FAST_PATHS=0 outcome "$root/build" ;;
     *) build_one "$1" && outcome "$root/build-$1" ;;
   esac
 }

@@ -34,6 +34,7 @@ OWN_CASES = {
     "dev": [sys.executable, str(ROOT / "tests/dev/dev_test.py")],
     "clang++ -O0 and this build are one run": [str(ROOT / "tools/dev/builds.sh"), "build", "clang++-O0"],
     "documents": [sys.executable, str(ROOT / "tests/docs/pages_test.py"), BUILD],
+    "the kernel's plain path and this build are one run": [str(ROOT / "tools/dev/builds.sh"), "build", "build-plain-path"],
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],
     "exec, the command": [sys.executable, str(ROOT / "tests/exec/command_test.py"), BUILD],
     "exec, libc and children": [sys.executable, str(ROOT / "tests/exec/libc_and_children_test.py"), BUILD],

@@ -79,7 +79,7 @@ int make_thread(const Clone& clone) {
 // In the child no thread is running: what it calls is the C library's.
 int lend_memory(const Clone& clone) {
   before_child();
-  kernel::running->scheduler->end_free_pass();
+  kernel::running->scheduler->close_fast_path();
   kernel::Task* const task = std::exchange(kernel::running, nullptr);
   const int child = WAITPOINT_NEXT(clone)(clone.function, clone.stack, static_cast<int>(clone.flags | CLONE_VFORK),
                                           clone.argument, clone.parent_id, clone.thread_storage, clone.child_id);

@@ -60,7 +60,7 @@ inline void pass(kernel::Operation operation, kernel::Object* object) {
   Thread& thread = thread_of(*task);
   const std::uint32_t operations = thread.operations + 1;
   if (operations >= operations_at_one_instant) return false;  // or in the kernel
-  if (!kernel::pass_unseen(operation, object)) return false;
+  if (!kernel::try_fast_waitpoint(operation, object)) return false;
   thread.operations = operations;
   return true;
 }

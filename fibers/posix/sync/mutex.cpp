@@ -25,16 +25,16 @@ void hand_on(Mutex& mutex) {
 
 // Its owner gives it up; one that was not put right is lost.
 void give_up(Mutex& mutex) {
-  if (mutex.sound != Mutex::Sound::not_yet) return hand_on(mutex);
-  mutex.sound = Mutex::Sound::never;
+  if (mutex.robust_state != Mutex::RobustState::inconsistent) return hand_on(mutex);
+  mutex.robust_state = Mutex::RobustState::unrecoverable;
   kernel::disown(mutex.object);
   kernel::running->scheduler->wake_all(mutex.object);
 }
 
 // What the new owner is told.
 int enter(Mutex& mutex) {
-  if (mutex.sound != Mutex::Sound::owner_died) return 0;
-  mutex.sound = Mutex::Sound::not_yet;
+  if (mutex.robust_state != Mutex::RobustState::owner_died) return 0;
+  mutex.robust_state = Mutex::RobustState::inconsistent;
   return EOWNERDEAD;
 }
 
@@ -48,7 +48,7 @@ int lock_again(Mutex& mutex, int type) {
 }
 
 int wait_and_lock(Mutex& mutex, int type, Time deadline) {
-  if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+  if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running)
     if (const int result = lock_again(mutex, type); result >= 0) return result;
   while (mutex.object.owner != nullptr) {
@@ -56,7 +56,7 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
     const Wait ended = wait_on(mutex.object, deadline);
     if (ended == Wait::timed_out) return ETIMEDOUT;
     if (ended == Wait::interrupted) handle_signals();
-    if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+    if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
     if (ended == Wait::came) return enter(mutex);
   }
   kernel::own(mutex.object, *kernel::running);
@@ -69,7 +69,8 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
 [[gnu::always_inline]] inline bool lock_at_once(const pthread_mutex_t& bytes) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
   kernel::Task* const task = kernel::running;
-  if (mutex == nullptr || mutex->object.owner != nullptr || mutex->sound != Mutex::Sound::yes) return false;
+  if (mutex == nullptr || mutex->object.owner != nullptr || mutex->robust_state != Mutex::RobustState::consistent)
+    return false;
   if (!pass_at_once(task, kernel::Operation::lock, mutex->object)) return false;
   kernel::own(mutex->object, *task);
   mutex->depth = 1;
@@ -80,7 +81,7 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
   kernel::Task* const task = kernel::running;
   if (mutex == nullptr || mutex->object.first_waiter != nullptr || mutex->depth != 1 ||
-      mutex->sound != Mutex::Sound::yes || mutex->object.owner != task)
+      mutex->robust_state != Mutex::RobustState::consistent || mutex->object.owner != task)
     return false;
   if (!pass_at_once(task, kernel::Operation::unlock, mutex->object)) return false;
   kernel::disown(mutex->object, *task);
@@ -102,7 +103,7 @@ int try_lock(pthread_mutex_t* bytes) {
   Mutex& mutex = mutex_of(bytes);
   pass(kernel::Operation::try_lock, &mutex.object);
   if (mutex.is_shared) return shared_mutex::try_lock(*bytes);
-  if (mutex.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+  if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP)
     return lock_again(mutex, PTHREAD_MUTEX_RECURSIVE_NP);
   // As glibc, which asks the system for these.
@@ -174,7 +175,7 @@ void let_robust_mutexes_go() {
       if (mutex.is_shared && mutex.is_robust) {
         shared_mutex::let_go(*static_cast<pthread_mutex_t*>(const_cast<void*>(mutex.address)));
       } else if (mutex.is_robust) {
-        mutex.sound = Mutex::Sound::owner_died;
+        mutex.robust_state = Mutex::RobustState::owner_died;
         if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);  // without a waitpoint
         hand_on(mutex);
       }
@@ -251,7 +252,9 @@ WAITPOINT_INTERPOSED int pthread_mutex_setprioceiling(pthread_mutex_t* mutex, in
 WAITPOINT_INTERPOSED int pthread_mutex_consistent(pthread_mutex_t* mutex) noexcept {
   Mutex& known = mutex_of(mutex);
   if (known.is_shared) return known.is_robust ? shared_mutex::make_consistent(*mutex) : EINVAL;
-  if (!known.is_robust || known.sound != Mutex::Sound::not_yet || known.object.owner != kernel::running) return EINVAL;
-  known.sound = Mutex::Sound::yes;
+  if (!known.is_robust || known.robust_state != Mutex::RobustState::inconsistent ||
+      known.object.owner != kernel::running)
+    return EINVAL;
+  known.robust_state = Mutex::RobustState::consistent;
   return 0;
 }

@@ -18,17 +18,17 @@ struct Mutex : Waitable {
         is_robust((static_cast<const pthread_mutex_t*>(address)->__data.__kind & robust_bit) != 0),
         is_shared((static_cast<const pthread_mutex_t*>(address)->__data.__kind & shared_bit) != 0) {}
 
-  /// Of what it protects, where it is robust.
-  enum class Sound : std::uint8_t {
-    yes,
-    owner_died,  ///< its next owner is to be told
-    not_yet,     ///< its owner was told, and has not put it right
-    never,       ///< it was unlocked so
+  /// POSIX: of what a robust mutex protects.
+  enum class RobustState : std::uint8_t {
+    consistent,
+    owner_died,     ///< its next owner is to be told: EOWNERDEAD
+    inconsistent,   ///< its owner was told, and has not called pthread_mutex_consistent
+    unrecoverable,  ///< it was unlocked inconsistent: ENOTRECOVERABLE
   };
 
   const bool is_robust;
   const bool is_shared;  ///< between processes: what follows is in its own bytes, see shared_mutex.hpp
-  Sound sound = Sound::yes;
+  RobustState robust_state = RobustState::consistent;
   std::uint32_t depth = 0;  ///< how often its owner has locked it
 };
 

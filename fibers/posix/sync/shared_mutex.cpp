@@ -18,7 +18,7 @@ struct Bytes {
   int kind;
   std::uint32_t changes;
   void* unused;
-  Mutex::Sound sound;
+  Mutex::RobustState robust_state;
 };
 static_assert(offsetof(Bytes, kind) == offsetof(pthread_mutex_t, __data.__kind));
 static_assert(offsetof(Bytes, unused) == offsetof(pthread_mutex_t, __data.__list.__prev));
@@ -38,18 +38,18 @@ int lock_again(Bytes& words, int type) {
 
 // Within the section: 0, an error, or -1 if it is held. A robust one whose owner's process has ended is nobody's.
 int try_to_take(Bytes& words, Mutex& mutex) {
-  if (words.sound == Mutex::Sound::never) return ENOTRECOVERABLE;
+  if (words.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
   if (words.process != 0 && mutex.is_robust && words.process != family::this_process() &&
       !family::lives(words.process)) {
     words.process = 0;
-    words.sound = Mutex::Sound::owner_died;
+    words.robust_state = Mutex::RobustState::owner_died;
   }
   if (words.process != 0) return -1;
   words.process = family::this_process();
   words.thread = this_thread().id;
   words.depth = 1;
-  if (words.sound != Mutex::Sound::owner_died) return 0;
-  words.sound = Mutex::Sound::not_yet;
+  if (words.robust_state != Mutex::RobustState::owner_died) return 0;
+  words.robust_state = Mutex::RobustState::inconsistent;
   return EOWNERDEAD;
 }
 
@@ -65,16 +65,17 @@ int take_or_tell(Bytes& words, Mutex& mutex, std::uint32_t& changes) {
 
 // For whoever waits.
 // One that its owner has not put right is lost.
-Mutex::Sound sound_after(const Bytes& words) {
-  return words.sound == Mutex::Sound::not_yet ? Mutex::Sound::never : words.sound;
+Mutex::RobustState state_after(const Bytes& words) {
+  return words.robust_state == Mutex::RobustState::inconsistent ? Mutex::RobustState::unrecoverable
+                                                                : words.robust_state;
 }
 
-void give_up(Bytes& words, Mutex& mutex, Mutex::Sound sound) {
+void give_up(Bytes& words, Mutex& mutex, Mutex::RobustState robust_state) {
   {
     const family::Section section;
     words.process = words.thread = 0;
     words.depth = 0;
-    words.sound = sound;
+    words.robust_state = robust_state;
     ++words.changes;
   }
   if (mutex.object.owner != nullptr) kernel::disown(mutex.object);
@@ -125,14 +126,14 @@ int unlock(pthread_mutex_t& bytes) {
     --words.depth;
     return 0;
   }
-  give_up(words, mutex, sound_after(words));
+  give_up(words, mutex, state_after(words));
   return 0;
 }
 
 std::uint32_t release(pthread_mutex_t& bytes) {
   Bytes& words = words_of(bytes);
   const std::uint32_t depth = words.depth;
-  if (words.process != 0) give_up(words, mutex_of(&bytes), sound_after(words));
+  if (words.process != 0) give_up(words, mutex_of(&bytes), state_after(words));
   return depth;
 }
 
@@ -144,12 +145,12 @@ int destroy(pthread_mutex_t& bytes) {
   return 0;
 }
 
-void let_go(pthread_mutex_t& bytes) { give_up(words_of(bytes), mutex_of(&bytes), Mutex::Sound::owner_died); }
+void let_go(pthread_mutex_t& bytes) { give_up(words_of(bytes), mutex_of(&bytes), Mutex::RobustState::owner_died); }
 
 int make_consistent(pthread_mutex_t& bytes) {
   Bytes& words = words_of(bytes);
-  if (words.sound != Mutex::Sound::not_yet || !is_mine(words)) return EINVAL;
-  words.sound = Mutex::Sound::yes;
+  if (words.robust_state != Mutex::RobustState::inconsistent || !is_mine(words)) return EINVAL;
+  words.robust_state = Mutex::RobustState::consistent;
   return 0;
 }
 

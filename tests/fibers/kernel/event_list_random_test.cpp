@@ -61,13 +61,13 @@ class SideBySide {
     const std::size_t node = out_.back();
     out_.pop_back();
     const EventKey key = new_key(node);
-    if (below(2) == 0 || !list_.insert_at_once(nodes_[node], key)) list_.insert(nodes_[node], key);
+    if (below(2) == 0 || !list_.try_insert_fast(nodes_[node], key)) list_.insert(nodes_[node], key);
     note_in(node);
   }
 
   void remove() {
     const std::size_t node = in_[below(in_.size())];
-    if (below(2) == 0 || !list_.remove_at_once(nodes_[node])) list_.remove(nodes_[node]);
+    if (below(2) == 0 || !list_.try_remove_fast(nodes_[node])) list_.remove(nodes_[node]);
     note_out(node);
   }
 

@@ -137,7 +137,7 @@ TEST(Signals, AreDeliveredAtTheNextWaitpointAndTheOperationComesAfterTheHandler)
     TaskRun here;
     run = &here;
     SetClock clock;
-    here.scheduler.set_delivery([](Task& task) {
+    here.scheduler.set_signal_delivery([](Task& task) {
       run->log("handler");
       compute(task, Duration::from_ns(20));
       run->scheduler.yield();

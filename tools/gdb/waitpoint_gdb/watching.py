@@ -83,7 +83,7 @@ def watch():
         inferior = gdb.selected_inferior()
         inferior.write_memory(run + records.place("Scheduler", "watched_")[0], b"\1")
         # As Scheduler::set_watch(): who runs passes its waitpoints unseen until it is told.
-        inferior.write_memory(records.address_of("turn") + records.place("Turn", "unseen_in")[0], b"\xff" * 8)
+        inferior.write_memory(records.address_of("turn") + records.place("Turn", "fast_epoch")[0], b"\xff" * 8)
     records.write_view("checkpoint_at", view.number("events") + 1 if checkpoints.wanted() else NEVER)
     request.write()
 

@@ -1,18 +1,83 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The ends of tasks: their own, and that of a run which is over before them.
+// Robots, and the making and the ends of tasks: their own, and that of a run which is over before them.
+#include <cstring>
+#include <new>
+
 #include "core/error.hpp"
+#include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
+#include "fibers/switch/fiber.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
+namespace {
+
+void copy_name(char (&to)[name_size], const char* from) {
+  std::strncpy(to, from != nullptr ? from : "", name_size - 1);
+  to[name_size - 1] = '\0';
+}
+
+}  // namespace
+
+void Scheduler::add(Robot& robot, const char* name) {
+  robot = Robot();
+  copy_name(robot.name, name);
+  robot.scheduler = this;
+  robot.lane = &robot.digest;
+  Digest id;
+  for (const char* c = name; *c != '\0'; ++c) id.add(static_cast<std::uint64_t>(static_cast<unsigned char>(*c)));
+  robot.id = id.value();
+  (last_robot_ == nullptr ? first_robot_ : last_robot_->next) = &robot;
+  last_robot_ = &robot;
+}
+
+Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument) {
+  const Time start = running != nullptr ? kernel::local_time(*running) : agenda_.now;
+  if (unwinding_ || tasks_ >= most_tasks_) return nullptr;
+  Stack stack;
+  // Sanitizers make frames larger, and put a report together on the stack of the task that is found out.
+  const StackSize size = sanitizer::present && options.stack < StackSize::large ? StackSize::large : options.stack;
+  if (!arena_.take(size, stack) && (size == options.stack || !arena_.take(options.stack, stack))) return nullptr;
+  // The record lies at the high end of the task's own stack: one page for both.
+  char* top = stack.high - (sizeof(Task) + 63) / 64 * 64 - 64;
+  Task& task = *new (top) Task();
+  task.scheduler = this;
+  task.robot = &robot;
+  task.id = running != nullptr ? child_id(running->id, running->children++) : child_id(robot.id, robot.children++);
+  task.maker = running != nullptr ? running->id : 0;
+  task.number = made_++;
+  task.local_time = start;
+  task.entry = entry;
+  task.argument = argument;
+  task.phase = options.phase;
+  task.service = options.service;
+  set_clock(task, options.clock);
+  if (options.seat != nullptr) set_seat(task, *options.seat);
+  copy_name(task.name, options.name);
+  prepare(task.fiber, stack, top, task_main, &task);
+  if (sanitizer::present) sanitizer::name(task.fiber, task.name);
+
+  task.previous = last_task_;
+  (last_task_ == nullptr ? first_task_ : last_task_->next) = &task;
+  last_task_ = &task;
+  ++tasks_;
+  if (!task.service) {
+    ++live_tasks_;
+    ++robot.live_tasks;
+  }
+  agenda_.place(task, task.local_time);
+  if (task.local_time <= agenda_.now) fast_path_.note_present_event(task.phase);
+  return &task;
+}
 
 void Scheduler::task_main(void* argument) {
   Task& task = *static_cast<Task*>(argument);
   Scheduler& scheduler = *task.scheduler;
   if (scheduler.ended_ != nullptr) scheduler.reclaim_ended();
-  if (!scheduler.unwinding_) scheduler.begin(task);
+  if (!scheduler.unwinding_) scheduler.execute_start(task);
   task.entry(task.argument);
   scheduler.waitpoint(Operation::end, nullptr);
   scheduler.end_task(task);
@@ -42,18 +107,19 @@ void Scheduler::end_task(Task& task) {
   task.fiber.ended = true;
   if (!task.service && !unwinding_ && count_end(task)) {
     cause_ = StopCause::ended;
-    leave_to_main(RunState::stopped);
+    exit_run(RunState::stopped);
   }
-  if (unwinding_) leave_to_main(RunState::stopped);
-  leave_for_next(task);
+  if (unwinding_) exit_run(RunState::stopped);
+  fast_path_.close();
+  switch_fibers(task.fiber, dispatch());
   bug(__FILE__, __LINE__, "control came back", "an ended task was entered");
 }
 
 void Scheduler::unwind() {
   WAITPOINT_CHECK(running == nullptr, "unwind() is called from within a task");
   unwinding_ = interrupted_ = true;
-  free_pass_.forbid();
-  ordinary_ = false;
+  fast_path_.forbid();
+  fast_allowed_ = false;
   paused_ = nullptr;
   // Timers may outlive the run: they must not find themselves in its list. Objects that tasks wait for are not touched:
   // they may be gone with the frames that own them, and read as fresh in the next run.
@@ -61,7 +127,7 @@ void Scheduler::unwind() {
   // Each entry ends its task, which unlinks it.
   while (last_task_ != nullptr) {
     Task& task = *last_task_;
-    switch_to(task);
+    enter_run(resume(task));
     WAITPOINT_CHECK(last_task_ != &task, "a task went on although the run is over");
   }
 }
@@ -103,7 +169,7 @@ void Scheduler::abandon() {
   unlink(task);
   task.next = first_abandoned_;
   first_abandoned_ = &task;
-  leave_to_main(RunState::stopped);
+  exit_run(RunState::stopped);
   bug(__FILE__, __LINE__, "control came back", "an abandoned task was entered");
 }
 

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Short cuts through the plain path of waitpoint.cpp and waiting.cpp, for the common case of the first-in-first-out
+// order: each comes to the same events, or leaves it to its slow twin with nothing done. A run without them
+// (SimulationOptions::fast_paths) has the same digest.
+//
+// What is rare is left to functions that are called last: each register that is kept over a call is saved first.
+#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/scheduler_steps.hpp"
+
+namespace waitpoint::kernel {
+
+// The run goes on in its usual order: nothing wants it to stop, or a task to do anything else than its own.
+void Scheduler::allow_fast_paths() { fast_allowed_ = fast_path_.may_stay() && !interrupted_; }
+
+void Scheduler::use_fast_paths(bool used) {
+  WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "the fast paths are chosen while tasks run");
+  fast_path_.enable(used);
+  fast_path_.allow(agenda_.chooser.order());
+}
+
+// --- waitpoints ---
+
+// While the fast path holds but a watch wants to see each event: it is the least without a look at the list.
+bool Scheduler::waitpoint_at_present(Task& task, Operation operation, Object* object) {
+  ++task.turns;
+  task.operation = operation;
+  task.at = object;
+  if (object != nullptr) enter(*object);
+  execute(task, operation, object);
+  if (fast_path_.holds_for(task)) fast_path_.open(task, agenda_.now, fast_epoch());  // a watch may have closed it
+  return true;
+}
+
+// The list's least event is before the task's, and none waits in the present queue: one step in and out of the list.
+Fiber& Scheduler::exchange_with_least(Task& task) {
+  const EventEntry& least = agenda_.events.least();
+  const EventKey own = agenda_.key(task, task.local_time);
+  if (least.key.time >= agenda_.until) {
+    agenda_.events.insert(task.event, own);
+    return end_window(RunState::reached);
+  }
+  Fiber* const next = dispatch_event(agenda_.events.exchange(least, task.event, own));
+  return next != nullptr ? *next : dispatch();
+}
+
+// --- sleeping ---
+
+Departure Scheduler::start_sleep(Time time) {
+  Task& task = *running;
+  const bool is_plain = fast_allowed_ && task.attention == 0 && time > task.local_time && time < agenda_.until;
+  if (__builtin_expect(!is_plain || !agenda_.present.empty() || watched_, 0)) return sleep_slow(time);
+  task.local_time = time;
+  task.operation = Operation::sleep;
+  task.at = nullptr;
+  task.turns = 1;
+  if (!agenda_.precedes(task, agenda_.events.least().key)) return depart_sleeping(task);
+  agenda_.advance(time);
+  fast_path_.open(task, time, epoch_);
+  count_event(task, Operation::sleep, nullptr, time);
+  return stay(Wake::woken);
+}
+
+[[gnu::noinline]] Departure Scheduler::depart_sleeping(Task& task) {
+  fast_path_.close();
+  task.state = TaskState::ready;
+  Fiber& to = exchange_with_least(task);
+  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
+  return stay(end_waitpoint(*running) ? Wake::woken : Wake::unwinding);
+}
+
+// --- blocking and waking ---
+
+// Whether `task`, were it blocked, could be left for the first of the present queue without more ado: no watch looks
+// on, and neither needs attention.
+inline bool Scheduler::can_dispatch_present() const {
+  if (!fast_allowed_ || !turn.is_fast() || agenda_.present.size() - 1 >= many_ready) return false;
+  const Task& next = *agenda_.present.first();
+  return __builtin_expect(!agenda_.events.is_due(agenda_.now), 1) &&
+         __builtin_expect(can_switch_in_parts(running->fiber, next.fiber), 1) && StackArena::intact(next.fiber.stack);
+}
+
+// Puts `task` among the waiters; false, with nothing done, where that may be a deadlock or its timeout has no place
+// near the end of the list.
+[[gnu::always_inline]] inline bool Scheduler::try_fast_wait(Task& task, Object& object, Time deadline) {
+  const bool is_finite = deadline != Time::max();
+  if (is_finite) {
+    const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next())};
+    if (__builtin_expect(deadline <= agenda_.now || !agenda_.events.try_insert_fast(task.event, key), 0)) return false;
+  } else if (__builtin_expect(object.holder_count != 0, 0) ||
+             // A task that waits for one which is ready closes no cycle.
+             (object.owner != nullptr && __builtin_expect(object.owner->state != TaskState::ready, 0))) {
+    return false;
+  }
+  append_waiter(object, task);
+  task.state = TaskState::blocked;
+  task.finite_wait = is_finite;
+  return true;
+}
+
+// The blocked task's fast path, which is for the present instant, goes over to the next one.
+Departure Scheduler::start_block(Object& object, Time deadline) {
+  Task& task = *running;
+  if (__builtin_expect(!can_dispatch_present() || !try_fast_wait(task, object, deadline), 0))
+    return block_slow(object, deadline);
+  Task& next = agenda_.present.take();
+  next.state = TaskState::running;
+  running = &next;
+  hash_events_of(*next.robot);
+  if (__builtin_expect(next.attention != 0, 0)) fast_path_.close();
+  ++switches_;
+  return start_switch(task.fiber, next.fiber);
+}
+
+// As wake() of the first waiter, where that is all.
+Task* Scheduler::wake_waiter(Object& object) {
+  Task& first = *object.first_waiter;
+  const bool is_usual = __builtin_expect(fast_allowed_, 1) && object.epoch == epoch_ && first.phase == Phase::tasks;
+  if (__builtin_expect(!is_usual, 0)) return wake_one_slow(object);
+  if (first.finite_wait && __builtin_expect(!agenda_.events.try_remove_fast(first.event), 0))
+    return wake_one_slow(object);
+  remove_first_waiter(object);
+  first.wake = Wake::woken;
+  first.state = TaskState::ready;
+  set_local_time(first, agenda_.now);
+  agenda_.present.add(first, agenda_.chooser.tie_of_next());
+  return &first;
+}
+
+}  // namespace waitpoint::kernel

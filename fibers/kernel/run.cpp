@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The run as a whole: its windows, how it stops, and what it tells.
+#include "core/error.hpp"
+#include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/debugger.hpp"
+#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/scheduler_steps.hpp"
+#include "fibers/switch/fiber.hpp"
+#include "fibers/switch/sanitizer.hpp"
+
+namespace waitpoint::kernel {
+
+Task* running = nullptr;
+Turn turn;
+
+namespace {
+
+// Tells the objects of one run from those of all others in this process; never part of an event.
+std::uint64_t runs = 0;
+
+}  // namespace
+
+Scheduler::Scheduler(Order order, std::uint64_t seed) : agenda_(order, seed), epoch_(++runs) {
+  fast_path_.allow(agenda_.chooser.order());
+  if (running == nullptr) turn.lane = nullptr;  // of another run, whose robots may have lain where these will
+  set_watch(nullptr);
+  if (sanitizer::present) sanitizer::begin_run();
+}
+
+Scheduler::~Scheduler() {
+  WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
+  unwind();
+  tell_debugger_of_end(*this);
+  if (sanitizer::present) sanitizer::end_run();
+}
+
+void Scheduler::restart(std::uint64_t seed) {
+  WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "a run begins before the one before it is unwound");
+  agenda_.restart(seed);
+  epoch_ = ++runs;
+  lookahead_ = Duration::max();
+  first_robot_ = last_robot_ = nullptr;
+  culprit_ = nullptr;
+  first_abandoned_ = nullptr;
+  outputs_ = switches_ = turns_given_ = 0;
+  live_tasks_ = made_ = 0;
+  state_ = RunState::idle;
+  cause_ = StopCause::none;
+  turn.lane = lane_ = nullptr;
+  unheard_ = PairDigest();
+  fast_path_.allow(agenda_.chooser.order());
+  unwinding_ = interrupted_ = false;
+  if (sanitizer::present) {
+    sanitizer::end_run();
+    sanitizer::begin_run();
+  }
+}
+
+// --- running ---
+
+RunState Scheduler::run_before(Time until) {
+  WAITPOINT_CHECK(running == nullptr, "run_before() is called from within a task");
+  WAITPOINT_CHECK(!unwinding_, "a run that is over is run");
+  tell_debugger(*this);
+  agenda_.until = until;
+  allow_fast_paths();
+  if (cause_ != StopCause::none) return RunState::stopped;
+  if (paused_ != nullptr) {
+    Task& task = *paused_;
+    if (agenda_.precedes(task, agenda_.next_key())) {
+      if (task.local_time >= agenda_.until) return RunState::reached;
+      paused_ = nullptr;
+      enter_run(resume(task));
+      return state_;
+    }
+    paused_ = nullptr;
+    agenda_.events.insert(task.event, agenda_.key(task, task.local_time));
+  }
+  enter_run(dispatch());
+  return state_;
+}
+
+std::uint64_t Scheduler::events() const {
+  std::uint64_t hashed = unheard_.pairs();
+  for (const Robot* robot = first_robot_; robot != nullptr; robot = robot->next) hashed += robot->digest.pairs();
+  return hashed - outputs_;
+}
+
+Time Scheduler::next_event_time() const {
+  if (paused_ != nullptr) return paused_->local_time;
+  return agenda_.next_time();
+}
+
+void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
+  task.attention = static_cast<std::uint8_t>(needed ? task.attention | reason : task.attention & ~reason);
+  if (&task == running) fast_path_.close();
+}
+
+// The run is left with `state`: the fiber of the context outside.
+Fiber& Scheduler::end_window(RunState state) {
+  state_ = cause_ != StopCause::none ? RunState::stopped : state;
+  running = nullptr;
+  fast_path_.close();
+  return main_;
+}
+
+void Scheduler::exit_run(RunState state) {
+  state_ = state;
+  if (running == nullptr) return;
+  Fiber& from = running->fiber;
+  fast_path_.close();
+  switch_fibers(from, end_window(state));
+}
+
+void Scheduler::stop(StopCause cause) {
+  cause_ = cause;
+  exit_run(RunState::stopped);
+  if (interrupted_) answer_interrupt();
+}
+
+void Scheduler::stop_between_events(StopCause cause, Task& culprit) {
+  cause_ = cause;
+  culprit_ = &culprit;
+  pause();
+}
+
+void Scheduler::pause() {
+  agenda_.until = Time();  // no event is before it
+  fast_allowed_ = false;
+  if (running != nullptr) fast_path_.close();
+}
+
+void Scheduler::reclaim_ended() {
+  const Stack stack = ended_->fiber.stack;
+  if (!StackArena::intact(stack)) report_overflow(*ended_);
+  ended_ = nullptr;
+  arena_.give_back(stack);
+}
+
+void Scheduler::set_watch(Watch* watch) {
+  fast_path_.close();  // or the running task's waitpoints would not be seen
+  watch_ = watch;
+  watched_ = watch != nullptr || sanitizer::present || debugger_view.watching;
+}
+
+// The window ends before the task's event, which is the least. That must not cost it its place: it does not go through
+// the list.
+Fiber& Scheduler::wait_for_window(Task& task) {
+  task.state = TaskState::ready;
+  paused_ = &task;
+  return end_window(RunState::reached);
+}
+
+}  // namespace waitpoint::kernel
+
+extern "C" void waitpoint_describe_run() {
+  using waitpoint::kernel::running;
+  if (running == nullptr) return;
+  const auto& task = *running;
+  waitpoint::kernel::describe_run(task);
+}
