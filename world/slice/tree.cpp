@@ -6,6 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -119,9 +121,11 @@ struct Tree::Builder {
       return static_cast<std::int32_t>(number);
     }
     const std::size_t first = divide(group, level);
+    WAITPOINT_CHECK(0 < first && first < group.size(), "a division of a tree leaves one side empty");
     const std::int32_t left = halve(group.first(first), level + 1), right = halve(group.subspan(first), level + 1);
     parts[number].left = left;
     parts[number].right = right;
+    WAITPOINT_CHECK(number < static_cast<std::size_t>(left) && left < right, "a tree's parts come after their whole");
     share_children(parts[number]);
     return static_cast<std::int32_t>(number);
   }
@@ -169,6 +173,7 @@ struct Tree::Builder {
       take(whole.left, whole.to_left_as_node, children);
       take(whole.right, EightBounds::width - whole.to_left_as_node, children);
     }
+    WAITPOINT_CHECK(!children.empty() && children.size() <= EightBounds::width, "a tree's node has 1 to 8 children");
     TreeNode node = TreeNode::empty();
     for (std::size_t i = 0; i < children.size(); ++i) {
       const Part& child = part(children[i]);
