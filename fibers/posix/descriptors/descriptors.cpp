@@ -13,12 +13,10 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
 #include "fibers/posix/family/family.hpp"
-#include "fibers/posix/links/stream_links.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/time/clocks.hpp"
-#include "fibers/posix/timers/timer_descriptors.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -143,6 +141,8 @@ void wait_really(Duration longest) {
 
 }  // namespace
 
+void (*before_look)() = nullptr;
+
 bool anybody_waits_outside() { return waiting_outside > 0; }
 
 void note_inside(int descriptor, bool is) {
@@ -167,15 +167,7 @@ int next_owned(int from, const Program*& owner) {
   return -1;
 }
 
-void close_descriptors_of(const Program& program) {
-  for (int descriptor = 0; descriptor < known_max; ++descriptor) {
-    if (owners[descriptor] != &program) continue;
-    owners[descriptor] = nullptr;
-    forget_timer_descriptor(descriptor);
-    close_stream_over_link(descriptor);
-    close(descriptor);
-  }
-}
+void disown(int descriptor) { owners[descriptor] = nullptr; }
 
 bool is_inside(int descriptor) {
   return descriptor >= 0 && descriptor < known_max && (inside[descriptor / 64] >> (descriptor % 64) & 1) != 0;
@@ -286,7 +278,7 @@ bool wait_for_reader(int descriptor, int patience_ms) {
 }
 
 void look_at_descriptors() {
-  deliver_streams();
+  if (before_look != nullptr) before_look();
   if (first != nullptr) wake_ready(false);
 }
 

@@ -33,8 +33,8 @@ void note_owner(int descriptor);
 /// The first descriptor from `from` on that a program shares with the process's others, and whose it is; -1 without
 /// one.
 int next_owned(int from, const Program*& owner);
-/// Closes what a program has left open that has ended before its process does: who is at the other end waits no longer.
-void close_descriptors_of(const Program& program);
+/// It is no program's any more.
+void disown(int descriptor);
 /// A child has copies of all of them: nothing is inside any more. Nor is what threads wait for on shared objects.
 void note_fork();
 /// The same of a program that is started: it has no copies of those that are closed then.
@@ -64,6 +64,8 @@ class WaitsOutside {
 /// after so long.
 bool wait_for_reader(int descriptor, int patience_ms);
 
+/// Called before each look at descriptors; null: not. A reader may have made room for what is on its way to it.
+extern void (*before_look)();
 /// Something was done with a descriptor that others may wait for.
 void look_at_descriptors();
 

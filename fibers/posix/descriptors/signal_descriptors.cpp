@@ -126,6 +126,7 @@ WAITPOINT_INTERPOSED int signalfd(int descriptor, const sigset_t* set, int flags
     note_inside(known->descriptor, false);
     known->next = first;
     first = known;
+    after_pending_changed = show_signal_descriptors;
   }
   known->set = signals;
   show_signal_descriptors();

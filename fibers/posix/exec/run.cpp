@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/exec/run.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -18,10 +18,11 @@
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/processes/children.hpp"
 #include "fibers/posix/program/randomness.hpp"
+#include "fibers/posix/program/thread_area.hpp"
 #include "fibers/posix/program/waitable.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/threads/deadlock.hpp"
-#include "fibers/posix/threads/thread_area.hpp"
+#include "fibers/posix/threads/thread.hpp"
 #include "fibers/posix/time/clocks.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 #include "fibers/posix/traps/processor_counter.hpp"
@@ -188,7 +189,7 @@ void run_program(int (*body)(), const char* name) {
   thread.start.posix = run_body;
   if (!begin_main_thread(thread, program, scheduler)) refuse("there is no address space for the stacks of threads");
   // No frame that is on this stack now is ever left by its return.
-  draw_stack_guard(thread.area);
+  set_stack_guard(thread.area, draw_random());
   // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).
   if (run_to_end(scheduler) == Ending::own) std::exit(0);
   end_run(scheduler, 0);

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <new>
 
+#include "fibers/posix/exec/run.hpp"
 #include "fibers/posix/members/members.hpp"
-#include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
 namespace {

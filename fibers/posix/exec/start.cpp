@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/exec/run.hpp"
 #include "fibers/posix/members/members.hpp"
-#include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
 namespace {

@@ -12,8 +12,10 @@
 #include "fibers/posix/base/preload.hpp"
 #include "fibers/posix/ipc/named_objects.hpp"
 #include "fibers/posix/links/robot_links.hpp"
+#include "fibers/posix/links/stream_links.hpp"
 #include "fibers/posix/members/members.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/threads/deadlock.hpp"
 
 namespace waitpoint::posix {
@@ -73,6 +75,12 @@ void take_away(Guest* guest, kernel::Scheduler& scheduler) {
   std::free(guest);
 }
 
+// What is under way when it goes never arrives.
+void carry_by(const Carrier* carrier) {
+  if (carrier == nullptr) forget_streams();
+  set_carrier(carrier);
+}
+
 }  // namespace
 
 void refuse(const char* reason) {
@@ -86,5 +94,5 @@ void refuse(const char* reason) {
 using namespace waitpoint::posix;
 
 extern "C" [[gnu::visibility("default")]] constinit const Guests waitpoint_guests{
-    load_guest, start_guest, guest_has_ended, take_away, forget_named_objects, is_thread, deliver_signals, set_carrier,
+    load_guest, start_guest, guest_has_ended, take_away, forget_named_objects, is_thread, deliver_signals, carry_by,
 };

@@ -11,23 +11,12 @@
 
 #include "fibers/kernel/scheduler.hpp"
 
+#include "fibers/posix/links/carrier.hpp"
+
 namespace waitpoint::posix {
 
 /// A program in the host's process.
 struct Guest;
-
-/// What carries messages between guests of two robots: the host's network.
-struct Carrier {
-  using Carry = bool (*)(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes,
-                         void (*arrive)(void*), void (*drop)(void*), void* message);
-
-  void* network;
-  /// Sends a message of so many bytes: `arrive` is called when it arrives, by no task, if it does, and `drop` after
-  /// that or when it is lost. False, with neither called, if there is no link between the two.
-  Carry carry;
-  /// The same, but it is not lost, and arrives after all that was sent so before.
-  Carry carry_in_order;
-};
 
 struct Guests {
   /// The table's name.

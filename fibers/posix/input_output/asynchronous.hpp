@@ -10,7 +10,7 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
-#include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
 

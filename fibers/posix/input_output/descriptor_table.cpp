@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/input_output/descriptor_table.hpp"
+
 //
 // Calls that make descriptors, copy them and close them: which of them only this program has.
 #include <fcntl.h>
@@ -67,6 +69,21 @@ int control(int descriptor, int command, void* argument) {
 }
 
 }  // namespace
+
+namespace waitpoint::posix {
+
+void close_descriptors_of(const Program& program) {
+  const Program* owner = nullptr;
+  for (int descriptor = next_owned(0, owner); descriptor >= 0; descriptor = next_owned(descriptor + 1, owner)) {
+    if (owner != &program) continue;
+    disown(descriptor);
+    forget_timer_descriptor(descriptor);
+    close_stream_over_link(descriptor);
+    close(descriptor);
+  }
+}
+
+}  // namespace waitpoint::posix
 
 WAITPOINT_INTERPOSED int pipe2(int* ends, int flags) noexcept {
   return both(WAITPOINT_NEXT(pipe2)(ends, flags), *reinterpret_cast<int(*)[2]>(ends));

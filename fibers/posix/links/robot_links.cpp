@@ -7,7 +7,6 @@
 
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
-#include "fibers/posix/links/stream_links.hpp"
 #include "fibers/posix/program/thread.hpp"
 
 namespace waitpoint::posix {
@@ -29,10 +28,7 @@ bool is_connected_to(int descriptor, const SocketAddress& peer) {
 
 }  // namespace
 
-void set_carrier(const Carrier* to) {
-  if (to == nullptr) forget_streams();
-  carrier = to;
-}
+void set_carrier(const Carrier* to) { carrier = to; }
 
 const Carrier* carrier_here() {
   return carrier != nullptr && is_simulated() && this_program().is_member ? carrier : nullptr;

@@ -4,13 +4,13 @@
 
 #include <sys/socket.h>
 
-#include "fibers/posix/guests/guests.hpp"
+#include "fibers/posix/links/carrier.hpp"
 
 namespace waitpoint::posix {
 
 struct Program;
 
-/// Of the run's; null for none. What is under way when it goes never arrives.
+/// Of the run's; null for none: then streams are to be forgotten (stream_links.hpp).
 void set_carrier(const Carrier* carrier);
 /// By which the running thread's program reaches those of other robots; null if it is on its own.
 const Carrier* carrier_here();

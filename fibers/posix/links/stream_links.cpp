@@ -111,6 +111,7 @@ void arrive(void* message) {
   (stream.last_arrived == nullptr ? stream.first_arrived : stream.last_arrived->next) = &piece;
   stream.last_arrived = &piece;
   ++arrived_count;
+  before_look = deliver_streams;
   deliver(stream);
   look_at_descriptors();
 }

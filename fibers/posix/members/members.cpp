@@ -8,16 +8,14 @@
 #include <cstring>
 
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/input_output/descriptor_table.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
 #include "fibers/posix/program/program.hpp"
-#include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/threads/thread.hpp"
 
 extern "C" void __call_tls_dtors();  // of the C library
 
 namespace waitpoint::posix {
-
-Record* record = nullptr;
 
 namespace {
 
@@ -39,11 +37,19 @@ void call_handlers(Member& member) {
   call_destructors(member.image);
 }
 
+void end_with_last_thread() {
+  if (!runs_in_member() || this_member().exiting) return;
+  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
+    if (task != kernel::running && is_thread(*task) && thread_of(*task).program == &this_program()) return;
+  exit_member(0);
+}
+
 }  // namespace
 
 bool start(Member& member, kernel::Scheduler& scheduler) {
   home = getpid();
   member.is_member = true;
+  member.thread_ends = end_with_last_thread;
   return make_main_thread(member, scheduler, run_member, &member) != nullptr;
 }
 
@@ -84,13 +90,6 @@ void end_member(int status) {
     member.record->status = member.status;
   }
   end_running_thread();
-}
-
-void end_member_with_last_thread() {
-  if (!runs_in_member() || this_member().exiting) return;
-  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
-    if (task != kernel::running && is_thread(*task) && thread_of(*task).program == &this_program()) return;
-  exit_member(0);
 }
 
 }  // namespace waitpoint::posix

@@ -44,10 +44,5 @@ inline Member& this_member() { return static_cast<Member&>(this_program()); }
 [[noreturn]] void exit_member(int status);
 /// The same as _exit() would.
 [[noreturn]] void end_member(int status);
-/// The running thread is about to end: if no other is left, so is the program.
-void end_member_with_last_thread();
-
-/// The programs on the host's command line, FILE ARGUMENTS :: FILE ARGUMENTS, until all have ended.
-[[noreturn]] void run_members(int argc, char** argv);
 
 }  // namespace waitpoint::posix

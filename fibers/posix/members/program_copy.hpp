@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fibers/posix/members/program_image.hpp"
-
 namespace waitpoint::posix {
+
+/// Why it cannot be loaded: "FILE ...", a clause.
+using LoadError = char[512];
 
 /// What was taken out of a copy, and is to be done when the program begins and ends: addresses within it, 0 for none.
 struct ProgramParts {

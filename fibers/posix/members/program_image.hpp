@@ -13,6 +13,8 @@
 
 #include <cstddef>
 
+#include "fibers/posix/members/program_copy.hpp"
+
 namespace waitpoint::posix {
 
 using Main = int (*)(int, char**, char**);
@@ -32,9 +34,6 @@ struct ProgramImage {
   void (*finish)() = nullptr;
   Functions constructors, destructors;
 };
-
-/// Why it cannot be loaded: "FILE ...", a clause.
-using LoadError = char[512];
 
 /// Loads a copy of `file`; false with the reason in `error`.
 bool load(ProgramImage& image, const char* file, LoadError& error);

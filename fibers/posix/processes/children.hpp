@@ -6,8 +6,6 @@
 
 namespace waitpoint::posix {
 
-struct Thread;
-
 /// Before main(): whoever forks within the C library too leaves a child that is a simulation of its own.
 void register_fork();
 /// Whether the process is a host's: a copy of that would be no process of the program's.
@@ -16,7 +14,5 @@ bool is_guest();
 void before_child();
 /// It forks, by `real(argument)`, which is as fork(): with the handlers of pthread_atfork() or without.
 pid_t fork_by(pid_t (*real)(const void*), const void* argument, bool calls_handlers);
-/// In a child: the thread that called is its first, and the others' numbers follow its own.
-void begin_again_as_first(Thread& thread);
 
 }  // namespace waitpoint::posix

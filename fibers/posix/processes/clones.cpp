@@ -20,6 +20,7 @@
 #include "fibers/posix/processes/children.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
+#include "fibers/posix/threads/thread.hpp"
 
 namespace waitpoint::posix {
 namespace {

@@ -26,6 +26,7 @@
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/sync/futex_vectors.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
+#include "fibers/posix/threads/thread.hpp"
 #include "fibers/posix/timers/interval_timers.hpp"
 #include "fibers/posix/timers/notification_threads.hpp"
 

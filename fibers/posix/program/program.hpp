@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulation that a program is: made before its main(), which becomes the first of its tasks.
+// What every room reads of the process: the record of the run, and whether it has a host. Its top, exec/ or guests/, is
+// linked in one of the two, and defines has_host and refuse().
 #pragma once
 
 #include "fibers/posix/program/record.hpp"
@@ -14,21 +15,11 @@ extern Record* record;
 extern const bool has_host;
 inline bool is_host_code() { return has_host && !is_simulated(); }
 
-/// Runs `body` as the first thread of the simulation, and the others with it, until the process exits.
-[[noreturn]] void run_program(int (*body)(), const char* name);
+/// The first task of the run, which leads to the others; not all are threads. Null outside any.
+kernel::Task* first_task();
 
-/// Whether the process is one of several programs, which its arguments name.
-bool has_members();
-
-/// The scheduler of a run that begins now, of no robot yet.
-kernel::Scheduler& begin_run();
-/// Until no thread can go on, or it is cut off: how it ended, which the record keeps.
-Ending run_to_end(kernel::Scheduler& scheduler);
-/// Ends the process after that, with `status` where it did not end by a failure, of which it tells.
-[[noreturn]] void end_run(const kernel::Scheduler& scheduler, int status);
-
-/// What the kernel calls in a thread with signals to be handled.
-void deliver_signals(kernel::Task& task);
+/// The thread with this gettid(); null without one.
+Thread* thread_with_id(int id);
 
 /// Ends the process for a reason of ours, told in one line.
 [[noreturn]] void refuse(const char* reason);

@@ -14,6 +14,8 @@ struct Program {
   const char* label = "";          ///< what the names of its tasks begin with
   bool is_service = false;         ///< it does not keep the run alive
   bool is_member = false;          ///< it is one of several: a Member
+  /// Called by each thread that is about to end; null: not. The last one's ends the program.
+  void (*thread_ends)() = nullptr;
   std::uint32_t threads_made = 0;
   std::uint64_t numbers_drawn = 0;  ///< random ones, from the system's
   /// What the uses of primitives and clocks of all its threads have cost: its processor time.

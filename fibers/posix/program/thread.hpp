@@ -28,7 +28,8 @@ struct Thread {
 
   kernel::Task* task = nullptr;  ///< null once it has ended
   Program* program = nullptr;
-  void* area = nullptr;  ///< the pthread_t
+  void* area = nullptr;             ///< the pthread_t
+  void (*body)(Thread&) = nullptr;  ///< calls `start` as the C library would, and ends the thread
   StartRoutine start{};
   bool is_c11 = false;
   bool detached = false;
@@ -93,11 +94,7 @@ struct Thread {
   SharedFutex* shared_futex = nullptr;  ///< and where it waits, if other processes may wake it
 };
 
-/// What a thread that the running one makes begins with: what `attributes` (null: the default ones) ask for, and what
-/// it inherits. An error number, or 0.
-int take_attributes(Thread& thread, const pthread_attr_t* attributes);
-
-/// What a task of a thread executes: the function, as the C library would call it.
+/// What a task of a thread executes: its body.
 void run_thread(void* thread);
 
 /// Of a task that is a thread's.
@@ -136,9 +133,6 @@ class OutOfKernel {
   Thread& thread_;
 };
 
-/// The first task of the run, which leads to the others; not all are threads. Null outside any.
-kernel::Task* first_task();
-
 /// The thread with this id; null if it is none of ours.
 Thread* find(pthread_t id);
 
@@ -148,26 +142,10 @@ inline Thread* find_running(pthread_t id) {
   return thread != nullptr && thread->task != nullptr ? thread : nullptr;
 }
 
-/// The thread with this gettid(); null without one.
-Thread* thread_with_id(int id);
-
 /// The processor time of the thread with this gettid(); none if it has ended.
 Duration spent_by(int id);
 
-/// Makes a thread; an error number.
+/// Makes a thread; an error number. Defined in threads/, above all rooms whose waits a thread's end puts in order.
 int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument);
-/// As pthread_timedjoin_np, with a deadline of virtual time.
-int join(pthread_t id, void** result, Time deadline);
-/// What is done when a thread's function is done.
-[[noreturn]] void end_thread(Thread& thread);
-/// The running thread ends as it is: nothing of its own is called any more.
-[[noreturn]] void end_running_thread();
-/// The thread that main() runs in, where the process is one program: it has the area of the process's own thread. False
-/// without memory.
-bool begin_main_thread(Thread& thread, Program& program, kernel::Scheduler& scheduler);
-/// The first thread of one of several programs; null without memory. It runs `body`.
-Thread* make_main_thread(Program& program, kernel::Scheduler& scheduler, void* (*body)(void*), void* argument);
-/// Ends all threads of `program` but the running one; nothing of theirs is unwound.
-void end_other_threads(const Program& program, kernel::Scheduler& scheduler);
 
 }  // namespace waitpoint::posix

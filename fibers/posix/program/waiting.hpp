@@ -71,12 +71,6 @@ inline bool block(kernel::Object& object, Time deadline) {
   return kernel::running->scheduler->block(object, deadline) == kernel::Wake::woken;
 }
 
-/// How a wait ended.
-enum class Wait : std::uint8_t { came, timed_out, interrupted };
-
-/// The same, but a signal that the thread does not block ends the wait: see signals.hpp.
-Wait wait_on(kernel::Object& object, Time deadline);
-
 /// Wakes one of those that wait, of the chooser's choice; null if there is none.
 inline kernel::Task* wake_one(kernel::Object& object) { return kernel::running->scheduler->wake_one(object); }
 

@@ -68,12 +68,6 @@ bool is_queue_full() {
 
 }  // namespace
 
-Thread* thread_with_id(int id) {
-  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
-    if (is_thread(*task) && thread_of(*task).id == id) return &thread_of(*task);
-  return nullptr;
-}
-
 int send_as_told(const siginfo_t& information) {
   if (information.si_signo == 0) return 0;
   if (!is_signal(information.si_signo)) return EINVAL;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fibers/posix/program/waiting.hpp"
+#include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
 

@@ -9,15 +9,19 @@
 
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
-#include "fibers/posix/descriptors/signal_descriptors.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 
 namespace waitpoint::posix {
 
 constinit SignalsOfProgram signals_of_program{};
+void (*after_pending_changed)() = nullptr;
 
 namespace {
+
+void note_pending_changed() {
+  if (after_pending_changed != nullptr) after_pending_changed();
+}
 
 bool is_discarded(int signal) {
   const struct sigaction& action = signals_of_program.actions[signal];
@@ -69,7 +73,7 @@ void send_on(PendingSignal& signal, Thread* to) {
   }
   if (!pending.add(signal)) return;
   if (taker != nullptr && wants(*taker, number)) tell(*taker);
-  show_signal_descriptors();
+  note_pending_changed();
 }
 
 /// A handler's stack and what it is called with.
@@ -190,7 +194,7 @@ int take_pending(SignalSet set, siginfo_t& information) {
   const SignalSet own = thread.pending.set() & set, all = signals_of_program.pending.set() & set;
   const bool from_all = own == 0 || (all != 0 && __builtin_ctzll(all) < __builtin_ctzll(own));
   const int signal = (from_all ? signals_of_program.pending : thread.pending).take(set, information);
-  if (signal != 0) show_signal_descriptors();
+  if (signal != 0) note_pending_changed();
   return signal;
 }
 

@@ -25,6 +25,12 @@ struct SignalsOfProgram {
 };
 extern SignalsOfProgram signals_of_program;
 
+/// How a wait ended.
+enum class Wait : std::uint8_t { came, timed_out, interrupted };
+
+/// Blocks the running thread on `object`. A signal that the thread does not block ends the wait.
+Wait wait_on(kernel::Object& object, Time deadline);
+
 /// What handlers were run.
 struct Handled {
   bool any = false;
@@ -35,6 +41,12 @@ struct Handled {
 inline SignalSet deliverable(const Thread& thread) {
   return (thread.pending.set() | signals_of_program.pending.set()) & ~thread.blocked;
 }
+
+/// What the kernel calls in a thread with signals to be handled.
+void deliver_signals(kernel::Task& task);
+
+/// Called after each change of what pends; null: not. Descriptors that signals are read from set it.
+extern void (*after_pending_changed)();
 
 /// Sends to a thread, or to the process where it is null; false if there is no memory to keep it.
 bool send(const siginfo_t& information, Thread* to);

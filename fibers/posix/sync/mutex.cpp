@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstddef>
 
+#include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/sync/shared_object.hpp"
 
 namespace waitpoint::posix::shared_mutex {

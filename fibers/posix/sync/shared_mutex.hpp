@@ -3,7 +3,7 @@
 // holds is kept beside, for the threads of this process.
 #pragma once
 
-#include "fibers/posix/sync/mutex.hpp"
+#include "fibers/posix/sync/mutex_state.hpp"
 
 namespace waitpoint::posix::shared_mutex {
 

@@ -6,7 +6,7 @@
 #include <cerrno>
 
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/program/thread.hpp"
+#include "fibers/posix/threads/thread.hpp"
 
 namespace waitpoint::posix {
 namespace {

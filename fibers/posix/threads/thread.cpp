@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/program/thread.hpp"
+#include "fibers/posix/threads/thread.hpp"
 
 #include <limits.h>
 #include <linux/futex.h>
@@ -17,16 +17,14 @@
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/input_output/asynchronous.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
-#include "fibers/posix/members/members.hpp"
-#include "fibers/posix/processes/children.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/thread_area.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/sync/futex.hpp"
 #include "fibers/posix/sync/futex_vectors.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
 #include "fibers/posix/threads/keys.hpp"
-#include "fibers/posix/threads/thread_area.hpp"
 #include "fibers/posix/time/clocks.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 
@@ -41,6 +39,8 @@ void __pthread_register_cancel(__pthread_unwind_buf_t* buffer);
 namespace waitpoint::posix {
 
 namespace {
+
+void execute(Thread& thread);
 
 Thread* main_thread = nullptr;
 // Threads that have ended, whose areas nobody runs on or asks for any more, but the one that ended last.
@@ -141,6 +141,7 @@ bool give_clock(Thread& thread) {
 
 bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
   Program& program = *thread.program;
+  thread.body = execute;
   char whole_name[kernel::name_size];
   std::snprintf(whole_name, sizeof whole_name, "%s%s", program.label, name);
   if (record->settings.has_clock && !give_clock(thread)) return false;
@@ -159,23 +160,6 @@ bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
 }
 
 }  // namespace
-
-kernel::Task* first_task() {
-  if (kernel::running != nullptr) return kernel::running->scheduler->first_task();
-  return has_host || record == nullptr || !record->began ? nullptr : record->scheduler.first_task();
-}
-
-Thread* find(pthread_t id) {
-  void* const area = reinterpret_cast<void*>(id);
-  return area == nullptr ? nullptr : thread_of_area(area);
-}
-
-Duration spent_by(int id) {
-  if (kernel::running == nullptr) return {};
-  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
-    if (is_thread(*task) && thread_of(*task).id == id) return thread_of(*task).spent;
-  return {};
-}
 
 void begin_again_as_first(Thread& thread) {
   main_thread = &thread;
@@ -268,8 +252,9 @@ void call_start_routine(void* argument) {
 
 }  // namespace
 
-void run_thread(void* argument) {
-  Thread& thread = *static_cast<Thread*>(argument);
+namespace {
+
+void execute(Thread& thread) {
   if (thread.stack != nullptr)
     call_on(thread.stack, thread.stack_size, call_start_routine, &thread);
   else
@@ -277,12 +262,14 @@ void run_thread(void* argument) {
   end_thread(thread);
 }
 
+}  // namespace
+
 void end_thread(Thread& thread) {
   thread.exiting = true;
   __call_tls_dtors();
   destroy_values_of_keys();
   let_robust_mutexes_go();
-  end_member_with_last_thread();
+  if (thread.program->thread_ends != nullptr) thread.program->thread_ends();
   end_running_thread();
 }
 

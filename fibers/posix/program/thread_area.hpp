@@ -6,6 +6,8 @@
 // x86-64 ABI.
 #pragma once
 
+#include <cstdint>
+
 namespace waitpoint::posix {
 
 struct Thread;
@@ -21,7 +23,7 @@ Thread*& thread_of_area(void* area);
 /// The area that the calling code runs on.
 void* own_thread_area();
 
-/// The word that functions keep on the stack, to see whether it was written over: of the seed.
-void draw_stack_guard(void* area);
+/// The word that functions keep on the stack, to see whether it was written over.
+void set_stack_guard(void* area, std::uint64_t word);
 
 }  // namespace waitpoint::posix

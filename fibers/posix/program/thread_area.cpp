@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/threads/thread_area.hpp"
+#include "fibers/posix/program/thread_area.hpp"
 
 #include <cstddef>
 #include <cstdint>
 
-#include "fibers/posix/program/randomness.hpp"
 #include "fibers/switch/thread_pointer.hpp"
 
 // Of the dynamic linker and the C library, for the thread libraries that they are made with.
@@ -74,9 +73,9 @@ void free_thread_area(void* area) {
   _dl_deallocate_tls(area, true);
 }
 
-void draw_stack_guard(void* area) {
+void set_stack_guard(void* area, std::uint64_t word) {
   // The byte of least weight is zero, as the C library has it: so no string goes over it.
-  head_of(area).stack_guard = draw_random() & ~std::uintptr_t{0xFF};
+  head_of(area).stack_guard = word & ~std::uintptr_t{0xFF};
 }
 
 Thread*& thread_of_area(void* area) { return head_of(area).thread; }

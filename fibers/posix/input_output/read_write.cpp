@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// read(), write() and those of several pieces.
+#include <limits.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/signal_descriptors.hpp"
+#include "fibers/posix/input_output/input_output.hpp"
+#include "fibers/posix/input_output/sockets.hpp"
+#include "fibers/posix/program/randomness.hpp"
+#include "fibers/posix/timers/timer_descriptors.hpp"
+
+using namespace waitpoint;
+using namespace waitpoint::posix;
+
+namespace {
+
+// /dev/random and /dev/urandom.
+bool gives_random(int descriptor) {
+  struct stat of {};
+  const ErrorNumberKept kept;
+  return fstat(descriptor, &of) == 0 && S_ISCHR(of.st_mode) &&
+         (of.st_rdev == makedev(1, 8) || of.st_rdev == makedev(1, 9));
+}
+
+}  // namespace
+
+WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size) {
+  if (class_of(descriptor) == DescriptorClass::other && gives_random(descriptor)) {
+    fill_with_random(bytes, size);
+    return static_cast<ssize_t>(size);
+  }
+  if (is_simulated()) bring_up_to_date(descriptor);
+  if (is_simulated() && is_signal_descriptor(descriptor))
+    return receive(descriptor, true, [&] { return read_signals(descriptor, bytes, size); });
+  // Nothing is there at once.
+  return receive(descriptor, size > 0, [&] { return WAITPOINT_NEXT(read)(descriptor, bytes, size); });
+}
+
+WAITPOINT_INTERPOSED ssize_t readv(int descriptor, const iovec* pieces, int count) {
+  if (is_simulated()) bring_up_to_date(descriptor);
+  const bool is_valid = count > 0 && count <= IOV_MAX;
+  return receive(descriptor, is_valid, [&] { return WAITPOINT_NEXT(readv)(descriptor, pieces, count); });
+}
+
+WAITPOINT_INTERPOSED ssize_t write(int descriptor, const void* bytes, std::size_t size) {
+  const DescriptorClass of = class_of(descriptor);
+  // What is an eventfd beneath is none to the program.
+  if (of == DescriptorClass::other && (is_timer_descriptor(descriptor) || is_signal_descriptor(descriptor)))
+    return fail(EINVAL);
+  if (size > 0 && of == DescriptorClass::socket && is_stream(descriptor))
+    return send_to_stream(descriptor, bytes, size, 0);
+  if (size > 0 && of == DescriptorClass::pipe && may_wait_for(descriptor, POLLOUT))
+    return write_all(descriptor, of, static_cast<const char*>(bytes), size, [&](const char* at, std::size_t left) {
+      // What is ready takes as much as is atomic.
+      return WAITPOINT_NEXT(write)(descriptor, at, left > PIPE_BUF ? PIPE_BUF : left);
+    });
+  return send_all_at_once(descriptor, true, [&] { return WAITPOINT_NEXT(write)(descriptor, bytes, size); });
+}
+
+WAITPOINT_INTERPOSED ssize_t writev(int descriptor, const iovec* pieces, int count) {
+  const DescriptorClass of = class_of(descriptor);
+  const bool in_pieces = of == DescriptorClass::pipe || (of == DescriptorClass::socket && is_stream(descriptor));
+  if (!in_pieces || !blocks(descriptor) || count < 0 || count > IOV_MAX)
+    return send_all_at_once(descriptor, true, [&] { return WAITPOINT_NEXT(writev)(descriptor, pieces, count); });
+  if (count > 0 && !can_be_read(pieces)) return fail(EFAULT);
+  ssize_t all = 0;
+  for (int i = 0; i < count; ++i) {
+    if (pieces[i].iov_len == 0) continue;
+    const ssize_t written = write(descriptor, pieces[i].iov_base, pieces[i].iov_len);
+    if (written < 0) return all > 0 ? all : -1;
+    all += written;
+    if (static_cast<std::size_t>(written) < pieces[i].iov_len) break;
+  }
+  return all;
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/program/program.hpp"
+
+namespace waitpoint::posix {
+
+Record* record = nullptr;
+
+kernel::Task* first_task() {
+  if (kernel::running != nullptr) return kernel::running->scheduler->first_task();
+  return has_host || record == nullptr || !record->began ? nullptr : record->scheduler.first_task();
+}
+
+Thread* thread_with_id(int id) {
+  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).id == id) return &thread_of(*task);
+  return nullptr;
+}
+
+}  // namespace waitpoint::posix
