@@ -3,9 +3,7 @@
 
 #include <unwind.h>
 
-#include "core/error.hpp"
 #include "fibers/kernel/scheduler.hpp"
-#include "fibers/kernel/scheduler_steps.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
 
 namespace waitpoint::kernel {
@@ -32,35 +30,6 @@ std::size_t capture_call_stack(void** frames, std::size_t room) {
   Capture capture{frames, room, 0};
   _Unwind_Backtrace(add_frame, &capture);
   return capture.found;
-}
-
-// After a task got control back: as long as it is only asked for its call stack, it is not its turn yet. False when the
-// run is over.
-bool Scheduler::answer_interrupt() {
-  Task& task = *running;
-  while (task.describe) {
-    task.describe = false;
-    frames_found_ = capture_call_stack(frames_, frames_room_);
-    exit_run(state_);
-  }
-  return !unwinding_;
-}
-
-std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
-  WAITPOINT_CHECK(running == nullptr && task.state != TaskState::ended, "no call stack can be had of this task");
-  if (task.sequence == 0) return 0;  // it never ran
-  const TaskState state = task.state;
-  const RunState run_state = state_;
-  frames_ = frames;
-  frames_room_ = room;
-  const bool interrupted = interrupted_;
-  task.describe = interrupted_ = true;
-  fast_allowed_ = false;  // until the run goes on
-  enter_run(resume(task));
-  interrupted_ = interrupted;
-  task.state = state;
-  state_ = run_state;
-  return frames_found_;
 }
 
 void describe_run(const Task& task) {
