@@ -6,6 +6,7 @@
 
 #include "tests/project.hpp"
 #include "tests/runs/program.hpp"
+#include "tests/tools/folder.hpp"
 
 namespace waitpoint::runs {
 namespace {
@@ -26,6 +27,16 @@ TEST(Documents, ShowTheDigestsThatThereAre) {
   expect_shown("README.md", "office.yaml", "900");
   expect_shown("docs/robots.md", "office.yaml", "20");
   expect_shown("docs/clocks.md", "office-one-processor.yaml", "900");
+}
+
+TEST(Documents, ThePictureIsThatOfTheRun) {
+  const tools::Folder folder;
+  const std::string picture = folder / "office.svg";
+  const Outcome outcome = outcome_of(run_command("office.yaml", "900", {"--picture", picture}));
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_NE(text_of("docs/office.svg").find(outcome.digest()), std::string::npos);
+  EXPECT_TRUE(text_of("docs/office.svg") == folder.read("office.svg"))
+      << "renew it: waitpoint run scenarios/office.yaml --picture docs/office.svg";
 }
 
 }  // namespace
