@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fibers/explore/campaign.hpp"
+#include "fibers/explore/explore.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "tests/fibers/explore/feasibility.hpp"
 #include "tests/fibers/explore/timed_programs.hpp"
