@@ -14,7 +14,7 @@ class LatePom(Installed):
     """A module with a mistake that only other schedules show; `waitpoint explore` finds it."""
 
     def explore(self, *options):
-        program = self.compile("late_pom", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"))
+        program = self.compile("late_pom", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
         return subprocess.run([program, "explore", HERE / "late_pom/late_pom.yaml", "--until", "15", *options],
                               capture_output=True, text=True, timeout=300)
 
@@ -82,7 +82,7 @@ class Unrepeatable(Installed):
     SECOND, PERTURBED = "the second run in this process", "the run in a perturbed process"
 
     def check(self, source, *more, **surroundings):
-        program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"),
+        program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"),
                                "-pthread")
         entries = self.folder / "entries"  # more than fit into one page, or into one reading
         if not entries.exists():
@@ -183,7 +183,7 @@ class Unrepeatable(Installed):
                                  r"  was  +0\.1\d+ s, robot gambler, .*\n  is   +0\.1\d+ s, robot gambler, ")
 
     def test_where_addresses_are_not_at_random_they_are_in_the_perturbed_process(self):
-        program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"),
+        program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"),
                                "-pthread")
         done = subprocess.run(["setarch", "-R", program, "run", HERE / "unrepeatable/unrepeatable.yaml", "--check"],
                               capture_output=True, text=True, timeout=120)
@@ -197,7 +197,7 @@ class LostLetter(Installed):
     """Tests of one's own threads need neither world nor modules."""
 
     def test_finds_the_lost_letter(self):
-        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+        needed = flags(self.prefix, "--cflags", "--libs", "waitpoint")
         self.assertFalse([flag for flag in needed if re.search("fcl|ccd|eigen|yaml|png|fmt|robots", flag.lower())], needed)
         program = self.compile("lost_letter", *needed, "-lgtest", "-lgtest_main")
         done = subprocess.run([program], capture_output=True, text=True, env={**os.environ, "GTEST_COLOR": "no"})
@@ -226,7 +226,7 @@ class LostLetter(Installed):
             self.assertNotIn("PASSED", refused.stdout)
 
     def test_a_process_that_dies_says_how_to_repeat_it(self):
-        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+        needed = flags(self.prefix, "--cflags", "--libs", "waitpoint")
         program = self.compile("sudden_death", *needed)
         for signal in "6", "9", "11":
             # The supervisor has the pipe open until it has told.
@@ -244,7 +244,7 @@ class SharedCounter(Installed):
     def outcome(self, sanitizer, how):
         program = self.folder / sanitizer
         if not program.exists():
-            needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+            needed = flags(self.prefix, "--cflags", "--libs", "waitpoint")
             run("g++", "-std=c++20", "-O1", "-g", f"-fsanitize={sanitizer}", HERE / "shared_counter/shared_counter.cpp", "-o",
                 program, *needed, cwd=self.folder)
         done = subprocess.run([program, how], capture_output=True, text=True)

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What users build outside the tree works against the installed library: programs_test.py BUILD."""
 
+import os
 import re
+import shutil
 import subprocess
+import unittest
 
 from installed import HERE, Installed, flags, main, run
 
@@ -33,7 +36,7 @@ class Blinker(Installed):
     """Modules of one's own, in a robot that has no others, no base and no goals."""
 
     def test_runs_its_scenario_and_repeats(self):
-        program = self.compile("blinker", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"))
+        program = self.compile("blinker", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
         outputs = [run(program, "run", HERE / "blinker/blinker.yaml", "--events", self.folder / "events") for _ in range(2)]
         lines = outputs[0].splitlines()
         self.assertEqual([line.split(": ")[1] for line in lines if "the lamp is" in line], ["the lamp is on", "the lamp is off"] * 3)
@@ -55,7 +58,7 @@ class Blinker(Installed):
 
     def test_stands_beside_the_papers_modules(self):
         scenario = self.prefix / "share/waitpoint/scenarios/office.yaml"
-        program = self.compile("blinker", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"))
+        program = self.compile("blinker", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
         mixed = self.folder / "mixed.yaml"
         mixed.write_text(f"""
 format: 1
@@ -69,7 +72,7 @@ robots:
         self.assertEqual(run(program, "run", mixed, "--until", "3").count("the lamp is on"), 3)
 
     def test_the_same_source_runs_on_the_threads_of_the_system(self):
-        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots-native")
+        needed = flags(self.prefix, "--cflags", "--libs", "waitpoint-robots-native")
         program = self.compile("blinker", *needed, program="blinker_native")
         output = run(program, "run", HERE / "blinker/blinker.yaml", timeout=60)
         seen = [line.split(": ")[1] for line in output.splitlines() if "the lamp is" in line]
@@ -77,7 +80,7 @@ robots:
         self.assertIn("on real threads", output)
 
     def test_code_for_one_kind_of_threads_is_not_linked_with_the_other(self):
-        mixed = [flag for flag in flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots-native")
+        mixed = [flag for flag in flags(self.prefix, "--cflags", "--libs", "waitpoint-robots-native")
                  if flag != "-DWAITPOINT_REAL_THREADS"]
         with self.assertRaisesRegex(AssertionError, "threads::simulated"):
             self.compile("blinker", *mixed, program="blinker_mixed")
@@ -87,7 +90,7 @@ class TwoRobots(Installed):
     """Robots that talk to each other over the medium of their scenario."""
 
     def outcome(self, *options):
-        program = self.compile("two_robots", *flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint-robots"))
+        program = self.compile("two_robots", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
         output = run(program, "run", HERE / "two_robots/two_robots.yaml", *options)
         # (time, who, what, positions, log entries), and the digest of the run
         told = re.findall(r"^ *([\d.]+) s  (\w+) (.*) \((\d+) positions, (\d+) log entries\)$", output, re.MULTILINE)
@@ -134,7 +137,7 @@ class LargeFrame(Installed):
         source = self.folder / "large_frame.cpp"
         source.write_text(LARGE_FRAME)
         program = self.folder / "large_frame"
-        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+        needed = flags(self.prefix, "--cflags", "--libs", "waitpoint")
         run("g++", "-std=c++20", "-O2", source, "-o", program, *needed, cwd=self.folder)
         done = subprocess.run([program], capture_output=True, text=True)
         self.assertNotEqual(done.returncode, 0)
@@ -173,9 +176,90 @@ class RealThreads(Installed):
     def test_the_same_source_runs_on_them(self):
         source = self.folder / "real.cpp"
         source.write_text(REAL_THREADS)
-        needed = flags(self.prefix, "--cflags", "--libs", "--static", "waitpoint")
+        needed = flags(self.prefix, "--cflags", "--libs", "waitpoint")
         run("g++", "-std=c++20", "-DWAITPOINT_REAL_THREADS", source, "-o", self.folder / "real", *needed, "-pthread")
         run(self.folder / "real", timeout=20)
+
+
+# A header of the consumer's own, of the name of one of ours.
+CONSUMERS_TIME = """
+#pragma once
+namespace own { constexpr int hours = 24; }
+"""
+CONSUMER = """
+#include "core/time.hpp"
+#include <waitpoint/core/time.hpp>
+#include <waitpoint/fibers/sync/simulation.hpp>
+#include <waitpoint/fibers/sync/threads.hpp>
+int main() {
+  int written = 0;
+  waitpoint::simulate([&] {
+    waitpoint::thread writer({.name = "writer"}, [&] { written = own::hours; });
+    writer.join();
+  });
+  return written == own::hours ? 0 : 1;
+}
+"""
+CMAKE_PROJECT = """
+cmake_minimum_required(VERSION 3.18)
+project(consumer CXX)
+find_package(waitpoint 0.2 REQUIRED)
+include_directories(.)
+foreach(kind threads races)
+  if(TARGET waitpoint::${kind})
+    add_executable(${kind} main.cpp)
+    target_link_libraries(${kind} PRIVATE waitpoint::${kind})
+  endif()
+endforeach()
+add_executable(robots robots.cpp)
+target_link_libraries(robots PRIVATE waitpoint::robots)
+"""
+MESON_PROJECT = """
+project('consumer', 'cpp', default_options: 'cpp_std=c++20')
+executable('threads', 'main.cpp', dependencies: dependency('waitpoint'))
+executable('robots', 'robots.cpp', dependencies: dependency('waitpoint-robots'))
+"""
+
+
+class Consumers(Installed):
+    """Projects that find the installed library as their build system does, with a folder core/ of their own."""
+
+    def project(self, name, build_file="", text=""):
+        folder = self.folder / name
+        (folder / "core").mkdir(parents=True)
+        (folder / "core/time.hpp").write_text(CONSUMERS_TIME)
+        (folder / "main.cpp").write_text(CONSUMER)
+        shutil.copy(HERE / "blinker/blinker.cpp", folder / "robots.cpp")
+        if build_file:
+            (folder / build_file).write_text(text)
+        return folder
+
+    def check(self, programs):
+        run(programs / "threads", timeout=20)
+        self.assertIn("the lamp is on", run(programs / "robots", "run", HERE / "blinker/blinker.yaml", timeout=60))
+
+    def test_pkg_config(self):
+        folder = self.project("with-pkg-config")
+        for program, source, package in (("threads", "main", "waitpoint"), ("robots", "robots", "waitpoint-robots")):
+            run("g++", "-std=c++20", "-I.", f"{source}.cpp", "-o", program, *flags(self.prefix, "--cflags", "--libs", package), cwd=folder)
+        self.check(folder)
+
+    @unittest.skipUnless(shutil.which("cmake"), "cmake is not installed")
+    def test_cmake(self):
+        folder = self.project("with-cmake", "CMakeLists.txt", CMAKE_PROJECT)
+        run("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run("cmake", "--build", folder / "build")
+        self.check(folder / "build")
+        if list(self.prefix.rglob("libwaitpoint-races.a")):
+            run(folder / "build/races", timeout=20)
+
+    def test_meson(self):
+        folder = self.project("with-meson", "meson.build", MESON_PROJECT)
+        packages = os.pathsep.join({str(path.parent) for path in self.prefix.rglob("*.pc")})
+        environment = {**os.environ, "PKG_CONFIG_PATH": packages, "PKG_CONFIG_SYSROOT_DIR": str(self.folder / "root")}
+        run("meson", "setup", folder / "build", folder, env=environment)
+        run("meson", "compile", "-C", folder / "build")
+        self.check(folder / "build")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ declare -A debian=(
          nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libassimp-dev libbullet-dev librosbag-storage-dev
          libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
-         libuv1-dev'
+         libuv1-dev cmake'
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
   [valgrind]='valgrind'
@@ -23,7 +23,7 @@ declare -A upstream=(
          yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for meshes of other kinds than STL and OBJ, if
          wanted, Assimp 5.2; for the dynamic world, if wanted, Bullet 3.24 in double precision; for ROS bags, if wanted,
          rosbag_storage and its messages'
-  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; where they are there: zstd, xz, pigz, pbzip2, Perl, TBB, libuv'
+  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; where they are there: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'
   [valgrind]='valgrind'
