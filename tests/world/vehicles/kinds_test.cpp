@@ -6,6 +6,7 @@
 
 #include "tests/world/scenes.hpp"
 #include "world/vehicles/ackermann.hpp"
+#include "world/vehicles/base.hpp"
 
 namespace waitpoint::world {
 namespace {
