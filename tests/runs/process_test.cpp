@@ -109,7 +109,7 @@ TEST(Process, a_debugger_that_stops_it_a_hundred_times_does_not_change_a_run) {
   if (outcome_of({{"gdb", "--version"}}).status != 0) GTEST_SKIP() << "there is no gdb here";
   const tools::Folder folder;
   folder.write("stops.gdb",
-               "break waitpoint::kernel::Scheduler::start_sleeping\n"
+               "break waitpoint::kernel::Scheduler::start_sleep\n"
                "run\n"
                "set $stops = 0\n"
                "while $stops < 100\n"
