@@ -22,7 +22,8 @@ bool is_ours(const std::string& line) {
   if (place == std::string::npos)
     return contains(line, "waitpoint::kernel::") || contains(line, "waitpoint::sync::") ||
            contains(line, "waitpoint::races::");
-  for (const char* folder : {"fibers/kernel/", "fibers/sync/", "fibers/explore/races/", "/include/c++/"})
+  for (const char* folder :
+       {"fibers/switch/", "fibers/kernel/", "fibers/clocks/", "fibers/sync/", "fibers/explore/races/", "/include/c++/"})
     if (line.find(folder, place) != std::string::npos) return true;
   return false;
 }
