@@ -140,6 +140,7 @@ std::vector<std::vector<std::string>> user_source_lines(std::span<const CodePlac
   // In a shared library of its own everything is ours, also where it has no debugging information.
   const std::string own_library = known && contains(own.dli_fname, ".so") ? own.dli_fname : "";
   std::vector<std::vector<std::string>> lines;
+  lines.reserve(places.size());
   for (const std::vector<Place>& stack : places) lines.push_back(user_lines(stack, own_library, most));
   return lines;
 }

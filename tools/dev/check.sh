@@ -30,7 +30,11 @@ analysis() {
   command -v clang-tidy >/dev/null || { say 'clang-tidy is not installed' && return 77; }
   local count quiet=()
   local since=${CHECK_SINCE-HEAD~1}
-  if ((all)) || ! git rev-parse --quiet --verify "$since^{commit}" >/dev/null 2>&1; then since=; fi
+  if ((all)); then
+    since=
+  elif ! git rev-parse --quiet --verify "$since^{commit}" >/dev/null 2>&1; then
+    echo "no commit $since to compare with; check --all reads every file" && return
+  fi
   count=$(python3 tools/dev/check/analysis.py "$build" ${since:+"$since"})
   ((count)) || { echo "no source changed since $since" && return; }
   # A header that is not in the tree: the benchmark of the kernel includes it.
