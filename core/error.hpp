@@ -42,3 +42,11 @@ extern "C" void waitpoint_describe_run() __attribute__((weak));
 #define WAITPOINT_CHECK(condition, message)                    \
   (__builtin_expect(static_cast<bool>(condition), 1) ? (void)0 \
                                                      : ::waitpoint::bug(__FILE__, __LINE__, #condition, message))
+
+/// The same on a fast path, where a comparison is felt: compiled in by -Dfast_path_checks=true, as all builds with
+/// sanitizers and all fuzz targets are.
+#ifdef WAITPOINT_FAST_PATH_CHECKS
+#define WAITPOINT_FAST_CHECK(condition, message) WAITPOINT_CHECK(condition, message)
+#else
+#define WAITPOINT_FAST_CHECK(condition, message) static_cast<void>(sizeof(static_cast<bool>(condition)))
+#endif

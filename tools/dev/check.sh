@@ -60,9 +60,11 @@ cycles() { python3 tools/dev/check/cycles.py "$root"; }
 
 functions() { python3 tools/dev/check/functions.py "$root"; }
 
+assertions() { python3 tools/dev/check/assertions.py "$root"; }
+
 files() { python3 tools/dev/check/files.py "$root"; }
 
-parts=(formatting dependencies cycles functions files symbols analysis)
+parts=(formatting dependencies cycles functions assertions files symbols analysis)
 all=0
 if [[ ${1-} == --all ]]; then
   all=1
