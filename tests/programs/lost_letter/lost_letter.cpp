@@ -15,7 +15,7 @@ void lose_a_letter() {
   threads::condition_variable bell("bell");
   threads::thread reader({.name = "reader"}, [&] {
     std::unique_lock lock(door);
-    bell.wait(lock);  // nobody asks whether the letter is there already
+    bell.wait(lock);  // without a predicate: an earlier notification is lost
   });
   threads::thread postman({.name = "postman"}, [&] { bell.notify_one(); });
   postman.join();
