@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs with little address space, as after `ulimit -v`: either as ever, or one clear line.
+// Runs with little address space, as after `ulimit -v`: the usual run, or an error of one line.
 #include <gtest/gtest.h>
 
 #include <algorithm>

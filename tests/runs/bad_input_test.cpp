@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bad input, as the user of the program meets it: one clear line that names file, line and what was expected, exit
-// status 2, nothing half-written.
+// Bad input to the program: an error of one line with file, line and the expected value, exit status 2, no partial
+// output.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -34,7 +34,7 @@ class BadInputTest : public testing::Test {
 
   void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
 
-  // Replaces the only occurrence of `from` in a file; returns the number of its line.
+  // Replaces the only occurrence of `from` in a file; returns its line number.
   int edit(const std::string& file, const std::string& from, const std::string& to) const {
     std::ifstream in(folder_ / file);
     std::string text((std::istreambuf_iterator<char>(in)), {});
@@ -45,7 +45,7 @@ class BadInputTest : public testing::Test {
     return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
   }
 
-  // Runs the program; expects status 2 and one line on stderr, which is returned.
+  // Runs the program and expects status 2 and one line on stderr; returns that line.
   std::string complaint(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "waitpoint");
     std::vector<const char*> argv;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The digests that the documents show are those of the commands that stand above them.
+// The digests in the documents are those of the commands that they show.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs under measured clocks: recorded, and replayed from the record to the same digest.
+// Runs under measured clocks, replayed from their records to the same digest.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's independence of the world server: the same robots, with the same software, in a world of forces.
+// The paper's independence of the world server: the same robots, with the same software, in a dynamic world.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ class DynamicWorlds : public testing::Test {
     if (world::make_bullet_world({}, 1) == nullptr) GTEST_SKIP() << "built without Bullet";
   }
 
-  /// A robot at (0, 0) that drives ahead without seeing anything, and shapes.
+  /// A robot at (0, 0) that drives ahead without sensors, and shapes.
   bridge::Scenario scenario_with(const std::string& shapes, const std::vector<std::string>& more = {on_bullet}) {
     folder_.write("s.yaml", "format: 1\nworld: {engine: fcl, shapes: [" + shapes +
                                 "]}\nrobots:\n  - name: robot\n    start: [0, 0]\n"
@@ -51,7 +51,7 @@ class DynamicWorlds : public testing::Test {
   tools::Folder folder_;
 };
 
-// All nine goals: see docs/dynamics.md.
+// All nine goals: docs/dynamics.md promises it.
 TEST_F(DynamicWorlds, TheOfficesFirstGoalsAreReached) {
   const bridge::Scenario scenario =
       shipped("office.yaml", {on_bullet, "robots.0.goals=[[2.4, 4.6], [5.3, 9.4]]", "until_s=120"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint explore`: what it finds in a robot with planted mistakes, what it tells of it, and that it repeats.
+// `waitpoint explore` finds the planted bugs of a robot, explains them and replays them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,17 +23,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What the module does in the fifth period in all in which its second task came first.
+/// The fault of the module, raised when its second task has come first in `turns` consecutive periods.
 struct PairParameters {
   std::uint32_t fault = 0;  ///< 0: nothing, 1: an exception, 2: a loop without end, 3: a crash
-  std::uint32_t turns = 2;  ///< in how many periods on end the second task has to come first
+  std::uint32_t turns = 2;  ///< consecutive periods in which the second task must come first
 
   static constexpr auto fields() {
     return std::tuple(field("fault", &PairParameters::fault), field("turns", &PairParameters::turns));
   }
 };
 
-/// Two tasks of one period; the default order wakes the first one first.
+/// Two tasks with one period; the default order wakes the first one first.
 class Pair : public genom::Module {
  public:
   explicit Pair(genom::ModuleSetup& setup)
@@ -125,7 +125,7 @@ TEST_F(ExploreScenario, AnExceptionIsFoundMinimisedExplainedAndReplayed) {
   const Told told = explore(search);
   EXPECT_EQ(told.status, 1);
   EXPECT_NE(told.output.find("the second task came first"), std::string::npos) << told.output;
-  // Each period has its own order, and one may depend on the one before.
+  // Each period has its own order; a period's order may depend on the previous one.
   const std::string found_ones = found(told.output, "fails?, of (\\d+) that were found");
   const std::string left = found(told.output, "\n(\\d+) switch(?:es)? away from the default order fail");
   ASSERT_FALSE(found_ones.empty() || left.empty()) << told.output;
@@ -226,7 +226,7 @@ TEST_F(ExploreScenario, ARecordOfAnotherRunIsTold) {
   EXPECT_EQ(other.status, 2);
   EXPECT_NE(other.errors.find("this is not the run of the record: it had "), std::string::npos) << other.errors;
   EXPECT_NE(other.errors.find(", the record says 00000001"), std::string::npos) << other.errors;
-  // The record asks for a switch at an event that the run does not have.
+  // The record asks for a switch at an event that does not exist in the run.
   std::string schedule = folder_.read("schedule");
   schedule = std::regex_replace(schedule, std::regex("\n(task \\S+) \\d+ "), "\n$1 1234567 ");
   folder_.write("schedule", schedule);
@@ -251,7 +251,7 @@ TEST_F(ExploreScenario, WhatTheDefaultOrderFailsIsToldAtOnce) {
   EXPECT_NE(told.output.find(".=\n"), std::string::npos) << "a token without a choice: " << told.output;
 }
 
-// The windows between which expectations are looked at change nothing; nor does a process of its own.
+// Neither the windows between checks of the expectations nor separate processes change the run.
 TEST_F(ExploreScenario, ScheduleIsTheSameRunInAnyProcess) {
   const auto digests = [this](std::uint32_t jobs) {
     tools::ExploreOptions search = options(0);
@@ -282,7 +282,7 @@ TEST(ExploreProgram, OfficeFromMidRunStoppedBySignalTellsWhatWasDone) {
 }
 
 TEST(ExploreProgram, NoiseIsToldFromOrder) {
-  // The default noise stays below, others do not.
+  // The default noise stays below the limit, other noise does not.
   Command command =
       run_command("office.yaml", "12", {"--property", "position_error_max_m=0.0075", "--iterations", "30"});
   command.words[1] = "explore";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The runs of today are those of yesterday, and of every other machine: digests kept in tests/golden/digests.txt.
+// Runs have the golden digests of tests/golden/digests.txt, on every machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>

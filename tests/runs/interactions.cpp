@@ -9,9 +9,9 @@
 namespace waitpoint::runs {
 namespace {
 
-constexpr double wider_m = 0.05;  // that others are taken wider than they are
+constexpr double wider_m = 0.05;  // margin by which other bodies are widened
 
-// Distances along a beam, in its direction of length 1, at which it is inside a shape; none: low > high.
+// Interval of distances along a beam (direction of length 1) inside a shape; none: low > high.
 struct Span {
   double low = 0, high = 0;
 };
@@ -24,7 +24,7 @@ Span inside_disc(Point to_centre, Point direction, double radius_m) {
   return {along - std::sqrt(square), along + std::sqrt(square)};
 }
 
-// Of the strip |coordinate| <= half, when the coordinate starts at `from` and grows by `slope` a metre.
+// Interval inside the strip |coordinate| <= half, for a coordinate that starts at `from` and grows by `slope` a metre.
 Span inside_strip(double from, double slope, double half) {
   if (slope == 0) return std::fabs(from) <= half ? Span{-1e9, 1e9} : none;
   const double a = (-half - from) / slope, b = (half - from) / slope;
@@ -93,7 +93,7 @@ bool Interactions::sees(const Eye& eye, const Pose& at, Point centre, double rad
   return false;
 }
 
-// Whether the beam ends on something that stands, before it has gone `distance_m`.
+// True if a fixed obstacle stops the beam before `distance_m`.
 bool Interactions::hidden(Point origin, Point direction, double distance_m, double height_m) {
   if (!obstacles_.empty() && hides(obstacles_[hid_last_], origin, direction, distance_m, height_m)) return true;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {

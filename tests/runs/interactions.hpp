@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which robots had to do with each other in a run, found from the truth alone: where the bodies were, what stands
-// between them, and how their lasers look. Neither the digest nor what the robots measured is asked.
+// The pairs of robots that interact in a run, computed from the truth alone: the poses of bodies, the obstacles between
+// them, and the directions of their lasers. Digests and readings are not used.
 //
-// Two robots interact when a beam of one would end on the other, when they come near to a contact, or when one is
-// within reach of the other's sonars while these are on. Where this errs, it finds an interaction that was none: other
-// bodies are taken a little wider than they are and do not hide each other, and every step counts as one at which a
-// laser looks.
+// Two robots interact if a beam of one would end on the other, if they are near a contact, or if one is within the
+// range of the other's sonars while these are on. Errors are on the safe side: other bodies are widened a little and do
+// not hide each other, and every step counts as a scan.
 #pragma once
 
 #include <set>
@@ -17,15 +16,15 @@
 
 namespace waitpoint::runs {
 
-/// Robots by their names; the lesser name first.
+/// Names of two robots; the lesser name first.
 using Pairs = std::set<std::pair<std::string, std::string>>;
 
 class Interactions {
  public:
-  /// All bodies must be cylinders about the robots' centres.
+  /// All bodies must be cylinders centred on their robots.
   explicit Interactions(bridge::Experiment& experiment);
 
-  /// To be called at the start and after every step of the world.
+  /// Call at the start and after every step of the world.
   void observe();
   const Pairs& pairs() const { return pairs_; }
 
@@ -38,7 +37,7 @@ class Interactions {
     std::string name;
     double radius_m = 0;
     std::vector<Eye> eyes;
-    Point now, before;  // as of this step and of the one before
+    Point now, before;  // at this step and at the previous one
   };
 
   struct Obstacle {
@@ -55,11 +54,11 @@ class Interactions {
   bridge::Experiment& experiment_;
   std::vector<Body> bodies_;
   std::vector<Obstacle> obstacles_;
-  std::size_t hid_last_ = 0;  // the obstacle that will most likely hide the next beam too
+  std::size_t hid_last_ = 0;  // the obstacle that hid the last beam: it most likely hides the next one too
   Pairs pairs_;
 };
 
-/// The robot, all that interact with it, all that interact with those, and so on.
+/// The robot and all robots related to it by interactions, directly or through others.
 std::set<std::string> related(const std::string& robot, const Pairs& pairs);
 
 }  // namespace waitpoint::runs

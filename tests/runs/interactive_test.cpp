@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs under somebody's hands: pausing, stepping and changing the speed change nothing; what is done to robots and
-// obstacles and asked of modules is part of the run, and its journal repeats it in a new process.
+// Interactive runs: pausing, stepping and changing the speed do not change the run; interventions are part of it, and
+// its journal repeats it in a new process.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 const std::string until_s = "3";
 
-/// The program at its prompt, with these commands piped in.
+/// The program with `--interactive` and these commands on standard input.
 Outcome typed(const std::string& commands, std::vector<std::string> more = {}) {
   more.push_back("--interactive");
   Command command = run_command("office.yaml", until_s, more);
@@ -35,7 +35,7 @@ std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-// Everything that a person can do, some of it twice.
+// All kinds of interventions, some of them twice.
 const std::string meddling =
     "run 0.5\n"
     "request rackham rflex GotoSpeed v_m_s=0.1 w_rad_s=0.2\n"
@@ -202,7 +202,7 @@ TEST(Interactive, a_paced_run_reports_its_lag) {
   EXPECT_EQ(outcome_of(run_command("office.yaml", "1")).output.find("\n  lag "), std::string::npos);
 }
 
-// The same from the programming interface, without any program.
+// The same through the programming interface.
 TEST(Interactive, interventions_of_the_interface_known_early_or_late_are_the_same_run) {
   const bridge::Scenario scenario = shipped("office.yaml");
   const std::vector<genom::ModuleType> types = tools::papers_modules();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A laser's serial line: what `sick` gets is as old as its bytes make it, to the microsecond.
+// A laser's serial line: the age of a scan in `sick` is its transmission time, to the microsecond.
 #include <gtest/gtest.h>
 
 #include "modules/posters/laser.hpp"
@@ -27,7 +27,7 @@ TEST(LaserLine, AScanReachesItsPosterWhenTheLastByteHasCome) {
   const auto reading = [&] { return shown<posters::LaserReading>(experiment, "sick.reading"); };
   for (std::uint32_t number = 1; number <= 3; ++number) {
     while (!reading() || reading()->number < number) experiment.run_before(now += Duration(500us));
-    // 732 bytes of 10 bits. run_before(t) does what lies before t.
+    // 732 bytes of 10 bits. run_before(t) executes the events before t.
     const Duration age = now - reading()->date;
     EXPECT_GT(age, Duration(190625us));
     EXPECT_LE(age, Duration(190625us + 500us));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two robots tell each other how far they have driven, over the medium that their scenario declares. One drives away:
-// latency, loss and range take effect, by the true distance.
+// Two robots send each other the distances that they have driven, over the medium of their scenario. One drives away:
+// latency, loss and range apply, by the true distance.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 struct Heard {
   std::uint64_t count = 0;
-  Time sent, received;            // of the last
+  Time sent, received;            // of the last message
   std::int64_t travel_units = 0;  // of the other robot, by its own odometry
   static constexpr auto fields() {
     return std::tuple(field("count", &Heard::count), field("sent", &Heard::sent), field("received", &Heard::received),
@@ -28,7 +28,7 @@ struct Heard {
 };
 
 struct Told {
-  io::Status status = io::Status::ok;  // of the last sending
+  io::Status status = io::Status::ok;  // of the last message sent
   static constexpr auto fields() { return std::tuple(field("status", &Told::status)); }
 };
 
@@ -40,7 +40,7 @@ struct BeaconParameters {
   }
 };
 
-/// Drives straight on, tells robot "two" how far, and listens.
+/// Drives straight on, sends its distance to robot "two", and receives.
 class Beacon : public genom::Module {
  public:
   explicit Beacon(genom::ModuleSetup& setup)
@@ -109,7 +109,7 @@ robots:
 
 struct Outcome {
   Heard heard;
-  io::Status told = io::Status::ok;  // to robot one, at its last sending
+  io::Status told = io::Status::ok;  // to robot one, for its last message
   io::LinkStatistics statistics;
   std::vector<std::string> digests;
   std::string digest;
@@ -122,7 +122,7 @@ T last(const bridge::Experiment& experiment, std::size_t robot, const std::strin
   return *dynamic_cast<genom::Poster<T>&>(*experiment.robots()[robot]->names().find_poster(poster)).look();
 }
 
-// Ten seconds, in which robot one drives 5 m less what it takes to get going.
+// Ten seconds, in which robot one drives 5 m less the distance lost while accelerating.
 Outcome run(const std::string& medium, std::uint64_t seed = 1, const std::string& without = "") {
   const tools::Folder folder;
   folder.write("s.yaml", text + medium);
@@ -162,7 +162,7 @@ TEST(MediumOfAScenario, LosesDatagrams) {
 TEST(MediumOfAScenario, EndsAtItsRangeByTheTrueDistance) {
   const Outcome outcome = run("medium: {latency_ms: 5, range_m: 4}\n");
   ASSERT_GT(outcome.distance_m, 6) << "robot one has not driven away";
-  // 2 m at 0.5 m/s, and some time to get going.
+  // 2 m at 0.5 m/s, and the time to accelerate.
   EXPECT_NEAR(outcome.heard.sent.seconds(), 4.3, 0.4);
   EXPECT_EQ(outcome.heard.count + outcome.statistics.out_of_range, outcome.statistics.sent);
 }

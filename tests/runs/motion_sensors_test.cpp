@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inertial sensors, a receiver of positions and a battery, from the scenario over the world and the bridge to the
+// Inertial sensors, a satellite receiver and a battery, from the scenario through the world and the bridge to the
 // posters of `rflex`.
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double speed_m_s = 0.4, turn_rad_s = 0.5;
 
-// Calibrates the gyro if it is told to, then drives in a circle, in the place of the module whose name it is given.
+// Calibrates the gyro on demand, then drives in a circle, in place of the module under whose name it is registered.
 class Circler : public genom::Module {
  public:
   explicit Circler(genom::ModuleSetup& setup)
@@ -34,7 +34,7 @@ class Circler : public genom::Module {
   bool calibrate_ = false;
 };
 
-/// The office, with nothing in the way of a circle, and the robot's usual table with `rows` behind it.
+/// The office, with free space for a circle, and the robot's usual bridge table with `rows` added.
 bridge::Scenario circling(const std::string& rows, std::vector<std::string> more) {
   std::vector<std::string> assignments = {
       "world.shapes=[]", "robots.0.goals=[]", "robots.0.start=[20,13,0]",
@@ -93,7 +93,7 @@ TEST(MotionSensors, AreDescriptionsAndLinesOfTheTable) {
   EXPECT_NEAR(length(fix.position - Point{1.5, 0} - run.truth().pose.position()), 0.1, since_s * speed_m_s + 0.02);
 }
 
-// 80 s of the yard: by its wheels alone the robot is metres beside itself by then.
+// 80 s of the yard: odometry alone is metres off by then.
 TEST(MotionSensors, PomIsRightByAReceiverWhereWheelsErrAndNoWallsAreKnown) {
   const auto yard = [](const std::vector<std::string>& more) {
     return run(shipped("yard.yaml", more), std::chrono::seconds(80)).robots[0];
@@ -111,7 +111,8 @@ double heading_error(const CirclingRun& run) {
   return std::fabs(exact::wrap_angle(shown - run.truth().pose.heading));
 }
 
-// The wheels take 3 % more turn than there is; the gyro has a bias of 1.1 degrees a second, which calibrating finds.
+// The wheels report 3 % more turn than the true one; the gyro has a bias of 1.1 degrees a second, which calibration
+// finds.
 TEST(MotionSensors, OdometryTurnsByACalibratedGyroWhereItsWheelsErr) {
   const std::string row = ", {poster: rflex.imu_reading, device: imu.reading}";
   const std::string wheels = "robot_types.rackham.base.odometry.turn_scale=1.03";
@@ -119,7 +120,7 @@ TEST(MotionSensors, OdometryTurnsByACalibratedGyroWhereItsWheelsErr) {
       "robot_types.rackham.imu={gyro_rad_s: {bias: 0.0175, noise_per_sqrt_hz: 0.0002, scale: 1.001}}";
   const std::string turns = "robot_types.rackham.modules.rflex.gyro_turns=true";
   const std::string calibrate = "robots.0.modules=[{name: ndd, calibrate: true}]";
-  constexpr std::uint64_t seed = 2;  // whose gyro has a bias that shows
+  constexpr std::uint64_t seed = 2;  // with a gyro bias that is large enough to measure
   const CirclingRun by_wheels(circling(row, {wheels, gyro, calibrate}), 45, seed);
   const CirclingRun uncalibrated(circling(row, {wheels, gyro, turns}), 45, seed);
   const CirclingRun calibrated(circling(row, {wheels, gyro, turns, calibrate}), 45, seed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A whole robot on one processor: its tasks' computing times delay each other, latencies grow, and by the priorities
-// that the shipped scenario gives them, deadlines are missed.
+// A whole robot on one processor: its tasks delay each other, latencies grow, and with the priorities of the shipped
+// scenario tasks miss deadlines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// How long after the tick of its period a task has done its work, at most; where it misses no deadline.
+// Greatest latency of a task from the tick of its period to the end of its work; for tasks that miss no deadline.
 struct ResponseTime : kernel::Watch {
   ResponseTime(std::string of, Duration its_period, Duration its_delay)
       : task(std::move(of)), period(its_period), delay(its_delay) {
@@ -74,9 +74,9 @@ Duration worst_response(const std::string& task, Duration period, Duration delay
   return response.worst;
 }
 
-// What is computed beside it delays a task, though it is in time.
+// Other computation on the processor delays a task that still meets its deadlines.
 TEST(OneProcessor, LatenciesGrow) {
-  // 0.2 ms of its own and 2 ms for the way; on the shared processor also base and laser, which are more urgent.
+  // 0.2 ms of its own and 2 ms for the route; on the shared processor also base and laser, which are more urgent.
   EXPECT_EQ(worst_response("ndd.motion", 100ms, 20ms, own_processors), Duration(2200us));
   EXPECT_EQ(worst_response("ndd.motion", 100ms, 20ms, by_periods), Duration(2800us));
   EXPECT_EQ(worst_response("segloc.slam", 100ms, 0ms, own_processors), Duration(60ms));
@@ -85,7 +85,7 @@ TEST(OneProcessor, LatenciesGrow) {
   EXPECT_LT(shared, Duration(67ms)) << "60 + 4 * (0.1 + 0.5) + 2 * 0.2 + 2.2";
 }
 
-// The executive's planning too takes time, on the processor that the scenario names.
+// The executive's planning, too, takes time on the processor that the scenario names.
 TEST(OneProcessor, TheExecutivesPlanningDelaysItsDrivingAndItsPriorityTheOthers) {
   const auto driven_m = [](const std::vector<std::string>& assignments) {
     return run(shipped("office-one-processor.yaml", assignments), Duration(4s)).robots.at(0).distance_m;

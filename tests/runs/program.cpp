@@ -24,7 +24,7 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
-// A file that holds the text, at its beginning.
+// A file with this content, positioned at its beginning.
 int file_of(const std::string& text) {
   std::FILE* file = std::tmpfile();
   if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file) != text.size() || std::fflush(file) != 0)
@@ -33,7 +33,7 @@ int file_of(const std::string& text) {
   return fileno(file);
 }
 
-// In the child: from here on there is only the command, or an end.
+// In the child: executes the command or exits.
 [[noreturn]] void become(const Command& command) {
   for (const std::string& assignment : command.environment) putenv(const_cast<char*>(assignment.c_str()));
   if (!command.folder.empty() && chdir(command.folder.c_str()) != 0) _exit(126);

@@ -13,32 +13,32 @@ namespace waitpoint::runs {
 /// $WAITPOINT_PROGRAM, or ../tools/waitpoint seen from this program.
 std::filesystem::path program();
 
-/// A command and the surroundings that a process finds itself in.
+/// A command and the environment of its process.
 struct Command {
   std::vector<std::string> words;             ///< the first is the executable, searched in PATH
-  std::vector<std::string> environment = {};  ///< KEY=VALUE, over this process's own
-  std::filesystem::path folder = {};          ///< its current folder; empty: this process's
-  std::string input = {};                     ///< what its standard input holds
-  bool random_addresses = true;               ///< whether the kernel may lay out its addresses at random
+  std::vector<std::string> environment = {};  ///< KEY=VALUE, added to this process's own
+  std::filesystem::path folder = {};          ///< its working directory; empty: this process's
+  std::string input = {};                     ///< the contents of its standard input
+  bool random_addresses = true;               ///< address space layout randomisation
 };
 
 struct Outcome {
-  int status = -1;  ///< as the shell has it: 128 + signal for a death by signal
+  int status = -1;  ///< as in the shell: 128 + signal after a signal
   std::string output, errors;
 
-  /// The digest of the summary's last line; empty if there is none.
+  /// The digest in the summary's last line; empty if there is none.
   std::string digest() const;
 };
 
-/// A process that runs beside this one until it is waited for.
+/// A process that runs concurrently until it is waited for.
 class Process {
  public:
   explicit Process(const Command& command);
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
-  /// Waits for it if nobody has.
+  /// Waits for it if it has not been waited for.
   ~Process();
-  /// Once.
+  /// Call once.
   Outcome wait();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps that nobody here drew: a robot reaches whatever is free and connected to where it stands.
+// Maps from outside the project: a robot reaches every free cell that is connected to its start.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr double radius_m = 0.26;
 constexpr double clearance_m = 0.05;
 constexpr int goal_count = 6;
 
-// Cells whose centres are free and further than radius + clearance from every occupied square.
+// Cells whose centres are free and farther than radius + clearance from every occupied square.
 std::vector<bool> open_cells(const OccupancyGrid& grid) {
   const double reach = (radius_m + clearance_m) / grid.resolution_m();
   const int window = static_cast<int>(std::ceil(reach)) + 1;
@@ -47,7 +47,7 @@ std::vector<bool> open_cells(const OccupancyGrid& grid) {
   return open;
 }
 
-// The open cells connected with `from`, edge to edge.
+// The open cells connected to `from` by edges.
 std::vector<CellIndex> connected(const OccupancyGrid& grid, std::vector<bool>& open, CellIndex from) {
   const auto at = [&](CellIndex c) {
     return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(grid.width()) + static_cast<std::size_t>(c.x);
@@ -109,7 +109,7 @@ Round draw_round(const std::filesystem::path& map, std::uint64_t seed) {
   return round;
 }
 
-// Where the robot truly was when it reported.
+// The robot's true position at its report.
 Point true_position_at(const bridge::RobotResult& robot, Time date) {
   Point position;
   for (const bridge::DatedPose& sample : robot.true_path)

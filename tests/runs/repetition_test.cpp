@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One seed gives one run: the first seconds of the office, again and again in one process.
+// One seed gives one run: the first seconds of the office, repeated in one process.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -19,7 +19,7 @@ TEST(Repetition, a_hundred_runs_in_one_process_are_one_run) {
   const bridge::RunResult first = run(scenario);
   ASSERT_GT(first.events, 10'000u);
   ASSERT_GT(first.robots.at(0).distance_m, 5);
-  std::vector<std::unique_ptr<char[]>> ballast;  // moves what later runs allocate
+  std::vector<std::unique_ptr<char[]>> ballast;  // shifts the allocations of later runs
   for (int repeat = 1; repeat <= 100; ++repeat) {
     ballast.push_back(std::make_unique<char[]>(static_cast<std::size_t>(repeat) * 97));
     const bridge::RunResult again = run(scenario);

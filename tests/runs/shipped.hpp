@@ -11,12 +11,12 @@
 
 namespace waitpoint::runs {
 
-/// What tests of repetition run, of every scenario.
+/// The duration of every scenario in the repetition tests.
 inline constexpr Duration first_seconds = std::chrono::seconds(20);
-/// Of the program where --seed is not given.
+/// The program's default seed.
 inline constexpr std::uint64_t usual_seed = 1;
 
-/// `scenarios/<name>`, with assignments as of `--set`.
+/// `scenarios/<name>`, with assignments as by `--set`.
 bridge::Scenario shipped(const std::string& name, const std::vector<std::string>& assignments = {});
 
 /// Runs a scenario with the paper's modules, in one window.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// No single bit gets lost: a thousand runs, each of which differs from one run in one random bit, of a poster's byte,
-// an event's time, a pose, or a random stream's output, all have digests of their own.
+// Single bits change the digest: of a thousand runs, each with one random bit flipped (of a poster's byte, an event's
+// time, a pose, or a random stream's output), all have different digests.
 //
-// The bits are flipped where they arise, by a module of this test and in the scenario, for one tick of a run: what
-// follows from them is left to the run. Nothing in the code under test knows.
+// The bits are flipped at their source, by a module of this test and in the scenario, for one tick of a run; their
+// consequences are left to the run. The code under test has no hooks for it.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -34,8 +34,8 @@ struct Bytes {
 
 struct Flip {
   std::uint64_t byte_tick = ~0u, byte_bit = 0;  // of the poster's bytes
-  std::uint64_t cost_tick = ~0u, cost_bit = 0;  // of the nanoseconds that a codel takes
-  std::uint64_t draw_tick = ~0u, draw_bit = 0;  // of what a stream gave
+  std::uint64_t cost_tick = ~0u, cost_bit = 0;  // of the nanoseconds of a codel's cost
+  std::uint64_t draw_tick = ~0u, draw_bit = 0;  // of the output of a stream
 
   static constexpr auto fields() {
     return std::tuple(field("byte_tick", &Flip::byte_tick), field("byte_bit", &Flip::byte_bit),
@@ -44,7 +44,7 @@ struct Flip {
   }
 };
 
-/// Drives in curves, looks at the laser, and shows some bytes, with one bit flipped at one tick.
+/// Drives in curves, reads the laser, and exports some bytes, with one bit flipped at one tick.
 class Prober : public genom::Module {
  public:
   explicit Prober(genom::ModuleSetup& setup)
@@ -129,7 +129,7 @@ class SingleBits : public ::testing::Test {
 
   std::uint64_t draw(std::uint64_t bound) { return random_.below(bound, drawn_++); }
 
-  /// `change` is what was flipped, in words; a change drawn twice must do the same twice.
+  /// `change` describes the flipped bit; equal changes must give equal digests.
   void expect_new(const std::string& change, const std::string& digest) {
     EXPECT_NE(digest, unchanged_) << change;
     const auto [at, is_new] = changes_.emplace(digest, change);
@@ -160,7 +160,7 @@ TEST_F(SingleBits, of_posters_times_poses_and_streams_all_change_the_digest) {
     expect_new("pose " + std::to_string(which) + " " + std::to_string(bit), digest(scenario));
   }
   for (int i = 0; i < 186; ++i) flip("draw", 128);
-  // A bit of the seed changes all that the world draws.
+  // A bit of the seed changes all random draws of the world.
   for (int bit = 0; bit < 64; ++bit)
     expect_new("seed " + std::to_string(bit), digest(scenario_, 1 ^ std::uint64_t{1} << bit));
   EXPECT_GT(changes_.size(), 700u);

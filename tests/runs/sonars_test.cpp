@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sonars, bumpers and infrared range finders, from the request to `rflex` over the bridge and the world to its posters.
+// Sonars, bumpers and infrared range finders, from the request to `rflex` through the bridge and the world to its
+// posters.
 #include <gtest/gtest.h>
 
 #include "modules/genom/client.hpp"
@@ -11,7 +12,7 @@
 namespace waitpoint::runs {
 namespace {
 
-// Asks rflex for its sonars, in the place of the module whose name it is given.
+// Requests sonars from rflex, in place of the module under whose name it is registered.
 class SonarUser : public genom::Module {
  public:
   explicit SonarUser(genom::ModuleSetup& setup)

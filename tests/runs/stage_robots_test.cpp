@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worlds of Stage's with their robots: the scenario gives the software, the file the rest.
+// Worlds of Stage with their robots: the scenario supplies the software, the file everything else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace waitpoint {
 namespace {
 
-// Goes where its parameters say.
+// Drives to the goal in its parameters.
 class Driver : public genom::Module {
  public:
   explicit Driver(genom::ModuleSetup& setup)
@@ -76,7 +76,7 @@ const std::string room =
     "model( size [0.2 6 1] pose [-0.1 3 0 0] )\nmodel( size [0.2 6 1] pose [8.1 3 0 0] )\n"
     "model( size [0.2 4 1] pose [4 2 0 0] )\n";
 
-// Shape, base and laser are the file's, the software is the paper's.
+// Shape, base and laser are the file's; the software is the paper's.
 TEST_F(StageRobots, FindTheirWayWithThePapersModules) {
   const std::string map = write(
       "room.world", room +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world's step is the scenario's to choose: what a coarse one costs is told, and is no more than that.
+// The scenario chooses the world's step; a coarse one gives a warning, and the goals are still reached.
 #include <gtest/gtest.h>
 
 #include "tests/runs/shipped.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a robot does is nobody's business but of those who see or touch it: in the office of ten, a robot that goes,
-// comes, or changes its name or its place in the file leaves the digest of every unrelated robot as it was.
+// Robots affect only those that see or touch them: in the office of ten, adding, removing, renaming or reordering a
+// robot leaves the digest of every unrelated robot unchanged.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace waitpoint::runs {
 namespace {
 
-// The seeded order has the same world to show it in.
+// Shorter for the seeded order: it is the same world.
 constexpr Duration watched(kernel::Order order) { return std::chrono::seconds(order == kernel::Order::fifo ? 20 : 8); }
 
 struct Watched {
@@ -26,7 +26,7 @@ Watched watch(const bridge::Scenario& scenario, kernel::Order order) {
   bridge::Experiment experiment(scenario, types, {usual_seed, order, ""});
   Interactions interactions(experiment);
   for (Time now; now <= Time() + watched(order); now += scenario.step) {
-    experiment.run_before(now + std::chrono::nanoseconds(1));  // all that happens at `now`
+    experiment.run_before(now + std::chrono::nanoseconds(1));  // all events at `now`
     interactions.observe();
   }
   Watched result;
@@ -50,7 +50,7 @@ bridge::Scenario without(const std::string& name) {
 
 void rename(bridge::RobotScenario& robot, const std::string& name) { robot.name = robot.body.name = name; }
 
-/// A robot like ada, with rounds of its own.
+/// A robot like ada, with goals of its own.
 bridge::RobotScenario newcomer(const std::string& name, Pose start, std::vector<Point> goals) {
   bridge::Scenario scenario = ten();
   bridge::RobotScenario robot = robot_of(scenario, "ada");
@@ -63,7 +63,7 @@ bridge::RobotScenario newcomer(const std::string& name, Pose start, std::vector<
 
 class UnrelatedRobots : public ::testing::TestWithParam<kernel::Order> {
  protected:
-  /// Compares the digests of all robots in both runs that are unrelated to `changed` in both; returns how many.
+  /// Compares the digests of all robots that are unrelated to `changed` in both runs; returns their number.
   static std::size_t expect_unrelated_unchanged(const Watched& a, const Watched& b, const std::string& changed) {
     Pairs pairs = a.pairs;
     pairs.insert(b.pairs.begin(), b.pairs.end());
@@ -86,7 +86,7 @@ TEST_P(UnrelatedRobots, do_not_notice_when_one_is_removed) {
   for (const auto& [name, digest] : all.digests) {
     const Watched rest = watch(without(name), GetParam());
     ASSERT_EQ(rest.digests.size(), 9u);
-    // The closed rooms see to it that some are unrelated to everybody.
+    // The closed rooms guarantee robots that are unrelated to all others.
     const bool closed_in = name == "hugo" || name == "ines" || name == "jan";
     EXPECT_GE(expect_unrelated_unchanged(all, rest, name), closed_in ? 9u : 3u) << name;
     for (const auto& [other, was] : rest.digests) moved += was != all.digests.at(other) ? 1 : 0;
@@ -114,7 +114,7 @@ TEST_P(UnrelatedRobots, do_not_notice_the_order_of_the_file) {
   const Watched all = watch(ten(), GetParam());
   bridge::Scenario reversed = ten();
   std::reverse(reversed.robots.begin(), reversed.robots.end());
-  // Not even related robots do.
+  // Related robots do not notice either.
   EXPECT_EQ(watch(reversed, GetParam()).digests, all.digests);
 }
 
@@ -124,7 +124,7 @@ TEST_P(UnrelatedRobots, do_not_notice_when_one_is_renamed) {
   rename(robot_of(scenario, "emil"), "zacharias");
   Watched renamed = watch(scenario, GetParam());
   ASSERT_TRUE(renamed.digests.contains("zacharias"));
-  // Its name chooses its noise: for the others, emil went and somebody else came.
+  // A robot's name selects its noise: for the others, emil left and another robot came.
   Pairs joined = renamed.pairs;
   joined.insert({"emil", "zacharias"});
   renamed.pairs = joined;

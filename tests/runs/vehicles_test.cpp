@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every kind of vehicle under the paper's software: what `rflex` is told reaches the base, and what the base does comes
-// back in its odometry.
+// Every kind of vehicle under the paper's software: commands from `rflex` reach the base, and the base's motion returns
+// in its odometry.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -32,13 +32,13 @@ class Vehicles : public testing::Test {
 
 struct Told {
   std::string base, request;
-  Point centre;               // of the circle on which the robot then goes
-  double w_rad_s;             // truly
-  double odometry_turns = 1;  // for each that is true
+  Point centre;               // of the circle on which the robot then drives
+  double w_rad_s;             // true value
+  double odometry_turns = 1;  // odometry's turn per true turn
   double climb_m_s = 0;
 };
 
-// A wedge: its nose 0.4 m ahead, seen from above a pentagon; the box about it would be met by the post beside.
+// A wedge with its nose 0.4 m ahead, a pentagon from above; the box about it would touch the post beside it.
 TEST_F(Vehicles, ARobotWhoseHullIsAMeshStopsWhereItsNoseMeetsTheWall) {
   folder_.write("hull.obj",
                 "v 0.4 0 0.1\nv 0 0.3 0\nv -0.3 0.3 0\nv -0.3 -0.3 0\nv 0 -0.3 0\nv -0.1 0 0.4\n"
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
       return base.substr(6, base.find(',') == std::string::npos ? std::string::npos : base.find(',') - 6);
     });
 
-// Tells the base to drive, once, and then computes on without a word.
+// Commands the base once, and then computes without further commands.
 class Mute : public genom::Module {
  public:
   explicit Mute(genom::ModuleSetup& setup)

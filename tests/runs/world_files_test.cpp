@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worlds from files that people already have: the paper's robot drives through each of them, on a map drawn from it.
+// Worlds from files in existing formats: the paper's robot drives through each of them, on a map drawn from it.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -44,7 +44,7 @@ class WorldFiles : public testing::Test {
   tools::Folder folder_;
 };
 
-// A room of 8 m x 6 m, with a wall in its middle that leaves 2 m at its end.
+// A room of 8 m x 6 m, with a wall in its middle that leaves 2 m free at its end.
 TEST_F(WorldFiles, ARobotFindsItsWayAmongSegments) {
   const std::string map = write("room.txt", "0 0 8 0\n8 0 8 6\n8 6 0 6\n0 6 0 0\n4 0 4 4 # in the middle\n");
   const bridge::RunResult result = run(scenario_on(map, "[2, 1, 90]", "[[6, 1], [2, 2]]"));
