@@ -19,7 +19,7 @@ TEST(ScanLine, GivesScansInOrderEachOnceAllItsBytesHaveCome) {
   EXPECT_TRUE(line.takes_time());
   EXPECT_EQ(line.next_arrival(), std::nullopt);
   line.send(Time() + Duration(200ms), numbered_scan(1));
-  line.send(Time() + Duration(380ms), numbered_scan(2));  // behind the first, which is not through yet
+  line.send(Time() + Duration(380ms), numbered_scan(2));  // queued: the first scan is still being transmitted
   EXPECT_EQ(line.next_arrival(), Time() + Duration(390ms));
   posters::LaserReading scan;
   EXPECT_FALSE(line.take(Time() + Duration(389ms), scan));

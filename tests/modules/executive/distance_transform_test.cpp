@@ -23,7 +23,7 @@ std::uint16_t by_force(const std::vector<std::uint8_t>& occupied, std::int32_t w
 }
 
 TEST(DistanceTransform, EqualsBruteForceOnRandomMaps) {
-  DistanceTransform transform;  // one for all: its memory is reused over sizes
+  DistanceTransform transform;  // one for all sizes: its memory is reused
   const RandomStream random(1, "test", "cells");
   for (std::uint64_t map = 0; map < 60; ++map) {
     const auto width = static_cast<std::int32_t>(1 + random.below(40, map, 0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps for tests: drawn in text, cast at random, or read from the real ones where the data folder is there.
+// Maps for tests: drawn as text, random, or read from the real maps of the data folder, if there is one.
 #pragma once
 
 #include <fstream>
@@ -26,7 +26,7 @@ inline OccupancyGrid drawn_map(const std::vector<std::string>& rows, double reso
   return grid;
 }
 
-/// Every cell occupied with probability `density`.
+/// Each cell is occupied with probability `density`.
 inline OccupancyGrid random_map(std::int32_t width, std::int32_t height, double density, std::uint64_t seed) {
   OccupancyGrid grid(width, height, 0.05, {});
   const RandomStream random(seed, "test", "map");
@@ -37,8 +37,8 @@ inline OccupancyGrid random_map(std::int32_t width, std::int32_t height, double 
   return grid;
 }
 
-/// Reads maps/`name`.pgm (binary, 8 bits) of the data folder with the resolution and thresholds that its YAML has;
-/// nothing if the folder is not there.
+/// Reads maps/`name`.pgm (binary, 8 bits) of the data folder with the resolution and thresholds of its YAML; nothing if
+/// there is no such folder.
 inline std::optional<OccupancyGrid> real_map(const std::string& name, double resolution_m, double free_below) {
   const std::optional<std::string> folder = data_folder();
   if (!folder) return std::nullopt;

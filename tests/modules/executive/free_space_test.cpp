@@ -20,7 +20,7 @@ void fill(OccupancyGrid& grid, CellIndex low, CellIndex high, Cell state) {
     for (std::int32_t x = low.x; x <= high.x; ++x) grid[{x, y}] = state;
 }
 
-// Whatever point has the full radius and clearance lies in a passable cell; no passable centre is nearer than `hard`.
+// Every point with the full radius and clearance is in a passable cell; no passable centre is nearer than `hard`.
 TEST(FreeSpace, InflationIsExactToHalfACellsDiagonal) {
   PlanningParameters parameters;
   const double full = parameters.robot_radius_m + parameters.clearance_m;
@@ -71,7 +71,7 @@ TEST(FreeSpace, MarkedEchoesCloseTheWayUntilForgotten) {
   EXPECT_FALSE(space.passable({30, 30}));
   EXPECT_FALSE(space.passable({34, 30}));
   EXPECT_TRUE(space.passable({40, 30}));
-  // Exactly what the distance transform makes of an obstacle in that cell.
+  // Equals the distance transform with an obstacle in that cell.
   fill(grid, {30, 30}, {30, 30}, Cell::occupied);
   const FreeSpace drawn(grid, {});
   for (std::int32_t i = 0; i < 3600; ++i) {
@@ -106,7 +106,7 @@ TEST(FreeSpace, ClearLineLooksAtEveryCellItTouches) {
                        static_cast<std::int32_t>(random.below(30, k, i + 1))};
     };
     const CellIndex a = cell(0), b = cell(2);
-    bool expected = true;  // by sampling finely, off the boundaries
+    bool expected = true;  // by fine sampling, off the boundaries
     for (int i = 0; i <= 5000; ++i) {
       const double t = i / 5000.0;
       const double x = a.x + 0.5 + t * (b.x - a.x), y = a.y + 0.5 + t * (b.y - a.y);

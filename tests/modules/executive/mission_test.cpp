@@ -10,7 +10,7 @@ namespace {
 
 Time seconds(std::int64_t n) { return Time::from_ns(n * 1000000000); }
 
-// Two rooms of 3 m x 3 m with two doors between; `second_door` false: only the upper one.
+// Two rooms of 3 m x 3 m connected by two doors; `second_door` false: only by the upper one.
 OccupancyGrid rooms(bool second_door) {
   std::vector<std::string> rows;
   for (int r = 59; r >= 0; --r) {
@@ -93,7 +93,7 @@ TEST_F(MissionTest, GivesUpAfterTheTriesAllowed) {
   EXPECT_EQ(mission.current(), 1u);
 }
 
-// What blocked the way to one goal is most likely still there on the way to the next.
+// An obstacle on the way to one goal is most likely still there on the way to the next.
 TEST_F(MissionTest, MarksOutliveTheGoal) {
   Mission mission(planner, parameters, {{5, 2.3}, {1, 2.3}}, random);
   mission.start(seconds(0), {1, 2.3});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Routes on the maps of the data folder; skipped, saying so, where it is missing.
+// Routes on the maps of the data folder; skipped, with a message, if it is missing.
 #include <gtest/gtest.h>
 
 #include "modules/executive/route_planner.hpp"
@@ -15,7 +15,7 @@ struct RealMap {
 
 class RealMaps : public testing::TestWithParam<RealMap> {};
 
-// The cells whose centres have the full radius and clearance, flooded from one of them: all must have a route.
+// The cells whose centres have the full radius and clearance, flooded from one of them: each must have a route.
 TEST_P(RealMaps, EveryGoalThatIsConnectedWithTheClearanceHasARoute) {
   const auto map = test::real_map(GetParam().name, GetParam().resolution_m, GetParam().free_below);
   if (!map) GTEST_SKIP() << "no data folder (WAITPOINT_DATA or ../shared/data)";

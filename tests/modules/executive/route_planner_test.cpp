@@ -139,7 +139,7 @@ TEST(RoutePlanner, MarkedObstacleIsPlannedRound) {
   EXPECT_NEAR(plan.length_m, direct_m, 1e-9);
 }
 
-// Passages of just the radius and 5 cm more to each side, wherever they lie on the grid, are used if they must be.
+// Passages of just the radius plus 5 cm on each side, anywhere on the grid, are used if there is no other route.
 TEST(RoutePlanner, TightestPassageIsFoundInAllPlacesOnTheGrid) {
   for (int columns = 12; columns <= 14; ++columns) {
     RoutePlanner planner(test::drawn_map(two_rooms(columns), 0.05), {});

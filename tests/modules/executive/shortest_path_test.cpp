@@ -10,7 +10,7 @@
 namespace waitpoint::executive {
 namespace {
 
-// Relaxes all edges until nothing changes: slow, and different from what is tested.
+// Relaxes all edges until nothing changes: slow, and independent of the implementation under test.
 std::uint32_t by_force(const FreeSpace& space, CellIndex start, CellIndex goal) {
   const std::int32_t width = space.map().width(), height = space.map().height();
   std::vector<std::uint32_t> cost(static_cast<std::size_t>(width * height), ShortestPath::unreachable);
@@ -107,7 +107,7 @@ TEST(ShortestPath, PrefersClearanceOverASlightlyShorterWay) {
   search.find(space, {10, 8}, {90, 8}, path);
   std::int32_t highest = 0;
   for (const CellIndex c : path) highest = std::max(highest, c.y);
-  EXPECT_GT(highest, 12);  // it moves away from the wall in between
+  EXPECT_GT(highest, 12);  // moves away from the wall in between
 }
 
 }  // namespace

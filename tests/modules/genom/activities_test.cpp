@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The states of activities: which follow which, what is done where a codel is not given, and how they are interrupted.
+// The states of activities: their transitions, the defaults for missing codels, and interruptions.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -39,10 +39,10 @@ TEST(States, FollowEachOtherAsInGenomsExecTask) {
   EXPECT_EQ(default_after(State::inter), State::ether);
 }
 
-// What the codel of each state returns, call by call; the last for ever. A state that is not there has no codel.
+// The results of each state's codel, call by call; the last one repeats. A state without an entry has no codel.
 using Plan = std::map<State, std::vector<State>>;
 
-// A robot whose module has the request "Go" with codels that write down their state and return what the test wants.
+// A robot whose module has the request "Go"; its codels record their states and return the plan's results.
 struct GoRobot : TestRobot {
   explicit GoRobot(Plan plan, TaskOptions options = {.period_ms = 10ms})
       : plans(std::move(plan)), task(module.add_task("main", options)) {
@@ -97,7 +97,7 @@ TEST(Activity, CallsOneCodelAtEachWakeUp) {
     robot.begin("Go");
     const Reply ended = robot.next();
     EXPECT_EQ(robot.trace, "START@10 START@20 EXEC@30 EXEC@40 EXEC@50 END@60 END@70 ");
-    EXPECT_EQ(ended.output.as<Number>().value, 7);  // kept from codel to codel
+    EXPECT_EQ(ended.output.as<Number>().value, 7);  // kept between codels
     EXPECT_EQ(now(), at(70ms));
   });
 }
@@ -139,9 +139,9 @@ TEST(Activity, ASleepingOneGoesOnWithExecAtTheNextWakeUp) {
   GoRobot aperiodic(Plan{{State::start, {State::sleep}}, {State::exec, {State::sleep, State::ether}}}, {});
   aperiodic.run([&] {
     aperiodic.begin("Go");
-    EXPECT_FALSE(aperiodic.client.receive(20ms));  // it sleeps until somebody signals its task
+    EXPECT_FALSE(aperiodic.client.receive(20ms));  // it sleeps until its task is signalled
     EXPECT_EQ(aperiodic.trace, "START@0 ");
-    aperiodic.abort(15);  // any letter does
+    aperiodic.abort(15);  // any letter signals it
     EXPECT_FALSE(aperiodic.client.receive(20ms));
     EXPECT_EQ(aperiodic.trace, "START@0 EXEC@20 ");
     aperiodic.abort(15);
@@ -324,7 +324,7 @@ TEST(Activity, ASleepingOneOfAnAperiodicTaskIsInterruptedAtOnce) {
   });
 }
 
-// GenoM's code interrupts END, its guide says it does not: both can be had.
+// GenoM's code interrupts END, its guide says that it does not: an option selects either.
 TEST(Activity, InEndIsInterruptedOrNotAsTheModuleSays) {
   for (const bool interrupt : {true, false}) {
     GoRobot robot(Plan{{State::exec, {State::end}},

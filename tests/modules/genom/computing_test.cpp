@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scenario says of how a module's tasks compute: local clocks, processors, latency of hardware.
+// A scenario's settings for the tasks of a module: local clocks, processors, latency of hardware.
 #include <gtest/gtest.h>
 
 #include "tests/modules/genom/scripted_module.hpp"
@@ -23,8 +23,8 @@ struct ComputingRobot {
   ExecutionTask* task;
 };
 
-// When the codel of the first wake-up, at 10 ms, is done, in microseconds; beside it something more urgent computes for
-// 2 ms on the robot's processor from 10 ms on.
+// Time in microseconds at which the codel of the first wake-up, at 10 ms, ends; from 10 ms on a more urgent task
+// computes for 2 ms on the robot's processor.
 std::int64_t end_of_codel_us(std::vector<Setting> settings, SimulationOptions options = {}) {
   ComputingRobot robot(std::move(settings));
   OutputPoster<Number>& poster = robot.module.add_poster<Number>("value", *robot.task);
@@ -63,7 +63,7 @@ TEST(TaskComputing, AClockOfTheScenariosChoiceSaysWhatACodelCosts) {
     const std::int64_t us = end_of_codel_us(interval, {kernel::Order::seeded, seed, ""});
     EXPECT_TRUE(us >= 200 && us < 601) << us;
   }
-  EXPECT_LT(end_of_codel_us({clock("", "cpu")}), 900);  // what it declares does not count
+  EXPECT_LT(end_of_codel_us({clock("", "cpu")}), 900);  // declared costs are ignored
   EXPECT_LT(end_of_codel_us({clock(".kind", "proportional"), clock(".scale", "x0")}), 1);
   EXPECT_EQ(end_of_codel_us({clock(".kind", "counted"), clock(".block_cost_ns", "5")}), 0);  // it is not instrumented
 }
@@ -77,8 +77,8 @@ TEST(TaskComputing, TasksShareAProcessorByTheirPriorities) {
   EXPECT_EQ(end_of_codel_us({on("tasks.control.processor", "cpu")}), 1000);
 }
 
-// The frame holds a module's locks during its codels: the control task, urgent as it is, waits for the execution task,
-// which waits for whoever is more urgent than that: priority inversion, of the time that the middle one likes.
+// The frame holds a module's locks during its codels: the urgent control task waits for the execution task, which waits
+// for every task that is more urgent than itself: priority inversion, as long as that task computes.
 TEST(TaskComputing, AModulesLocksMakeForPriorityInversion) {
   const auto replied_at = [](Duration middle_computes) {
     ComputingRobot robot({{"processor", "cpu", "f", 1},
@@ -94,7 +94,7 @@ TEST(TaskComputing, AModulesLocksMakeForPriorityInversion) {
         this_thread::sleep_until(Time() + Duration(12ms));
         compute(middle_computes);
       }).detach();
-      this_thread::sleep_until(Time() + Duration(11ms));  // main computes since 10 ms, for 4 ms
+      this_thread::sleep_until(Time() + Duration(11ms));  // main has been computing since 10 ms, for 4 ms
       Client client(robot.names, "asker");
       EXPECT_EQ(client.call("m", "Ask", Number{1}).report, ok);
       replied = now();
@@ -166,7 +166,7 @@ TEST(HardwareLatency, AReadingIsSoOldAndACommandComesSoLate) {
   const waitpoint::Report report = simulate([&] {
     robot.module.connect();
     hardware.write({7});
-    EXPECT_EQ(now(), Time());  // the device itself does not wait
+    EXPECT_EQ(now(), Time());  // without a wait for the device
     robot.module.start();
     this_thread::sleep_until(Time() + Duration(19ms));
     EXPECT_EQ(read, Time() + Duration(12ms));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A module whose requests, codels and posters a test declares, and a robot that has just that module and two clients:
-// on threads of either kind.
+// A module with the test's requests, codels and posters, and a robot with only that module and two clients, on threads
+// of either kind.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class FrameRobot {
   explicit FrameRobot(std::vector<Setting> settings = {})
       : setup{names, "m", Settings(std::move(settings))}, module(setup) {}
 
-  /// From a task: starts the module, calls `drive`, and ends the module, whatever it does then.
+  /// From a task: starts the module, calls `drive`, and ends the module in any state.
   void run(const std::function<void()>& drive) {
     module.connect();
     module.start();
@@ -49,7 +49,7 @@ class FrameRobot {
     module.join();
   }
 
-  /// Ends the running activity `number`, or what AbortInput's codes say; the report.
+  /// Ends the running activity `number`, or as AbortInput's codes specify; returns the report.
   Report abort(std::int32_t number) { return other.call("m", "Abort", AbortInput{number}).report; }
 
   /// The next reply, which must come within `timeout`.
@@ -58,7 +58,7 @@ class FrameRobot {
     EXPECT_TRUE(reply.has_value());
     return reply.value_or(Reply());
   }
-  /// Sends and returns what comes next: the intermediate reply, or the refusal.
+  /// Sends a request and returns the first reply: intermediate, or a rejection.
   Reply begin(const std::string& request, std::int32_t value = 0) {
     const std::optional<std::uint32_t> id = client.send("m", request, Number{value});
     EXPECT_TRUE(id.has_value());

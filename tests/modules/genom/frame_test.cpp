@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frame on threads of either kind: what holds whatever comes when.
+// The frame on threads of either kind: properties that do not depend on timing.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -21,7 +21,7 @@ struct Pair {
   static constexpr auto fields() { return std::tuple(field("a", &Pair::a), field("b", &Pair::b)); }
 };
 
-// Goes on until it is interrupted.
+// Runs until it is interrupted.
 State for_ever(Act&) { return State::exec; }
 
 struct RobotWithTask : FrameRobot {
@@ -113,7 +113,7 @@ TEST(ControlRequest, MayInterruptActivities) {
     robot.run([&] {
       robot.begin("Go");
       robot.begin("Stop");
-      EXPECT_FALSE(robot.client.receive(50ms));  // refused: nothing happens
+      EXPECT_FALSE(robot.client.receive(50ms));  // rejected: nothing happens
       refuse = false;
       EXPECT_EQ(robot.begin("Stop").report, ok);
       EXPECT_TRUE(is(robot.next().report, StandardReport::activity_interrupted));
@@ -174,7 +174,7 @@ TEST(Activity, CallsItsCodelsStateByState) {
   on_threads([] {
     RobotWithTask robot;
     std::string trace;
-    // Each state is stayed in once.
+    // Each state lasts for one codel.
     const auto codel = [&trace](char letter, State state, State next) {
       return [&trace, letter, state, next](Act& act) {
         trace += letter;
@@ -257,7 +257,7 @@ TEST(Requests, WithAnInputOfAnotherTypeAreASystemError) {
   });
 }
 
-// An activity that runs, one that does not leave its INTER codel at once, one that waits for it, one that has failed.
+// A running activity, one that does not leave its INTER codel at once, one that waits for it, and one that has failed.
 TEST(EndOfAModule, ComesWhateverItDoes) {
   on_threads([] {
     RobotWithTask robot;
@@ -301,7 +301,7 @@ TEST(EndOfAModule, IsGivenUpWhereAnActivityGoesOn) {
       robot.begin("Slow");
       EXPECT_FALSE(robot.other.end_module("m", 50ms));
       EXPECT_TRUE(is(robot.next().report, StandardReport::activity_interrupted));
-      EXPECT_FALSE(robot.begin("Slow").final);  // the module goes on
+      EXPECT_FALSE(robot.begin("Slow").final);  // the module keeps running
     });
   });
 }

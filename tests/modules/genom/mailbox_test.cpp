@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mailboxes and clients: letters come in order, a full mailbox refuses, and nobody waits for a client that does not
-// read.
+// Mailboxes and clients: letters arrive in order, a full mailbox rejects letters, and no task waits for a client that
+// does not read.
 #include <gtest/gtest.h>
 
 #include "tests/modules/genom/scripted_module.hpp"
@@ -44,13 +44,13 @@ TEST(Mailbox, KeepsLettersInOrderUpToItsBound) {
 TEST(Client, IsToldWhenTheModulesMailboxIsFull) {
   EchoRobot robot;
   ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms});
-  task.set_permanent([] { compute(8ms); });  // the control task cannot work meanwhile
+  task.set_permanent([] { compute(8ms); });  // blocks the control task for so long
   robot.run([&] {
     sleep_for(12ms);
     std::size_t sent = 0;
     while (robot.client.send("m", "Echo", Number{static_cast<std::int32_t>(sent)})) ++sent;
     EXPECT_GE(sent, Mailbox::letters_max);
-    EXPECT_LE(sent, Mailbox::letters_max + 1);  // one may be in the control task's hands
+    EXPECT_LE(sent, Mailbox::letters_max + 1);  // the control task may have taken one
     for (std::size_t i = 0; i < sent; ++i)
       EXPECT_EQ(robot.next().output.as<Number>().value, static_cast<std::int32_t>(i));
     EXPECT_FALSE(robot.client.receive(1s));
@@ -134,7 +134,7 @@ TEST(Mailbox, KeepsRoomForRepliesToOneRequestOnly) {
     EXPECT_FALSE(mailbox.post(letter));
     letter.send_id = 8;
     EXPECT_TRUE(mailbox.post(letter));
-    letter.kind = LetterKind::request;  // of somebody else, by his own numbers
+    letter.kind = LetterKind::request;  // of another sender, with its own numbers
     EXPECT_FALSE(mailbox.post(letter));
   });
   EXPECT_TRUE(report.passed) << report;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Posters: their dates, who may link to them, and what readers see when.
+// Posters: their dates, permissions to link to them, and the values that readers see over time.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -29,7 +29,7 @@ std::string message_of(const std::function<void()>& call) {
   return "";
 }
 
-// What `call` says must contain `part`.
+// The message of `call` must contain `part`.
 void expect_bad_input(const std::function<void()>& call, const std::string& part) {
   const std::string message = message_of(call);
   EXPECT_NE(message.find(part), std::string::npos) << "'" << message << "' lacks '" << part << "'";

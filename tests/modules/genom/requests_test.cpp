@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kinds of requests and their replies, what a control task refuses, and who interrupts whom.
+// Kinds of requests and their replies, rejections by a control task, and interruptions between activities.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 using this_thread::sleep_for;
 using Act = Running<Number, Number>;
 
-// Goes on until it is interrupted.
+// Runs until it is interrupted.
 State for_ever(Act&) { return State::exec; }
 
 struct RobotWithTask : TestRobot {

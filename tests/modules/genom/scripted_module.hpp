@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frame's robot in virtual time: for tests of what comes when.
+// The frame's robot in virtual time: for tests of timing.
 #pragma once
 
 #include "fibers/sync/simulation.hpp"
@@ -12,7 +12,7 @@ class TestRobot : public FrameRobot {
  public:
   using FrameRobot::FrameRobot;
 
-  /// Runs `drive` as the robot's only task that is no service, beside the module's.
+  /// Runs `drive` as the robot's only task that is not a service, beside the module's.
   waitpoint::Report run(const std::function<void()>& drive, SimulationOptions options = {}) {
     waitpoint::Report report = simulate(
         [&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Execution tasks: when they wake, what they call in which order, and what that costs.
+// Execution tasks: their wake-ups, the order of their calls, and their costs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +72,7 @@ TEST(ExecutionTask, AnAperiodicOneIsWokenByEachLetter) {
   });
 }
 
-// One signal wakes once, and many before it is awake wake no more often: else they would pile up.
+// One signal wakes the task once; further signals before it wakes do not count: else they would accumulate.
 TEST(ExecutionTask, AnAperiodicOneWithSeveralActivitiesWakesOnceForEachStep) {
   TestRobot robot;
   int wake_ups = 0;
@@ -102,7 +102,7 @@ TEST(ExecutionTask, MissedPeriodsAreCountedAndNotMadeUpFor) {
   robot.run([&] {
     sleep_for(75ms);
     EXPECT_EQ(times, (std::vector<std::int64_t>{10, 20, 55, 60, 70}));
-    EXPECT_EQ(task.missed_periods(), 2);  // those of 30 and 40 ms; the one of 50 ms came late
+    EXPECT_EQ(task.missed_periods(), 2);  // those of 30 and 40 ms; the one of 50 ms was late
     robot.abort(0);
     ModuleStatus status;
     static_cast<Poster<ModuleStatus>*>(robot.names.find_poster("m.control"))->read(status);
@@ -110,8 +110,8 @@ TEST(ExecutionTask, MissedPeriodsAreCountedAndNotMadeUpFor) {
   });
 }
 
-// At 25 ms that of 10 ms is done, late by 5 ms; that of 20 ms at 40 ms, where the ticks of 30 and 40 ms have come: it
-// is late by 10 ms, and the work of 30 and 40 ms is one.
+// The work of the tick at 10 ms ends at 25 ms, 5 ms late; that of 20 ms at 40 ms, 10 ms late; by then the ticks of 30
+// and 40 ms are both due, and are served as one.
 TEST(ExecutionTask, MissedDeadlinesAreCountedWithTheGreatestLateness) {
   TestRobot robot;
   ExecutionTask& late = robot.module.add_task("late", {.period_ms = 10ms, .cost_us = 15ms});
@@ -156,7 +156,7 @@ TEST(Module, ACostThatNoCodelHasIsRefused) {
   EXPECT_NO_THROW(robot.module.check_costs(robot.setup.settings));
 }
 
-// Both locks are held during all codels: in virtual time too, one begins where the other ended.
+// Both locks are held during all codels: in virtual time, too, each begins where the previous one ended.
 TEST(ExecutionTask, CodelsOfOneModuleNeverOverlapInAnyOrder) {
   for (std::uint64_t seed = 0; seed <= 10; ++seed) {
     TestRobot robot;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small world for tests of navigation: discs that drive among boxes and discs, each under a Navigator.
+// A small world for tests of navigation: discs that drive among boxes and discs, each controlled by a Navigator.
 //
-// Truth steps at 10 ms under acceleration limits. Each robot has a laser (361 beams over 180 degrees, 10 Hz, 5 mm
-// noise, mounted ahead of the centre) whose scans arrive late, odometry at 50 Hz, and decides at 10 Hz; its position is
-// the truth, moved by a constant error if a test wants one. Nothing stops a robot that hits something: clearances go
-// negative, and the test sees it.
+// The truth steps at 10 ms under acceleration limits. Each robot has a laser (361 beams over 180 degrees, 10 Hz, 5 mm
+// noise, mounted ahead of the centre) whose scans arrive late, odometry at 50 Hz, and decisions at 10 Hz; its position
+// estimate is the truth plus an optional constant error. Collisions do not stop a robot: clearances become negative,
+// and the test sees it.
 #pragma once
 
 #include <memory>
@@ -25,13 +25,13 @@ struct Disc {
   double radius_m = 0;
 };
 
-/// What does not move.
+/// The fixed obstacles.
 class Surroundings {
  public:
   virtual ~Surroundings() = default;
   /// The distance along a ray to the first surface, at most `range_m`.
   virtual double range(Point from, double angle_rad, double range_m) const = 0;
-  /// The distance from a point to the nearest surface; at most `limit_m`, negative or 0 inside.
+  /// The distance from a point to the nearest surface; at most `limit_m`, 0 or negative inside.
   virtual double clearance(Point point, double limit_m) const = 0;
 };
 
@@ -77,7 +77,7 @@ class ClosedLoop {
   void go(DrivenRobot& robot, const std::vector<Point>& via_points);
   /// One step of 10 ms.
   void step();
-  /// Steps until the robots all have arrived or are blocked, or the time is over; true if all arrived.
+  /// Steps until each robot has arrived or is blocked, or the time is over; true if all arrived.
   bool run(double seconds_max);
 
   Time now() const { return now_; }

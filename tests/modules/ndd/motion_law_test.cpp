@@ -56,8 +56,8 @@ TEST(SpeedLimiter, WhatIsBehindDoesNotMatter) {
   EXPECT_EQ(limiter.limit({0.9, 0}, {}, std::vector<Point>{{-0.28, 0}, {-0.1, 0.27}}).v_m_s, 0.9);
 }
 
-// Two discs under the limiter, driven at random towards each other; each sees the other a scan late, and brakes no
-// harder than a base can.
+// Two discs under the limiter, driven at random towards each other; each sees the other a scan late, and brakes within
+// the limits of a base.
 TEST(SpeedLimiter, TwoRobotsUnderItNeverMeet) {
   SpeedLimiter limiter(parameters);
   const double radius = parameters.robot_radius_m;
@@ -94,7 +94,7 @@ TEST(SpeedLimiter, TwoRobotsUnderItNeverMeet) {
     }
   }
   EXPECT_GT(least, 0);
-  EXPECT_LT(least, 0.2);  // they did come close
+  EXPECT_LT(least, 0.2);  // they did get close
 }
 
 TEST(Bypass, ClearWayIsKept) {
@@ -117,7 +117,7 @@ TEST(Bypass, PassesARobotAheadOnTheRightWithClearance) {
   EXPECT_LT(direction, 0);
   const auto [s, c] = exact::sincos(direction);
   EXPECT_GE(std::fabs(cross({c, s}, {1.5, 0})), 2 * 0.26 + parameters.bypass_clearance_m - 0.02);
-  EXPECT_EQ(bypass.clear(diagram, 0, 1.0), 0);  // it is farther than what is regarded
+  EXPECT_EQ(bypass.clear(diagram, 0, 1.0), 0);  // beyond the range considered
 }
 
 TEST(Bypass, GivesUpClearanceWhereThePassageIsNarrow) {

@@ -18,7 +18,7 @@ struct Trip {
   std::vector<Point> via;
 };
 
-// Drives the trips together; false unless all arrive in time.
+// Drives the trips together; true if all arrive in time.
 bool drive(ClosedLoop& loop, const std::vector<Trip>& trips, double seconds_max, const Pose& position_error = {}) {
   for (const Trip& trip : trips) loop.add({}, trip.start).position_error = position_error;
   for (int i = 0; i < 20; ++i) loop.step();
@@ -61,7 +61,7 @@ TEST(Navigation, TurnsInPlaceTowardsAGoalBehind) {
   double farthest = 0;
   for (const Pose& p : robot.path) farthest = std::max(farthest, p.x);
   EXPECT_LT(farthest, 0.05);
-  EXPECT_LT(robot.turned_rad, exact::pi + 0.4);  // one way round, not to and fro
+  EXPECT_LT(robot.turned_rad, exact::pi + 0.4);  // one way round, not back and forth
   EXPECT_LT(robot.driven_m, 5.3);
 }
 
@@ -95,7 +95,7 @@ TEST(Navigation, DoesNotOscillateInCorridors) {
     EXPECT_GT(mean_speed(robot), expected.speed_m_s) << expected.width_m;
     EXPECT_LE(robot.turn_changes, 8) << expected.width_m;
     EXPECT_LT(robot.turned_rad, 2.0) << expected.width_m;
-    double overshoot = 0;  // to the other side of the axis
+    double overshoot = 0;  // beyond the axis
     for (const Pose& p : robot.path) overshoot = std::max(overshoot, -p.y);
     EXPECT_LT(overshoot, 0.05) << expected.width_m;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is remembered of the surroundings, and how the route and its progress are kept.
+// The memory of obstacles, and the progress along a route.
 #include "modules/ndd/obstacle_memory.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST_F(ObstacleMemoryTest, WhatIsSeenThroughIsForgotten) {
   memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(100)));
   memory.see({0, 0, 3.0}, scan_from(shapes, {0, 0, 3.0}, ms(200)));
   EXPECT_GT(memory.remembered(), 5u);
-  shapes.discs.clear();  // it went away while nobody looked
+  shapes.discs.clear();  // removed out of sight
   memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(300)));
   EXPECT_EQ(memory.remembered(), 0u);
 }
@@ -107,9 +107,9 @@ TEST(Route, PassesViaPointsNearByOrWhenBeyond) {
   EXPECT_NEAR(route.remaining_m({1, 0}), 6, 1e-12);
   route.advance({1.7, 0}, 0.4);
   EXPECT_EQ(route.target(), via[1]);
-  route.advance({4.1, 0.8}, 0.4);  // beyond, though not near
+  route.advance({4.1, 0.8}, 0.4);  // beyond it, though not near
   EXPECT_EQ(route.target(), via[2]);
-  route.advance({4, 3.5}, 0.4);  // the last is never passed
+  route.advance({4, 3.5}, 0.4);  // the last point is never passed
   EXPECT_TRUE(route.target_is_last());
   EXPECT_EQ(route.target(), via[2]);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The six situations, each from a diagram made for it, and the directions they call for.
+// The six situations, each with a diagram made for it, and the directions that they require.
 #include "modules/ndd/situation.hpp"
 
 #include <gtest/gtest.h>
@@ -108,7 +108,8 @@ TEST(Situation, ObstaclesBehindDoNotCount) {
   EXPECT_EQ(assess({near(0.05, 150), near(0.05, -150)}, towards_goal(0)).situation, Situation::high_safety_goal_region);
 }
 
-// An obstacle straight on the way, the goal at +-180 degrees: the sign of zero and of pi must not turn the robot round.
+// An obstacle straight ahead, the goal at +-180 degrees: the sign of zero and of pi must not flip the robot's
+// direction.
 TEST(Situation, BoundariesOfTheCircleDoNotFlipTheDirection) {
   for (const double goal : {179.9, -179.9}) {
     const Assessment a = assess({near(0.2, 90)}, towards_goal(goal));

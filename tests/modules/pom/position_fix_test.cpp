@@ -37,7 +37,7 @@ TEST(PositionFix, IsThatOfTheAntenna) {
   }
 }
 
-// An antenna a metre ahead, seen a little to the left: the robot is turned, and so surer of its heading than it was.
+// A fix of an antenna a metre ahead, a little to the left: the robot turns, and its heading becomes more certain.
 TEST(PositionFix, TurnsARobotWhoseAntennaIsBeside) {
   const UncertainPose prior = {{0, 0, 0}, diagonal(1e-6, 1e-6, 0.04)};
   const UncertainPose fused = fuse(prior, {{1, 0.1}, {1, 0}, 1e-4, 0});
@@ -51,7 +51,7 @@ posters::PositionEstimate driven(int tick, double heading) {
   return {ms(20 * tick), {way_m * c, way_m * s, heading}, {}};
 }
 
-// Nobody knows where it looks; it drives east by its wheels, and the fixes come from the north.
+// The heading is unknown; the odometry goes east, the fixes go north.
 TEST(PositionFix, TheWayBetweenFixesTellsTheHeading) {
   PositionFusion fusion({}, {{0, 0, 1.2}, diagonal(1, 1, 0.5)});
   const RandomStream noise(3, "test", "fix");
@@ -79,7 +79,7 @@ TEST(PositionFix, WhatFixesHaveInCommonDoesNotAverageOut) {
   EXPECT_EQ(fuse(sure, {{1.3, 1.3}, {}, 0.09, 0.25}).pose, sure.pose) << "nor does it disturb who is surer";
 }
 
-// Over many drives, with the error that a receiver's drift leaves: no surer than it is right.
+// Over many drives, with a receiver's drift: the covariance is not smaller than the errors.
 TEST(PositionFix, TheFusionIsAsSureAsItIsRight) {
   constexpr double noise_m = 0.3, drift_m = 0.5, wheels_m = 0.02;
   double sum = 0;

@@ -28,7 +28,7 @@ Time ms(std::int64_t n) { return Time::from_ns(n * 1000000); }
 // A drive on a circle: the truth, dead reckoning with its own covariance, and fixes on the truth.
 struct Drive {
   std::vector<Pose> truth;
-  std::vector<PositionEstimate> odometry, fixes;  // a fix every 15 ticks, dated at them
+  std::vector<PositionEstimate> odometry, fixes;  // a fix every 15 ticks, with their dates
 
   Drive(std::uint64_t seed, int ticks) {
     const RandomStream noise(seed, "test", "odometry"), fix_noise(seed, "test", "fix");
@@ -133,7 +133,7 @@ TEST(PositionFusion, ErrorsAreAsLargeAsTheCovarianceSays) {
     UncertainPose known = start();
     known.pose = {0.001 * start_noise.normal(0, 0), 0.001 * start_noise.normal(0, 1), 0.001 * start_noise.normal(0, 2)};
     FusionParameters parameters;
-    parameters.shared_errors = false;  // the fixes come from elsewhere
+    parameters.shared_errors = false;  // the fixes have an independent source
     PositionFusion fusion(parameters, known);
     for (const PositionEstimate& o : drive.odometry) fusion.add_odometry(o);
     for (const PositionEstimate& fix : drive.fixes) fusion.add_absolute(0, fix);
@@ -146,7 +146,7 @@ TEST(PositionFusion, ErrorsAreAsLargeAsTheCovarianceSays) {
 }
 
 TEST(PositionFusion, CovarianceOfTheMotionIsTurnedIntoTheReferenceFrame) {
-  // Odometry drives along its own x axis and is unsure across it; the robot really faces along y.
+  // Odometry moves along its own x axis and is uncertain across it; the robot truly faces along y.
   FusionParameters parameters;
   PositionFusion fusion(parameters, {{0, 0, exact::pi / 2}, {}});
   fusion.add_odometry({ms(0), {0, 0, 0}, {}});

@@ -16,7 +16,7 @@ posters::PositionEstimate reckoned(double heading, std::int64_t travel, std::int
   return reckoning.position();
 }
 
-// To the left is ahead for who has turned to the left: the same place, with the same uncertainty.
+// Motion to the left equals motion ahead with a heading turned by 90 degrees: the same place, the same uncertainty.
 TEST(DeadReckoning, SidewaysIsAheadSeenFromAQuarterTurn) {
   for (const std::int64_t turn : {0, 30}) {
     const posters::PositionEstimate aside = reckoned(0.3, 0, turn, 40);

@@ -11,7 +11,7 @@
 namespace waitpoint::rflex {
 namespace {
 
-// Another module that is told the position next would take the step from frame to frame for a motion.
+// A module that sets its position next would otherwise take the step between frames for a motion.
 TEST(SetPos, IsSeenInTheOdometryWhenItsReplyComes) {
   on_threads([] {
     genom::NameSpace names;

@@ -20,7 +20,7 @@ namespace {
 using Piece = std::array<std::uint64_t, 4096>;
 constexpr std::uint64_t pieces_count = 1200;
 
-// As much as a crowd's, in pieces that come from the heap.
+// As much as a crowd's objects, in pieces that malloc takes from the heap.
 std::vector<std::unique_ptr<Piece>> allocated_pieces() {
   std::vector<std::unique_ptr<Piece>> pieces;
   for (std::uint64_t i = 0; i < pieces_count; ++i) {
@@ -30,7 +30,7 @@ std::vector<std::unique_ptr<Piece>> allocated_pieces() {
   return pieces;
 }
 
-// The part of the heap that lies on large pages.
+// The part of the heap on large pages.
 std::uint64_t heap_on_large_pages_kib() {
   std::ifstream maps("/proc/self/smaps");
   bool in_heap = false;
@@ -44,7 +44,7 @@ std::uint64_t heap_on_large_pages_kib() {
   return 0;
 }
 
-// Whether the system puts a piece of memory on large pages where it is asked to.
+// True if the system puts memory on large pages on request.
 bool system_collapses_pages() {
   constexpr std::size_t size = std::size_t{4} << 20;
   constexpr int collapse = 25;  // MADV_COLLAPSE
@@ -53,13 +53,13 @@ bool system_collapses_pages() {
   if (words.empty() || words.find("[never]") != std::string::npos) return false;
   void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) return false;
-  std::memset(memory, 1, size);  // only what has been touched is collapsed
+  std::memset(memory, 1, size);  // only touched pages are collapsed
   const bool collapsed = madvise(memory, size, collapse) == 0;
   munmap(memory, size);
   return collapsed;
 }
 
-// Without large pages at allocation: where the system gives them unasked, they would be there before the call.
+// Large pages at allocation are off: else the system could supply them before the call.
 TEST(HeapPages, WhatWasAllocatedIsOnLargePages) {
   if (!system_collapses_pages()) GTEST_SKIP() << "the system has no MADV_COLLAPSE";
   ASSERT_EQ(prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0), 0);
@@ -67,7 +67,7 @@ TEST(HeapPages, WhatWasAllocatedIsOnLargePages) {
   ASSERT_EQ(prctl(PR_SET_THP_DISABLE, 0, 0, 0, 0), 0);
   const std::uint64_t before_kib = heap_on_large_pages_kib();
   put_heap_on_large_pages();
-  // All of the pieces but those beside the two ends of the heap.
+  // All of the pieces except those at the two ends of the heap.
   constexpr std::uint64_t pieces_kib = pieces_count * sizeof(Piece) / 1024;
   EXPECT_GE(heap_on_large_pages_kib(), before_kib + pieces_kib / 2);
 }

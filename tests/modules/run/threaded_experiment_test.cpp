@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's first aim: the same modules, bridge and executive in simulation and on real threads, against the same
-// world. A loaded machine may be late: what is shown is that the robot gets there, not how soon.
+// The paper's first aim: the same modules, bridge and executive in simulation and on real threads, in the same world. A
+// loaded machine may be late: the test requires that the robot arrives, at any time.
 #include "modules/run/threaded_experiment.hpp"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ TEST(ThreadedExperiment, ReachesItsFirstGoal) {
     EXPECT_GT(robot.true_path.size(), 10u);
     EXPECT_GT(robot.estimated_path.size(), 10u);
     EXPECT_LT(robot.position_error_mean_m, 0.5);
-    EXPECT_GT(robot.segments.size(), 3u);  // what segloc has built
+    EXPECT_GT(robot.segments.size(), 3u);  // the map of segloc
   });
 }
 

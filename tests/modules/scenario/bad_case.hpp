@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A change that makes the valid scenario a bad one, and what reading it says.
+// A change that makes the valid scenario invalid, and the error that it gives.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ inline std::string with_paths(std::string message, const std::filesystem::path& 
   return message;
 }
 
-/// Reading the changed scenario is one line that names file, line and what was expected.
+/// Reading the changed scenario gives an error of one line, with file, line and the expected value.
 inline void expect_complaint(const BadCase& bad) {
   const TemporaryFolder folder;
   const auto file = folder.write("s.yaml", changed(bad.from, bad.to));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scenario says of a robot's base.
+// The base of a robot in a scenario.
 #include <gtest/gtest.h>
 
 #include "modules/scenario/scenario_reader.hpp"

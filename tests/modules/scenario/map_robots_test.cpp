@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots of a scenario that its map's file places.
+// Robots of a scenario from its map's file.
 #include "modules/scenario/map_robots.hpp"
 
 #include <gtest/gtest.h>

@@ -337,7 +337,7 @@ const BadCase bad_cases[] = {
 INSTANTIATE_TEST_SUITE_P(Scenario, BadScenario, ::testing::ValuesIn(bad_cases),
                          [](const auto& info) { return info.param.name; });
 
-// A file that cannot even be begun.
+// A file that cannot be opened or parsed.
 TEST(ScenarioFile, that_is_not_there_is_one_line) {
   EXPECT_EQ(message_of<BadInput>([] { read_scenario("nowhere/s.yaml"); }),
             "nowhere/s.yaml: cannot be read: No such file or directory");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small valid scenario to change in tests, and folders to put files in.
+// A small valid scenario for tests to change, and temporary folders.
 #pragma once
 
 #include <unistd.h>
@@ -61,7 +61,7 @@ inline std::string changed(std::string_view from, std::string_view to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
-/// An empty folder that is removed at the end.
+/// An empty folder that is removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -71,7 +71,7 @@ class TemporaryFolder {
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
 
   const std::filesystem::path& path() const { return path_; }
-  /// Writes a file, its path the result.
+  /// Writes a file; returns its path.
   std::filesystem::path write(const std::string& name, std::string_view text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name) << text;
@@ -82,7 +82,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// What `action` throws as BadInput; "" if it throws nothing.
+/// The text of the BadInput that `action` throws; "" if it throws nothing.
 template <class Error, class Action>
 std::string message_of(Action&& action) {
   try {

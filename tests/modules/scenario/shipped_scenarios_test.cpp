@@ -16,7 +16,7 @@ Scenario shipped(const std::string& name, const std::vector<std::string>& assign
   return read_scenario(test::project_root() / "scenarios" / name, assignments);
 }
 
-/// From the point to the nearest shape.
+/// The distance from the point to the nearest shape.
 double clearance_m(const Scenario& scenario, Point p) {
   world::Outline point;
   point.centre = p;

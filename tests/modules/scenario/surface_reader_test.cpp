@@ -58,7 +58,7 @@ TEST_F(SurfaceReader, meshes_and_octrees_stand_among_the_shapes) {
 TEST_F(SurfaceReader, meshes_and_octrees_that_are_bad_are_told) {
   folder_.write("wall.stl", triangle_stl);
   folder_.write("bad.stl", "solid s\nvertx\n");
-  // Empty, or what it says instead.
+  // Empty, or the actual message.
   const auto says = [&](const std::string& shape, const std::string& what) {
     const std::string line =
         message_of<BadInput>([&] { read(changed("  shapes:\n", "  shapes:\n    - " + shape + "\n")); });

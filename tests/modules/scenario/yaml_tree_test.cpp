@@ -11,7 +11,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// The node again as text in one line, to compare trees.
+/// The node as text in one line, to compare trees.
 std::string flat(const YamlNode& node) {
   std::string text;
   switch (node.kind) {

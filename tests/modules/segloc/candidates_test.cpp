@@ -22,7 +22,7 @@ TEST(Candidates, ALineIsConfirmedWhenItWasSeenOftenEnoughFromElsewhere) {
   Landmark confirmed;
   for (std::uint64_t update = 1; update <= 4; ++update) {
     const Pose robot{0.1 * static_cast<double>(update), 0, 0};
-    const double high = static_cast<double>(update);  // more of it each time
+    const double high = static_cast<double>(update);  // more of it at each update
     const bool now = candidates.sight(robot, wall_ahead(robot, 2, -1, high), update, confirmed);
     EXPECT_EQ(now, update == 4) << update;
   }

@@ -40,7 +40,7 @@ RowPair some_rows(std::size_t line, std::uint64_t tick) {
   return rows;
 }
 
-// The textbook's update, one pair of rows at a time: K = P H' S^-1, x += K v, P -= K H P. Returns v' S^-1 v.
+// The textbook update, one pair of rows at a time: K = P H' S^-1, x += K v, P -= K H P. Returns v' S^-1 v.
 double textbook(Covariance& p, std::vector<double>& x, RowPair rows) {
   const std::size_t n = p.size();
   std::vector<std::array<double, 2>> g(n);
@@ -76,7 +76,7 @@ TEST(JointUpdate, IsTheTextbooksUpdateRowByRow) {
   std::vector<double> x(p.size(), 0.0);
   JointUpdate joint(8, p.stride());
   std::uint64_t tick = 0;
-  for (const std::size_t line : {0u, 3u, 5u, 3u}) {  // two segments of one wall too
+  for (const std::size_t line : {0u, 3u, 5u, 3u}) {  // including two segments of one wall
     const RowPair rows = some_rows(line, tick++);
     const JointUpdate::Trial trial = joint.test(p, rows);
     joint.accept(p, rows);
@@ -97,7 +97,7 @@ TEST(JointUpdate, WhatIsKnownAlreadyTeachesLittle) {
   joint.accept(p, rows);
   const double second = joint.test(p, rows).information;
   EXPECT_GT(first, 1);
-  EXPECT_LT(second, 2);  // at most the noise's own, once for each row
+  EXPECT_LT(second, 2);  // at most the noise alone, once for each row
   for (int i = 0; i < 30; ++i) joint.accept(p, (joint.test(p, rows), rows));
   EXPECT_LT(joint.test(p, rows).information, 0.1);
 }

@@ -38,7 +38,7 @@ TEST(LineGeometry, TheDerivativesAreThoseOfFiniteDifferences) {
     (k == 0 ? p.x : k == 1 ? p.y : p.heading) += h;
     (k == 0 ? m.x : k == 1 ? m.y : m.heading) -= h;
     const Comparison a = compare(p, o, line), b = compare(m, o, line);
-    // The innovation is observed minus predicted: it moves against the prediction.
+    // The innovation is observed minus predicted: it changes against the prediction.
     EXPECT_NEAR(at.by_pose[0][k], -(a.angle_rad - b.angle_rad) / (2 * h), 1e-7) << k;
     EXPECT_NEAR(at.by_pose[1][k], -(a.offset_m - b.offset_m) / (2 * h), 1e-7) << k;
   }

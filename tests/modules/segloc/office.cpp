@@ -85,7 +85,7 @@ Room office() {
   }
   const std::array<double, 4> inner{6.0, 14.5, 24.0, 33.5};
   for (int i = 0; i < 4; ++i) furnish(room, inner[static_cast<std::size_t>(i)], 15, 0.2 * i, i + 2);
-  room.add_box({12, 8.75, 0}, 1.2, 0.4);  // things that stand in the corridors
+  room.add_box({12, 8.75, 0}, 1.2, 0.4);  // obstacles in the corridors
   room.add_box({27, 21.2, 0}, 0.9, 0.5);
   room.add_disc({{39.6, 14}, 0.2});
   return room;

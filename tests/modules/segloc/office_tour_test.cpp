@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long drives through whole buildings: what the filter is for.
+// Long drives through whole buildings.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -32,7 +32,7 @@ TEST(OfficeTour, TheFilterHoldsThePoseWhereTheOdometryLosesIt) {
     EXPECT_GT(r.odometry_error_m_end, 1.0);
     EXPECT_LT(r.error_m_max, 0.3);
     EXPECT_LT(r.error_m_mean, 0.15);
-    EXPECT_LT(r.error_m_end, 0.05);  // back where it began, the first walls hold it
+    EXPECT_LT(r.error_m_end, 0.05);  // back at the start, the first walls correct it
     EXPECT_GT(r.nees_mean, 0.05);
     EXPECT_LT(r.nees_mean, 5.0);  // three degrees of freedom
     EXPECT_LT(r.landmarks_max, options.filter.landmarks_max);
@@ -103,7 +103,7 @@ TEST(RasterTour, FewWallsOfCellsHoldThePose) {
   EXPECT_LT(r.landmarks_max, 30u);
 }
 
-// A hall of 3 cm cells with slightly turned shelves, and a stretch of 20 m where nothing but one wall is in reach.
+// A hall of 3 cm cells with slightly turned shelves, and a stretch of 20 m with only one wall in range.
 TEST(RasterTour, WhereLinesAreFewTheFilterDegradesToTheOdometryAndRecovers) {
   Raster raster(0.03, {-2, -2}, 54, 34);
   raster.draw({0, 0}, {50, 0.4});

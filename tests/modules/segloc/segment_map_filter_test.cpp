@@ -174,7 +174,7 @@ TEST(SegmentMapFilter, AScanFromTheSamePlaceIsPassedOver) {
 }
 
 TEST(SegmentMapFilter, TwoLandmarksThatProveToBeOneAreMerged) {
-  // Two stretches of a wall seen apart, the pose quite unsure in between, then the whole wall.
+  // Two stretches of a wall seen separately, with a very uncertain pose in between, then the whole wall.
   Parameters parameters;
   parameters.gap_m_max = 0.5;
   SegmentMapFilter filter(parameters, at({}));
@@ -212,7 +212,7 @@ TEST(SegmentMapFilter, WithoutSegmentsItIsTheOdometry) {
 }
 
 TEST(SegmentMapFilter, TheLastLandmarksAreKeptWithinTheBudget) {
-  // A corridor without end, of which each stretch is another wall.
+  // An endless corridor, of which each stretch is another wall.
   Parameters parameters;
   parameters.landmarks_max = 12;
   SegmentMapFilter filter(parameters, at({}));

@@ -18,8 +18,8 @@ Pose small_step(double way_m, double turn_rad) {
   return {way_m * c, way_m * s, turn_rad};
 }
 
-// What the base reports of its motion between two scans: the measured pose in the frame of the last scan's, and the
-// covariance that its error model gives.
+// The base's report of its motion between two scans: the measured pose in the frame of the last scan, and the
+// covariance from its error model.
 class Odometer {
  public:
   Odometer(const OdometryModel& model, std::uint64_t seed) : model_(model), noise_(seed, "r", "base.odometry") {}
@@ -112,7 +112,7 @@ class Tour {
   }
 
  private:
-  // To the way points, until the next scan.
+  // Along the way points, until the next scan.
   void go_on() {
     for (int step = 0; step < steps_a_scan && next_ < way_.size(); ++step) {
       const Point goal = between(truth_, {way_[next_].x, way_[next_].y, 0}).position();
@@ -154,7 +154,7 @@ class Tour {
     result_.strayed += seen.strayed;
   }
 
-  // What filter and odometry believe, with the truth.
+  // The estimates of filter and odometry, and the truth.
   void compare() {
     const segloc::PoseEstimate estimate = result_.filter->position();
     const double error = length(estimate.pose.position() - truth_.position());
@@ -180,7 +180,7 @@ class Tour {
   std::unique_ptr<posters::Echoes> echoes_ = std::make_unique<posters::Echoes>();
   std::unique_ptr<posters::Segments> segments_ = std::make_unique<posters::Segments>();
   std::vector<Disc> others_;
-  TourResult result_;  // its means are sums on the way
+  TourResult result_;  // its means hold sums during the drive
 };
 
 }  // namespace

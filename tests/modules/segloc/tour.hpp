@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot driven along way points through a synthetic room, with odometry that errs and a laser, for the filter to make
-// sense of.
+// A robot driven along way points through a synthetic room, with a laser and erroneous odometry, as input of the
+// filter.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace waitpoint::synthetic {
 
-/// What the wheels report: scale errors, a drift, and noise.
+/// The errors of the wheels' reports: scales, a drift, and noise.
 struct OdometryModel {
   double travel_scale = 1.01, turn_scale = 1.015, drift_rad_per_m = 0.0087;
   double travel_noise_m_per_sqrt_m = 0.005;
   double turn_noise_rad_per_sqrt_m = 0.005, turn_noise_rad_per_sqrt_rad = 0.01;
 };
 
-/// A round thing that goes to and fro between two points.
+/// A disc that moves back and forth between two points.
 struct Walker {
   Point from, to;
   double radius_m = 0.25, speed_m_s = 0.4;
@@ -34,8 +34,9 @@ struct TourOptions {
   LaserModel laser;
   Pose mount{0.15, 0, 0};
   OdometryModel odometry;
-  double odometry_covariance_scale = 1;  ///< what is reported of the noise: 0 leaves it to the filter's own model
-  std::uint64_t slip_scan = 0;  ///< after this scan the robot is somewhere else, and the odometry knows nothing of it
+  double odometry_covariance_scale =
+      1;                        ///< the reported noise, relative to the true one: 0 leaves it to the filter's own model
+  std::uint64_t slip_scan = 0;  ///< after this scan the robot has moved by `slip`, unnoticed by the odometry
   Pose slip;
   double speed_m_s = 0.5, turn_rad_s = 0.8;
   std::vector<Walker> walkers;
@@ -61,7 +62,7 @@ struct TourResult {
 TourResult drive(const Room& room, const std::vector<Point>& way, const TourOptions& options);
 
 /// An office floor of 40 m x 30 m: a ring of corridors, rooms with doors along them, furniture; and a way of about 200
-/// m through eleven of its rooms, with the corridors gone through more than once.
+/// m through eleven of its rooms, with some corridors travelled repeatedly.
 Room office();
 std::vector<Point> office_way();
 std::vector<Walker> office_walkers();

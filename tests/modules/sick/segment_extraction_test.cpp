@@ -43,7 +43,7 @@ TrueLine seen_from(const Pose& robot, Point a, Point b) {
   return {exact::atan2(n.y, n.x), dot(n, p)};
 }
 
-// Squared Mahalanobis distance of a segment from the line it should be.
+// Squared Mahalanobis distance of a segment from its true line.
 double squared_error(const posters::Segment& segment, const TrueLine& truth) {
   const double a = exact::wrap_angle(segment.normal_rad - truth.normal_rad);
   const double d = segment.distance_m - truth.distance_m;
@@ -56,7 +56,7 @@ TEST(SegmentExtraction, FindsTheWallsOfARectangularRoomAndTheirPlaces) {
   bench.room.add_box({0, 0, 0}, 8, 6);
   const Pose robot{-1, 0.5, 0.2};
   const auto& segments = bench.look(robot).items;
-  ASSERT_EQ(segments.size(), 3u);  // the wall behind is out of sight but for its ends
+  ASSERT_EQ(segments.size(), 3u);  // the wall behind is hidden except for its ends
   const std::array<std::pair<Point, Point>, 3> walls{{{{-4, -3}, {4, -3}}, {{4, -3}, {4, 3}}, {{-4, 3}, {4, 3}}}};
   for (std::size_t i = 0; i < 3; ++i) {
     const TrueLine truth = seen_from(robot, walls[i].first, walls[i].second);

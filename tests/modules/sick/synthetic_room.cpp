@@ -8,7 +8,7 @@
 namespace waitpoint::synthetic {
 namespace {
 
-// Calls visit(beam) for the beams between two bearings that lie less than half a turn apart.
+// Calls visit(beam) for the beams between two bearings less than half a turn apart.
 template <class Visit>
 void for_beams(double from_rad, double to_rad, double first_rad, double step_rad, std::size_t beams, Visit visit) {
   double width = exact::wrap_angle(to_rad - from_rad);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A room made of walls, round things and raster cells, and what a laser with the errors of a SICK LMS sees in it.
+// A room made of walls, discs and raster cells, and its scans by a laser with the errors of a SICK LMS.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class Room {
   void set_raster(Raster raster) { raster_ = std::move(raster); }
   const std::vector<Wall>& walls() const { return walls_; }
 
-  /// The scan of a device at `pose`; `others` are round things that move. Tick `tick` of the stream gives the noise.
+  /// The scan of a device at `pose`; `others` are moving discs. Tick `tick` of the stream gives the noise.
   void scan(const Pose& pose, const LaserModel& laser, const RandomStream& noise, std::uint64_t tick,
             std::span<const Disc> others, posters::LaserReading& reading) const;
 

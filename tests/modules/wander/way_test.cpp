@@ -11,7 +11,7 @@ namespace {
 using posters::BaseCommand;
 using posters::LaserReading;
 
-// Half a turn in steps of a degree, of 8 m, with an echo at `range_m` from `from_deg` to `to_deg`.
+// Half a turn in steps of a degree, with range 8 m and an echo at `range_m` from `from_deg` to `to_deg`.
 LaserReading scan_with(double from_deg, double to_deg, double range_m) {
   LaserReading scan;
   scan.first_angle_rad = -0.5 * exact::pi;
@@ -55,7 +55,7 @@ TEST(Way, TurnsOnTheSpotToTheSideWithMoreRoomUntilItIsClear) {
   const BaseCommand away = decide(way, scan_with(-90, 5, 0.5));
   EXPECT_EQ(away.v_m_s, 0);
   EXPECT_GT(away.w_rad_s, 0);
-  // The other side has more room now, but a turn goes on: to and fro leads out of no corner.
+  // The other side now has more room, but the turn continues: turning back and forth would not leave a corner.
   EXPECT_GT(decide(way, scan_with(-5, 90, 0.5)).w_rad_s, 0);
   EXPECT_EQ(decide(way, nothing).w_rad_s, 0);
   EXPECT_LT(decide(way, scan_with(-5, 90, 0.5)).w_rad_s, 0);
