@@ -11,7 +11,7 @@ namespace {
 using Real = long double;
 constexpr Real none = std::numeric_limits<Real>::infinity();
 
-// Where the ray crosses the segment from (ax, ay) to (bx, by).
+// The distance along the ray to the segment from (ax, ay) to (bx, by).
 Real cross_edge(const Line& line, Real ax, Real ay, Real bx, Real by) {
   const Real ex = bx - ax, ey = by - ay, px = ax - line.x, py = ay - line.y;
   Real below = line.dx * ey - line.dy * ex, t = px * ey - py * ex, s = px * line.dy - py * line.dx;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a beam hits, found the slow way: every shape is asked, with intersections of its own (in long double, edge by
-// edge), so that an error in the world's geometry cannot hide in both.
+// The reference for beams: every shape is tested, with intersections of its own (in long double, edge by edge), so that
+// no error can be common to it and the world's geometry.
 #pragma once
 
 #include <vector>
@@ -19,17 +19,17 @@ class Shapes {
  public:
   explicit Shapes(const std::vector<Shape>& shapes);
 
-  /// The distance to the nearest shape that has the height; range_max_m if none is nearer.
+  /// The distance to the nearest shape at that height; range_max_m if none is nearer.
   long double range(const Line& line, double height_m, double range_max_m) const;
 
-  /// Whether a shift of the beam to the side by `by_m` either way changes its range by more than `jump_m`: whether the
-  /// beam only just hits or misses something.
+  /// True if moving the beam sideways by `by_m` either way changes its range by more than `jump_m`: the beam grazes an
+  /// edge.
   bool grazes(const Line& line, double height_m, double range_max_m, double by_m, double jump_m) const;
 
  private:
   struct Item {
     Shape shape;
-    std::vector<long double> x, y;  // the corners of what has any, counter-clockwise
+    std::vector<long double> x, y;  // the corners of polygons, counter-clockwise
   };
   std::vector<Item> items_;
 };

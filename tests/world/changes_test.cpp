@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person does to a world between its steps.
+// Interventions in a world between its steps.
 #include <gtest/gtest.h>
 
 #include "tests/world/scenes.hpp"

@@ -47,7 +47,7 @@ TEST(ConvexPolygon, HoldsAllPointsAndHasNoOtherCorners) {
   for (int round = 0; round < 2000; ++round) {
     std::vector<Point> points;
     for (std::uint64_t i = 3 + draw.below(60); i > 0; --i) points.push_back({draw(-2, 5), draw(-1, 1)});
-    // Some of them twice, and on lines.
+    // Duplicates, and a collinear point.
     for (int i = 0; i < 3; ++i) points.push_back(points[draw.below(points.size())]);
     points.push_back(0.5 * (points[0] + points[1]));
     const auto hull = hull_of(points, 0);

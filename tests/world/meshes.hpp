@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes for tests, in few words.
+// Helpers to make meshes for tests.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ inline void add_triangle(TriangleMesh& mesh, const SpaceVector& a, const SpaceVe
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-/// Two triangles; the corners in their order around.
+/// Two triangles; the corners in order around.
 inline void add_quad(TriangleMesh& mesh, const SpaceVector& a, const SpaceVector& b, const SpaceVector& c,
                      const SpaceVector& d) {
   add_triangle(mesh, a, b, c);
@@ -67,8 +67,8 @@ inline TriangleMesh random_triangles(Draws& draw, int count, double half_square_
   return mesh;
 }
 
-/// A closed surface about the origin: an octahedron of that radius, its sides halved again and again, its corners drawn
-/// in and out at random. Some of its corners lie on height 0 exactly.
+/// A closed surface about the origin: an octahedron of that radius, its sides halved repeatedly, its corners moved in
+/// and out at random. Some of its corners are exactly at height 0.
 inline TriangleMesh lumpy_ball(Draws& draw, int halvings, double radius_m) {
   std::vector<SpaceVector> corners = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   std::vector<std::array<std::uint32_t, 3>> triangles;

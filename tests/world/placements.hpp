@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long our geometry is compared with FCL's.
+// The length of comparisons of this project's geometry with FCL's.
 #pragma once
 
 #include <cstdlib>
 
 namespace waitpoint::world {
 
-/// Random placements to try: WAITPOINT_PLACEMENTS where it is set (`./dev test --agreement`), else so many.
+/// The number of random placements: WAITPOINT_PLACEMENTS if set (`./dev test --agreement`), else this default.
 inline long placements(long usual) {
   const char* const wanted = std::getenv("WAITPOINT_PLACEMENTS");
   return wanted != nullptr ? std::strtol(wanted, nullptr, 10) : usual;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worlds for tests, in few words.
+// Helpers to make worlds for tests.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ inline Shape cylinder(Point centre, double radius_m) {
   return shape;
 }
 
-/// Upright over the convex hull of the points, which are given in the frame of `at` and must not lie on a line.
+/// The upright prism over the convex hull of the points, which are in the frame of `at` and must not be collinear.
 inline Shape prism(const Pose& at, const std::vector<Point>& points) {
   const PlacedPolygon hull = hull_of(points, 0).value();
   Shape shape;
@@ -41,7 +41,7 @@ inline Shape prism(const Pose& at, const std::vector<Point>& points) {
   return shape;
 }
 
-/// "r3", say.
+/// For example "r3".
 inline std::string numbered(const char* word, std::size_t number) {
   std::string name = word;
   name += std::to_string(number);
@@ -59,7 +59,7 @@ inline BodyDescription nimble_body(const std::string& name, const Shape& shape, 
   return body;
 }
 
-/// Beams that read the truth.
+/// A laser without errors.
 inline LaserDescription perfect_laser(double height_m) {
   LaserDescription laser;
   laser.height_m = height_m;
@@ -67,7 +67,7 @@ inline LaserDescription perfect_laser(double height_m) {
   return laser;
 }
 
-/// Uniform draws in the order they are asked for.
+/// Uniform draws, in sequence.
 class Draws {
  public:
   explicit Draws(std::uint64_t seed) : stream_(seed, "test", "draws") {}
@@ -79,7 +79,7 @@ class Draws {
   std::uint64_t tick_ = 0;
 };
 
-/// Of 3 to 20 corners, within a box of that size.
+/// A prism of 3 to 20 corners, within a box of that size.
 inline Shape random_prism(Draws& draw, const Pose& at, double length_m, double width_m) {
   const std::uint64_t count = 3 + draw.below(3) * draw.below(10);
   std::vector<Point> points = {{-0.5 * length_m, -0.3 * width_m}, {0.5 * length_m, 0.2 * width_m}, {0, 0.5 * width_m}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A world's step is a choice: trajectories converge as it becomes finer.
+// The world's step is configurable: trajectories converge as it becomes finer.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@ struct Place {
   double height_m;
 };
 
-// Where a body is after 3.2 s of four commands, none of which it can obey at once.
+// The place of a body after 3.2 s of four commands, none of which it can obey at once.
 Place place_after(Kind kind, std::int64_t step_ms) {
   WorldDescription description;
   description.step = Duration(std::chrono::milliseconds(step_ms));
@@ -37,11 +37,11 @@ Place place_after(Kind kind, std::int64_t step_ms) {
   return {world->body(BodyId(0)).pose, world->body(BodyId(0)).height_m};
 }
 
-// Half the step, half the error: velocities are those of each step's end, so the error is of first order.
+// Half the step, half the error: each step has the velocity of its end, so the error is of first order.
 TEST(WorldStep, TrajectoriesConvergeOverFourStepSizes) {
   for (const Kind kind :
        {Kind::differential, Kind::synchro, Kind::omni, Kind::ackermann, Kind::skid_steer, Kind::aerial}) {
-    // Between halves of a first-order error, twice the finer one less the coarser one has none of it.
+    // Extrapolation: twice the finer result minus the coarser one has no first-order error.
     const Place fine = place_after(kind, 1), coarser = place_after(kind, 2);
     const Place limit = {{2 * fine.pose.x - coarser.pose.x, 2 * fine.pose.y - coarser.pose.y,
                           2 * fine.pose.heading - coarser.pose.heading},
@@ -61,7 +61,7 @@ TEST(WorldStep, TrajectoriesConvergeOverFourStepSizes) {
   }
 }
 
-// Where a path ends at a wall is the wall's to say, not the step's.
+// The end of a path at a wall depends on the wall, not on the step.
 TEST(WorldStep, AContactIsWhereItIsAtEveryStep) {
   for (const std::int64_t step_ms : {100, 40, 10, 4}) {
     WorldDescription description;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The order within a step and what a world promises of it; run on the FCL engine.
+// The order within a step and the guarantees of a world, on the FCL engine.
 #include "world/world.hpp"
 
 #include <gtest/gtest.h>
@@ -107,7 +107,7 @@ TEST(World, BodiesPassUnderWhatIsAboveThem) {
   EXPECT_NEAR(world->body(BodyId(0)).pose.x, 10, 1e-9);
 }
 
-// Runs robots that drive at each other under every order and naming; each must do the same as under the first.
+// Runs robots that drive at each other in every order and with every naming; each must behave as in the first run.
 void expect_same_under_every_naming(const std::vector<BodyDescription>& bodies, const std::vector<Velocity>& commands,
                                     std::uint64_t collisions) {
   std::vector<std::size_t> order(bodies.size());

@@ -34,9 +34,8 @@ struct TourOptions {
   LaserModel laser;
   Pose mount{0.15, 0, 0};
   OdometryModel odometry;
-  double odometry_covariance_scale =
-      1;                        ///< the reported noise, relative to the true one: 0 leaves it to the filter's own model
-  std::uint64_t slip_scan = 0;  ///< after this scan the robot has moved by `slip`, unnoticed by the odometry
+  double odometry_covariance_scale = 1;  ///< reported noise / true noise; 0: the filter uses its own model
+  std::uint64_t slip_scan = 0;           ///< after this scan the robot has moved by `slip`, unnoticed by the odometry
   Pose slip;
   double speed_m_s = 0.5, turn_rad_s = 0.8;
   std::vector<Walker> walkers;

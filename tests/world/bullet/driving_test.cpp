@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots among forces: free they go as in the kinematic world, walls hold their wheels, light things give way.
+// Robots in a dynamic world: on free floor they move as in the kinematic world, walls stop their wheels, light shapes
+// give way.
 #include <cmath>
 
 #include "tests/world/bullet/worlds.hpp"
@@ -91,14 +92,14 @@ TEST_F(Driving, PushesALightBoxAheadAndItsRangesAreThoseOfTheMovedBox) {
   EXPECT_EQ(this->body().collisions, 0u);
   const Shape before = obstacle(0);
   EXPECT_NEAR(before.pose.x - 0.3, this->body().pose.x + 0.25, 0.005) << "it is in touch";
-  world_->step();  // others see it as it was published before
+  world_->step();  // others see it as published a step before
   const double seen_m = world_->cast({{6, 0}, exact::pi, 0.3}, 10, BodyId(1));
   EXPECT_NEAR(6 - seen_m, before.pose.x + 0.5 * before.length_m, 0.002);
   EXPECT_NEAR(6 - world_->cast({{6, 0}, exact::pi, 0.7}, 10, BodyId(1)), this->body().pose.x + 0.25, 0.01)
       << "above it the robot is seen";
 }
 
-// 50 kg with 0.5 m/s2 are 50 N at most; the box asks for 0.5 x 100 x 9.81.
+// 50 kg with 0.5 m/s2 are 50 N at most; the box needs 0.5 x 100 x 9.81.
 TEST_F(Driving, AWeakRobotDoesNotMoveAHeavyBox) {
   BodyDescription body = robot("r", {0, 0, 0});
   body.base.v_acceleration_m_s2 = 0.5;
@@ -114,8 +115,8 @@ TEST_F(Driving, AWeakRobotDoesNotMoveAHeavyBox) {
   EXPECT_NEAR(obstacle(0).pose.x, x, 1e-3);
 }
 
-// On ice by F / (m + M). Friction takes its part, though less than that of the whole weight: the robot's hull, which
-// the box rubs against, bears some of it.
+// On ice F / (m + M). Friction takes less than that of the whole weight: the robot's hull, which the box rubs against,
+// carries some of it.
 TEST_F(Driving, PushesWithWhatForceItHas) {
   const auto acceleration = [this](double friction) {
     BodyDescription body = robot("r", {0, 0, 0});

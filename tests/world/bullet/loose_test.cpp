@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is loose: it falls, slides, stands and tips over as mechanics says.
+// Loose shapes fall, slide, rest and tip over according to mechanics.
 #include <cmath>
 
 #include "tests/world/bullet/worlds.hpp"

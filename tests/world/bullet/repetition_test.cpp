@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A dynamic world repeats to the last bit, and what is far away is not noticed.
+// A dynamic world repeats to the last bit, and distant bodies have no influence.
 #include "core/digest.hpp"
 #include "core/fields.hpp"
 #include "tests/world/bullet/worlds.hpp"
@@ -21,7 +21,7 @@ class DynamicRepetition : public DynamicWorldTest {
     description_.obstacles.push_back(wall({x_m + 4, 4, 0}, 0.2, 12));
   }
 
-  // Of the first robots and loose things, driven about for a while.
+  // The digest of the first robots and loose shapes, driven for a while.
   Digest driven(World& world, std::size_t count) {
     Digest digest;
     LaserScan scan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dynamic worlds for tests: skipped where this library was built without Bullet.
+// Dynamic worlds for tests; skipped if this library was built without Bullet.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes as this world sees them against FCL's own narrow phase, and both engines against each other.
+// This world's geometry of meshes against FCL's own narrow phase, and both engines against each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,8 @@ TEST(Surfaces, CollideWhereFclDoesOnRandomPlacements) {
       probe.z_high_m = probe.z_low_m + draw(0.1, 0.6);
       const Outline outline = outline_of(probe);
       const double gap_m = nearest_m(surfaces, outline, probe.z_low_m, probe.z_high_m);
-      // Where a triangle only just begins above or ends below, FCL is asked with heights a little off.
+      // Skips placements in which a triangle only just begins above or ends below: slightly different heights change
+      // the result.
       const double lower_m = nearest_m(surfaces, outline, probe.z_low_m + 1e-6, probe.z_high_m - 1e-6);
       const double higher_m = nearest_m(surfaces, outline, probe.z_low_m - 1e-6, probe.z_high_m + 1e-6);
       const bool meets = gap_m < 0;
@@ -50,8 +51,8 @@ TEST(Surfaces, CollideWhereFclDoesOnRandomPlacements) {
   EXPECT_GT(together, wanted / 8);
 }
 
-// Upright triangles whose part between the heights has two corners above each other: they are one point of the plane.
-// Rounded apart, they once made a side of no direction, and bodies that it was not in the way of.
+// Upright triangles of which the part between the heights has two corners above each other: the same point of the
+// plane. If rounding separates them, they form a side without a direction, which would let bodies pass.
 TEST(Surfaces, UprightTrianglesAreMetAlongAllOfThem) {
   struct Case {
     std::array<SpaceVector, 3> corners;
@@ -139,8 +140,8 @@ TEST(MeshTree, RaysAreThoseOfAskingEveryTriangleToTheLastBit) {
   }
 }
 
-// Where the ray meets the triangle's plane within the triangle, in extended precision; negative where it does not, NaN
-// where rounding may decide.
+// The distance to the ray's intersection with the triangle, in extended precision; negative without one, NaN if
+// rounding may decide.
 long double meets_at(const Triangle& triangle, Point origin, Point direction, double height_m) {
   using Real = long double;
   const auto& [a, b, c] = triangle.corners;

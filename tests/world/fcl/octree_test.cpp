@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boxes that an octree is read as against the same tree in FCL's own narrow phase.
+// The boxes of an octree against the same tree in FCL's own narrow phase.
 #include <fcl/config.h>
 #include <gtest/gtest.h>
 #include <octomap/octomap.h>
@@ -22,7 +22,7 @@
 namespace waitpoint::world {
 namespace {
 
-// So many placements about one tree: how many were together with it and how many apart.
+// Random placements near one tree; counts those that collide and those that do not.
 void compare(std::uint64_t seed, int placements, long& together, long& apart) {
   Draws draw(seed);
   const auto tree = std::make_shared<octomap::OcTree>(0.1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planar distance against FCL's own narrow phase: two implementations that share nothing.
+// The planar distance against FCL's own narrow phase: two independent implementations.
 #include "world/fcl/scene.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ TEST(Scene, FclCollidesWhereThePlanarDistanceIsNegative) {
     const Scene scene({&standing, 1});
     for (int i = 0; i < 100; ++i) {
       Shape probe = random_shape(draw, 1.5, 2);
-      // Two convex hulls with faces in one plane FCL (by libccd) takes for colliding though they are centimetres apart.
+      // FCL (by libccd) reports a collision of two convex hulls with faces in one plane though they are centimetres
+      // apart.
       if (standing.kind == Shape::Kind::prism && probe.kind == Shape::Kind::prism) probe.z_high_m = 0.9;
       if (standing.kind == Shape::Kind::prism && probe.kind == Shape::Kind::prism) probe.z_low_m = 0.1;
       const double distance = separation(outline_of(standing), outline_of(probe)).distance_m;

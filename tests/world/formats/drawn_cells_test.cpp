@@ -44,7 +44,7 @@ TEST(DrawnCells, ExactlyTheCellsThatAShapeReachesInto) {
     };
     for (int y = 0; y < 30; ++y) {
       for (int x = 0; x < 30; ++x) {
-        // Sampled at 21 x 21 points: any inside means occupied; none anywhere near means free.
+        // Sampled at 21 x 21 points: any inside means occupied; none inside or near means free.
         bool touched = false, near = false;
         for (int i = 0; i <= 20; ++i) {
           for (int j = 0; j <= 20; ++j) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small files for tests of readers.
+// Small files for tests of loaders.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace waitpoint::world {
 
-/// A folder of the running test's own, emptied when the test is done.
+/// A folder of the running test, removed at its end.
 class Folder {
  public:
   Folder() {
@@ -38,7 +38,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// Whether `read` throws a BadInput whose one line starts with `where` and contains `what`.
+/// True if `read` throws a BadInput of one line that starts with `where` and contains `what`.
 inline testing::AssertionResult complains(const std::function<void()>& read, const std::string& where,
                                           const std::string& what) {
   try {

@@ -19,7 +19,7 @@ std::string pgm(const std::string& pixels, const std::string& size = "3 2") {
   return "P5\n" + size + "\n255\n" + pixels;
 }
 
-// The cells row by row from the top, as the image shows them: '.' free, '#' occupied, '?' unknown.
+// The cells row by row from the top, as in the image: '.' free, '#' occupied, '?' unknown.
 std::string drawn(const OccupancyGrid& grid) {
   std::string text;
   for (int y = grid.height() - 1; y >= 0; --y) {
@@ -177,7 +177,7 @@ TEST(MapServer, APngThatPromisesMoreThanItHoldsTakesNoMemory) {
   write_any_png(folder.path("map.png"), 16000, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                 std::vector<std::uint8_t>(16000));
   std::fstream file(folder.path("map.png"), std::ios::in | std::ios::out | std::ios::binary);
-  // The height becomes 16 000; with it the checksum of the first chunk.
+  // The height becomes 16 000, with the checksum of the first chunk to match.
   std::string head(33, ' ');
   file.read(head.data(), 33);
   head[22] = '\x3e';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes in files: what is read, what is refused, and that Assimp reads the same.
+// Mesh files: accepted, rejected, and read equally by Assimp.
 #include "world/formats/mesh_file.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Octrees as OctoMap's own library writes them.
+// Octrees as written by OctoMap's own library.
 #include "world/formats/octree.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ void fill(Tree& tree, std::uint64_t seed) {
     tree.updateNode(octomap::point3d(static_cast<float>(draw(-2, 2)), static_cast<float>(draw(-2, 2)),
                                      static_cast<float>(draw(-1, 1))),
                     i % 3 != 0);
-  // A wall, whose cells the tree joins to larger ones.
+  // A wall, whose cells the tree merges into larger ones.
   for (int x = 0; x < 32; ++x)
     for (int y = 0; y < 8; ++y)
       for (int z = 0; z < 16; ++z)

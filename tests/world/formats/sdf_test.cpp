@@ -254,7 +254,7 @@ TEST(Sdf, WorldsOfTheBarnBenchmarkAreRead) {
   EXPECT_EQ(files, 12);
 }
 
-// Of 2 m by 1 m, upright, along x.
+// 2 m by 1 m, upright, along x.
 const std::string upright_stl = "solid s\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 0 1\nendloop\nendsolid\n";
 
 TEST(Sdf, MeshesStandWhereTheirPosesPutThem) {

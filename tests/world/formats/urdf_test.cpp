@@ -83,7 +83,7 @@ TEST(Urdf, SeveralSolidsAreTakenTogetherAndFramesFollowTheJoints) {
   EXPECT_EQ(read.warnings[1], "r.urdf:1: a <robot> of several solids is taken as the upright box about them");
 }
 
-// A hull with an arm across its front: neither the box nor the cylinder about them is near.
+// A hull with an arm across its front: neither the box nor the cylinder about them is tight.
 TEST(Urdf, SeveralSolidsAreThePrismAboutThemWhereThatIsMuchTighter) {
   const Read read =
       parsed(link("base", collision("<cylinder radius='0.2' length='0.4'/>", "<origin xyz='-0.5 0 0'/>")) +
@@ -202,7 +202,7 @@ TEST(Urdf, ATiltedMeshHasTheOutlineOfAllItsCorners) {
   EXPECT_NEAR(turned_up.length_m, std::cos(0.5), 1e-12);
   EXPECT_NEAR(turned_up.width_m, 1, 1e-12);
   EXPECT_NEAR(turned_up.z_high_m - turned_up.z_low_m, std::sin(0.5), 1e-12);
-  // What has hardly an extent is a thin box.
+  // A mesh of nearly no extent is a thin box.
   EXPECT_EQ(robot("0 0 0.3").shape.kind, Shape::Kind::box);
   EXPECT_EQ(robot("1.5707963267948966 0 0").shape.kind, Shape::Kind::box);
 }

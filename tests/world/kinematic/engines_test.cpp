@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whichever engine finds the hits of beams, the world is the same to the last bit.
+// Both engines give the same world, to the last bit.
 #include <gtest/gtest.h>
 
 #include "core/digest.hpp"
@@ -32,7 +32,7 @@ WorldDescription robots_among_shapes() {
     laser.height_m = n % 3 == 0 ? 0.4 : 0.6;
     laser.field_of_view_rad = n % 4 == 0 ? 2 * exact::pi : exact::pi;
     laser.mount = {0.15, 0.05, 0.2};
-    if (n % 3 == 1) {  // beams with times of their own, width and unsteady directions
+    if (n % 3 == 1) {  // beams with times of their own, width and direction noise
       laser.mirror_turn = std::chrono::milliseconds(15);
       laser.angle_noise_rad = 0.001;
       laser.spot_m = 0.01;
@@ -46,7 +46,7 @@ WorldDescription robots_among_shapes() {
   return description;
 }
 
-// All that sensors read of a world that is driven and changed for a while.
+// All sensor readings of a world that is driven and changed for a while.
 Digest readings(World& world, std::uint64_t seed, int steps) {
   Draws draw(seed);
   Digest digest;
@@ -70,7 +70,7 @@ Digest readings(World& world, std::uint64_t seed, int steps) {
       add_value(digest, world.body(BodyId(i)));
     }
     const Beam beam = {{draw(-9, 9), draw(-9, 9)}, draw(-3, 3), 0};
-    for (const double height_m : {0.4, 0.5, 0.6}) {  // at 0.5 m there is no sensor
+    for (const double height_m : {0.4, 0.5, 0.6}) {  // no sensor is at 0.5 m
       digest.add(world.cast({beam.origin, beam.heading_rad, height_m}, 30));
       digest.add(world.cast({beam.origin, beam.heading_rad, height_m}, 30, BodyId(3)));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scans that are expected are made together, and read what they would read alone.
+// Scans announced in advance are made together, with the readings that they would have alone.
 #include <gtest/gtest.h>
 
 #include "tests/world/scenes.hpp"
@@ -59,7 +59,7 @@ TEST(ExpectedScans, ReadWhatScansDoThatNobodyExpected) {
       for (World* const world : {told.get(), untold.get()}) {
         drive(*world, Draws(step));
         world->step();
-        if (step % 5 == 0) {  // what a hand changes after the step, scans see
+        if (step % 5 == 0) {  // interventions after the step are visible to scans
           world->move_body(BodyId(step % robots), {9, 9, 1});
           world->remove_obstacle(numbered("o", step));
         }
@@ -67,7 +67,7 @@ TEST(ExpectedScans, ReadWhatScansDoThatNobodyExpected) {
       for (std::size_t i = 0; i < robots; ++i)
         for (std::size_t laser = 0; laser <= i % 2; ++laser)
           ASSERT_EQ(ranges(*told, i, laser, step), ranges(*untold, i, laser, step)) << i << " at " << step;
-      // Another than was expected, and one of a step that is over.
+      // A scan that was not announced, and one of a past step.
       ASSERT_EQ(ranges(*told, 1, 0, step + 100), ranges(*untold, 1, 0, step + 100));
     }
     told->expect_scan(BodyId(0), 0, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laser against brute force: the whole way through the world, with neighbours where they were one step ago; and the
-// walk of the trees against asking every shape, where a rounding decides between hit and miss.
+// The laser against brute force: through the whole world, with neighbours at their poses of one step ago; and tree
+// traversal against testing every shape, where rounding decides between hit and miss.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ WorldDescription robots_among_shapes() {
   return description;
 }
 
-// Obstacles, and all bodies but `own` as published one step before the last.
+// Obstacles, and all bodies except `own` as published one step before the last.
 std::vector<Shape> seen_by(const World& world, std::size_t own) {
   std::vector<Shape> shapes;
   for (const Obstacle& obstacle : world.description().obstacles) shapes.push_back(obstacle.shape);

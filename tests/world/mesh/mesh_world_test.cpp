@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies among meshes: where they stop, and where they cannot be.
+// Bodies among meshes: their contacts, and invalid initial poses.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ TEST(MeshWorld, ASlopeIsMetAtTheFloorForItIsHighestBehind) {
 }
 
 TEST(MeshWorld, AnOverhangIsMetAtTheBodysHeight) {
-  // It comes down from 3 m at x = 2 to the floor at x = 5: at the body's upper face, 1 m, it is at x = 4.
+  // It descends from 3 m at x = 2 to the floor at x = 5: at the body's upper face, 1 m, it is at x = 4.
   TriangleMesh mesh;
   add_quad(mesh, {2, -2, 3}, {5, -2, 0}, {5, 2, 0}, {2, 2, 3});
   const auto world = make_kinematic_world(world_of(mesh, disc({})), 1);
@@ -79,7 +79,7 @@ TEST(MeshWorld, WhatIsAboveOrInsideIsNotInTheWay) {
 
 TEST(MeshWorld, ADescendingBodyStandsOnASlopeAndLeavesItAgain) {
   for (const double speed_m_s : {0.3, 500.0}) {
-    // Over x = 5 the ramp is 3 m high less what the disc reaches back: its rim is over 3.25.
+    // Over x = 5 the ramp is 3 m high, minus the reach of the disc to the back: its rim is over 3.25.
     const auto world = make_kinematic_world(world_of(ramp(1), flyer({4, 0, 0}, 5)), 1);
     world->command(only, {0, 0, 0, -speed_m_s});
     for (int step = 0; step < 1000; ++step) world->step();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles cut at a height, and what they cover between two.
+// Sections of triangles at a height, and their parts between two heights.
 #include "world/mesh/section.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(Cut, OfAClosedSurfaceLetsNoBeamOut) {
       for (int i = 0; i < 500; ++i, ++beams) {
         Ray ray = {{draw(-0.5, 0.5), draw(-0.5, 0.5)}, {}};
         Point target = {draw(-5, 5), draw(-5, 5)};
-        // Half of the beams go to where two segments meet.
+        // Half of the beams aim at common ends of two segments.
         if (i % 2 == 0) target = core_points(all.segments[draw.below(all.segments.size())])[i % 4];
         ray.direction = (1 / length(target - ray.origin)) * (target - ray.origin);
         double range_m = no_hit;
@@ -109,7 +109,7 @@ TEST(Triangles, HaveTheDistanceOfTheirNearestPoints) {
     const Separation s = separation(triangle, other);
     EXPECT_NEAR(s.distance_m, separation(other, triangle).distance_m, 1e-12);
     EXPECT_NEAR(length(s.normal), 1, 1e-12);
-    // Nothing of one is nearer to anything of the other than that, and something is as near.
+    // No two points of them are nearer than this distance, and some are about that near.
     double nearest = HUGE_VAL;
     for (int i = 0; i <= 40; ++i) {
       for (int j = 0; i + j <= 40; ++j) {
@@ -126,7 +126,7 @@ TEST(Triangles, HaveTheDistanceOfTheirNearestPoints) {
     if (nearest < 0) {
       EXPECT_LE(s.distance_m, 1e-9) << k;
     }
-    // Apart by that much along the normal, they only just touch.
+    // Moved apart by that much along the normal, they only just touch.
     if (s.distance_m < 0) {
       const Point slide = (s.distance_m - 1e-7) * s.normal;
       const Outline moved = triangle_outline(a + slide, b + slide, c + slide);

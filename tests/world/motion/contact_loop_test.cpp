@@ -15,12 +15,12 @@ struct Crowd {
   std::vector<Shape> shapes;
   std::vector<Arc> arcs;
   std::vector<Outline> obstacles = {};
-  std::vector<Shape> standing = {};  // whose outlines they are
+  std::vector<Shape> standing = {};  // the shapes of these outlines
 
   Mover mover(std::size_t i) const { return Mover(shapes[i], outline_of(shapes[i], arcs[i].start), arcs[i]); }
 };
 
-// Runs the crowd with its bodies numbered in that order; the stops are in the crowd's own order.
+// Runs the crowd with its bodies numbered in that order; the results are in the crowd's own order.
 std::vector<std::optional<double>> stops(const Crowd& crowd, const std::vector<std::size_t>& order) {
   ContactLoop loop;
   for (const std::size_t i : order) loop.add_body(crowd.mover(i));
@@ -153,7 +153,7 @@ TEST(ContactLoop, ThreeAtOnceMeetInTheMiddle) {
 
 TEST(ContactLoop, CrossingTheFirstToTheCrossingGoesOn) {
   const Shape disc = cylinder({0, 0}, 0.25);
-  // The second runs into the side of the first, which is just ahead.
+  // The second hits the side of the first, which is just ahead.
   const Crowd crowd = {{disc, disc}, {{{-1, 0, 0}, 3, 0}, {{0.3, -1.2, 0.5 * exact::pi}, 3, 0}}, {}};
   const auto stop = stops(crowd, in_order(2));
   expect_apart(crowd, stop, 200);

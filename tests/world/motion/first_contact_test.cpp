@@ -73,7 +73,7 @@ TEST(FirstContact, APrismStopsWhereItsNoseMeetsTheWallAtAnySpeed) {
 }
 
 TEST(FirstContact, ATurningPrismStopsWhereItsCornerMeetsTheWall) {
-  // Its corners are on a circle of 0.5 m, the foremost turned by 0.3 rad from where it would be nearest to the wall.
+  // Its corners are on a circle of 0.5 m; the foremost one is 0.3 rad past its point nearest to the wall.
   for (const int count : {3, 5, 16, 64}) {
     std::vector<Point> points;
     for (int i = 0; i < count; ++i) {
@@ -98,7 +98,7 @@ TEST(FirstContact, APrismMeetsADiscWithItsCornerOrSideAndACornerWithItsSide) {
   const auto with_corner_of_ours = first_contact(mover, Mover(outline_of(cylinder({2, 0.1}, 0.3))), 0);
   ASSERT_TRUE(with_corner_of_ours);
   EXPECT_NEAR(3 * with_corner_of_ours->fraction, 1.5 - std::sqrt(std::pow(0.3 + contact_gap_m, 2) - 0.01), 1e-8);
-  // The foremost side has the normal (4, 5) / sqrt(41), and lies 2 / sqrt(41) beyond the body's middle.
+  // The foremost side has the normal (4, 5) / sqrt(41), and is 2 / sqrt(41) beyond the body's middle.
   const double root_41 = std::sqrt(41.0);
   const auto with_disc = first_contact(mover, Mover(outline_of(cylinder({2, 0.3}, 0.3))), 0);
   ASSERT_TRUE(with_disc);
@@ -110,7 +110,7 @@ TEST(FirstContact, APrismMeetsADiscWithItsCornerOrSideAndACornerWithItsSide) {
   EXPECT_NEAR(3 * with_corner->fraction, 1.6 - 0.5 + 0.2 * 5 / 4 - contact_gap_m * root_41 / 4, 1e-8);
 }
 
-// Ahead by d, to the left by s and turning by a, the centre goes round (-s, d) / a, from the angle -atan2(d, s) on.
+// With d ahead, s to the left and a turn of a, the centre moves about (-s, d) / a, from the angle -atan2(d, s) on.
 TEST(FirstContact, SidewaysArcsMeetTheWallWhereTheirCircleDoes) {
   const Shape disc = cylinder({0, 0}, 0.25);
   const Mover wall(outline_of(box({1.1505, 0, 0}, 0.001, 50)));  // its near face at 1.15 m

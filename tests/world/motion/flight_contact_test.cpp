@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts of bodies that climb and sink, with what stands and with each other.
+// Contacts of climbing and sinking bodies, with obstacles and with each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ double height_gap(const Mover& a, const Mover& b, double fraction) {
   return VerticalGap(a.heights(), a.climb_m(), b.heights(), b.climb_m()).at(fraction);
 }
 
-// What must stay above 0: solids meet where they meet both from above and from the side.
+// Must stay above 0: solids touch if they overlap both seen from above and in height.
 double gap(const Mover& a, const Mover& b, double fraction) {
   return std::max(height_gap(a, b, fraction), separation(a.at(fraction), b.at(fraction)).distance_m);
 }
@@ -47,7 +47,7 @@ TEST(FlightContact, SinkingStopsAMicrometreAboveTheTableAtAnySpeed) {
   EXPECT_FALSE(first_contact(flying(disc, {{-0.7, 0, 0}, 0, 0, 0, -5}, 1), table, 0)) << "beside it";
 }
 
-// At the wall after 1.75 of 4 m, when it has climbed 1.75 / 4 of its climb, from 0.5 m.
+// It reaches the wall after 1.75 of 4 m, and after 1.75 / 4 of its climb, which starts at 0.5 m.
 TEST(FlightContact, WhoHasClimbedEnoughPassesOverAWall) {
   const Mover wall = standing(between(box({2.0005, 0, 0}, 0.001, 10), 0, 1));
   const auto contact_at = [&](double climb_m) {
@@ -63,7 +63,7 @@ TEST(FlightContact, WhoHasClimbedEnoughPassesOverAWall) {
 }
 
 TEST(FlightContact, WhoSinksOnTheFarSideOfAWallHitsItsTop) {
-  // Over the wall, 2 m thick, it is from 1.75 m on; its top is met when it has sunk by 0.4 m.
+  // It is over the wall, 2 m thick, from 1.75 m on, and touches its top after sinking 0.4 m.
   const Mover block = standing(between(box({3, 0, 0}, 2, 10), 0, 1));
   const auto contact = first_contact(flying(disc, {{0, 0, 0}, 4, 0, 0, -0.6}, 1.4), block, 0);
   ASSERT_TRUE(contact);
@@ -158,7 +158,7 @@ TEST(FlightContact, ASwarmNeverOverlapsAndEveryNumberingGivesTheSameStops) {
       ASSERT_EQ(stop, expected);
       for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[draw.below(i + 1)]);
     }
-    // Once stopped, it stands for the rest of the step.
+    // Once stopped, it rests for the remainder of the step.
     const auto at = [&](std::size_t i, double f) { return movers[i].stopped_at(std::min(f, expected[i].value_or(1))); };
     for (int k = 0; k <= 40; ++k) {
       for (std::size_t i = 0; i < movers.size(); ++i)

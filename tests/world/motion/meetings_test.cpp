@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of whole crowds, against asking all bodies about all others and about all obstacles.
+// Steps of whole crowds, against testing all pairs of bodies and all obstacles.
 #include "world/motion/meetings.hpp"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ Yard crowded_yard(Draws& draw, std::size_t bodies, double half_square_m) {
   return Yard(shapes, poses, obstacles);
 }
 
-// Now slow, now fast, some at rest, now and then one that a hand puts elsewhere.
+// With varying speeds, some bodies at rest, and occasional interventions that move one.
 TEST(Meetings, StopThoseWhomAskingAllAboutAllStopsToTheLastBit) {
   std::size_t stopped = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inertial sensors: what they measure of a motion, and their errors against the closed forms in world/sensors/imu.hpp.
+// Inertial sensors: their measurements of a motion, and their errors against the closed forms in world/sensors/imu.hpp.
 #include "world/sensors/imu.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 const Duration step = std::chrono::milliseconds(10);
 
-/// Samples of a unit that stands still, one a step.
+/// Samples of a unit at rest, one a step.
 class Standing {
  public:
   Standing(const ImuDescription& description, std::uint64_t seed) : imu_(description, seed, "robot") {}
@@ -90,7 +90,7 @@ TEST(Imu, IsExactWithoutKeysAndScaledBoundedAndQuantisedWithThem) {
   EXPECT_NEAR(reading({.resolution = 0.01}, 0.1234), 0.12, 1e-12);
 }
 
-// The variance over 12 800 units is known to 1.25 %: 5 % are four standard deviations.
+// The variance over 12 800 units has a standard deviation of 1.25 %: 5 % are four of them.
 TEST(Imu, TheAngleOfAnIntegratedGyroHasTheVarianceOfItsErrors) {
   constexpr int units = 12800, samples = 200;
   const double t = samples * step.seconds();
@@ -149,7 +149,7 @@ TEST(Imu, AxesRobotsAndErrorsHaveStreamsOfTheirOwn) {
                                      sample.up_m_s2 - gravity_m_s2};
   for (std::size_t i = 0; i < drawn.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) EXPECT_GT(std::fabs(drawn[i] - drawn[j]), 1e-6);
-  noisy.gyro.bias = 0.5;  // another error adds, and changes no draw
+  noisy.gyro.bias = 0.5;  // an additional error does not change the draws of the others
   const double bias = 0.5 * RandomStream(1, "robot", "imu.gyro.bias").normal(0);
   EXPECT_NEAR(Standing(noisy, 1).next().turn_rad_s, sample.turn_rad_s + bias, 1e-12);
 }

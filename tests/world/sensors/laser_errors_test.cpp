@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A laser's errors that depend on what its light falls on, against their closed forms.
+// A laser's errors that depend on the surfaces hit by its beam, against their closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace waitpoint::world {
 namespace {
 
-// One beam that leaves at `heading`, a line without errors.
+// One beam at `heading`, a line without errors.
 LaserDescription single_beam(double heading) {
   LaserDescription laser = perfect_laser(0.4);
   laser.beams = 1;
@@ -57,7 +57,7 @@ TEST(LaserErrors, ASpotOnTwoSurfacesReadsUniformlyBetweenThem) {
   LaserDescription laser = single_beam(0);
   laser.spot_m = 0.008;
   laser.spot_divergence_rad = 0.015;
-  // The near box ends 1 mm beside the beam, the spot is 83 mm wide at the wall.
+  // The near box ends 1 mm beside the beam; the spot is 83 mm wide at the wall.
   const std::vector<Shape> scene = {wall, box({2.5, -1.001, 0}, 1, 2)};
   const std::vector<double> ranges = ranges_of(scene, laser, 20000);
   const Statistics s = statistics_of(ranges);

@@ -63,7 +63,7 @@ TEST(LaserTiming, TheLineTakesTenBitsAByte) {
 
 // --- what a moving robot sees ------------------------------------------------------------------------------------
 
-// Room on all sides; a robot that looks with these beams after `steps` of a constant velocity.
+// Free space on all sides; a robot that scans with these beams after `steps` of a constant velocity.
 struct Ride {
   std::unique_ptr<World> world;
   LaserScan scan;

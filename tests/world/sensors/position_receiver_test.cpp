@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A receiver of positions: its errors against the closed forms in world/sensors/position_receiver.hpp.
+// A satellite receiver: its errors against the closed forms in world/sensors/position_receiver.hpp.
 #include "world/sensors/position_receiver.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 const Duration second = std::chrono::seconds(1);
 constexpr int fixes = 400'000;
 
-/// The x positions, or those of another axis, of a receiver that stands at (2, -1), 5 m high, a fix a second.
+/// The x positions, or those of another axis, of a receiver at rest at (2, -1), 5 m high, with a fix a second.
 std::vector<double> record(const PositionReceiverDescription& description, char axis = 'x') {
   PositionReceiver receiver(description, 1, "robot");
   std::vector<double> values;
@@ -55,7 +55,7 @@ TEST(PositionReceiver, BiasAndNoiseAreThoseOfItsKeys) {
   EXPECT_NEAR(height.deviation, 0.6, 0.006);
 }
 
-// About fixes / (2 tau) of the differences are independent: their variance is known to 1.5 %.
+// About fixes / (2 tau) of the differences are independent: the standard deviation of their variance is 1.5 %.
 TEST(PositionReceiver, FixesThatAreApartDifferByWhatHasWanderedOff) {
   const double drift = 2, tau = 20, noise = 0.3;
   const std::vector<double> x = record({.drift_m = drift, .drift_s = tau, .noise_m = noise, .resolution_m = 0});

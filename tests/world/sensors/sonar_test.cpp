@@ -48,7 +48,7 @@ TEST(Sonar, ACylinderAnswersFromAnywhereInTheCone) {
 }
 
 TEST(Sonar, AConcaveCornerThrowsSoundBackOverTheWholeCone) {
-  // Two walls that meet at (1.5, 1.5): neither faces a sonar that looks at their corner.
+  // Two walls that meet at (1.5, 1.5): neither faces a sonar that points at their corner.
   const std::vector<Shape> corner = {box({1.6, 0, 0}, 0.2, 3.4), box({0, 1.6, 0}, 3.4, 0.2)};
   const double distance = std::hypot(1.5, 1.5) - 0.25;
   EXPECT_NEAR(range(corner, exact::pi / 4), distance, 1e-9);
@@ -58,7 +58,7 @@ TEST(Sonar, AConcaveCornerThrowsSoundBackOverTheWholeCone) {
 }
 
 TEST(Sonar, APrismAnswersByItsSidesAndEdges) {
-  // Its nose 1 m ahead; of its two sides there one faces a sonar that is turned by 0.6 rad, 0.8 m away.
+  // Its nose is 1 m ahead; of its two sides there one faces a sonar turned by 0.6 rad, 0.8 m away.
   const auto [s, c] = exact::sincos(0.6);
   const Point nose = {1, 0}, left = nose + 2 * Point{-s, c}, right = {3, -1};
   const std::vector<Shape> hull = {prism({0, 0, 0}, {nose, left, right, {4, 0}})};
@@ -75,7 +75,7 @@ TEST(Sonar, AnEdgeAnswersWeakly) {
 }
 
 TEST(Sonar, WhatStandsBeforeItHidesIt) {
-  // The tilted plate throws the sound away; behind it the wall cannot be heard.
+  // The tilted plate deflects the sound; the wall behind it gives no echo.
   const Shape wall = box({2.5, 0, 0}, 1, 20), plate = box({1.2, 0, 0.7}, 0.05, 3);
   EXPECT_EQ(range({wall, plate}, 0), 3);
   Shape low_plate = plate;
@@ -136,7 +136,7 @@ TEST(Sonar, BanksFireOneMemberEachInTheOrderGiven) {
   EXPECT_EQ(in_turns[0], 3) << "what has not fired yet has no echo";
 }
 
-// By its own sound, sonar 1 hears the pole at 0.7041 m; sonar 0 is nearer to it, and half of the path from there is
+// By its own sound, sonar 1 hears the pole at 0.7041 m; sonar 0 is nearer to it, so half of the path from there is
 // less.
 TEST(Sonar, NeighboursThatFireTogetherHearEachOther) {
   SonarRingDescription ring = quiet_ring();
@@ -153,7 +153,7 @@ TEST(Sonar, NeighboursThatFireTogetherHearEachOther) {
   EXPECT_EQ(in_turns, alone) << "sixty degrees apart, none hears another";
 }
 
-// A B21r's 48: the lower ring is a centimetre wider, so its sound is back a little earlier.
+// A B21r's 48: the lower ring is a centimetre wider, so its echo arrives a little earlier.
 TEST(Sonar, RingsOfOneBodyHearEachOther) {
   SonarRingDescription upper = quiet_ring(), lower = quiet_ring();
   lower.ring_radius_m = 0.26;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mean and standard deviation of what a sensor reads.
+// Mean and standard deviation of a sensor's readings.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sonars before meshes: they hear what they hear of boxes of the same form.
+// Sonars in front of meshes: the same echoes as from boxes of the same form.
 #include "world/sensors/surface_corners.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TriangleMesh turned(TriangleMesh mesh, double heading) {
   return mesh;
 }
 
-/// What a ring about a robot there reads; two rings that hear each other if `crosstalk`.
+/// The readings of a robot's ring at that pose; with `crosstalk`.
 std::vector<double> readings(WorldDescription description, const Pose& at, Engine engine, bool crosstalk = false) {
   BodyDescription body = nimble_body("robot", cylinder({0, 0}, 0.1), at);
   SonarRingDescription ring;

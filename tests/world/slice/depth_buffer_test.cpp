@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scans by a slice against asking every shape: by the world's own shape function, to the last bit, and by intersections
-// that share nothing with it, in extended precision. Everything is shown for each instruction set that is there.
+// Scans by a slice against testing every shape: with the world's own shape function, to the last bit, and with
+// independent intersections in extended precision. Each test runs for each available instruction set.
 #include "world/slice/depth_buffer.hpp"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST(DepthBuffer, AFanIsEachOfItsBeamsAskedOfEveryShapeToTheLastBit) {
 }
 
 TEST(DepthBuffer, AFewBeamsFarAndNearAreEachAskedOfEveryShapeToTheLastBit) {
-  // So dense that near beams find all at once, and far ones are many nodes long.
+  // So dense that near beams end within one node, and far ones cross many nodes.
   const std::vector<Shape> shapes = random_shapes(8, 1500, half_square_m);
   const Slice slice(shapes, height_m);
   Draws draw(9);
@@ -119,7 +119,7 @@ TEST(DepthBuffer, AFewBeamsFarAndNearAreEachAskedOfEveryShapeToTheLastBit) {
   EXPECT_GT(hits, beams / 3);
 }
 
-// Where a node has fewer than eight children, the others are far away on the diagonal.
+// If a node has fewer than eight children, the others are far away on the diagonal.
 TEST(DepthBuffer, BeamsWithoutEndMeetNothingWhereThereIsNothing) {
   const std::vector<Shape> shapes = random_shapes(8, 3, half_square_m);
   const Slice slice(shapes, height_m);
@@ -178,7 +178,7 @@ TEST(DepthBuffer, AgreesWithBruteForceInExtendedPrecision) {
 }
 
 TEST(DepthBuffer, FansOfAllWidthsSeeWhatLiesBehindThem) {
-  // Shapes all around, the fan's middle turned so that its back, where its ends may meet, runs along edges and corners.
+  // Shapes all around; the fan is turned so that its back, where its ends may meet, runs along edges and corners.
   std::vector<Shape> shapes;
   Draws draw(6);
   for (int i = 0; i < 40; ++i) {
@@ -274,7 +274,7 @@ TEST(DepthBuffer, HundredThousandShapes) {
 }
 
 TEST(DepthBuffer, FarFromTheOriginOfTheWorldAsNearIt) {
-  // As where maps are in the coordinates of a country.
+  // As for maps in national coordinates.
   std::vector<Shape> shapes = random_shapes(9, 60, half_square_m);
   for (Shape& shape : shapes) shape.pose.x += 4.5e5, shape.pose.y += 5.4e6;
   const Slice slice(shapes, height_m);

@@ -28,7 +28,7 @@ TEST(Footprints, NearAreThoseOfTheSceneToTheLastBit) {
       for (int k = 0; k < 2000; ++k) {
         const Point low = {offset_m + draw(-20, 18), draw(-20, 18)};
         Bounds bounds = {low, {low.x + draw(0, 3), low.y + draw(0, 3)}};
-        // Some end where a solid begins, but for roundings.
+        // Some end where a solid begins, up to rounding.
         if (k % 3 == 0) {
           const auto solid = static_cast<std::uint32_t>(draw.below(scene.size()));
           bounds.high.x = bounds_of(scene.outline(solid)).low.x - Scene::padding_m + (k % 2 == 0 ? 1e-16 : -1e-16);

@@ -10,7 +10,7 @@
 namespace waitpoint::world {
 namespace {
 
-// Every solid once, under rectangles that are around it.
+// Every solid is in the tree once, under rectangles that contain it.
 void expect_sound(const MovingSolids& solids) {
   std::vector<int> times(solids.size());
   const std::span<const TreeNode> nodes = solids.nodes();
@@ -77,7 +77,7 @@ TEST(MovingSolids, NearAreThoseWhoseBoundsOverlap) {
   }
 }
 
-// All once, and those of one node one after the other.
+// All are listed once, those of one node consecutively.
 TEST(MovingSolids, AreListedNeighboursSideBySide) {
   Draws draw(4);
   std::vector<Shape> shapes;
@@ -96,7 +96,7 @@ TEST(MovingSolids, AreListedNeighboursSideBySide) {
   EXPECT_TRUE(places.empty());
 }
 
-// What is mixed thoroughly is ordered anew: boxes of eight are not much larger than where eight have room.
+// After thorough mixing the tree is rebuilt: boxes of eight are not much larger than the space of eight solids.
 TEST(MovingSolids, NeighboursStayTogetherInTheTree) {
   Draws draw(3);
   std::vector<Shape> shapes;

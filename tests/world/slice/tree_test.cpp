@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a walk of the tree relies on: every solid is there once, within the rectangles above it.
+// Invariants of the tree: every solid is in it once, within the rectangles above it.
 #include "world/slice/tree.hpp"
 
 #include <gtest/gtest.h>

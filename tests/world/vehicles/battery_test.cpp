@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A battery that counts: Peukert's law, the voltage under load, and what becomes of a robot when it is empty.
+// The battery model: Peukert's law, the voltage under load, and a robot with an empty battery.
 #include "world/vehicles/battery.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 const Duration second = std::chrono::seconds(1);
 
-/// When it is empty, drained at one velocity; at most a week.
+/// The time at which it is empty, drained at one velocity; at most a week.
 double emptied_after_s(const BatteryDescription& description, const Velocity& velocity = {}) {
   Battery battery(description);
   for (int s = 1; s <= 7 * 86400; ++s) {
@@ -88,7 +88,7 @@ TEST(Battery, UnderLoadGoesOffBeforeItIsDrained) {
   EXPECT_EQ(battery.state().current_a, 0);
 }
 
-/// Drives at 0.5 m/s on what lasts 2 s.
+/// Drives at 0.5 m/s on a charge for 2 s.
 WorldDescription short_drive(BaseDescription::Kind kind) {
   WorldDescription description;
   BodyDescription body = nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each kind of vehicle, driven in a small world: what it does is what its closed form says.
+// Each kind of vehicle, driven in a small world, against its closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ TEST(OmniBase, DrivesASquareWithoutTurning) {
   EXPECT_NEAR(world->body(robot).travelled_m, 4 * side_m, 1e-12);
 }
 
-// At constant (v, side, w) every point of a body goes round (-side, v) / w.
+// At constant (v, side, w) every point of a body moves about (-side, v) / w.
 TEST(OmniBase, GoesRoundACircleThatItDoesNotFace) {
   const auto world = world_of(body_on(Kind::omni));
   const Velocity velocity = {0.3, 0.5, -0.4};
@@ -115,8 +115,8 @@ TEST(AckermannBase, CannotTurnOnTheSpotButSteersForIt) {
   EXPECT_EQ(next_motion(body.base, {{}, 0.2}, {}, step_s).steering_rad, 0.2) << "a stop leaves them";
 }
 
-// The heading after a time t of steering at the rate r from straight ahead is the integral of v tan(r t) / L, which is
-// -v ln(cos(r t)) / (L r).
+// The heading after a time t of steering at the rate r from straight ahead is the integral of v tan(r t) / L: -v
+// ln(cos(r t)) / (L r).
 TEST(AckermannBase, SteersAtItsRate) {
   BodyDescription body = body_on(Kind::ackermann);
   body.base.steering_rate_rad_s = 0.4;
@@ -159,7 +159,7 @@ TEST(SkidSteerBase, ItsLimitsAreThoseOfItsWheels) {
 
 // --- aerial ----------------------------------------------------------------------------------------------------------
 
-// From rest to a height h at acceleration a and climb c takes h / c + c / (2 a), and as long again to stop.
+// Climbing from rest to a height h at acceleration a and climb velocity c takes h / c + c / (2 a).
 TEST(AerialBase, ClimbsInTheTimeThatItsLimitsAllow) {
   BodyDescription body = body_on(Kind::aerial);
   body.base.climb_max_m_s = 0.8;
@@ -288,7 +288,7 @@ TEST_P(EveryBase, GetsWhereItWasTold) {
   }
 }
 
-// A command of 0.6 m/s that is not renewed holds for 300 ms, then it brakes at 2 m/s2: 0.3 s more.
+// A command of 0.6 m/s without renewal is in force for 300 ms; braking at 2 m/s2 then takes 0.3 s.
 TEST_P(EveryBase, BrakesToStandStillWhenItsWatchdogHearsNothing) {
   BodyDescription body = body_on(GetParam());
   body.base.v_acceleration_m_s2 = 2;

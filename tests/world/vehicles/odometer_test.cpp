@@ -43,8 +43,7 @@ class DeadReckoning {
   std::int64_t travel_ = 0, turn_ = 0;
 };
 
-// Drives a square of 4 m as in UMBmark, by the world's own motion, and says where dead reckoning thinks it came back
-// to.
+// Drives a square of 4 m as in UMBmark, by the world's own motion; returns the final pose by dead reckoning.
 Pose return_position(const OdometryErrors& errors, double sense) {
   WorldDescription description;
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
@@ -74,8 +73,8 @@ TEST(Odometer, SystematicErrorsReturnWhereUmbmarkSays) {
   errors.drift_rad_per_m = drift;
   for (const double sense : {1.0, -1.0}) {
     // Each leg is measured as an arc of length travel_scale * side that turns by drift * side, each corner as
-    // turn_scale
-    // * 90 degrees: four equal chords, each turned against the one before by phi. Their sum is a geometric series.
+    // turn_scale * 90 degrees: four equal chords, each turned against the previous one by phi. Their sum is a geometric
+    // series.
     const double leg_turn = drift * side, phi = leg_turn + sense * turn_scale * exact::pi / 2;
     const double chord = travel_scale * side * std::sin(leg_turn / 2) / (leg_turn / 2);
     const double sum = chord * std::sin(2 * phi) / std::sin(phi / 2), direction = leg_turn / 2 + 1.5 * phi;
@@ -147,8 +146,8 @@ TEST(Odometer, RandomErrorsHaveTheVariancesOfARandomWalk) {
 
 // --- two wheels ------------------------------------------------------------------------------------------------------
 
-// Drives the square of UMBmark by the odometer, whose reading is exactly the square, and says where the robot truly
-// came back to (Borenstein and Feng 1996). The motion that makes the wheels count `wanted` is linear in it.
+// Drives UMBmark's square by the odometer, whose reading is exactly the square; returns the true final pose (Borenstein
+// and Feng 1996). The motion that makes the wheels count `wanted` is linear in it.
 Point true_return(const BaseDescription& base, double side_m, double sense) {
   Odometer odometer(base, 1, "robot");
   const OdometryErrors& e = base.odometry;
@@ -181,7 +180,7 @@ TEST(WheelOdometry, UmbmarkFindsTheDiametersAndTheBase) {
     base.odometry.wheel_diameter_ratio = diameters;
     base.odometry.wheel_base_ratio = wheel_base;
     const Point clockwise = true_return(base, side_m, -1), counter = true_return(base, side_m, 1);
-    // The article's formulas, which are of first order.
+    // The article's first-order formulas.
     const double alpha = (clockwise.x + counter.x) / (-4 * side_m), beta = (clockwise.x - counter.x) / (-4 * side_m);
     const double half_axle = 0.5 * base.axle_m;
     const double across = std::sin(0.5 * beta) / (0.5 * side_m);  // 1 / radius of the legs
@@ -190,8 +189,9 @@ TEST(WheelOdometry, UmbmarkFindsTheDiametersAndTheBase) {
   }
 }
 
-// Every wheel's way is a random walk of variance k^2 a metre. To first order the covariance of (x, y, heading) is the
-// sum over the motion of (F G) k^2 (F G)', with G how the wheels move the pose there and F how that moves the end.
+// Every wheel's travel is a random walk of variance k^2 a metre. To first order the covariance of (x, y, heading) is
+// the sum over the motion of (F G) k^2 (F G)', with G the derivative of the pose there by the wheels and F that of the
+// final pose by the pose there.
 struct Covariance {
   double xx = 0, xy = 0, yy = 0, xh = 0, yh = 0, hh = 0;
 };
@@ -267,8 +267,8 @@ TEST(WheelOdometry, AMonteCarloCovarianceIsTheClosedFormOnALineAndOnAnArc) {
   }
 }
 
-// What an encoder has not counted yet is anything within half a tick: of variance 1/12. Travel is the wheels' mean,
-// turn their difference over the axle.
+// The remainder of an encoder is uniform within half a tick: variance 1/12. Travel is the wheels' mean, turn their
+// difference over the axle.
 TEST(WheelOdometry, TicksAreOffByTheVarianceOfAUniformRest) {
   BaseDescription base = base_with(fine_units());
   base.kind = BaseDescription::Kind::differential;
