@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is chosen beside the order of tasks: waiters, spurious wake-ups, timeouts, costs.
+// Choices other than the order of tasks: waiters, spurious wake-ups, timeouts, costs.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -53,7 +53,7 @@ TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
 }
 
 TEST(Explore, WhatIsChosenBesideTasks) {
-  // Who is woken; that a wait ends for nothing; a timeout against a wake-up at one instant; what a computation costs.
+  // The waiter to wake; a spurious wake-up; a timeout or a wake-up at one instant; a computing time.
   const auto can_fail = [](std::function<void()> body) { return !explore(std::move(body)).passed; };
   EXPECT_TRUE(can_fail([] {
     mutex m;

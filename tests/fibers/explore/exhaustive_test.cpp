@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exhaustive strategies come to all that can come of a program, and to nothing else.
+// Exhaustive strategies find all results that a program can have, and no others.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -62,8 +62,8 @@ struct Covered {
   bool complete = false;
 };
 
-// The body is the first task itself, and nobody waits for the others: the fewer events beside those of the program, the
-// fewer schedules.
+// The body itself is the first task, and no task joins the others: fewer events beyond those of the program mean fewer
+// schedules.
 Covered cover(const Program& program, const std::string& name) {
   std::unique_ptr<Objects> objects;
   const auto take_part = [&](std::size_t task) {

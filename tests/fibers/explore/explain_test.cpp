@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What explore() says of why a schedule failed: the two events whose order matters, with the call stacks of both.
+// The explanation of a failure by explore(): the two events whose order matters, with the call stacks of both.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// The lines from the one that begins with `label` up to the next that stands as far to the left.
+// The line that begins with `label` and the lines indented more than it.
 std::string told_under(const std::string& text, const std::string& label) {
   const std::size_t begin = text.find("\n  " + label);
   if (begin == std::string::npos) return "";
@@ -26,7 +26,7 @@ std::string told_under(const std::string& text, const std::string& label) {
   return text.substr(begin + 1, end - begin - 1);
 }
 
-// Beside the two tasks stands one that has nothing to do with it, and which the default order would prefer.
+// A third task is unrelated to the failure, and first in the default order.
 ExploreReport explore_reader_and_writer(const char* strategy) {
   return explore(
       [] {
@@ -47,14 +47,15 @@ TEST(Explain, NamesTheTwoEventsAtOneObjectWhoseOrderMatters) {
     const std::string there = told_under(report.text, "goes first where it passes:");
     EXPECT_TRUE(contains(here, "  reader#3, about to load atomic #")) << report;
     EXPECT_TRUE(contains(there, "  writer#2, about to store atomic #")) << report;
-    // Both were on their way when they came to it.
+    // Both have a call stack, since both were running when they reached the object.
     EXPECT_TRUE(contains(here, "\n      at ")) << report;
     EXPECT_TRUE(contains(there, "\n      at ")) << report;
     EXPECT_FALSE(contains(here + there, "other")) << report;
   }
 }
 
-// The second lock is what must not come between the other's two, not the unlock in between.
+// The other task must not lock between the first task's two critical sections: the lock matters, not the unlock in
+// between.
 TEST(Explain, OfLocksNamesWhoLocksNext) {
   const ExploreReport report = explore([] {
     mutex account;

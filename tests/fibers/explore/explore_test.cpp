@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// explore(): what it finds, and what it says of it.
+// The failures that explore() finds, and its report.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -27,7 +27,7 @@ TEST(Explore, WhatHoldsInAllSchedulesPasses) {
   EXPECT_GT(report.schedules, 9'000U);
   EXPECT_GT(report.distinct, 500U);
   EXPECT_FALSE(report.complete);
-  EXPECT_TRUE(simulate(lose_a_wake_up).passed);  // which a single run does not show
+  EXPECT_TRUE(simulate(lose_a_wake_up).passed);  // the default order passes
 }
 
 TEST(Explore, ALostWakeUpIsFoundMinimizedAndExplained) {
@@ -45,7 +45,7 @@ TEST(Explore, ALostWakeUpIsFoundMinimizedAndExplained) {
   EXPECT_LE(report.replay.size(), 80U);
 }
 
-// That others are let go on while a task polls is the default order, not a switch away from it.
+// Running other tasks while one polls is the default order, not a switch away from it.
 TEST(Explore, WhoPollsAddsNoSwitchesToAFailure) {
   const ExploreReport report = explore([] {
     atomic<int> written{0}, done{0};

@@ -13,7 +13,7 @@ struct Interval {
   std::int64_t least = 0, greatest = 0;
 };
 
-// What `task` computed between its event number `sequence` - 1 and the next.
+// The computing time of `task` between its events number `sequence` - 1 and `sequence`.
 Interval between(const std::vector<Spent>& spent, std::uint64_t task, std::uint64_t sequence) {
   Interval sum;
   for (const Spent& one : spent)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a body says to GoogleTest, under schedule after schedule.
+// GoogleTest's expectations and skips in a body, over many schedules.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that leave something behind for the next schedule: state, or memory.
+// Bodies that leak state or memory into the next schedule.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -30,7 +30,7 @@ TEST(Explore, ABodyThatFailsInTheDefaultOrderOnlyLaterIsSaidToLeak) {
   EXPECT_TRUE(contains(report.text, "the same schedule is another run: the body leaks state")) << report;
 }
 
-// As the default order does not come there, nothing but a fresh process shows it.
+// The default order does not reach the state, so only a fresh process shows the leak.
 TEST(Explore, ABodyThatLeaksStateWhereOnlyOtherOrdersComeIsSaidToLeak) {
   int late = 0;
   const ExploreReport report = explore([&] {
@@ -45,7 +45,7 @@ TEST(Explore, ABodyThatLeaksStateWhereOnlyOtherOrdersComeIsSaidToLeak) {
   EXPECT_FALSE(contains(report.text, "WAITPOINT_REPLAY")) << report;
 }
 
-// What only its first schedule does shows when the failure is cut down.
+// An action of the first failing schedule alone shows when the failure is minimised.
 TEST(Explore, ABodyThatMakesSomethingOnceInARareOrderIsSaidToLeak) {
   bool is_made = false;
   const ExploreReport report = explore([&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a medium does to messages between robots is chosen too: which datagram is lost, and which is late.
+// The effects of a medium are choices, too: the datagrams that are lost, and their latencies.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// What may come of two letters, a and b, that are sent a millisecond apart.
+// The possible arrivals of two letters, a and b, sent a millisecond apart.
 std::set<std::string> arrivals(const io::Medium& medium) {
   std::set<std::string> found;
   SimulationOptions options;

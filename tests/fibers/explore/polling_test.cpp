@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tasks that poll, sleep or spin: their ties are explored, exhaustive strategies claim no more than they tried, and a
-// schedule that does not end is told in some seconds.
+// Tasks that poll, sleep or spin: their ties are explored, exhaustive strategies claim completeness only for the
+// schedules that they tried, and an endless schedule is reported within seconds.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The default order lets the writer, who set out first, come first at the instant at which both have slept enough.
+// In the default order the writer, which started first, is first at the instant at which both have slept 12 ms.
 void meet_after_many_sleeps() {
   atomic<int> written{0};
   thread writer([&] {
@@ -92,7 +92,7 @@ TEST(Polling, WhatDoesNotEndIsToldInSeconds) {
   EXPECT_NE(spinning.text.find("no progress"), std::string::npos) << spinning;
 }
 
-// Each loop looks for what another task does later: when nobody has anything else to do, time goes on.
+// Each loop waits for a later action of another task: when only loops are left at an instant, time advances.
 TEST(Polling, LoopsThatWaitForATaskThatSleepsOrComputesEnd) {
   const std::function<void(atomic<bool>&, mutex&)> loops[] = {
       [](atomic<bool>& done, mutex&) {
@@ -157,7 +157,7 @@ TEST(Polling, DporKnowsThatAYieldLetsOthersIn) {
   }
 }
 
-// What a release began before the run was over goes on behind it, up to the next call that waits.
+// A release that began before the end of the run continues after it, up to the next call that waits.
 TEST(Polling, AFailureWhileAnotherTaskIsOnItsWayToAJoinIsReported) {
   const ExploreReport report = explore([] {
     atomic<bool> there{false};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person asks of explore() from outside or in its options: a run once more by its token, strategies, seeds,
-// limits. And that what cannot be meant is one clear line.
+// Settings of explore() from the environment or its options: replays by token, strategies, seeds, limits. Invalid
+// settings are an error of one line.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -28,7 +28,7 @@ TEST(Explore, TheTokenRepeatsTheFailure) {
   ASSERT_FALSE(found.passed);
   for (int repeat = 0; repeat < 2; ++repeat) {
     std::string token = found.replay;
-    token[4] = static_cast<char>('2' + repeat);  // it counts the calls in this test
+    token[4] = static_cast<char>('2' + repeat);  // the number of the call in this test
     const ExploreReport again = explore(body, {.replay = token});
     EXPECT_FALSE(again.passed);
     EXPECT_EQ(again.schedules, 1U);
@@ -43,7 +43,7 @@ TEST(Explore, ATokenOfAnotherProgramIsKnownAsSuch) {
   token[4] = '2';
   const ExploreReport other = explore(lose_a_wake_up, {.replay = token});
   EXPECT_TRUE(contains(other.text, "this is not the run of the token")) << other;
-  // Choices that the run does not have, and a number that no loop may count up to.
+  // Choices that do not exist in the run, and a number too large for any loop.
   for (const char* unfit : {"wx1.3.00000000.=9999-1", "wx1.4.00000000.=0-99"})
     EXPECT_TRUE(contains(explore(lose_a_wake_up, {.replay = unfit}).text, "this is not the run of the token")) << unfit;
   const ExploreReport greatest = explore([] {}, {.replay = "wx1.5.00000000.random.1.18446744073709551615"});
@@ -89,7 +89,7 @@ TEST(Explore, TheEnvironmentSaysWhatToDoInAnyProgram) {
   with("WAITPOINT_TIME_LIMIT", "0.000001", [] { EXPECT_LT(explore([] {}).schedules, 9U); });
 }
 
-// Whoever started the program is at fault, no test of it.
+// A wrong environment is an error of the user, not of a test.
 TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusTwo) {
   int bodies = 0;
   const auto explore_with = [&](const char* name, const char* value) {
@@ -119,7 +119,7 @@ TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusT
       "has such a call\n$");
 }
 
-// A test that keeps a token in its code has failed where that is wrong or fits no more; the other tests go on.
+// A wrong or outdated token in a test's code fails that test; other tests continue.
 TEST(Explore, OptionsInCodeThatAreWrongAreTheTestsOwnFailure) {
   EXPECT_THROW(explore([] {}, {.strategy = "pcd"}), BadInput);
   EXPECT_THROW(explore([] {}, {.replay = "wx1.nonsense"}), BadInput);
@@ -148,7 +148,7 @@ TEST(ExploreDeathTest, ATokenThatDoesNotFitEndsTheProgramAndSaysWhereTheRunLeftI
               "it had [0-9]+ events, and its digest begins with [0-9a-f]{8}, the token's with 00000001; ");
 }
 
-// Two tasks, of which the second does forty times the same, but for one time, and fails.
+// Two tasks; the second does the same forty times, except in one round, and fails.
 void fail_having_differed_at(int round) {
   mutex first, second;
   thread other([&] {
@@ -167,12 +167,11 @@ TEST(Explore, ATokenOfAnotherRunSaysAtWhichEventsThisOneLeavesIt) {
   exploration::Token token = exploration::read_token(explore([] { fail_having_differed_at(never); }).replay);
   EXPECT_LE(to_text(token).size(), 80u);
   const auto replay_with = [&](int round) {
-    ++token.call;  // as many as there are in this test
+    ++token.call;  // the number of the call in this test
     return explore([round] { fail_having_differed_at(round); }, {.replay = to_text(token)}).text;
   };
   EXPECT_FALSE(contains(replay_with(never), "is not the run")) << to_text(token);
-  // Some eighty events, with a mark behind each sixteenth of them; round 3 begins with event 10, round 20 with
-  // event 44.
+  // Some eighty events, with a mark after each sixteenth; round 3 begins with event 10, round 20 with event 44.
   const std::string early = replay_with(3), late = replay_with(20);
   EXPECT_TRUE(contains(early, ": it left the record at one of its events 1 to 16;")) << early;
   EXPECT_TRUE(contains(late, ": it left the record at one of its events 33 to 48;")) << late;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs of two or three tasks with a few operations each on an atomic, a semaphore and a mutex, drawn from a number;
-// and all that can come of them, by an interpreter that shares nothing with the kernel: it keeps the state in a struct
-// and takes, in every state, every step that is possible.
+// Random programs of two or three tasks with a few operations each on an atomic, a semaphore and a mutex, by number;
+// and all their possible results, by an interpreter that is independent of the kernel: it keeps the state in a struct
+// and takes, in every state, every possible step.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ namespace waitpoint::small {
 enum class Step : std::uint8_t {
   load,         ///< the atomic, into the task's register
   store,        ///< the register and the operand
-  add,          ///< the operand, to the atomic
-  swap,         ///< the operand against the atomic's value, which goes to the register
-  replace,      ///< nought by the operand; the register takes whether that was so
+  add,          ///< adds the operand to the atomic
+  swap,         ///< exchanges the atomic's value with the operand; the old one goes to the register
+  replace,      ///< zero by the operand; the register gets the success
   acquire,      ///< a unit of the semaphore
-  try_acquire,  ///< the same if there is one; the register takes whether there was
+  try_acquire,  ///< without waiting; the register gets the success
   release,
   lock,
   unlock,
@@ -30,17 +30,17 @@ struct Instruction {
 };
 
 struct Program {
-  int units = 0;  ///< of the semaphore at first
+  int units = 0;  ///< initial units of the semaphore
   std::vector<std::vector<Instruction>> tasks;
 };
 
-/// In words, for messages.
+/// As text, for messages.
 std::string to_text(const Program& program);
 
 /// The `number`-th program.
 Program make_program(std::uint64_t number);
 
-/// What a run comes to: the registers and values, or that not all tasks came to their ends.
+/// The result of a run: the registers and values, or that some tasks did not end.
 struct Result {
   bool stuck = false;
   int value = 0, units = 0;

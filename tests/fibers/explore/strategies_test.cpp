@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strategies: each finds what it is made for, and none hangs where tasks spin.
+// Strategies: each finds the bugs that it is made for, and none hangs on spinning tasks.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -18,7 +18,7 @@ namespace {
 const std::vector<std::string> all = {"portfolio", "fifo", "random", "pct:2", "pct:3",     "pos",
                                       "urw",       "surw", "dfs",    "dpor",  "bounded:1", "bounded:2"};
 
-// Two tasks write a letter each in turn, `each` times: all words that can come out.
+// Two tasks append a letter each, `each` times: all possible words.
 std::set<std::string> words(const std::string& strategy, int each, bool& complete, std::uint64_t& schedules) {
   std::set<std::string> found;
   const ExploreReport report = explore(
@@ -116,7 +116,7 @@ TEST(Strategies, OneSeedIsOneCampaign) {
           },
           {.strategy = strategy, .seed = i == 2 ? 8U : 7U, .minimize = false});
       failed_at[i] = report.failed_at;
-      token[i] = report.replay.size() > 6 ? report.replay.substr(6) : "";  // without the count of calls
+      token[i] = report.replay.size() > 6 ? report.replay.substr(6) : "";  // without the number of the call
     }
     EXPECT_EQ(failed_at[0], failed_at[1]) << strategy;
     EXPECT_EQ(token[0], token[1]) << strategy;

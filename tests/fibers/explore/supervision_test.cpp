@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that end the process, or would never end: what the supervising process says and does.
+// Bodies that end the process, or never end: the messages and actions of the supervising process.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// ThreadSanitizer keeps signals until a call that it knows: what makes none must be killed.
+// ThreadSanitizer defers signals until an intercepted call: a loop without one must be killed.
 #ifdef __SANITIZE_THREAD__
 const testing::KilledBySignal ended(SIGKILL);
 #else

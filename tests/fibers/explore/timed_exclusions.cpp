@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must not be done at the same time, and is not, by its time.
+// Mutual exclusion by timing alone.
 #include "fibers/sync/mutex.hpp"
 #include "tests/fibers/explore/timed_together.hpp"
 
 namespace waitpoint::timed {
 namespace {
 
-// A pose is written in two steps, and read when nobody writes.
+// A pose is written in two steps, and read at another time.
 void torn_pose(Times& times) {
   Flag x{0}, y{0};
   together(
@@ -22,7 +22,7 @@ void torn_pose(Times& times) {
       });
 }
 
-// Two readers of one command: the fast one is done before it is replaced.
+// Two uses of one command: the fast one has ended when the command is replaced.
 void command_replaced(Times& times) {
   Flag command{1};
   together(
@@ -36,7 +36,7 @@ void command_replaced(Times& times) {
       });
 }
 
-// Check, then act, in so short a time that nobody comes between.
+// Check, then act, too quickly for another task to intervene.
 void check_then_act(Times& times) {
   Flag owner{0}, owners{0};
   const auto take = [&](int from, int to, bool critical) {
@@ -49,7 +49,7 @@ void check_then_act(Times& times) {
   together([&] { take(10, 12, true); }, [&] { take(20, 22, false); });
 }
 
-// Read, compute, write: the other one is long done.
+// Read, compute, write: the other task comes much later.
 void lost_odometry(Times& times) {
   Flag distance{0};
   together(
@@ -76,14 +76,14 @@ void double_buffer(Times& times) {
         }
       },
       [&] {
-        times.spend(45, 47);  // the second is in, the third comes at 54 at the earliest
+        times.spend(45, 47);  // the second value is in, the third comes at 54 at the earliest
         const int first = half[0].load();
         times.critical(4, 6, 20);
         check(half[0].load() == first, "overwritten while it was read");
       });
 }
 
-// Two laps of two robots through one door, out of step.
+// Two robots pass one door, at different times.
 void door_in_turns(Times& times) {
   Flag inside{0};
   const auto pass = [&](int from, int to, bool critical) {
@@ -100,7 +100,7 @@ void door_in_turns(Times& times) {
       [&] { pass(30, 33, false); });
 }
 
-// A sequence number is odd only as long as nobody looks.
+// A sequence number is odd only at times without readers.
 void sequence_lock(Times& times) {
   Flag sequence{0};
   together(
@@ -116,7 +116,7 @@ void sequence_lock(Times& times) {
       });
 }
 
-// Two locks in opposite orders, but never at the same time.
+// Two locks in opposite orders, at different times.
 void opposite_locks(Times& times) {
   mutex left, right;
   together(
@@ -133,7 +133,7 @@ void opposite_locks(Times& times) {
       });
 }
 
-// The buffer is returned when its reader is done.
+// The buffer is returned after its reader has finished.
 void returned_too_early(Times& times) {
   Flag in_use{1};
   together(
@@ -149,7 +149,7 @@ void returned_too_early(Times& times) {
       });
 }
 
-// The second request comes when the first is done, so that no queue is needed.
+// The second request comes after the first has been served, so no queue is needed.
 void one_request_at_a_time(Times& times) {
   Flag busy{0};
   const auto serve = [&](bool critical) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must be done before something else, and is, by its time.
+// Order by timing alone.
 #include "tests/fibers/explore/timed_together.hpp"
 
 namespace waitpoint::timed {
 namespace {
 
-// The laser's turn is done before the filter reads it.
+// The laser's scan ends before the filter reads it.
 void scan_before_filter(Times& times) {
   Flag scan{0};
   together(
@@ -19,7 +19,7 @@ void scan_before_filter(Times& times) {
       });
 }
 
-// Three stages, each a while behind the one before.
+// Three stages, each delayed against the previous one.
 void pipeline_of_three(Times& times) {
   Flag segments{0}, pose{0};
   together(
@@ -37,7 +37,7 @@ void pipeline_of_three(Times& times) {
       });
 }
 
-// The watchdog looks when the heart has beaten.
+// The watchdog checks after the heartbeats.
 void heartbeat(Times& times) {
   Flag beats{0};
   together(
@@ -85,7 +85,7 @@ void motor_before_brake(Times& times) {
       });
 }
 
-// Four initialisers, each later than what it needs.
+// Four initialisers, each later than its dependency.
 void initialisation_chain(Times& times) {
   Flag clock{0}, bus{0}, base{0};
   together(
@@ -108,7 +108,7 @@ void initialisation_chain(Times& times) {
       });
 }
 
-// The timeout is longer than the answer takes.
+// The timeout is longer than the response time.
 void answer_in_time(Times& times) {
   Flag answered{0}, given_up{0};
   together(

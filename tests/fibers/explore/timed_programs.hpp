@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs that are right only because of how long their computations take: untimed, other orders are possible, which
-// never happen on the robot. Each has one interval that can be widened so far that the failure can happen.
+// Programs that are correct only by their computing times: without times, other orders are possible, which never happen
+// on the robot. Each has one interval that can be widened far enough for the failure to happen.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace waitpoint::timed {
 
-/// That a task computed between two of its events.
+/// A computing time of a task between two of its events.
 struct Spent {
   std::uint64_t task;   ///< its id
-  std::uint64_t after;  ///< its events before
+  std::uint64_t after;  ///< the number of its previous events
   std::int64_t least_us, greatest_us;
 };
 
@@ -22,12 +22,12 @@ class Times {
   enum class Mode { untimed, as_declared, widened };
   explicit Times(Mode mode) : mode_(mode) {}
 
-  /// The caller computes for so long; untimed, this takes no time.
+  /// The caller computes for this time; untimed, for none.
   void spend(std::int64_t least_us, std::int64_t greatest_us);
-  /// The interval on which all depends.
+  /// The interval that decides.
   void critical(std::int64_t least_us, std::int64_t greatest_us, std::int64_t wider_us);
 
-  /// A body begins: what was spent before is forgotten.
+  /// A body begins: clears the recorded times.
   void begin() { spent_.clear(); }
   const std::vector<Spent>& spent() const { return spent_; }
 
@@ -41,11 +41,11 @@ struct Program {
   void (*body)(Times& times);
 };
 
-/// By their kind: what must be done before something else; what must not be done at the same time.
+/// By kind: order, and mutual exclusion.
 extern const std::vector<Program> orders;
 extern const std::vector<Program> exclusions;
 
-/// Twenty of them: all of both kinds.
+/// All twenty, of both kinds.
 std::vector<Program> programs();
 
 }  // namespace waitpoint::timed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exploration within declared times: it finds what can happen on the robot, and nothing else.
+// Exploration within declared times: it finds exactly the failures that can happen on the robot.
 #include <gtest/gtest.h>
 
 #include "fibers/explore/campaign.hpp"
@@ -32,14 +32,14 @@ struct Tracing : kernel::Watch {
     trace.events.push_back(event);
     trace.pending.clear();
     for (const kernel::Task* task = record.task->scheduler->first_task(); task != nullptr; task = task->next)
-      // Who was woken from a join goes on when it was woken: it computes nothing.
+      // A task woken from a join continues at its wake-up: it computes nothing.
       if (task->state == kernel::TaskState::ready && task->operation != kernel::Operation::join)
         trace.pending.push_back(traced(*task, task->sequence));
   }
   Trace trace;
 };
 
-// What happened in that schedule, and whether that can be.
+// Runs that schedule; true if its events are feasible.
 bool can_happen(const Program& program, Mode mode, const exploration::Schedule& schedule) {
   Times times(mode);
   exploration::Body body(
@@ -62,7 +62,7 @@ TEST(Timed, UntimedSearchFlagsProgramsThatAreRight) {
   for (const Program& program : programs()) {
     const ExploreReport report = search(program, Mode::untimed, 2000);
     flagged += !report.passed;
-    // What it found cannot happen: the solver says no.
+    // The solver reports the failure as infeasible.
     if (!report.passed) {
       EXPECT_FALSE(can_happen(program, Mode::untimed, report.schedule)) << program.name;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the timed programs have in common.
+// Helpers of the timed programs.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace waitpoint::timed {
 
 using Flag = atomic<int>;
 
-// Runs all of them as threads, and waits for their ends.
+// Runs all of them as threads, and joins them.
 template <class... Bodies>
 void together(Bodies&&... bodies) {
   std::array<thread, sizeof...(Bodies)> threads = {thread(bodies)...};

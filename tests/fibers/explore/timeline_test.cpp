@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each task did, as a trace with spans in virtual time, and as text in which repetitions stand once.
+// The actions of each task, as a trace with spans in virtual time, and as text with repetitions counted.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// The trace of what fails, as it is asked for from outside.
+// The trace of a failure, as requested by the environment.
 std::string trace_of(const std::function<void()>& body) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / ("trace-" + std::to_string(getpid()));
   setenv("WAITPOINT_TRACE", file.c_str(), 1);
@@ -39,7 +39,7 @@ std::string trace_of(const std::function<void()>& body) {
   return text.str();
 }
 
-// Of the slice with that title: its length, as it stands there, in microseconds; -1 if there is none.
+// The length in microseconds of the slice with that title, as in the trace; -1 if there is none.
 double length_us(const std::string& trace, const std::string& title) {
   const std::size_t slice = trace.find("\"name\":\"" + title);
   if (slice == std::string::npos) return -1;
@@ -63,7 +63,7 @@ TEST(Timeline, ATraceShowsHowLongTasksComputeSleepAndWait) {
     for (thread* each : {&computing, &waiting, &late, &stuck}) each->join();
   });
   ASSERT_TRUE(contains(trace, "traceEvents"));
-  constexpr double about = 0.1;  // events at one instant follow each other by a nanosecond
+  constexpr double about = 0.1;  // events of one instant are a nanosecond apart
   EXPECT_NEAR(length_us(trace, "computing\",\"cat"), 90'000, about) << trace;
   EXPECT_NEAR(length_us(trace, "sleeping"), 10'000, about) << trace;
   EXPECT_NEAR(length_us(trace, "waiting for mutex #2 \\\"door"), 80'000, about) << trace;

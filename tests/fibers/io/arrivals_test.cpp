@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of several tasks an arrival from another robot serves: the first in the default order, in seeded ones the
-// chooser's choice, on which nobody else's messages have an influence.
+// The task that an arrival from another robot serves: the first one in the default order, the chooser's choice in
+// seeded ones, independent of all other messages.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -20,8 +20,8 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-// Three tasks of ada wait, the first since 1 ms, for what bob sends at 10, 20 and 30 ms: in which order they are
-// served. `wait` ends when something has arrived.
+// Three tasks of ada wait, the first since 1 ms, for bob's messages at 10, 20 and 30 ms: the order in which they are
+// served. `wait` returns at an arrival.
 using Wait = std::function<void()>;
 std::string served(Fleet& fleet, const std::function<Wait(Network&)>& receive,
                    const std::function<std::function<void()>(Network&)>& send) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text as bytes, to be sent and received in tests; and sources that give numbered bytes.
+// Text as bytes, to send and receive in tests; and sources of numbered bytes.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ inline std::span<const std::byte> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
 }
 
-/// Reads once, at most `most` bytes: what came, or the status in brackets: "[timed out]".
+/// Reads once, at most `most` bytes; returns them, or the status in brackets: "[timed out]".
 template <class Reader, class... Until>
 std::string read_text(Reader& from, std::size_t most = 4096, const Until&... until) {
   std::string text(most, '?');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Datagrams as they are within a robot, where no medium is asked; media: medium_test.cpp.
+// Datagrams within a robot, without a medium; media: medium_test.cpp.
 #include "fibers/io/datagram_socket.hpp"
 
 #include <gtest/gtest.h>

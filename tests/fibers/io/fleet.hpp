@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots that talk over a medium, each a few functions as its tasks: for tests.
+// Robots that communicate over a medium, with functions as their tasks: for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace waitpoint::io {
 inline constexpr Medium two_ms{.latency_least = std::chrono::milliseconds(2),
                                .latency_most = std::chrono::milliseconds(2)};
 
-/// A run with robots of those names, one medium between them all.
+/// A run with robots of those names and one medium between all of them.
 class Fleet {
  public:
   explicit Fleet(const std::vector<std::string>& names, const Medium& medium = two_ms,
@@ -30,7 +30,7 @@ class Fleet {
   void spawn(const std::string& robot, std::function<void()> body) {
     simulation.spawn(*robots_.at(robot), {.name = "main"}, std::move(body));
   }
-  /// Runs to the end, which must come without trouble.
+  /// Runs to the end; the run must pass.
   void run() {
     ASSERT_EQ(simulation.run_before(Time() + Duration(std::chrono::hours(1))), RunEnd::ended) << simulation.trouble();
   }
@@ -45,7 +45,7 @@ class Fleet {
 
 using waitpoint::in_every_order;
 
-/// In the default order and in seeded ones: makes a fleet, lets `tasks` spawn, runs it.
+/// In the default order and in seeded ones: makes a fleet, calls `tasks` to spawn its tasks, runs it.
 inline void in_every_order(const std::vector<std::string>& names, const Medium& medium,
                            const std::function<void(Fleet&)>& tasks) {
   for (std::uint64_t number = 0; number <= seeds_tried; ++number) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a medium does to what crosses it: latency, bandwidth, range, loss; and to nobody else.
+// The effects of a medium on its messages: latency, bandwidth, range, loss; and on no others.
 #include "fibers/io/medium.hpp"
 
 #include <gtest/gtest.h>
@@ -23,10 +23,10 @@ using this_thread::sleep_for;
 
 struct Arrival {
   int number = 0;
-  Duration after;  // its sending
+  Duration after;  // since it was sent
 };
 
-// `count` datagrams of `bytes` each from bob to ada, one every `pace`; what arrived.
+// `count` datagrams of `bytes` each from bob to ada, one every `pace`; the arrivals.
 std::vector<Arrival> send_datagrams(Fleet& fleet, int count, Duration pace, std::size_t bytes = 4) {
   std::vector<Arrival> arrived;
   fleet.spawn("ada", [&] {
@@ -89,7 +89,7 @@ TEST(Medium, LossIsDrawnForEachMessageAlone) {
   EXPECT_EQ(statistics.sent, 5000u);
   EXPECT_EQ(statistics.lost + arrived.size(), 5000u);
   EXPECT_NEAR(static_cast<double>(statistics.lost), 1000, 4 * std::sqrt(5000 * 0.2 * 0.8));
-  // After a loss the next is lost as often as any other.
+  // Losses are independent of each other.
   std::vector<bool> lost(5000, true);
   for (const Arrival& arrival : arrived) lost[static_cast<std::size_t>(arrival.number)] = false;
   int both = 0;
@@ -112,7 +112,7 @@ TEST(Medium, LossAndLatencyDependOnTheSeed) {
 
 TEST(Medium, MessagesQueueBehindEachOtherOnABandwidth) {
   Fleet fleet({"ada", "bob"}, {.latency_least = 2ms, .latency_most = 2ms, .bandwidth_bit_s = 80'000});
-  // 100 bytes take 10 ms, and one comes every millisecond.
+  // 100 bytes take 10 ms, and one datagram comes every millisecond.
   const auto arrived = send_datagrams(fleet, 5, 1ms, 100);
   ASSERT_EQ(arrived.size(), 5u);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(arrived[static_cast<std::size_t>(i)].after, Duration(12ms) + i * Duration(9ms));
@@ -147,7 +147,7 @@ TEST(Medium, EachDirectionOfEachPairHasABandwidthOfItsOwn) {
 
 TEST(Medium, LatencyGrowsWithTheDistanceAtTheSending) {
   Fleet fleet({"ada", "bob"}, {.latency_least = 1ms, .latency_most = 1ms, .latency_per_metre = Duration(100us)});
-  // Bob goes away at 1 m/s.
+  // Bob drives away at 1 m/s.
   fleet.network.set_distance([&](const std::string& from, const std::string& to) {
     EXPECT_TRUE((from == "bob" && to == "ada") || (from == "ada" && to == "bob"));
     return fleet.simulation.global_time().seconds();
@@ -166,7 +166,7 @@ TEST(Medium, BeyondTheRangeDatagramsAreLost) {
   EXPECT_EQ(fleet.network.statistics("bob", "ada").out_of_range, 7u);
 }
 
-// Whether a datagram gets through is known when it is sent, before anything of it could arrive.
+// The loss of a datagram is decided when it is sent, before it could arrive.
 TEST(Medium, LossAndRangeAreDecidedAtTheSending) {
   Fleet fleet({"ada", "bob", "eve"}, {.latency_least = 1s, .latency_most = 1s, .range_m = 30, .loss = 0.5});
   double distance_m = 31;
@@ -183,7 +183,7 @@ TEST(Medium, LossAndRangeAreDecidedAtTheSending) {
     EXPECT_EQ(fleet.network.statistics("bob", "ada").out_of_range, 1u);
     distance_m = 29;  // too late for the first
     for (int i = 0; i < 40; ++i) EXPECT_EQ(out.send_to("ada:in", {}), Status::ok);
-    distance_m = 31;  // too late to matter
+    distance_m = 31;  // too late to have an effect
     EXPECT_EQ(now(), Time());
     const LinkStatistics sent = fleet.network.statistics("bob", "ada");
     EXPECT_EQ(sent.sent, 41u);
@@ -200,7 +200,7 @@ TEST(Medium, BeyondTheRangeStreamsWaitAndLoseNothing) {
   in_every_order({"ada", "bob"},
                  {.latency_least = 1ms, .latency_most = 5ms, .range_m = 30, .loss = 1, .range_check = 20ms},
                  [](Fleet& fleet) {
-                   // They meet after 100 ms, part at 200 ms, and meet again at 500 ms.
+                   // In range from 100 ms, out of range from 200 ms, in range again from 500 ms.
                    fleet.network.set_distance([&](auto&, auto&) {
                      const double t_s = fleet.simulation.global_time().seconds();
                      return t_s < 0.1 || (t_s > 0.2 && t_s < 0.5) ? 31.0 : 5.0;

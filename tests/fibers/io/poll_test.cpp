@@ -105,7 +105,7 @@ TEST(Poll, AllWhoPollAreToldAndOneGetsIt) {
       threads.emplace_back([&] {
         PollEntry entries[] = {{box, Events::readable}};
         const Result<std::size_t> ready = poll(entries, 5ms);
-        // Who looks after the first has been there goes on waiting.
+        // Tasks that are woken after the first has taken the letter keep waiting.
         if (!ready) return;
         ++told;
         got += box.try_receive() ? 1 : 0;

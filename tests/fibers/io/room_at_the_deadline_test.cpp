@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who waits to send, or to accept, and is let at the very instant of the deadline: is in time or is not, in some orders
-// the one, in some the other; what was sent is there once, and what was not is not. (Who waits to receive: the tests of
+// Waits to send or to accept that are satisfied at the very instant of the deadline: in time in some orders, timed out
+// in others; a message is delivered exactly once if sent, and not at all otherwise. (Waits to receive: the tests of
 // each kind.)
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-// `wait` within a task, `let` at 5 ms: what the one came to.
+// `wait` in a task, `let` at 5 ms; the status of `wait`.
 Status at_one_instant(const std::function<Status()>& wait, const std::function<void()>& let) {
   Status status = Status::ok;
   thread waiting([&] {
@@ -96,7 +96,7 @@ TEST(RoomAtTheDeadline, AConnectionToAccept) {
   });
 }
 
-// What comes from another robot is there before the tasks of its instant: always in time.
+// Arrivals from another robot precede the tasks of their instant: always in time.
 TEST(RoomAtTheDeadline, WordFromAnotherRobotIsInTime) {
   in_every_order({"ada", "bob"}, two_ms, [](Fleet& fleet) {
     fleet.spawn("ada", [&] {

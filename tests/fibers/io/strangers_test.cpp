@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who notices whom over a medium: robots that talk to each other, and none else; nor the windows of a run.
+// Messages over a medium affect only the robots that exchange them; the windows of a run affect none.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-// Bob and ada talk by all means; `strangers` talk among each other, and start before them.
+// Bob and ada communicate by all means; `strangers` communicate among each other, and start before them.
 std::vector<std::string> digests(std::uint64_t number, int strangers, bool strangers_first = true) {
   std::vector<std::string> names = {"ada", "bob"};
   for (int i = 0; i < strangers; ++i)

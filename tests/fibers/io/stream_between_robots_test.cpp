@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Streams over a medium: what takes a round trip, and what is bounded while it is under way.
+// Streams over a medium: the calls that take a round trip, and the bounds on data under way.
 #include <gtest/gtest.h>
 
 #include "fibers/io/stream_listener.hpp"

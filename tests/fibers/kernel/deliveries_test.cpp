@@ -22,7 +22,7 @@ void note(EventNode& node) {
   arrival.log->push_back(arrival.text);
 }
 
-// Two senders of two messages each, all due at 50 ns, put into the list in the order of `who`.
+// Two senders of two messages each, all due at 50 ns, put into the event list in the order of `who`.
 std::vector<std::string> arrivals(const std::vector<int>& who, Order order) {
   std::vector<std::string> log;
   std::vector<Arrival> messages(who.size());

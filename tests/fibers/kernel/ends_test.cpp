@@ -12,7 +12,7 @@
 namespace waitpoint::kernel {
 namespace {
 
-// Who is in the middle of giving its ties a turn when the run ends must not let another task run.
+// If the run ends while a task yields to its ties, unwinding it must not run another task.
 TEST(Ends, UnwindingFromAGivenTurnRunsNobodyElse) {
   TaskRun run;
   Object object("object");
@@ -31,7 +31,7 @@ TEST(Ends, UnwindingFromAGivenTurnRunsNobodyElse) {
   EXPECT_EQ(run.trace, "stop@0 unborn@0 first@0 ");
 }
 
-// As the threads of a program that exits: blocked, with a timeout or without, asleep, and about to begin.
+// Like the threads of an exiting program: blocked, with and without a timeout, asleep, and about to begin.
 TEST(Ends, TasksEndInPlaceWhereverTheyAre) {
   for (const Order order : {Order::fifo, Order::seeded}) {
     TaskRun run(order);
@@ -159,7 +159,7 @@ TEST(Ends, ManyTasksComeAndGoOnFewStacks) {
   EXPECT_EQ(run.scheduler.events(), 300'002u);
 }
 
-// Where the guard is a canary, what a task did to it is seen when it is next entered, or when its stack is reused.
+// If the guard is a canary, an overflow is detected when the task is next entered, or when its stack is reused.
 TEST(EndsDeathTest, ATaskThatOverwroteItsCanaryIsNamed) {
   const auto overwrite_canary = [](bool and_go_on) {
     TaskRun run;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sorted set beside the event list: whatever is done to both, the same events come out in the same order. The number
-// of events rises and falls between none and a hundred thousand, and their times are spread in every way that has been
-// hard for some structure: near and far, tied, in bursts, mostly cancelled, before those that are already out.
+// A sorted set as the reference of the event list: the same operations on both give the same events in the same order.
+// The number of events rises and falls between none and a hundred thousand, and their times have every distribution
+// that is hard for some structure: near and far, tied, in bursts, mostly cancelled, before those that are already out.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -15,17 +15,17 @@
 namespace waitpoint::kernel {
 namespace {
 
-/// How far from the present an event is put.
+/// The distribution of the times of new events after the present.
 enum class Spread {
   near,         ///< within a microsecond
-  tied,         ///< multiples of a common period: nearly all of an instant's events are due at once
+  tied,         ///< multiples of a common period: nearly all events of an instant at once
   many_scales,  ///< as likely between 1 and 2 ns as between 1 and 2 s
   bimodal,      ///< half within 100 ns, half about a millisecond away
   far,          ///< 1 % in the far future, up to the end of time
   bursts,       ///< time stands still for hundreds of events, then jumps
-  cancelled,    ///< timeouts that nearly never come
-  one_instant,  ///< only the order decides
-  anywhere,     ///< also before what was taken out
+  cancelled,    ///< timeouts that hardly ever expire
+  one_instant,  ///< the order alone decides
+  anywhere,     ///< also before events that were taken out
 };
 
 constexpr const char* names[] = {"Near",   "Tied",      "ManyScales", "Bimodal", "Far",
@@ -57,7 +57,7 @@ class SideBySide {
   std::uint64_t below(std::uint64_t bound) { return random_.below(bound, ++drawn_); }
 
   void insert() {
-    if (in_.empty() && now_ > Time::max().ns() / 2) now_ = 0;  // as a new run would
+    if (in_.empty() && now_ > Time::max().ns() / 2) now_ = 0;  // like a new run
     const std::size_t node = out_.back();
     out_.pop_back();
     const EventKey key = new_key(node);
@@ -116,7 +116,7 @@ class SideBySide {
   EventKey new_key(std::size_t node) {
     std::uint64_t order = 0;
     if (below(16) == 0)
-      // A timer's: at the present instant it comes before tasks that were already taken out.
+      // A timer's event: at the present instant it precedes tasks that were already taken out.
       order = make_order(below(2) == 0 ? Phase::deliveries : Phase::world, node);
     else
       order = make_order(Phase::tasks, ties_ == Ties::counted ? ++inserted_ : Digest::mix(++inserted_));
@@ -151,12 +151,12 @@ class SideBySide {
   std::vector<EventNode> nodes_;
   std::vector<Reference> reference_of_;
   std::set<Reference> reference_;
-  std::vector<std::size_t> in_, out_, place_;  // nodes by where they are; place_ is that within in_
+  std::vector<std::size_t> in_, out_, place_;  // nodes in and outside the list; place_ is the index within in_
 };
 
 // Up to `most` events, rising and falling; `operations` of any kind.
 void compare_with_reference(Spread spread, Ties ties, std::size_t most, std::size_t operations) {
-  SideBySide sides(most + 1, spread, ties);  // one more, for what is put in while the least goes out
+  SideBySide sides(most + 1, spread, ties);  // one more, for the node put in while the least is taken out
   const std::uint64_t removals = spread == Spread::cancelled ? 15 : 5;
   std::size_t wanted = most;
   for (std::size_t i = 1; i <= operations; ++i) {
@@ -164,7 +164,7 @@ void compare_with_reference(Spread spread, Ties ties, std::size_t most, std::siz
       const std::size_t levels[] = {0, 1, most / 2, most};
       wanted = levels[sides.below(4)];
     }
-    // A quarter of the operations goes against the tide.
+    // A quarter of the operations opposes the trend.
     const bool with_tide = sides.below(4) != 0;
     const bool grow = sides.size() == 0 || (sides.size() < most && with_tide == (sides.size() < wanted));
     if (grow)

@@ -10,7 +10,7 @@
 namespace waitpoint::kernel {
 namespace {
 
-// Each segment consumes as many nanoseconds as the test says beforehand.
+// Each segment consumes the nanoseconds that the test sets beforehand.
 struct SetClock : LocalClock {
   SetClock() {
     begin = [](LocalClock& self, Task&) { static_cast<SetClock&>(self).runs = true; };
@@ -48,11 +48,11 @@ TEST(LocalClock, WhatASegmentConsumesIsInTheLocalTimeBeforeItsWaitpoint) {
         run.log("yield");
         clock.consumed_ns = 5;
         run.sleep(50);
-        run.log("sleep");  // until 50, whatever was consumed before
+        run.log("sleep");  // until 50, whatever the previous cost
         clock.consumed_ns = 30;
         run.sleep(60);
         run.log("late");
-        clock.consumed_ns = 20;  // until its end
+        clock.consumed_ns = 20;  // cost of its last segment
       },
       {.clock = &clock});
   run.spawn([&] {
@@ -124,13 +124,13 @@ TEST(LocalClock, DeclaredCostsGoThroughTheClock) {
   run.spawn([&] {
     compute(*running, Duration::from_ns(7));
     compute(*running, Duration::from_ns(1), Duration::from_ns(5));
-    EXPECT_EQ(local_time(*running).ns(), 12);  // without a clock: what it costs at most
+    EXPECT_EQ(local_time(*running).ns(), 12);  // without a clock: the greatest cost
   });
   run.scheduler.run_before(Time::max());
   EXPECT_EQ(clock.declared.ns(), 14 + 6);
 }
 
-// The task's own code in between has been at the door already when the handler runs: its operation comes after it.
+// The task has already called its operation when the handler runs: the operation comes after the handler.
 TEST(Signals, AreDeliveredAtTheNextWaitpointAndTheOperationComesAfterTheHandler) {
   static TaskRun* run = nullptr;
   for (const bool with_clock : {false, true}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that is paused, after any event or all, is the same run.
+// Pausing a run, after some or all events, does not change it.
 #include <gtest/gtest.h>
 
 #include "tests/fibers/kernel/task_run.hpp"
@@ -7,7 +7,7 @@
 namespace waitpoint::kernel {
 namespace {
 
-/// Pauses after every event whose number `period` divides.
+/// Pauses after every `period`-th event.
 struct Pauses : Watch {
   explicit Pauses(Scheduler& scheduler, std::uint64_t period)
       : Watch{[](Watch& watch, const EventRecord&) { static_cast<Pauses&>(watch).see(); }},
@@ -29,7 +29,7 @@ struct Result {
   }
 };
 
-// Ties, waits with and without timeouts, turns given after many waitpoints at one instant.
+// Ties, waits with and without timeouts, turns yielded after many waitpoints at one instant.
 Result result_of(Order order, std::uint64_t seed, std::uint64_t period) {
   TaskRun run(order, seed);
   Object object("object"), other("other");

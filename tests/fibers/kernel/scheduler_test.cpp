@@ -259,7 +259,7 @@ TEST(Scheduler, WhatATaskHasInFlightStaysItsOwn) {
   TaskRun run;
   Object object("object");
   std::string trace;
-  // Each with another errno and another count of exceptions that are handled, and they hand over to each other.
+  // Each with its own errno and number of exceptions being handled, handing over to each other.
   for (const int own : {1, 2, 3})
     run.spawn([&run, &object, &trace, own] {
       const std::function<void(int)> within = [&](int depth) {
@@ -341,7 +341,7 @@ TEST(SchedulerDeathTest, MisuseIsABug) {
   EXPECT_DEATH(run.scheduler.run_before(Time::max()), "a run that is over is run");
 }
 
-// The report of a bug says when and where in the run it was.
+// The report of a bug has the time and place in the run.
 TEST(SchedulerDeathTest, ABugsReportNamesTimeTaskSeedAndReplay) {
   TaskRun run(Order::seeded, 77);
   run.scheduler.set_replay("the replay line");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tasks at the kernel's own door: no primitive is above.
+// Tasks that use the kernel's interface directly, without primitives.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 
 namespace waitpoint::kernel {
 
-/// A scheduler with one robot, whose tasks are functions; they write down what they do and when.
+/// A scheduler with one robot, whose tasks are functions; they log their actions and times.
 class TaskRun {
-  std::deque<std::function<void()>> bodies_;  // before the scheduler, which unwinds what is left of them
+  std::deque<std::function<void()>> bodies_;  // before the scheduler, which unwinds the remaining tasks
 
  public:
   explicit TaskRun(Order order = Order::fifo, std::uint64_t seed = 0) : scheduler(order, seed) {

@@ -55,7 +55,7 @@ TEST(H2SemLib, StartsAsItsTypeSaysAndCounts) {
     EXPECT_EQ(h2semTake(exclusive, 1), FALSE);
     for (int i = 0; i < 3; ++i) h2semGive(synchronous);
     EXPECT_EQ(h2semTake(synchronous, 1), TRUE);
-    EXPECT_EQ(h2semFlush(synchronous), TRUE);  // two are gone
+    EXPECT_EQ(h2semFlush(synchronous), TRUE);  // removes two
     EXPECT_EQ(h2semTake(synchronous, 1), FALSE);
     EXPECT_EQ(h2semSet(synchronous, 2), OK);
     EXPECT_EQ(h2semTake(synchronous, 0), TRUE);

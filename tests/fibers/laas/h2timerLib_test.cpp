@@ -95,7 +95,7 @@ TEST(H2Timer, ChangesItsPeriodStopsAndStartsAgain) {
     h2timerPause(timer);
     EXPECT_EQ(now(), tick(9));
     sleep_until_tick(14);
-    h2timerStop(timer);  // what fired at 13 stays
+    h2timerStop(timer);  // the tick at 13 stays pending
     EXPECT_EQ(h2timerPause(timer), OK);
     EXPECT_EQ(now(), tick(14));
     thread other([&] {
@@ -142,7 +142,7 @@ TEST(H2Timer, ThereAreTwentyAndMisuseIsAnErrorCode) {
   });
 }
 
-// pocolibs' interrupt, read literally: it is called at each tick and looks at the timer.
+// The interrupt of pocolibs, to the letter: it is called at each tick and checks the timer.
 struct WalkedTimer {
   void at_tick() {
     ++count_of_ticks;
@@ -187,7 +187,7 @@ TEST(H2Timer, BehavesAsIfEachTickWereWalked) {
           }
           case 2:
           case 3:
-            if (walked.state == 0 && walked.given == 0) break;  // would be for ever
+            if (walked.state == 0 && walked.given == 0) break;  // would never return
             while (walked.given == 0) walked.at_tick();
             walked.given = 0;
             ASSERT_EQ(h2timerPause(timer), OK);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each robot has its own h2 name space and clock, in each run anew.
+// Each robot has its own h2 name space and clock, which are new in each run.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-// A robot in the manner of GenoM: a periodic task, one that waits for events, watchdogs, a mutex with time-outs.
+// A robot in the style of GenoM: a periodic task, one that waits for events, watchdogs, a mutex with timeouts.
 void robot(int rate) {
   h2initGlob(rate);
   const SEM_ID data = semMCreate(SEM_Q_PRIORITY);
@@ -115,7 +115,7 @@ TEST(LaasRobots, ShareNeitherClocksNorNumbersNorNames) {
   }
 }
 
-// A run that is left in the middle, with tasks in every kind of wait.
+// A run that ends with tasks in every kind of wait.
 TEST(LaasRobots, ARunLeftInTheMiddleIsUnwound) {
   for (int ms = 0; ms < 200; ms += 13) {
     Simulation simulation;

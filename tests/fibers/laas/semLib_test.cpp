@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-// pocolibs' own regression test: two tasks that loop over take and give.
+// pocolibs' own regression test: two tasks that take and give in loops.
 TEST(SemLib, TwoTasksThatLoopOverAMutexAlternateStrictly) {
   with_clock([] {
     const SEM_ID mutex = semMCreate(SEM_Q_PRIORITY);
@@ -28,7 +28,7 @@ TEST(SemLib, TwoTasksThatLoopOverAMutexAlternateStrictly) {
         for (int i = 0; i < 50; ++i) {
           ASSERT_EQ(semTake(mutex, WAIT_FOREVER), OK);
           order += name;
-          sleep_for(1ms);  // the other comes to wait
+          sleep_for(1ms);  // lets the other begin to wait
           ASSERT_EQ(semGive(mutex), OK);
         }
       });
@@ -59,7 +59,7 @@ TEST(SemLib, AMutexServesFirstComeFirstServedInEveryOrder) {
   });
 }
 
-// pocolibs accepts SEM_Q_PRIORITY and has tickets all the same.
+// pocolibs accepts SEM_Q_PRIORITY, but serves first come, first served.
 TEST(SemLib, TheQueueIsFirstComeFirstServedWhateverThePriorities) {
   with_clock([] {
     const SEM_ID mutex = semMCreate(SEM_Q_PRIORITY);
@@ -79,7 +79,7 @@ TEST(SemLib, TheQueueIsFirstComeFirstServedWhateverThePriorities) {
   });
 }
 
-// pocolibs draws a ticket for it that is never served, and the mutex is stuck.
+// In pocolibs a failed try draws a ticket that is never served, which blocks the mutex.
 TEST(SemLib, AFailedTryLeavesNoTicketBehind) {
   with_clock([] {
     const SEM_ID mutex = semMCreate(SEM_Q_FIFO);
@@ -93,7 +93,7 @@ TEST(SemLib, AFailedTryLeavesNoTicketBehind) {
       EXPECT_EQ(semTake(mutex, NO_WAIT), ERROR);
       EXPECT_EQ(errnoGet(), S_semLib_TIMEOUT);
     }
-    EXPECT_EQ(semTake(mutex, 1), ERROR);  // nor does one that timed out
+    EXPECT_EQ(semTake(mutex, 1), ERROR);  // nor does a timeout
     EXPECT_EQ(semTake(mutex, WAIT_FOREVER), OK);
     EXPECT_EQ(now(), Time() + Duration(50ms));
     EXPECT_EQ(semGive(mutex), OK);
@@ -112,7 +112,7 @@ TEST(SemLib, ATimeOutOfNTicksEndsAtTheNPlusFirst) {
         EXPECT_EQ(semTake(sem, n), ERROR);
         EXPECT_EQ(errnoGet(), S_semLib_TIMEOUT);
         EXPECT_EQ(now(), tick(start + n + 1));
-        sleep_for(7ms);  // from between two ticks it is the same
+        sleep_for(7ms);  // the same from between two ticks
       }
       sleep_until_tick(static_cast<std::int64_t>(tickGet()) + 1);
     }

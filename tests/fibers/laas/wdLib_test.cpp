@@ -48,7 +48,7 @@ TEST(WdLib, AtOneTickTheLatestCreatedIsFirstAndH2TimersComeLast) {
       order += 't';
     });
     sleep_for(1ms);
-    // Whatever the order of the starts.
+    // Independent of the order of the starts.
     wdStart(
         b, 5, [&](long) { order += 'b'; }, 0);
     wdStart(
@@ -58,7 +58,7 @@ TEST(WdLib, AtOneTickTheLatestCreatedIsFirstAndH2TimersComeLast) {
     sleep_until_tick(5);
     waiter.join();
     EXPECT_EQ(order, "cbat");
-    // One that is deleted and made again is the latest.
+    // A deleted and recreated one is the latest.
     wdDelete(a);
     const WDOG_ID again = wdCreate();
     wdStart(
@@ -99,7 +99,7 @@ TEST(WdLib, ARoutineGivesSignalsRestartsAndCancels) {
     const SEM_ID sem = semBCreate(0, SEM_EMPTY);
     const WDOG_ID beat = wdCreate(), victim = wdCreate(), killer = wdCreate();
     const long self = taskIdSelf();
-    EXPECT_EQ(h2evnSusp(1), FALSE);  // from now on it has events
+    EXPECT_EQ(h2evnSusp(1), FALSE);  // registers it for events
     sleep_until_tick(3);
     std::function<void(long)> again = [&](long left) {
       semGive(sem);
@@ -122,13 +122,13 @@ TEST(WdLib, ARoutineGivesSignalsRestartsAndCancels) {
   });
 }
 
-// A robot's clock that nobody needs costs nothing, whatever its rate.
+// An unused clock of a robot costs nothing, at any rate.
 TEST(WdLib, TicksAtWhichNothingIsDueCostNoEvents) {
   const auto events = [](int rate) {
     return simulate([rate] {
              h2initGlob(rate);
              const H2TIMER_ID timer = h2timerAlloc();
-             h2timerStart(timer, 1, 0);  // fires at each tick; nobody waits
+             h2timerStart(timer, 1, 0);  // fires at each tick; no task waits
              wdStart(
                  wdCreate(), rate * 3600, [](long) {}, 0);
              sleep_for(1h);

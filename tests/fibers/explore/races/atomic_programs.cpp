@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The standard's atomics: in instrumented code they take part in schedules and in what orders.
+// The standard's atomics in instrumented code: they are switch points, and their memory orders count.
 #include <atomic>
 #include <memory>
 
@@ -9,7 +9,7 @@
 namespace waitpoint::races {
 namespace {
 
-// A payload, handed over by a flag with these orders.
+// A payload, handed over by a flag with these memory orders.
 template <std::memory_order Store, std::memory_order Load>
 void handed_over() {
   std::atomic<int> flag(0);
@@ -55,8 +55,8 @@ void spin_lock() {
   two.join();
 }
 
-// Another thread stands between the release and the acquire: what it does to the flag keeps up the release sequence, or
-// begins one of its own.
+// A third thread modifies the flag between the release and the acquire: a read-modify-write continues the release
+// sequence, a store ends it.
 template <bool Modifies>
 void release_sequence() {
   std::atomic<int> flag(0);

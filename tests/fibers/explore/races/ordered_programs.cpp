@@ -93,7 +93,7 @@ void after_the_join() {
   other.join();
   ++shared;
 }
-void after_a_joined_sibling() {  // whose index the next one takes over
+void after_a_joined_sibling() {  // the next thread takes over its index
   int shared = 1;
   thread bystander([&] {
     this_thread::sleep_for(1ms);

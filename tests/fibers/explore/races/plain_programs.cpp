@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Both at once, ordered by nothing.
+// Concurrent, without any order.
 template <class First, class Second>
 void together(First first, Second second) {
   thread one(first), two(second);
@@ -83,7 +83,7 @@ void bits_of_one_byte() {
   together([&] { bits.a = 1; }, [&] { bits.b = 1; });
 }
 
-// An int over the border of two words, at bytes 6 to 9, and a byte.
+// An int across the border of two words, at bytes 6 to 9, and a byte.
 template <std::size_t Byte>
 void unaligned() {
   struct alignas(8) Record {
@@ -134,7 +134,8 @@ struct Bird : Animal {
 };
 [[gnu::noinline]] int legs_of(Animal& animal) { return animal.legs(); }
 
-// One makes another object of what the other calls: it writes the pointer to the table of virtual functions.
+// One task constructs another object in the place of the one that the other calls: it writes the pointer to the table
+// of virtual functions.
 void made_while_called() {
   alignas(Bird) char place[sizeof(Bird)];
   Animal* const animal = new (place) Animal;
@@ -163,7 +164,7 @@ void vector_under_lock() {
   together(add, add);
 }
 
-// Memory that one gave back is another's.
+// One task allocates the memory that another freed.
 void memory_used_again() {
   const auto use = [] {
     for (int i = 0; i < 20; ++i) {
@@ -247,8 +248,8 @@ void count_twice_without_lock() {
   check(*count == 2, "an increment is lost");
 }
 
-// A reader that asks for both must find both or none. Each thread touches each variable once: where it is the first to,
-// nothing tells its access from that to memory of its own.
+// A reader of both must find both or none. Each thread accesses each variable once: a first access cannot be
+// distinguished from one to private memory.
 void publish_in_two_steps() {
   auto first = std::make_unique<int>(0), second = std::make_unique<int>(0);
   int seen_first = 0, seen_second = 0;

@@ -12,16 +12,16 @@ struct Program {
   bool races;
 };
 
-std::span<const Program> plain_programs();    ///< what is accessed, and how
-std::span<const Program> ordered_programs();  ///< by primitives
-std::span<const Program> atomic_programs();   ///< by the standard's atomics
+std::span<const Program> plain_programs();    ///< kinds of accesses
+std::span<const Program> ordered_programs();  ///< ordered by primitives
+std::span<const Program> atomic_programs();   ///< ordered by the standard's atomics
 
-// For tests of their own.
-void count_twice_without_lock();  ///< check() fails where an increment is lost
-void publish_in_two_steps();      ///< check() fails where a reader comes between
-void wait_for_nobody();           ///< spins on an atomic that nobody sets
+// Used by separate tests.
+void count_twice_without_lock();  ///< check() fails if an increment is lost
+void publish_in_two_steps();      ///< check() fails if a reader runs in between
+void wait_for_nobody();           ///< spins on an atomic that is never set
 void two_heaps();                 ///< accesses new memory from two threads, in order
 extern int planted;               ///< a global
-void write_planted();             ///< two threads do, named "ada" and "bob"
+void write_planted();             ///< written by two threads, named "ada" and "bob"
 
 }  // namespace waitpoint::races

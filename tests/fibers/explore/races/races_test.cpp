@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data races are found where there are some, in the default order and in others, and nowhere else. This file is not
-// instrumented; the programs beside it are.
+// Every data race is found, in the default order and in others, without false reports. This file is not instrumented;
+// the programs beside it are.
 #include "fibers/explore/races/races.hpp"
 
 #include <gtest/gtest.h>
@@ -89,7 +89,7 @@ ExploreReport explored(void (*body)(), std::uint64_t iterations) {
   ExploreOptions options;
   options.strategy = "random";
   options.iterations = iterations;
-  options.races = false;  // but the harm they do
+  options.races = false;  // only their consequences
   return explore_with(nullptr, body, options);
 }
 
