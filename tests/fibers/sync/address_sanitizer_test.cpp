@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In a program built with AddressSanitizer: it sees the errors of tasks as it sees those of threads, and no others.
+// In a program built with AddressSanitizer: it reports the errors of tasks like those of threads, without false
+// reports.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -17,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Many frames, so that a task's are where another's were before, and switched from at every depth.
+// Many frames, so that a task's frames reuse the memory of another's, with a switch at every depth.
 int sum_to(int n) {
   volatile int numbers[16] = {};
   numbers[n % 16] = n;
@@ -90,7 +91,7 @@ TEST(AddressSanitizerDeathTest, UseOfAnotherTasksDeadFrameIsFound) {
                "stack-use-after-scope");
 }
 
-// Ends the process in the middle of a run.
+// Ends the process during a run.
 [[noreturn]] void run_and_exit(bool leak) {
   static Simulation* simulation = nullptr;
   simulation = new Simulation();

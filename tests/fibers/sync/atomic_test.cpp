@@ -92,7 +92,7 @@ TEST(Atomic, PointersFloatsBooleansAndStructures) {
   });
 }
 
-// Lost updates of load and store are found by some schedule, those of fetch_add by none: operations are waitpoints.
+// Some schedule finds the lost updates of load and store, none finds one of fetch_add: operations are waitpoints.
 TEST(Atomic, SchedulesInterleaveAtEveryOperation) {
   std::set<int> torn, whole;
   for (std::uint64_t number = 0; number <= seeds_tried; ++number) {
@@ -146,7 +146,7 @@ TEST(Atomic, WaitsUntilTheValueIsAnotherAndItIsNotified) {
     EXPECT_EQ(now(), Time());
     thread changes([&] {
       sleep_for(2ms);
-      a.notify_all();  // the same value still: nobody goes on
+      a.notify_all();  // the value is unchanged: no task continues
       sleep_for(1ms);
       a = 2;
       sleep_for(1ms);

@@ -76,7 +76,7 @@ TEST(Barrier, ArrivingDoesNotWaitAndTheTokenIsGoodForThePhaseAndTheNext) {
     EXPECT_EQ(now(), at(2ms));
     other.join();
     auto late = b.arrive(3);
-    b.wait(std::move(late));  // over already
+    b.wait(std::move(late));  // the phase is already complete
     EXPECT_EQ(now(), at(2ms));
   });
 }
@@ -152,7 +152,7 @@ TEST(Barrier, WhatAnotherRunLeftIsForgotten) {
     simulation.spawn(simulation.environment(), {}, [] {
       left.arrive_and_drop();
       left.arrive_and_wait();
-      auto token = left.arrive();  // alone now
+      auto token = left.arrive();  // the only participant now
       EXPECT_TRUE(left.try_wait(token));
     });
     simulation.spawn(simulation.environment(), {}, [] { sleep_for(1h); });

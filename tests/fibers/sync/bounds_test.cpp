@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a program can make grow has an end, which is told as the standard library tells it.
+// Everything that a program can make grow is bounded, with the errors of the standard library.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -39,7 +39,7 @@ TEST(Bounds, OneThreadTooManyIsASystemErrorThatNamesIt) {
         EXPECT_EQ(text.find("thread last of environment cannot be made: the run has 100 tasks, the most it may have"),
                   0u)
             << text;
-        // Those that ended made room.
+        // Ended tasks free their places.
         this_thread::sleep_for(2ms);
         thread([] {}).join();
       },
@@ -72,7 +72,7 @@ TEST(BoundsDeathTest, MoreTasksThanTheKernelHoldsCannotBeAskedFor) {
   EXPECT_DEATH(Simulation(at_most(0)), "from 1 to 2.20 tasks");
 }
 
-// In a process of its own with little address space, as after `ulimit -v`. Sanitizers need more than any limit allows.
+// In a separate process with little address space, as after `ulimit -v`. Sanitizers need more than any limit allows.
 class AddressSpaceDeathTest : public testing::Test {
  protected:
   void SetUp() override {

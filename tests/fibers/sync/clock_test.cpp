@@ -91,12 +91,13 @@ TEST(Clock, FractionsOfANanosecondAreRoundedUp) {
     EXPECT_EQ(now(), at(333'333'337ns));
     sleep_for(std::chrono::duration<float>(0.5f));
     EXPECT_EQ(now(), at(833'333'337ns));
-    sleep_for(std::chrono::duration<double>(1e-3));  // a little more than a millisecond, but not as it is scaled
+    sleep_for(
+        std::chrono::duration<double>(1e-3));  // 1e-3 as a double exceeds a millisecond, but scales to exactly one
     EXPECT_EQ(now(), at(834'333'337ns));
   });
 }
 
-// Nothing is left to happen but the end of time, before which a run stops.
+// The only remaining event is at the end of time, before which a run stops.
 TEST(Clock, WhatIsBeyondTheRangeIsForEver) {
   const auto waits_for_ever = [](const std::function<void()>& wait) {
     const Report report = simulate([&] {

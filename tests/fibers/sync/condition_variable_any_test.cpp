@@ -24,7 +24,7 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-// A lock of a user's own, with nothing but lock() and unlock(), whose unlocking gives others a turn.
+// A user's own lock with only lock() and unlock(), which lets other tasks run during unlock().
 struct LeisurelyLock {
   void lock() { m.lock(), held = true; }
   void unlock() {
@@ -36,7 +36,7 @@ struct LeisurelyLock {
   bool held = false;
 };
 
-// No notification is lost, though it may come after the unlock and before the sleep.
+// A notification between the unlock and the sleep is not lost.
 TEST(ConditionVariableAny, NoItemIsLostOverAnyLock) {
   in_every_order([] {
     LeisurelyLock m;
@@ -155,7 +155,7 @@ TEST(ConditionVariableAny, TimesOutAtTheDeadlineHoldingTheLock) {
     EXPECT_TRUE(c.wait_until(lock, steady_clock::time_point(11ms), [] { return now() >= at(11ms); }));
     EXPECT_EQ(now(), at(11ms));
     thread([&] { EXPECT_FALSE(m.try_lock()); }).join();
-    c.notify_all();  // nobody is left among the waiters
+    c.notify_all();  // no waiters are left
   });
 }
 
@@ -196,7 +196,7 @@ TEST(ConditionVariableAny, MayBeDestroyedAsSoonAsAllAreNotified) {
         ++woken;
         m.unlock();
       });
-    // At the same instant: some may still be on their way to sleep.
+    // At the same instant: some may not sleep yet.
     while (waiting < 3) this_thread::yield();
     m.lock();
     c->notify_all();

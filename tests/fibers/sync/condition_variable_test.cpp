@@ -73,13 +73,13 @@ TEST(ConditionVariable, WaitingReleasesTheMutexAndHasItAgainAfterwards) {
       EXPECT_TRUE(waiting);
       ready = true;
       c.notify_one();
-      sleep_for(3ms);  // woken at 5 ms, it has to wait for the mutex
+      sleep_for(3ms);  // after its wake-up at 5 ms it waits for the mutex
     }
     waiter.join();
   });
 }
 
-// How many of four waiters come back before others notify.
+// The number of four waiters that `notify` wakes.
 int woken_by(const std::function<void(condition_variable&)>& notify, std::string* order = nullptr) {
   int woken = 0;
   in_order([&] {
@@ -149,8 +149,7 @@ TEST(ConditionVariable, TimesOutAtTheDeadlineHoldingTheLock) {
   });
 }
 
-// As the standard has it: nobody who was notified needs the condition variable any more, though it still waits for the
-// mutex.
+// As in the standard: a notified task no longer needs the condition variable, though it still waits for the mutex.
 TEST(ConditionVariable, MayBeDestroyedAsSoonAsAllAreNotified) {
   in_every_order([] {
     mutex m;
@@ -208,7 +207,7 @@ TEST(ConditionVariable, TimedWaitsAreWokenInTime) {
   });
 }
 
-// A wake-up at the instant of a deadline goes to exactly one: it is neither lost nor counted twice.
+// A notification at the instant of a deadline wakes exactly one task: it is neither lost nor counted twice.
 TEST(ConditionVariable, NotifiedAtTheInstantOfTheDeadlineNothingIsLost) {
   expect_both([] {
     mutex m;
@@ -219,7 +218,7 @@ TEST(ConditionVariable, NotifiedAtTheInstantOfTheDeadlineNothingIsLost) {
     for (int i = 0; i < 2; ++i)
       threads.emplace_back([&, i] {
         Lock lock(m);
-        // One waits to the very instant of the notification, the other beyond.
+        // One waits until the very instant of the notification, the other beyond it.
         const bool in_time = c.wait_for(lock, i == 0 ? 5ms : 9ms) == cv_status::no_timeout;
         woken += in_time;
         if (i == 0) notified = in_time;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Code that is compiled with coverage instrumentation: see tests/meson.build.
+// Code compiled with coverage instrumentation: see tests/fibers/sync/meson.build.
 #pragma once
 
 namespace waitpoint {
 
-/// How many steps `n` takes to come to 1: three times it and one, or the half of it.
+/// The length of the Collatz sequence from `n` to 1.
 unsigned collatz_steps(unsigned long n);
 
 }  // namespace waitpoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An unlock at the very instant of the deadline is a tie: either may come first, and both outcomes are sound.
+// An unlock at the very instant of the deadline is a tie: either may come first, and both outcomes are correct.
 #include <gtest/gtest.h>
 
 #include "fibers/sync/mutex.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why nothing goes on: deadlocks are found at once, named, and shown where they are in the source.
+// Deadlocks are found at once; the report names tasks, objects and source lines.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -26,7 +26,7 @@ int times(const std::string& text, const std::string& part) {
 }
 bool contains(const std::string& text, const std::string& part) { return times(text, part) > 0; }
 
-// Where addr2line is installed and this program has debugging information.
+// True if addr2line is installed and this program has debugging information.
 bool source_lines_can_be_had() {
   std::vector<sync::ReturnAddresses> stacks(1, sync::ReturnAddresses(4));
   stacks[0].resize(kernel::capture_call_stack(stacks[0].data(), stacks[0].size()));
@@ -197,7 +197,7 @@ TEST(Deadlock, AConditionNobodySignals) {
   EXPECT_TRUE(!source_lines_can_be_had() || contains(report.text, place(line))) << report;
 }
 
-// The innermost line shown is where the task waits, then who called, up to the thread's function; none of ours.
+// The innermost line shown is the task's wait, then its callers, up to the thread's function; no frames of the library.
 TEST(Deadlock, ShowsTheUsersFramesAndOnlyThose) {
   struct Driver {
     static void __attribute__((noinline)) wait_for_ever(counting_semaphore<>& s) {

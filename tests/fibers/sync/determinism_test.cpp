@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One seed gives one run, whoever looks and however it is cut into windows; another seed gives another.
+// One seed gives one run, with or without watches and windows; another seed gives another run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Times : kernel::Watch {
   std::vector<std::int64_t> seen;
 };
 
-// Runs the program in windows that end at the times `next_end` gives; none: in one.
+// Runs the program in windows that end at the times of `next_end`; null: in one window.
 Outcome run(const SimulationOptions& options, const MixedProgram& program = {},
             const std::function<Time(Time)>& next_end = nullptr) {
   Simulation simulation(options);
@@ -80,7 +80,7 @@ TEST(Determinism, WindowsDoNotChangeARun) {
     for (const auto width : {10us, 50us, 77us, 100us, 3333us}) {
       EXPECT_EQ(run(options, {}, [&](Time t) { return t + Duration(width); }), whole) << width.count();
     }
-    // Ends at the very times of events, and just after each.
+    // Ends exactly at the times of events, and just after each.
     std::size_t next = 0;
     for (const std::int64_t beyond : {0, 1}) {
       next = 0;

@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 using kernel::ClockKind;
 
-// Threads whose measured and chosen costs decide who comes first.
+// Threads whose order depends on measured and chosen costs.
 void spawn_racing_threads(Simulation& simulation, int rounds = 20) {
   for (const char* robot : {"r0", "r1"})
     simulation.spawn(simulation.add_robot(robot), {.name = "main"}, [rounds] {
@@ -49,14 +49,14 @@ TEST(DurationRecord, MeasuredRunsReplayFromTheirRecordToTheSameDigest) {
   for (std::uint64_t number = 0; number <= 5; ++number) {
     const Outcome recorded = record_run(order_number(number));
     EXPECT_GT(recorded.record.entries.size(), 100u);
-    EXPECT_NE(record_run(order_number(number)).digest, recorded.digest);  // the machine is never that exact
+    EXPECT_NE(record_run(order_number(number)).digest, recorded.digest);  // two measurements never agree
     const DurationRecord read = parse_duration_record("file", to_text(recorded.record));
     EXPECT_EQ(read, recorded.record);
     for (int repeat = 0; repeat < 2; ++repeat) {
       Simulation simulation(order_number(number));
       DurationReplay replay(simulation, read, "racing", "file");
       spawn_racing_threads(simulation);
-      // In windows too.
+      // Also in windows.
       for (Time until; simulation.run_before(until) == RunEnd::time_reached; until += 1us)
         ASSERT_LT(until, Time() + 10s);
       EXPECT_EQ(to_string(simulation.digest()), recorded.digest);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each fiber has exceptions in flight and an errno of its own, wherever it is switched away.
+// Each fiber has its own exceptions in flight and errno, wherever it is switched.
 #include <gtest/gtest.h>
 
 #include <cerrno>

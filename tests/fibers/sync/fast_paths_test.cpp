@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernel's fast paths come to the same events as the plain path: random programs with and without them.
+// The kernel's fast paths execute the same events as the plain path: random programs with and without them.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -20,7 +20,7 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-// In windows of `width`; 0: in one.
+// In windows of `width`; 0: in one window.
 Outcome run(SimulationOptions options, const MixedProgram& program, bool fast_paths, Duration width = {}) {
   options.fast_paths = fast_paths;
   Simulation simulation(options);
@@ -49,7 +49,7 @@ TEST(FastPaths, WindowsMakeNoDifferenceBetweenThem) {
     }
 }
 
-// One task that spins at an instant, beside others of the same instant: the bound on turns is the same.
+// A task that spins at an instant, with others at the same instant: the bound on turns is the same.
 Outcome run_spinning(bool fast_paths) {
   SimulationOptions options;
   options.fast_paths = fast_paths;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an aborted run leaves behind in statics reads as fresh in the next run.
+// Static objects are in their initial state in a new run, whatever an aborted run did to them.
 #include <gtest/gtest.h>
 
 #include "fibers/sync/condition_variable.hpp"
@@ -19,7 +19,7 @@ condition_variable left_waiting;
 counting_semaphore<> left_empty(2);
 thread left_running;
 
-// Ends while one task holds and the others wait.
+// Ends while one task holds the objects and the others wait.
 void run_that_breaks_off() {
   Simulation simulation;
   simulation.spawn(simulation.environment(), {}, [] {
@@ -65,7 +65,7 @@ TEST(FreshState, PrimitivesReadAsFreshInTheNextRun) {
       left_empty.release();
       EXPECT_EQ(now(), Time());
     });
-    left_running = thread();  // its run is over: nothing to join
+    left_running = thread();  // its run has ended: no join is needed
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-/// What the future_error is that `call` throws.
+/// The code of the future_error that `call` throws.
 template <class Call>
 std::error_code error_of(const Call& call) {
   try {
@@ -136,7 +136,7 @@ TEST(Future, MisuseThrowsWhatTheStandardSays) {
     EXPECT_EQ(error_of([&] { gives.set_exception(nullptr); }), future_errc::promise_already_satisfied);
     EXPECT_EQ(takes.get(), 1);
     const promise<int> moved = std::move(gives);
-    EXPECT_EQ(error_of([&] { gives.set_value(2); }), future_errc::no_state);  // NOLINT: as it says
+    EXPECT_EQ(error_of([&] { gives.set_value(2); }), future_errc::no_state);  // NOLINT: on purpose
     EXPECT_EQ(error_of([&] { gives.get_future(); }), future_errc::no_state);
   });
 }

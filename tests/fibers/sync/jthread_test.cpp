@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// jthread, and what thread has beside starting and joining.
+// jthread, and the functions of thread other than start and join.
 #include "fibers/sync/jthread.hpp"
 
 #include <gtest/gtest.h>

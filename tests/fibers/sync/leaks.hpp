@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// While it lives, what is allocated may leak: tasks that never leave never let go of what they own. LeakSanitizer would
-// tell it of the whole program.
+// Disables leak detection during its lifetime: tasks that are never unwound do not release what they own, and
+// LeakSanitizer would report it for the whole program.
 #pragma once
 
 #ifdef __SANITIZE_ADDRESS__

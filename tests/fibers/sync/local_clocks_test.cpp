@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using kernel::ClockKind;
 using kernel::ClockOptions;
 
-// What `body` costs as a thread with that clock.
+// The cost of `body` as a thread with that clock.
 Duration cost_with(const ClockOptions& clock, const std::function<void()>& body) {
   Duration cost;
   in_order([&] {
@@ -113,7 +113,7 @@ TEST(ProportionalClock, FollowsTheWallClockAndNotWhatIsDeclared) {
     compute(100s);
     burn(3ms);
   };
-  const auto least_of = [](const auto& measure) {  // the machine may be busy: the least of some is near the truth
+  const auto least_of = [](const auto& measure) {  // the least of several: the machine may be busy
     Duration least = Duration::max();
     for (int i = 0; i < 5; ++i) least = std::min(least, measure());
     return least;
@@ -169,7 +169,7 @@ TEST(CountedClock, CostsADeclaredTimeForEachBasicBlockTheSameInEveryRun) {
     Duration cost;
     in_every_order([&] {
       thread({.clock = {.kind = ClockKind::counted, .scale_millionths = scale, .block_cost = block}}, [&] {
-        compute(1s);  // not declared: counted
+        compute(1s);  // ignored: the blocks are counted
         const Time before = now();
         collatz_steps(n);
         const Duration here = now() - before;

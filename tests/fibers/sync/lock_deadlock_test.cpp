@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Deadlocks through locks that are held several times, or by several at once. In one order: to find the source lines of
-// a report takes long.
+// Deadlocks through locks that are held recursively, or by several tasks at once. In one order, since resolving the
+// source lines of a report is slow.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -23,7 +23,7 @@ using this_thread::sleep_for;
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// Two tasks that each hold one and want the other, 1 ms later: found at once, and both are named.
+// Two tasks that each hold one lock and request the other 1 ms later: found at once, with both names.
 template <class First, class Second>
 void expect_cycle(const std::string& first_kind, const std::string& second_kind) {
   const Report report = simulate([] {
@@ -64,7 +64,7 @@ TEST(LockDeadlock, ARecursiveMutexIsNoneForItsOwner) {
   });
 }
 
-// A writer waits for every reader; that one of them waits for the writer is enough.
+// A writer waits for every reader; one reader that waits for the writer suffices.
 TEST(LockDeadlock, AWriterThatWaitsForAReaderWhoWaitsForIt) {
   const Report report = simulate([] {
     shared_mutex map("map");
@@ -104,7 +104,7 @@ TEST(LockDeadlock, WaitingForWhatOneHoldsOneself) {
   EXPECT_TRUE(deadlocks([](shared_mutex& m) { m.lock_shared(), m.lock(); }));
 }
 
-// Two readers who both want to write: each waits for the other to leave.
+// Two readers that both want to write wait for each other to unlock.
 TEST(LockDeadlock, TwoReadersWhoBothWantToWrite) {
   const Report report = simulate([] {
     shared_mutex m("upgraded");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each misuse of a lock is a bug with a name, and so is ending or destroying what others still need; never silence.
+// Each misuse of a lock is a bug with a report, and so is ending or destroying an object in use.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -85,7 +85,7 @@ TEST(LockMisuseDeathTest, DestroyingALockThatIsHeld) {
                  m.reset();
                }),
                "destroyed while it is held: mutex #[0-9]+, held by anna of environment");
-  // Handed on, though whom it was handed to has not had its turn yet.
+  // Handed over to a task that has not run yet.
   EXPECT_DEATH(simulate([] {
                  auto m = std::make_unique<mutex>();
                  m->lock();
@@ -116,7 +116,7 @@ TEST(LockMisuseDeathTest, DestroyingWhatTasksWaitFor) {
                  s.reset();
                }),
                "destroyed while tasks wait for it: semaphore #[0-9]+");
-  // It has its unit, but is still within the call.
+  // The waiter has its unit, but has not returned from the call.
   EXPECT_DEATH(simulate([] {
                  auto s = std::make_unique<counting_semaphore<>>(0);
                  thread waiter([&] { s->acquire(); });
@@ -188,7 +188,7 @@ TEST(LockMisuse, WhatARunLeftBehindMayBeDestroyed) {
   });
 }
 
-// There is no task then that it could be a mistake of: what destroys it is no part of the run.
+// Destruction outside all tasks is not part of the run, and no task's mistake.
 TEST(LockMisuse, WhatIsDestroyedOutsideAnyTaskIsNotLookedAt) {
   auto held = std::make_unique<mutex>();
   auto waited_for = std::make_unique<condition_variable>();
@@ -224,7 +224,7 @@ TEST(LockMisuseDeathTest, WaitingOnAConditionWithoutHoldingTheMutex) {
   EXPECT_DEATH(simulate([] {
                  condition_variable c("c");
                  mutex m;
-                 std::unique_lock lock(m, std::adopt_lock);  // which is not true
+                 std::unique_lock lock(m, std::adopt_lock);  // a false claim
                  c.wait_for(lock, 1ms);
                }),
                message);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real threads: a semaphore that several threads acquire at once gives every unit away.
+// Real threads: a semaphore that several threads acquire at once hands out every unit.
 #include <gtest/gtest.h>
 
 #include <vector>

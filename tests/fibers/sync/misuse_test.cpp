@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each misuse of a primitive is a bug with a name, not undefined behaviour.
+// Each misuse of a primitive is a bug with a report, not undefined behaviour.
 #include <gtest/gtest.h>
 
 #include "fibers/switch/sanitizer.hpp"
@@ -118,7 +118,7 @@ TEST(MisuseDeathTest, TwoRobotsOfOneName) {
   EXPECT_DEATH(Simulation().add_robot(std::string(48, 'r')), "a robot's name is too long");
 }
 
-// Each level uses a kilobyte; the compiler must neither make a loop of it nor do with less.
+// Each level uses a kilobyte; the compiler must neither turn it into a loop nor use less.
 int deep(int levels) {
   int (*volatile next)(int) = deep;
   char room[1024];
@@ -129,7 +129,7 @@ int deep(int levels) {
 
 TEST(MisuseDeathTest, AStackThatOverflowsCrashesInsteadOfCorrupting) {
   for (const auto size : {kernel::StackSize::small, kernel::StackSize::medium, kernel::StackSize::large}) {
-    kernel::sanitizer::look();  // under one of them all stacks are large
+    kernel::sanitizer::look();  // with a sanitizer all stacks are large
     const kernel::StackSize real = kernel::sanitizer::present ? kernel::StackSize::large : size;
     const int room_kb = static_cast<int>(kernel::bytes(real) / 1024);
     EXPECT_DEATH(simulate([&] { thread({.stack = size}, [&] { deep(room_kb + 8); }).join(); }), "");

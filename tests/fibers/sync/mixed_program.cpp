@@ -18,7 +18,7 @@ struct Output {
   static constexpr auto fields() { return std::tuple(field("value", &Output::value)); }
 };
 
-// What the tasks of one robot share.
+// The objects that the tasks of one robot share.
 struct Shared {
   timed_mutex slow;
   mutex quick;
@@ -29,7 +29,7 @@ struct Shared {
 };
 
 void round(Shared& shared, const RandomStream& random, std::uint64_t number, bool with_timers) {
-  // Few different durations, all multiples of 50 us: instants tie often, and meet the ends of windows.
+  // Few different durations, all multiples of 50 us: instants tie often, and coincide with the ends of windows.
   const std::chrono::microseconds span(50 * random.below(4, number, 1));
   switch (random.below(8, number, 2)) {
     case 0: this_thread::sleep_for(span); break;

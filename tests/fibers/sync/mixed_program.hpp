@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program in which tasks of some robots use every primitive in a random but fixed way: for tests of what must not
-// depend on how a run is cut into windows, watched or repeated.
+// A program in which the tasks of several robots use every primitive in a random but fixed way, for tests that windows,
+// watches and repetition do not change a run.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 namespace waitpoint {
 
 struct MixedProgram {
-  std::uint64_t seed = 1;  ///< of what the tasks do
-  int robots = 2;          ///< each with tasks of its own that share nothing with other robots'
+  std::uint64_t seed = 1;  ///< of the tasks' actions
+  int robots = 2;          ///< each with its own tasks, which share nothing with other robots'
   int rounds = 40;         ///< of each task
   bool with_timers = true;
 };

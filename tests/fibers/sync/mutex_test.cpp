@@ -69,7 +69,7 @@ TEST(Mutex, IsHandedToTheFirstWaiterAtTheTimeOfTheUnlock) {
       });
     sleep_for(10ms);
     m.unlock();
-    m.lock();  // behind those that wait already
+    m.lock();  // behind the current waiters
     order += 'm';
     EXPECT_EQ(now(), at(16ms));
     m.unlock();
@@ -196,7 +196,7 @@ TEST(TimedMutex, InTheDefaultOrderATieWithTheDeadlineIsFirstInFirstOut) {
         sleep_for(10ms);
         never.unlock();
       });
-      // Its own deadline is put into the list before the waiter's, or after it.
+      // Its own deadline is put into the event list before the waiter's, or after it.
       sleep_for(unlock_first ? 0ms : 2ms);
       if (unlock_first) this_thread::yield();
       EXPECT_FALSE(never.try_lock_until(steady_clock::time_point(5ms)));

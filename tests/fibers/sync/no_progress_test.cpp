@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run in which virtual time stands still for ever ends, and says who keeps it so.
+// A run in which virtual time does not advance ends with a report that names the task responsible.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -63,7 +63,7 @@ TEST(NoProgress, WhoPollsTheClockLetsOthersGoOn) {
     });
     while (!done) (void)system_clock::now();
     other.join();
-    // Its own time passes while it computes.
+    // Its own time advances while it computes.
     for (const Time end = now() + 20ms; now() < end;) compute(1us);
     EXPECT_EQ(now(), Time() + 20ms);
   });

@@ -117,7 +117,7 @@ TEST(CallOnce, AFlagThatARunLeavesBehindReadsAsFresh) {
   for (int run = 0; run < 2; ++run) {
     in_order([&] { call_once(flag, [&] { ++calls; }); });
     EXPECT_EQ(calls, 2 * run + 1);
-    // One that is left in the midst of its call:
+    // A flag that a run leaves during its call:
     const Report report = simulate([&] {
       thread({.name = "calls", .service = true}, [&] { call_once(flag, [] { sleep_for(1h); }); }).detach();
       sleep_for(1ms);

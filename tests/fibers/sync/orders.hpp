@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same test body in the default order and in seeded ones: what must hold, must hold in all of them.
+// One test body in the default order and in seeded ones: the assertions must hold in all of them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace waitpoint {
 
-/// So long after the beginning.
+/// This long after the start.
 inline Time at(Duration time) { return Time() + time; }
 
 inline constexpr std::uint64_t seeds_tried = 25;
@@ -29,8 +29,8 @@ inline void in_every_order(const std::function<void()>& body) {
   }
 }
 
-/// Runs `body`, which says which of two ways it went, in the default order and in many seeded ones; each must pass, and
-/// both ways must come up, more than now and then.
+/// Runs `body`, which returns which of two cases occurred, in the default order and in many seeded ones; each must
+/// pass, and both cases must occur repeatedly.
 inline void expect_both(const std::function<bool()>& body) {
   constexpr std::uint64_t orders = 60;
   int one = 0, other = 0;

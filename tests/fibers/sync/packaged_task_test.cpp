@@ -37,7 +37,7 @@ TEST(PackagedTask, TakesFunctionsThatCanOnlyBeMoved) {
     packaged_task<int()> task([owned = std::make_unique<int>(7)] { return *owned; });
     future<int> seven = task.get_future();
     packaged_task<int()> moved = std::move(task);
-    EXPECT_FALSE(task.valid());  // NOLINT: as it says
+    EXPECT_FALSE(task.valid());  // NOLINT: on purpose
     moved();
     EXPECT_EQ(seven.get(), 7);
     packaged_task<void()> drops([] { return 3; });
@@ -184,7 +184,7 @@ TEST(Async, ARunThatEndsBeforeLeavesNothingBehind) {
     const auto sleeps = async(launch::async, [] { sleep_for(1h); });
     throw std::runtime_error("breaks off");
   });
-  EXPECT_EQ(broken.end_time, at(1h));  // the future's destructor waits, as the standard says
+  EXPECT_EQ(broken.end_time, at(1h));  // the future's destructor waits, as in the standard
   EXPECT_TRUE(broken.abandoned.empty()) << broken;
 }
 

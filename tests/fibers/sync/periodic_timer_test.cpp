@@ -46,7 +46,7 @@ TEST(PeriodicTimer, MissedTicksAreCountedAndDoNotPileUp) {
     EXPECT_EQ(timer.wait(), 2);
     EXPECT_EQ(now(), at(65ms));
     sleep_until(at(1s));
-    EXPECT_EQ(timer.wait(), 94);  // the one of this very instant too
+    EXPECT_EQ(timer.wait(), 94);  // including the one of this instant
     EXPECT_EQ(timer.due(), at(1s));
     EXPECT_EQ(timer.wait(), 1);
     EXPECT_EQ(now(), at(1010ms));
@@ -88,7 +88,7 @@ TEST(PeriodicTimer, EqualPeriodsTickTogetherBeforeTheTasksOfThatInstant) {
       });
     sleeper.join();
     for (thread& t : threads) t.join();
-    // The timers fire first; whom they wake goes behind the tasks that were due already.
+    // The timers fire first; the tasks that they wake come after those that were already due.
     EXPECT_EQ(order, "sba");
   });
 }
@@ -151,7 +151,7 @@ TEST(PeriodicTimer, ChangesItsPeriodWhileTasksWait) {
     EXPECT_EQ(ticks, (std::vector{at(10ms), at(22ms), at(29ms), at(36ms)}));
     sleep_until(at(45ms));
     timer.set_period(Period::every(100ms));
-    EXPECT_EQ(timer.wait(), 1);  // of 43 ms: what has come is kept
+    EXPECT_EQ(timer.wait(), 1);  // of 43 ms: a tick is kept
     EXPECT_EQ(timer.due(), at(43ms));
     EXPECT_EQ(timer.wait(), 1);
     EXPECT_EQ(now(), at(100ms));
@@ -178,7 +178,7 @@ TEST(PeriodicTimer, AStoppedOneLetsGoWhoWaitsAndMayStartAgain) {
   });
 }
 
-// Its ticks are no tasks: a run in which nothing but timers goes on can never go on.
+// Ticks are not tasks: a run with nothing but timers is deadlocked.
 TEST(PeriodicTimer, ATimerNobodyWaitsForKeepsNoRunAlive) {
   const Report report = simulate([] {
     periodic_timer timer(Period::hertz(50));
@@ -206,7 +206,7 @@ TEST(PeriodicTimer, MayBeDestroyedWhileItsTickIsDueAndAfterItsRun) {
       if (repeat == 1) kept.reset();
     }
   }
-  // In another run it starts afresh.
+  // In another run it starts anew.
   for (int repeat = 0; repeat < 2; ++repeat)
     in_order([] {
       sleep_until(at(3ms));

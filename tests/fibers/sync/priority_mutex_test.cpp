@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 using kernel::LockProtocol;
 using this_thread::sleep_until;
 
-// As on Mars: a middle thread delays the high one for as long as it likes.
+// Priority inversion, as on Mars Pathfinder: a middle thread delays the high one as long as it computes.
 
 template <class Mutex>
 std::string inversion(Mutex& m) {
@@ -112,7 +112,7 @@ TEST(PriorityMutex, ATimeoutTakesBackWhatWasInherited) {
       compute(1ms);
     });
     s.join();
-    // low has computed 5 ms until the timeout at 5; high takes 1, middle 10, low the rest.
+    // low has computed 5 ms when the timeout expires; high takes 1, middle 10, low the rest.
     EXPECT_EQ(s.trace, "high@5 middle@16 low@31 ");
   });
 }

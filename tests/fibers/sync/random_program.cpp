@@ -6,8 +6,8 @@
 namespace waitpoint::reference {
 namespace {
 
-// Writes the tasks' steps. No mutex is held where another is locked or a task is joined: some programs hang, none has a
-// cycle of owners, which would end the run early.
+// Writes the tasks' steps. While a mutex is held, no other is locked and no task joined: some programs hang, but none
+// has a cycle of owners, which would end the run early.
 class Author {
  public:
   Author(std::uint64_t seed, std::size_t tasks, std::size_t steps) : random_(seed, "", "program"), children_(tasks) {
@@ -69,7 +69,7 @@ class Author {
         steps.push_back({Kind::unlock, mutex});
         break;
       case 5:
-        // All who wait on one condition do so with one mutex.
+        // All waits on one condition use one mutex.
         steps.push_back({Kind::lock, object});
         steps.push_back({Kind::wait_for, object, span(), object});
         add_idling(steps);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random programs of tasks and primitives, as data: the same program is done by the scheduler and by the book.
+// Random programs of tasks and primitives, as data, which both the scheduler and the reference model execute.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ enum class Kind : std::uint8_t {
   sleep,
   yield,
   lock,
-  lock_for,  ///< goes on at `otherwise` if the time runs out
+  lock_for,  ///< continues at `otherwise` after a timeout
   unlock,
   acquire,
   acquire_for,
@@ -38,11 +38,11 @@ struct Step {
 struct Program {
   std::vector<std::vector<Step>> tasks;  ///< the steps of each
   std::vector<std::int64_t> periods_ns;  ///< of each task's timer
-  std::size_t roots = 0;                 ///< so many tasks are there from the start; each other one is spawned once
+  std::size_t roots = 0;                 ///< the first tasks start with the run; each other one is spawned once
   std::size_t objects = 0;               ///< of each kind
 };
 
-/// A program of `tasks` tasks with about `steps` steps each. Its durations are few, so that events tie often.
+/// A program of `tasks` tasks with about `steps` steps each. It has few different durations, so that events tie often.
 Program random_program(std::uint64_t seed, std::size_t tasks, std::size_t steps);
 
 }  // namespace waitpoint::reference

@@ -23,7 +23,7 @@ class Model {
     for (std::size_t i = 0; i < program.roots; ++i) start(i, 0);
   }
 
-  // Algorithm 1: the least event is executed, until no task has one or waits for a timer's.
+  // Algorithm 1: executes the least event, until no task has one or waits for a timer's.
   Outcome run() {
     while (to_come_ > 0) {
       const Event event = events_.front();
@@ -71,8 +71,8 @@ class Model {
     int part = 0;  // of the step
     std::int64_t deadline = for_ever;
     Waiters* waits_at = nullptr;
-    bool in_time = true;   // its last wait
-    bool notified = true;  // its last wait on a condition, while it waits for the mutex again
+    bool in_time = true;   // result of its last wait
+    bool notified = true;  // result of its last wait on a condition, while it waits for the mutex again
     bool ended = false;
     Waiters joiners;
     Timer timer;
@@ -85,7 +85,7 @@ class Model {
     int count = 1;
     Waiters waiters;
   };
-  // How a part of a step leaves its task.
+  // The result of a part of a step.
   enum class Then { next_part, done, waits, gone };
 
   void start(std::size_t i, std::int64_t time) {
@@ -109,7 +109,7 @@ class Model {
   Then waitpoint(std::size_t i) {
     Task& task = tasks_[i];
     ++task.part;
-    // In first-in-first-out order a task goes on at the present instant, whoever ties with it.
+    // In first-in-first-out order a task continues at the present instant, whatever events tie with it.
     const bool timers_first = !events_.empty() && events_.front().time == now_ && events_.front().phase == timers;
     if (!choices_.tie && task.time == now_ && !timers_first) {
       count(i);
@@ -129,7 +129,7 @@ class Model {
     return Then::waits;
   }
 
-  // Who is woken takes the global time as its local one; its timeout is cancelled.
+  // A woken task takes the global time as its local one; its timeout is cancelled.
   void wake(Waiters& waiters, std::size_t place) {
     const std::size_t i = waiters[place];
     waiters.erase(waiters.begin() + static_cast<std::ptrdiff_t>(place));
@@ -171,7 +171,7 @@ class Model {
     ++outcome_.events;
   }
 
-  // The event of task `i`, and all that follows until it waits.
+  // The event of task `i`, and all that follows until its next wait.
   void execute(std::size_t i) {
     count(i);
     Task& task = tasks_[i];
@@ -202,7 +202,7 @@ class Model {
     return Then::done;
   }
 
-  // The next part of a step: what comes before its waitpoint, what comes after it, what comes after a wait.
+  // The next part of a step: before its waitpoint, after its waitpoint, or after a wait.
   Then perform(std::size_t i, const Step& step) {
     Task& task = tasks_[i];
     if (task.part == 0) return begin(i, step);
@@ -291,7 +291,7 @@ class Model {
   std::int64_t now_ = 0;
   std::uint64_t insertions_ = 0;
   std::uint64_t timers_met_ = 0;
-  std::size_t to_come_ = 0;  // tasks with an event in the list, or to be woken by a timer's
+  std::size_t to_come_ = 0;  // tasks with an event in the list, or that wait for a timer's
   std::size_t living_ = 0;
   Outcome outcome_;
 };

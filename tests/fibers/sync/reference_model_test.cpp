@@ -23,7 +23,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// What the tasks of a program share, and what each has for itself.
+// The objects that the tasks of a program share, and those of each task.
 struct World {
   explicit World(const Program& of) : program(of), ids(of.tasks.size()), threads(of.tasks.size()) {
     for (std::size_t i = 0; i < program.objects; ++i) {
@@ -91,7 +91,7 @@ void World::do_task(std::size_t task) {
 
 struct Run {
   Outcome outcome;
-  std::vector<std::uint64_t> ids;  // of the tasks: what their choices are hashes of
+  std::vector<std::uint64_t> ids;  // of the tasks: their choices are hashes of them
 };
 
 Run run_on_the_scheduler(const Program& program, const SimulationOptions& options = {}) {
@@ -107,7 +107,7 @@ Run run_on_the_scheduler(const Program& program, const SimulationOptions& option
   return {std::move(world.outcome), std::move(world.ids)};
 }
 
-// The choices of a seeded order: nothing but hashes of the seed, the task and its own count of events.
+// The choices of a seeded order: hashes of the seed, the task and its own count of events.
 Choices choices_of_seed(std::uint64_t seed, const std::vector<std::uint64_t>& ids) {
   const auto record = [&ids](std::size_t task, std::uint64_t sequence) {
     kernel::Task so_far;
@@ -128,7 +128,7 @@ Choices choices_of_seed(std::uint64_t seed, const std::vector<std::uint64_t>& id
   };
 }
 
-// What programs came to, all together.
+// The results of all programs together.
 struct Tally {
   int programs = 0;
   int ended = 0;
@@ -161,21 +161,21 @@ TEST(ReferenceModel, AMillionEventsOfRandomProgramsAreAsTheAlgorithmsSay) {
   for (std::uint64_t number = 1; number <= 12 && !testing::Test::HasFatalFailure(); ++number)
     compare(number, 40 * number, 300, number % 3, large);
   if (testing::Test::HasFatalFailure()) return;
-  // Programs that end and programs that hang were both among them.
+  // Both programs that end and programs that hang occurred.
   EXPECT_GT(small.ended, 120);
   EXPECT_LT(small.ended, 1080);
   EXPECT_GT(small.events + large.events, 1'000'000u);
   RecordProperty("events", std::to_string(small.events + large.events));
 }
 
-// Whatever the model says: each step is done in time order, and no mutex is held by two.
+// Independent of the model: steps are done in time order, and no mutex is held by two tasks.
 TEST(ReferenceModel, EveryOrderKeepsTimeAndMutualExclusion) {
   for (std::uint64_t seed = 0; seed <= 200; ++seed) {
     const Program program = random_program(seed, 6, 30);
     const Outcome outcome = run_on_the_scheduler(program, order_number(seed)).outcome;
     const std::size_t nobody = program.tasks.size();
     std::vector<std::size_t> owner(program.objects, nobody), next_step(program.tasks.size(), 0);
-    // A task that is in a wait does not hold the mutex.
+    // A task in a wait does not hold the mutex.
     const auto is_free = [&](std::size_t mutex) {
       const std::size_t task = owner[mutex];
       return task == nobody || program.tasks[task][next_step[task]].kind == Kind::wait_for;
@@ -194,7 +194,7 @@ TEST(ReferenceModel, EveryOrderKeepsTimeAndMutualExclusion) {
         owner[step.mutex] = done.task;
       }
       next_step[done.task] = done.step + 1;
-      // What needs no waitpoint may be ahead of the others.
+      // Steps without a waitpoint may be ahead of the others.
       if (step.kind == Kind::compute || step.kind == Kind::spawn || step.kind == Kind::detach) continue;
       ASSERT_GE(done.time_ns, time);
       time = done.time_ns;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simulated response times beside response-time analysis, on random sets of periodic tasks on one processor.
+// Simulated response times against response-time analysis, for random sets of periodic tasks on one processor.
 //
 //   R = C + B + sum over more urgent j of ceil(R / T_j) C_j      (Joseph, Pandya 1986; Sha, Rajkumar, Lehoczky 1990)
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr int resources = 3;
 
 struct PeriodicTask {
   std::int64_t period_us = 0;
-  std::int64_t before_us = 0, inside_us = 0, after_us = 0;  // the parts of its cost: inside with the resource
+  std::int64_t before_us = 0, inside_us = 0, after_us = 0;  // the parts of its cost: inside holds the resource
   int resource = -1;                                        // none
   int priority = 0;
 
@@ -29,7 +29,7 @@ struct PeriodicTask {
 
 using TaskSet = std::vector<PeriodicTask>;  // the most urgent first
 
-// Two to six tasks of 60 to 90 % load altogether; their priorities are in no order of their periods.
+// Two to six tasks of 60 to 90 % load altogether; their priorities do not follow their periods.
 TaskSet random_set(std::uint64_t number, bool with_resources) {
   const RandomStream random(number, "", "task sets");
   std::uint64_t drawn = 0;
@@ -53,7 +53,7 @@ TaskSet random_set(std::uint64_t number, bool with_resources) {
   return tasks;
 }
 
-// How long those less urgent than task `i` can delay it.
+// The blocking of task `i` by less urgent tasks.
 std::int64_t blocking_us(const TaskSet& tasks, std::size_t i, kernel::LockProtocol protocol) {
   std::int64_t longest_of[resources] = {}, longest = 0, sum_of_tasks = 0;
   for (std::size_t low = i + 1; low < tasks.size(); ++low) {
@@ -72,7 +72,7 @@ std::int64_t blocking_us(const TaskSet& tasks, std::size_t i, kernel::LockProtoc
   return std::min(sum_of_tasks, sum_of_resources);
 }
 
-// Nothing if a deadline, the end of the period, can be missed.
+// The response time; nothing if it may exceed the period, which is the deadline.
 std::optional<std::int64_t> response_us(const TaskSet& tasks, std::size_t i, std::int64_t blocking) {
   for (std::int64_t response = tasks[i].cost_us() + blocking;;) {
     if (response > tasks[i].period_us) return std::nullopt;
@@ -84,7 +84,8 @@ std::optional<std::int64_t> response_us(const TaskSet& tasks, std::size_t i, std
   }
 }
 
-// The worst of the first jobs of each task, released together at 0 and at the multiples of their periods from then on.
+// The worst response time of each task, with first jobs released together at 0 and the others at multiples of the
+// periods.
 std::vector<std::int64_t> simulated_us(const TaskSet& tasks, std::int64_t until_us, const SimulationOptions& options,
                                        std::optional<kernel::LockProtocol> protocol) {
   std::vector<std::int64_t> worst(tasks.size());
@@ -137,7 +138,7 @@ TEST(ResponseTimes, EqualTheAnalysisWithoutBlocking) {
     ++tried;
     EXPECT_EQ(simulated_us(tasks, until_us, order_number(number % 3), std::nullopt), expected) << "set " << number;
   }
-  EXPECT_GT(rejected, 0);  // the sets are not all easy
+  EXPECT_GT(rejected, 0);  // some sets are infeasible
 }
 
 TEST(ResponseTimes, KeepTheBoundsOfInheritanceAndCeiling) {
@@ -163,8 +164,8 @@ TEST(ResponseTimes, KeepTheBoundsOfInheritanceAndCeiling) {
         at_bound += simulated[i] == bound[i];
       }
     }
-    EXPECT_GT(blocked, 20u);   // blocking does appear
-    EXPECT_GT(at_bound, 50u);  // and the bounds are no wide ones
+    EXPECT_GT(blocked, 20u);   // blocking occurs
+    EXPECT_GT(at_bound, 50u);  // and the bounds are tight
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every name of threads.hpp that same_source.cpp leaves out, used alike. Built into two programs: with simulated
-// threads, and with WAITPOINT_REAL_THREADS defined for all its files.
+// Every name of threads.hpp that same_source.cpp does not use. Built into two programs: with simulated threads, and
+// with WAITPOINT_REAL_THREADS defined for all its files.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -35,7 +35,7 @@ void expect_as_expected(const SameSourceOutcome& outcome) {
 
 #ifdef WAITPOINT_REAL_THREADS
 TEST(SameSource, DoesTheSameOnRealThreads) {
-  // A loaded machine may miss ticks: what is shown is that the program does, not that the machine keeps, its times.
+  // A loaded machine may miss ticks: the test is of the program, not of the machine's timing.
   SameSourceOutcome outcome;
   for (int attempt = 0; attempt < 10 && !(outcome == expected()); ++attempt) outcome = run_same_source();
   expect_as_expected(outcome);

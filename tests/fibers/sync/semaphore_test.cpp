@@ -45,7 +45,7 @@ TEST(Semaphore, AReleaseServesWaitersFirstAndKeepsTheRest) {
       });
     sleep_for(1ms);
     s.release(2);
-    EXPECT_FALSE(s.try_acquire());  // both units went to those that wait
+    EXPECT_FALSE(s.try_acquire());  // both units went to the waiters
     sleep_for(1ms);
     EXPECT_EQ(order, "ab");
     s.release(3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several locks at once: std::lock, std::try_lock and std::scoped_lock of the standard library over ours, which neither
-// deadlock, nor spin while virtual time stands still.
+// Several locks at once: std::lock, std::try_lock and std::scoped_lock of the standard library with this library's
+// mutexes, without deadlocks, and without spinning while virtual time does not advance.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -103,7 +103,7 @@ TEST(SeveralLocks, TryingSaysWhichCannotBeHadAndHoldsNone) {
   });
 }
 
-// What is waited for while nothing else is held cannot close a cycle, whoever holds it.
+// Waiting for one lock while holding no other cannot close a cycle.
 TEST(SeveralLocks, WaitForOneThatIsHeldWithoutHoldingTheOthers) {
   in_every_order([] {
     mutex first, second;

@@ -80,7 +80,7 @@ TEST(SharedMutex, TriesWithoutWaiting) {
   });
 }
 
-// Each task comes 1 ms after the one before it and keeps the lock for 10 ms: "who@when" in the order of coming in.
+// Tasks arrive at intervals of 1 ms and hold the lock for 10 ms: "task@time" in the order in which they get it.
 std::string order_of(const std::string& tasks, const SimulationOptions& options = {}) {
   std::string order;
   const Report report = simulate(
@@ -106,9 +106,9 @@ std::string order_of(const std::string& tasks, const SimulationOptions& options 
 TEST(SharedMutex, ReadersAndWritersTakeTurnsInTheDefaultOrder) {
   EXPECT_EQ(order_of("rrr"), "r0@0 r1@1 r2@2 ");
   EXPECT_EQ(order_of("www"), "w0@0 w1@10 w2@20 ");
-  // A reader does not pass a writer that waits.
+  // A reader does not overtake a waiting writer.
   EXPECT_EQ(order_of("rrwrr"), "r0@0 r1@1 w2@11 r3@21 r4@21 ");
-  // All readers that wait come in together after a writer, then the next writer.
+  // After a writer all waiting readers enter together, then the next writer.
   EXPECT_EQ(order_of("wrwrw"), "w0@0 r1@10 r3@10 w2@20 w4@30 ");
   EXPECT_EQ(order_of("rwwr"), "r0@0 w1@10 r3@20 w2@30 ");
 }
@@ -118,14 +118,14 @@ TEST(SharedMutex, WhoComesInIsAChoiceInSeededOrders) {
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     std::string order = order_of("wrwrw", order_number(seed)), who;
     for (std::size_t i = 0; i < order.size(); i = order.find(' ', i) + 1) who += order.substr(i, 2);
-    // The two readers come in together, in any order, between, before or behind the writers.
+    // The two readers enter together, in any order, before, between or after the writers.
     ASSERT_TRUE(who.find("r1r3") != std::string::npos || who.find("r3r1") != std::string::npos) << order;
     orders.insert(who);
   }
-  EXPECT_EQ(orders.size(), 12u);  // of readers and two writers, times two
+  EXPECT_EQ(orders.size(), 12u);  // orders of the pair of readers and two writers, times two
 }
 
-// Two generations of readers overlap without end; a lock that let them in past the writer would starve it.
+// Two generations of readers overlap without end; a lock that preferred readers would starve the writer.
 TEST(SharedMutex, AStreamOfReadersDoesNotStarveAWriterNorTheOtherWayRound) {
   for (std::uint64_t number = 0; number <= seeds_tried; ++number) {
     const Report report = simulate(

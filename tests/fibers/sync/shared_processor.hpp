@@ -10,7 +10,7 @@
 
 namespace waitpoint {
 
-/// They write down what they do and when, in milliseconds.
+/// They log their actions and times, in milliseconds.
 struct Shared {
   processor cpu{"cpu"};
   std::string trace;

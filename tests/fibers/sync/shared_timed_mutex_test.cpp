@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The timeouts of shared_timed_mutex; what it has in common with shared_mutex: shared_mutex_test.cpp.
+// The timeouts of shared_timed_mutex; its common part with shared_mutex: shared_mutex_test.cpp.
 #include <gtest/gtest.h>
 
 #include "fibers/sync/shared_mutex.hpp"

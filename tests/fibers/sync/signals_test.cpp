@@ -46,7 +46,7 @@ TEST(Signals, WaitUntilWhoBlocksGoesOn) {
     std::vector<Time> handled;
     thread other([&] {
       handle_signal(1, [&](int) { handled.push_back(now()); });
-      EXPECT_FALSE(units.try_acquire_for(5ms));  // the timeout is not cut short
+      EXPECT_FALSE(units.try_acquire_for(5ms));  // the timeout is not shortened
       EXPECT_EQ(handled, std::vector{at(5ms)});
       units.acquire();
       EXPECT_EQ(handled, (std::vector{at(5ms), at(9ms)}));
@@ -170,7 +170,7 @@ TEST(Signals, ARobotsHandlerServesItsTasksAndNoOthers) {
         other.join();
       });
     ASSERT_EQ(simulation.run_before(), RunEnd::ended);
-    // Both robots' own handlers at 5 ms, then the robots'.
+    // Both robots' own handlers at 5 ms, then those of the robots.
     EXPECT_TRUE(seen == "oodr" || seen == "oord") << seen;
   }
 }
@@ -201,7 +201,7 @@ TEST(Signals, WhatAHandlerThrowsEndsTheRun) {
   EXPECT_NE(report.text.find("from a handler"), std::string::npos) << report;
 }
 
-// A run that ends while a handler waits, below a call that must not throw.
+// The run ends while a handler waits, called from a function that must not throw.
 TEST(Signals, AHandlerIsUnwoundWithItsTask) {
   Simulation simulation;
   bool left = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A task that runs over the end of its stack is named, and so is one that uses a bad address; whoever handled such
-// faults before still does.
+// A stack overflow and a use of a bad address are reported with the task's name; earlier signal handlers for such
+// faults are still called.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 using kernel::StackSize;
 
-// What can be had of a fault is the kernel's own report: sanitizers and valgrind have theirs.
+// Tests the kernel's own report of a fault: sanitizers and valgrind have theirs.
 class StackOverflowDeathTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -74,7 +74,7 @@ TEST_F(StackOverflowDeathTest, IsFoundWhileTheRunIsUnwound) {
       "ran over the end of its stack\n.*in task late of environment");
 }
 
-// In the first page, which nobody has. Not null: UndefinedBehaviorSanitizer would be the first to speak.
+// In the first page, which is never mapped. Not null: UndefinedBehaviorSanitizer would report it first.
 int* volatile nowhere = reinterpret_cast<int*>(64);
 
 void write_nowhere() {

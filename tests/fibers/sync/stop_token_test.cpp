@@ -70,7 +70,7 @@ TEST(StopToken, WithoutAStateOrASourceNobodyCanAsk) {
     stop_source asked;
     asked.request_stop();
     const stop_token token = std::exchange(asked, stop_source(nostopstate)).get_token();
-    EXPECT_TRUE(token.stop_possible());  // for it has happened
+    EXPECT_TRUE(token.stop_possible());  // because it has been requested
   });
 }
 
@@ -229,7 +229,7 @@ TEST(StopToken, ARunThatEndsWithinACallbackIsUnwound) {
     }).detach();
     sleep_for(1s);
   });
-  // The main task's own callback is being called when it ends: as the standard says, it waits.
+  // The main task's own callback is running when the task ends: the task waits for it, as in the standard.
   EXPECT_TRUE(report.passed) << report;
   EXPECT_EQ(report.end_time, at(1h));
 }
@@ -249,7 +249,7 @@ TEST(StopToken, ATaskThatDestroysWhatAnotherCallsWhenTheRunEndsIsNamed) {
     sleep_for(1s);
   });
   EXPECT_TRUE(report.passed) << report;
-  // The younger one left its callback first.
+  // The younger task's callback was unwound first.
   EXPECT_EQ(report.abandoned, std::vector<std::string>{"destroys of environment"});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Waits of condition_variable_any that end when somebody asks their stop token to stop.
+// Waits of condition_variable_any that end at a stop request.
 #include <gtest/gtest.h>
 
 #include <mutex>
@@ -52,7 +52,7 @@ TEST(StoppableWait, ReturnsWhatThePredicateSaysInTheEnd) {
     condition_variable_any changed;
     stop_source source;
     std::unique_lock lock(m);
-    // Ready at once, by a notification, at the deadline, and at the request.
+    // Satisfied at once, by a notification, at the deadline, and at the request.
     EXPECT_TRUE(changed.wait(lock, source.get_token(), [] { return true; }));
     EXPECT_EQ(now(), Time());
     bool ready = false;
@@ -75,7 +75,7 @@ TEST(StoppableWait, ReturnsWhatThePredicateSaysInTheEnd) {
     });
     EXPECT_TRUE(changed.wait(lock, source.get_token(), [] { return now() >= at(9ms); }));
     stopper.join();
-    // Who has been asked does not wait again, nor does one whose deadline is past.
+    // After the request, or a past deadline, there is no further wait.
     EXPECT_FALSE(changed.wait(lock, source.get_token(), never));
     EXPECT_TRUE(changed.wait(lock, source.get_token(), [] { return true; }));
     EXPECT_FALSE(changed.wait_for(lock, stop_token(), -1ms, never));
@@ -110,7 +110,8 @@ TEST(StoppableWait, ARequestWakesNobodyElse) {
   });
 }
 
-// Asked at the instant at which the wait begins, anywhere between the first look at the token and the sleep.
+// The request comes at the instant at which the wait begins, anywhere between the first test of the token and the
+// sleep.
 TEST(StoppableWait, ARequestAtTheInstantOfTheWaitIsNotLost) {
   in_every_order([] {
     for (int repeat = 0; repeat < 8; ++repeat) {
@@ -121,7 +122,7 @@ TEST(StoppableWait, ARequestAtTheInstantOfTheWaitIsNotLost) {
         EXPECT_FALSE(changed.wait(lock, token, [&] { return this_thread::yield(), false; }));
       });
       for (int i = 0; i < repeat; ++i) this_thread::yield();
-    }  // ~jthread asks and joins
+    }  // ~jthread requests the stop and joins
     EXPECT_EQ(now(), Time());
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In a program built with ThreadSanitizer: two tasks that touch the same memory and do not meet at a primitive are a
-// data race, though all tasks run in one thread of the system; those that meet are none.
+// In a program built with ThreadSanitizer: accesses of two tasks to the same memory without synchronisation by a
+// primitive are a data race, though all tasks run in one thread of the system; synchronised accesses are not.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Each dies in a program that begins anew, with reports on and none of what the tests before it were told.
+// Each test runs in a re-executed program, with reports enabled and without the state of earlier tests.
 class ThreadSanitizerDeathTest : public testing::Test {
  protected:
   ThreadSanitizerDeathTest() {
@@ -43,7 +43,7 @@ class ThreadSanitizerDeathTest : public testing::Test {
 [[noreturn]] void simulate_and_exit(const std::function<void()>& body) { std::exit(simulate(body).passed ? 0 : 1); }
 
 void expect_race(const std::function<void()>& body) {
-  // ThreadSanitizer's own exit status, where it reported something.
+  // ThreadSanitizer's own exit status after a report.
   EXPECT_EXIT(simulate_and_exit(body), testing::ExitedWithCode(66), "data race");
 }
 
@@ -153,7 +153,7 @@ TEST_F(ThreadSanitizerDeathTest, AConditionVariableAndItsMutexOrder) {
       ++shared;
     });
     this_thread::sleep_for(1ms);
-    ++shared;  // nobody else does before it is ready
+    ++shared;  // no other task does before it is ready
     {
       const std::lock_guard guard(m);
       ready = true;
@@ -187,7 +187,7 @@ TEST_F(ThreadSanitizerDeathTest, ASemaphoreOrders) {
 
 TEST_F(ThreadSanitizerDeathTest, MakingAndJoiningOrder) {
   expect_none([] {
-    for (int round = 0; round < 20; ++round) {  // on the same stack again and again
+    for (int round = 0; round < 20; ++round) {  // on the same stack repeatedly
       int shared = round;
       thread other([&] {
         ++shared;

@@ -183,12 +183,12 @@ TEST(Sleep, EndsAtTheTimeAskedForAndNeverGoesBack) {
     sleep_for(-5ms);
     sleep_for(0ms);
     EXPECT_EQ(now(), at(10ms));
-    sleep_for(std::chrono::duration<double>(0.5e-9));  // never shorter than asked for
+    sleep_for(std::chrono::duration<double>(0.5e-9));  // never shorter than requested
     EXPECT_EQ(now(), at(10ms + 1ns));
   });
 }
 
-// What a task does after computing is seen by others that much later, however the code was executed.
+// Computing delays the visible effects that follow it, whatever the order of execution.
 TEST(Compute, MovesTheLocalTimeAndOrdersWhatFollows) {
   in_every_order([] {
     mutex m;
@@ -239,7 +239,7 @@ TEST(Yield, APollingLoopEndsInEveryOrder) {
     mutex held;
     held.lock();
     thread holder([&] {
-      while (!held.try_lock()) {  // spins without saying so: it gets its ties their turn all the same
+      while (!held.try_lock()) {  // spins without a yield: its ties get their turn nevertheless
       }
       held.unlock();
     });

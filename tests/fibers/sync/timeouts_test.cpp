@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every timed call takes any duration and a time point of any clock: what is past is past, what is out of range is for
-// ever, and a fraction of a nanosecond is a whole one.
+// Every timed call takes any duration and a time point of any clock: the past has expired, out of range is without
+// limit, and a fraction of a nanosecond is rounded up.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -20,7 +20,7 @@
 
 namespace waitpoint {
 
-// A clock of a user's own; its epoch lies 40 years before the start of the run.
+// A user's own clock; its epoch is 40 years before the start of the run.
 struct boot_clock {
   using duration = std::chrono::nanoseconds;
   using rep = duration::rep;
@@ -39,7 +39,7 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-// All that a task can wait for, held by another until `until`.
+// All objects that a task can wait for, held by another task until `until`.
 struct Everything {
   timed_mutex plain;
   recursive_timed_mutex recursive;
@@ -64,7 +64,7 @@ struct Everything {
   }
 };
 
-// Each timed wait with a span, and with the time point at its end; whether it was in time.
+// Each timed wait with a duration, and with the time point at its end; true if in time.
 template <class Span>
 std::vector<std::function<bool(Everything&)>> waits(Span span) {
   const auto end = [span] { return steady_clock::now() + span; };
@@ -111,13 +111,13 @@ std::vector<std::function<bool(Everything&)>> waits(Span span) {
   };
 }
 
-// Every wait, for something that is to be had after `held`, in every order: whether in time, and how long it took.
+// Every wait in every order, for an object that becomes available after `held`: its result and its duration.
 template <class Span>
 void expect_each(Span span, Duration held, bool in_time, Duration takes) {
   for (std::size_t i = 0; i < waits(span).size(); ++i) {
     SCOPED_TRACE("wait " + std::to_string(i));
     in_every_order([&] {
-      sleep_for(1s);  // so that there is a past
+      sleep_for(1s);  // so that negative durations are after the start of the run
       const Time begin = now();
       Everything e;
       thread holder([&] { e.hold_until(begin + held); });

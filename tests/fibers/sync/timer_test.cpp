@@ -33,7 +33,7 @@ TEST(Timer, FiresOnceAtItsTimeBeforeTheTasksOfThatInstant) {
     once.start_after(2ms);
     sleep_for(1s);
     EXPECT_EQ(fired.back(), at(7ms));
-    // One that is past fires now.
+    // A past time fires now.
     once.start_at(at(1ms));
     this_thread::yield();
     EXPECT_EQ(fired.size(), 3u);
@@ -69,7 +69,7 @@ TEST(Timer, ChangesItsPeriodAndStopsAlsoFromItsOwnCallback) {
     sleep_for(1s);
     EXPECT_EQ(fired, (std::vector<std::int64_t>{10, 20, 30, 50, 75}));
     EXPECT_FALSE(beat.stop());
-    beat.start_after(std::chrono::hours::max());  // for ever is never
+    beat.start_after(std::chrono::hours::max());  // infinite: never
     EXPECT_FALSE(beat.pending());
   });
 }
@@ -138,7 +138,8 @@ TEST(Timer, KeepsNoRunAlive) {
   EXPECT_EQ(report.end_time, at(10ms));
 }
 
-// Its callback could wake the task; it never does. After a million ticks for nothing it is not waited for any more.
+// Its callback could wake the task, but never does. After a million ticks without effect the run no longer waits for
+// it.
 TEST(Timer, DoesNotHideADeadlock) {
   const Report report = simulate([] {
     timer beat([] {});
@@ -150,7 +151,7 @@ TEST(Timer, DoesNotHideADeadlock) {
   EXPECT_NE(report.text.find("never"), std::string::npos) << report;
 }
 
-// A task that sleeps is not one that waits for ever, however often a timer fires meanwhile.
+// A sleeping task is not one that waits without end, however often a timer fires meanwhile.
 TEST(Timer, GoesOnWhileATaskSleepsLong) {
   in_order([] {
     std::uint32_t fired = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In a program built with UndefinedBehaviorSanitizer: what a task does wrong ends the program with the place.
+// In a program built with UndefinedBehaviorSanitizer: an error in a task ends the program with its source line.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that ends before its tasks do takes them off their stacks: every destructor runs, nothing hangs or leaks.
+// A run that ends before its tasks do unwinds their stacks: every destructor runs, nothing hangs or leaks.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -31,7 +31,7 @@ struct Counted {
   ~Counted() { --alive; }
 };
 
-// Runs `body` as a task to 10 ms and ends the run there. The tasks that did not leave.
+// Runs `body` as a task until 10 ms and ends the run there; returns the tasks that could not be unwound.
 Names break_off(const std::function<void()>& body, const SimulationOptions& options = {}) {
   Simulation simulation(options);
   simulation.spawn(simulation.environment(), {.name = "main"}, body);
@@ -134,7 +134,7 @@ TEST(Unwinding, FollowsADeadlockAnExceptionAndTheEndOfARun) {
   }
 }
 
-// What a task borrows from the frames of the one that made it is still there when its own destructors run.
+// Objects that a task borrows from the frames of its parent still exist when the task's own destructors run.
 TEST(Unwinding, ChildrenLeaveBeforeTheirParents) {
   std::string order;
   struct Note {
@@ -166,7 +166,7 @@ TEST(Unwinding, ChildrenLeaveBeforeTheirParents) {
   EXPECT_EQ(order, "child parent ");
 }
 
-// Objects go with their owner's frame or heap block while others still wait for them.
+// Objects are destroyed with their owner's frame or heap block while other tasks still wait for them.
 TEST(Unwinding, TouchesNoObjectThatIsGone) {
   struct Shared {
     mutex m;
@@ -183,7 +183,7 @@ TEST(Unwinding, TouchesNoObjectThatIsGone) {
                 thread([=] { shared->s.acquire(); }).detach();
                 thread([=] { shared->timer.wait(); }).detach();
               }
-              // The youngest leaves first, and takes what the others wait for with it.
+              // The youngest task is unwound first, and destroys the objects that the others wait for.
               thread([&] {
                 struct Breaker {
                   ~Breaker() {
@@ -289,7 +289,7 @@ TEST(Unwinding, NamesTheTasksThatNeverLeave) {
             (Names{"swallows of environment", "only releases of environment"}));
 }
 
-// A destructor lets no exception through: who waits in one when the run ends can only be left there.
+// A destructor lets no exception through: a task that waits in one when the run ends cannot be unwound.
 TEST(Unwinding, NamesTheTasksThatWaitInADestructor) {
   const LeaksOnPurpose leaks;
   struct Pool {
@@ -305,7 +305,7 @@ TEST(Unwinding, NamesTheTasksThatWaitInADestructor) {
               { const Pool pool; }
             }),
             Names{"main of environment"});
-  EXPECT_EQ(alive, 1);  // what it leaks
+  EXPECT_EQ(alive, 1);  // leaked
   alive = 0;
   EXPECT_EQ(std::get_terminate(), before);
   const Report report = simulate([] {
