@@ -55,7 +55,7 @@ TEST(ExactMath, SineAndCosineAreWithinTwoUlps) {
     check(draw.between(-1e6, 1e6));
     check(draw.magnitude(-300, 19));
   }
-  // Next to multiples of pi/2 the reduction loses the most.
+  // The reduction loses most precision near multiples of pi/2.
   for (int k = -200000; k <= 200000; k += 37) check(k * (pi / 2));
   EXPECT_LE(worst, 2.0);
 }
@@ -160,7 +160,7 @@ TEST(ExactMath, WrappingKeepsTheAngleAndItsRange) {
   EXPECT_TRUE(std::isnan(wrap_angle(nan)));
 }
 
-// The same bits from every compiler, at every optimisation, on every CPU. It changes only when a function does.
+// The same bits from every compiler, at every optimisation level, on every CPU. It changes only with a function.
 TEST(ExactMath, TheFingerprintIsTheRecordedOne) { EXPECT_EQ(fingerprint(), 1002389924957023670u); }
 
 }  // namespace

@@ -135,7 +135,7 @@ TEST(Bounded, HoldsUpToItsCapacityInOrder) {
   EXPECT_EQ(list.size(), 0u);
 }
 
-/// Counts how often it is copied.
+/// Counts its copies.
 struct Counted {
   Counted() = default;
   Counted(const Counted&) { ++copies; }

@@ -83,7 +83,7 @@ TEST(Period, TicksAt75HertzAreMultiplesRoundedOnce) {
   EXPECT_EQ(period.tick(1).ns(), 13'333'333);
   EXPECT_EQ(period.tick(2).ns(), 26'666'667);
   EXPECT_EQ(period.tick(3).ns(), 40'000'000);
-  // A day later there is no drift: a sum of rounded periods would be 2.16 ms off.
+  // No drift after a day: a sum of rounded periods would be 2.16 ms off.
   for (std::int64_t s : {1, 60, 86400}) EXPECT_EQ(period.tick(75 * s), Duration(std::chrono::seconds(s)));
   for (std::int64_t k = 1; k < 10000; ++k) {
     const long double exact = static_cast<long double>(k) * 1e9L / 75;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The machinery sees what it must see: each check on a small tree that breaks its rule, the counting on programs that
+"""The development tools find violations: each check on a small tree that breaks its rule, the test counter on programs that
 pass, fail, crash and hang."""
 
 import ast

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The commands of the documents do what the documents show: pages_test.py BUILD.
+"""The commands in the documents give the outputs in the documents: pages_test.py BUILD.
 
-A block ```console is a session: a line `$ COMMAND` (continued behind a backslash) is executed by bash, and the lines below are
-its output, both streams together. `...` in them stands for any text, as a line of its own for any lines. `$ cat FILE` of a file
-that is not there writes it with the lines below. A run's lines of progress are left out. The blocks of a page share a folder, which has the `scenarios` of the tree and the
-sources of tests/programs; `waitpoint` is the built program, and pkg-config finds an installation of it.
+A block ```console is a session: a line `$ COMMAND` (continued after a backslash) is executed by bash, and the lines below it are
+the expected output, both streams together. In them `...` matches any text, and a line `...` any lines. `$ cat FILE` of a missing
+file creates it with the lines below. Progress lines of a run are ignored. The blocks of a page share a folder with the `scenarios`
+of the tree and the sources of tests/programs; `waitpoint` is the built program, and pkg-config finds its installation.
 """
 
 import os
@@ -48,7 +48,7 @@ def pattern(lines):
 
 class Pages(Installed):
     def environment(self, page):
-        """A folder for the page's commands, and what they find in their environment."""
+        """A folder and the environment for the page's commands."""
         folder = self.folder / page
         tools = folder / ".bin"
         tools.mkdir(parents=True)

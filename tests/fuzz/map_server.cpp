@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The YAML of a map_server's map; the image that it names is mostly missing.
+// The YAML of a map_server's map; its image is mostly missing.
 #include <cstddef>
 #include <cstdint>
 #include <string>

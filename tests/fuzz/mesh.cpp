@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes in STL and OBJ. (Those that Assimp reads are its affair.)
+// Meshes in STL and OBJ. (Files for Assimp are not fuzzed.)
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Octrees of OctoMap's.
+// OctoMap's octrees.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a loader may do with whatever it is given: read it, or refuse it by a BadInput of one line.
+// A loader must read any input, or reject it by a BadInput of one line.
 #pragma once
 
 #include <cstdlib>

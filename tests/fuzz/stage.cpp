@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worlds of Stage's.
+// Worlds of Stage.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """gdb sees the fibers, steps from event to event, and back: gdb_test.py BUILD.
 
-Each session is a gdb that is given commands; what it said to each of them is looked at. Leaves with 77, skipped, where
-there is no gdb or no process may be debugged.
+Each session runs commands in gdb and checks the output of each. Exits with 77, skipped, if there is no gdb or if processes
+must not be debugged.
 """
 
 import functools
@@ -32,7 +32,7 @@ def folder():
 
 @functools.lru_cache(maxsize=None)
 def compiled(name):
-    """A program as a user would compile it: optimised, with debugging information, the library as an archive."""
+    """Compiles a program like a user: optimised, with debugging information, the library as an archive."""
     if not (folder() / "include").exists():
         (folder() / "include").mkdir()
         (folder() / "include/waitpoint").symlink_to(ROOT)
@@ -43,7 +43,7 @@ def compiled(name):
 
 
 def session(commands, arguments, start=PLAIN, **environment):
-    """What gdb said to each of the commands, in their order; of what the process writes, what came meanwhile."""
+    """The outputs of gdb for the commands, in order, each with the concurrent output of the process."""
     words = [*start, "-ex", "set pagination off", "-ex", "set width 0"]
     for number, command in enumerate(commands):
         words += ["-ex", f"echo @{number}@\\n", "-ex", command]
@@ -82,7 +82,7 @@ class Looking(unittest.TestCase):
         self.assertEqual([re.split(r" {2,}", line.strip()) for line in text.splitlines()], self.TABLE)
 
     def assert_looks(self, told):
-        """At 1 ms, in a process as in a core file."""
+        """The outputs at 1 ms, equal in a process and in a core file."""
         info, time_told, fiber, trace, above, local, printed, apply_all, apply_one, bench, number, door = told
         self.assert_table(info)
         self.assertEqual(time_told, "0.001000000 s, event 11; master of environment is at 0.001000000 s")
@@ -252,7 +252,7 @@ class Explored(unittest.TestCase):
 
 
 class Office(unittest.TestCase):
-    """A robot's modules, by `waitpoint gdb`."""
+    """A robot's modules in `waitpoint gdb`."""
 
     def test_is_stepped_through_and_keeps_its_digest(self):
         program, scenario = BUILD / "tools/waitpoint", ROOT / "scenarios/office.yaml"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An installed copy of a build folder, and programs that are compiled against it with the flags of pkg-config alone."""
+"""An installation of a build folder, and programs compiled against it with only the flags of pkg-config."""
 
 import os
 import pathlib
@@ -21,14 +21,14 @@ def run(*command, **options):
 
 
 def flags(prefix, *arguments):
-    """What pkg-config answers; the packages of the installed library say that they lie in `prefix`."""
+    """The output of pkg-config, with `prefix` as the prefix of the installed packages."""
     folders = os.pathsep.join(str(path.parent) for path in prefix.rglob("*.pc"))
     environment = {**os.environ, "PKG_CONFIG_PATH": folders}
     return run("pkg-config", f"--define-variable=prefix={prefix}", *arguments, env=environment).split()
 
 
 class Installed(unittest.TestCase):
-    """Installs once for all; what is compiled is compiled once too."""
+    """Installs once for all tests; each program is compiled once, too."""
 
     @classmethod
     def setUpClass(cls):

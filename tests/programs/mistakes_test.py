@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mistakes in what users build outside the tree are found: mistakes_test.py BUILD."""
+"""Bugs in programs that users build outside the tree are found: mistakes_test.py BUILD."""
 
 import os
 import re
@@ -11,7 +11,7 @@ from installed import BUILD, HERE, Installed, flags, main, run
 
 
 class LatePom(Installed):
-    """A module with a mistake that only other schedules show; `waitpoint explore` finds it."""
+    """A module with a bug that the default order does not show; `waitpoint explore` finds it."""
 
     def explore(self, *options):
         program = self.compile("late_pom", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
@@ -39,7 +39,7 @@ class LatePom(Installed):
             self.assertIn("the same run", replayed.stdout, replayed.stderr)
         self.assertIn(digest, replayed.stdout)
 
-        # As of a run that went another way from the third of its marks on.
+        # A record with another mark: the replay leaves it from there on.
         token = re.search(r"--replay (wx1\S+)", found.stdout).group(1)
         begin, marks, end = re.fullmatch(r"(wx1\.0\.)[0-9a-f]{8}-(\w+)(\..*)", token).groups()
         for mark, which in (5, r"at one of its events \d+ to \d+"), (1, r"at one of its events 1 to \d+"):
@@ -77,14 +77,14 @@ class LatePom(Installed):
 
 
 class Unrepeatable(Installed):
-    """Whatever a module takes from outside the simulation, a self-check finds it and names the first event that differs."""
+    """A self-check finds every value that a module takes from outside the simulation, and names the first event that differs."""
 
     SECOND, PERTURBED = "the second run in this process", "the run in a perturbed process"
 
     def check(self, source, *more, **surroundings):
         program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"),
                                "-pthread")
-        entries = self.folder / "entries"  # more than fit into one page, or into one reading
+        entries = self.folder / "entries"  # more than fit into one page, or into one read
         if not entries.exists():
             entries.mkdir()
             for number in range(1000):
@@ -96,7 +96,7 @@ class Unrepeatable(Installed):
         return done.returncode, done.stdout + done.stderr
 
     def assert_caught(self, source, *runs):
-        """Found by one of the runs, at the event after the value was given to the poster."""
+        """Found by one of the runs, at the event after the value was written to the poster."""
         status, output = self.check(source)
         self.assertEqual(status, 1, output)
         told = re.fullmatch(r"""unrepeatable, seed 1: not the same run: (?P<run>.*) parts from the first
@@ -162,7 +162,7 @@ class Unrepeatable(Installed):
         self.assert_caught("environment", self.PERTURBED)
 
     def assert_cut_off(self, how, source, **surroundings):
-        """The process ended, or was ended, in the first period: the event that it did not come to is named."""
+        """The process ended or was terminated in the first period: the report names the event that is missing."""
         status, output = self.check(source, **surroundings)
         self.assertEqual(status, 1, output)
         self.assertRegex(output, r"not the same run: the run in a perturbed process parts from the first\n"
@@ -194,7 +194,7 @@ class Unrepeatable(Installed):
 
 
 class LostLetter(Installed):
-    """Tests of one's own threads need neither world nor modules."""
+    """Tests of a user's own threads need neither world nor modules."""
 
     def test_finds_the_lost_letter(self):
         needed = flags(self.prefix, "--cflags", "--libs", "waitpoint")
@@ -215,7 +215,7 @@ class LostLetter(Installed):
         again = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
         self.assertIn("the replayed schedule failed: deadlock at ", again.stdout)
 
-        # A token of a call that the test does not have is no test that passes.
+        # A token with a call that no test has is an error.
         other = re.search(r"wx1\.1\.(\S+)", line)[1]
         for which in "MendedLetter.*", "*", "No.Such":
             refused = subprocess.run([program, f"--gtest_filter={which}"], capture_output=True, text=True,
@@ -229,7 +229,7 @@ class LostLetter(Installed):
         needed = flags(self.prefix, "--cflags", "--libs", "waitpoint")
         program = self.compile("sudden_death", *needed)
         for signal in "6", "9", "11":
-            # The supervisor has the pipe open until it has told.
+            # The supervisor keeps the pipe open until it has printed its message.
             done = subprocess.run([program, signal], capture_output=True, text=True)
             self.assertEqual(done.returncode, -int(signal), done.stderr)
             line = re.search(r"replay: (WAITPOINT_REPLAY=\S+ \S+)", done.stderr)
@@ -239,7 +239,7 @@ class LostLetter(Installed):
 
 
 class SharedCounter(Installed):
-    """The installed library is not instrumented; a program built with a sanitizer is, and its threads are seen as such."""
+    """The installed library is not instrumented; a sanitizer in the user's program sees tasks as threads."""
 
     def outcome(self, sanitizer, how):
         program = self.folder / sanitizer
@@ -266,7 +266,7 @@ class SharedCounter(Installed):
 
 
 class RacyCounter(Installed):
-    """Races are found in what one command compiles and links: the flags are those of the library's own compiler."""
+    """Races are found in a program compiled and linked by one command, with the flags of the library's own compiler."""
 
     def outcome(self, *arguments, package="waitpoint-races", compiler=None):
         if not list(self.prefix.rglob(f"{package}.pc")):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What users build outside the tree works against the installed library: programs_test.py BUILD."""
+"""Programs that users build outside the tree work with the installed library: programs_test.py BUILD."""
 
 import os
 import re
@@ -12,7 +12,7 @@ from installed import HERE, Installed, flags, main, run
 
 class Headers(Installed):
     def test_they_need_neither_the_tree_nor_other_libraries(self):
-        # Real threads take the place of the simulated ones: never both.
+        # The headers of real threads replace those of simulated ones; both together cannot be included.
         headers = sorted(path.relative_to(self.prefix / "include") for path in self.prefix.rglob("*.hpp")
                          if not path.name.startswith("real_"))
         self.assertGreater(len(headers), 50)
@@ -33,7 +33,7 @@ class Headers(Installed):
 
 
 class Blinker(Installed):
-    """Modules of one's own, in a robot that has no others, no base and no goals."""
+    """A user's own modules, in a robot without other modules, base and goals."""
 
     def test_runs_its_scenario_and_repeats(self):
         program = self.compile("blinker", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
@@ -87,12 +87,12 @@ robots:
 
 
 class TwoRobots(Installed):
-    """Robots that talk to each other over the medium of their scenario."""
+    """Robots that communicate over the medium of their scenario."""
 
     def outcome(self, *options):
         program = self.compile("two_robots", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
         output = run(program, "run", HERE / "two_robots/two_robots.yaml", *options)
-        # (time, who, what, positions, log entries), and the digest of the run
+        # (time, robot, event, positions, log entries), and the digest of the run
         told = re.findall(r"^ *([\d.]+) s  (\w+) (.*) \((\d+) positions, (\d+) log entries\)$", output, re.MULTILINE)
         return told, re.findall(r"wp1:[0-9a-f]{16}", output)[-1]
 
@@ -102,7 +102,7 @@ class TwoRobots(Installed):
                          [("bea", "hears ada"), ("ada", "hears bea"), ("bea", "has lost ada"), ("ada", "has lost bea"),
                           ("bea", "hears ada"), ("ada", "hears bea")])
         for _, _, what, positions, entries in told[2:]:
-            # In 20 s and 5 positions a second some are lost; the log waits out of range, and then it is all there.
+            # At 5 positions a second for 20 s some are lost; the log waits while out of range, and arrives completely.
             self.assertLess(int(positions), 90)
             self.assertEqual(int(entries), 34 if what.startswith("hears") else 18)
         self.assertEqual(self.outcome()[1], digest)
@@ -144,7 +144,7 @@ class LargeFrame(Installed):
         self.assertRegex(done.stderr, r"ran over the end of its stack\n.*in task glutton")
 
 
-# The primitives as threads.hpp names them, on the standard library's threads.
+# The primitives of threads.hpp, on the standard library's threads.
 REAL_THREADS = """
 #include <waitpoint/fibers/sync/threads.hpp>
 #include <waitpoint/modules/genom/client.hpp>
@@ -181,7 +181,7 @@ class RealThreads(Installed):
         run(self.folder / "real", timeout=20)
 
 
-# A header of the consumer's own, of the name of one of ours.
+# A header of the consumer's own with the name of a header of the library.
 CONSUMERS_TIME = """
 #pragma once
 namespace own { constexpr int hours = 24; }
@@ -222,7 +222,7 @@ executable('robots', 'robots.cpp', dependencies: dependency('waitpoint-robots'))
 
 
 class Consumers(Installed):
-    """Projects that find the installed library as their build system does, with a folder core/ of their own."""
+    """Projects that find the installed library with their build system, and have a folder core/ of their own."""
 
     def project(self, name, build_file="", text=""):
         folder = self.folder / name

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `waitpoint run --record` writes is what other programs read: recordings_test.py BUILD.
+"""The recordings of `waitpoint run --record` are valid in other programs: recordings_test.py BUILD.
 
-MCAP files are read by a reader of our own, which checks every length, offset and checksum, and where npm answers by the
+MCAP files are read by a reader of this test, which checks every length, offset and checksum, and, if npm works, by the
 format's reference reader.
 """
 
@@ -46,7 +46,7 @@ def recorded(name):
 
 
 class Fields:
-    """The fields of a record, one after the other."""
+    """The fields of a record, in sequence."""
 
     def __init__(self, data):
         self.stream = io.BytesIO(data)
@@ -81,7 +81,7 @@ def records(data, start=0):
 
 class Mcap(unittest.TestCase):
     def read(self, path):
-        """{topic: [(time, message)]}, after everything in the file was held against everything else in it."""
+        """{topic: [(time, message)]}, after checks of the consistency of the whole file."""
         data = path.read_bytes()
         self.assertTrue(data.startswith(MAGIC) and data.endswith(MAGIC))
         inner = data[:-len(MAGIC)]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Command lines of `waitpoint` as tests give them.
+// Parses command lines of `waitpoint` for tests.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace waitpoint::tools {
 
-/// What `waitpoint ARGUMENTS` asks for.
+/// The options of `waitpoint ARGUMENTS`.
 inline Options read(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "waitpoint");
   return read_options(static_cast<int>(arguments.size()), arguments.data(), "waitpoint 1.2.3");
 }
 
-/// With which words it is refused; empty if it is not.
+/// The message with which they are rejected; empty if they are valid.
 inline std::string message(const std::vector<const char*>& arguments) {
   try {
     read(arguments);

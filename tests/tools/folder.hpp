@@ -26,7 +26,7 @@ class Folder {
     std::ifstream stream(path_ / name);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
-  /// How many files there are.
+  /// The number of files.
   std::size_t count() const {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
   }

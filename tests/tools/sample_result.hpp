@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The result of an imagined run with one or two robots, to write in every form.
+// The result of a fictitious run with one or two robots, for tests of all output formats.
 #pragma once
 
 #include "modules/bridge/run_result.hpp"

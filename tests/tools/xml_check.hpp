@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a text is well-formed XML, as far as the pictures use it: elements, attributes in double quotes, text,
+// A check for well-formed XML, for the features that pictures use: elements, attributes in double quotes, text,
 // entities.
 #pragma once
 
@@ -19,9 +19,9 @@ class XmlCheck {
     if (problem_.empty() && !open_.empty()) fail("element " + open_.back() + " is not closed");
   }
 
-  /// "" if the text is well-formed, else what is wrong and where.
+  /// "" if the text is well-formed, else the error and its place.
   const std::string& problem() const { return problem_; }
-  /// How many elements of each name there are.
+  /// The number of elements of each name.
   std::size_t count(const std::string& element) const {
     const auto found = count_.find(element);
     return found == count_.end() ? 0 : found->second;

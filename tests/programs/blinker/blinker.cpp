@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program with two modules of its own: one blinks a lamp when it is asked to, the other asks and watches.
+// A program with two modules of its own: one blinks a lamp on request, the other sends the request and watches.
 #include <cstdio>
 #include <waitpoint/modules/genom/client.hpp>
 #include <waitpoint/modules/genom/module.hpp>
@@ -10,7 +10,7 @@ using waitpoint::Duration;
 using waitpoint::field;
 using waitpoint::genom::State;
 
-/// What the poster blinker.lamp shows.
+/// The type of the poster blinker.lamp.
 struct Lamp {
   bool lit = false;
   std::uint32_t flashes = 0;  ///< so far
@@ -27,8 +27,8 @@ class Blinker : public waitpoint::genom::Module {
  public:
   explicit Blinker(waitpoint::genom::ModuleSetup& setup)
       : Module(setup, 42), task_(add_task("main", {.period_ms = 250ms, .cost_us = 20us})) {
-    add_poster<Lamp>("lamp", task_, &lamp_);  // given at the end of every period
-    // One codel is called a period, until the activity's state is ETHER. A new Blink ends the one that runs.
+    add_poster<Lamp>("lamp", task_, &lamp_);  // written at the end of every period
+    // One codel is called per period, until the activity's state is ETHER. A new Blink interrupts the running one.
     add_activity<BlinkInput>("Blink", task_,
                              {.start =
                                   [this](auto& activity) {
@@ -55,9 +55,9 @@ class Blinker : public waitpoint::genom::Module {
   waitpoint::genom::ExecutionTask& task_;
 };
 
-/// What a scenario may set of the module.
+/// The module's settings in a scenario.
 struct WatchmanParameters {
-  std::uint32_t flashes = 3;  ///< that it asks for
+  std::uint32_t flashes = 3;  ///< number requested
   static constexpr auto fields() { return std::tuple(field("flashes", &WatchmanParameters::flashes)); }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads to be looked at in a debugger: clock_makers [HANDS [restless]]. One holds a mutex and sleeps, one waits for
-// the mutex, one for a condition, one for a semaphore with a timeout; HANDS more wait for the condition. Time jumps
-// from 2 ms to 500 ms, and to 1 s. Restless, it does what no run should: one sleeps for as long as the number of the
-// process says.
+// Threads for tests of the debugger: clock_makers [HANDS [restless]]. One holds a mutex and sleeps, one waits for the
+// mutex, one for a condition, one for a semaphore with a timeout; HANDS more wait for the condition. Virtual time jumps
+// from 2 ms to 500 ms, and to 1 s. With `restless` the run is not repeatable: a thread sleeps for a time that depends
+// on the id of the process.
 #include <unistd.h>
 #include <chrono>
 #include <condition_variable>

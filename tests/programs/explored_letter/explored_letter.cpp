@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A letter that is lost in one order of its threads: exploration finds it, and its token is stepped through in gdb.
+// A notification is lost in one order of the threads: exploration finds it, and its token is stepped through in gdb.
 #include <iostream>
 #include <mutex>
 #include <waitpoint/fibers/explore/explore.hpp>
@@ -14,7 +14,7 @@ void lose_a_letter() {
   threads::condition_variable bell("bell");
   threads::thread reader({.name = "reader"}, [&] {
     std::unique_lock lock(door);
-    bell.wait(lock);  // nobody asks whether the letter is there already
+    bell.wait(lock);  // without a predicate: an earlier notification is lost
   });
   threads::thread postman({.name = "postman"}, [&] { bell.notify_one(); });
   postman.join();

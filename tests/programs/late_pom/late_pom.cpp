@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module of position management with a mistake that few schedules show: late data is applied in the order of its
-// arrival, not by its date. `mended_pom` is the same without it.
+// The position fusion with a bug that few schedules show: late data is applied by its order of arrival, not by its
+// date. `mended_pom` is the same without the bug.
 #include <optional>
 #include <waitpoint/modules/genom/module.hpp>
 #include <waitpoint/modules/pom/position_fusion.hpp>
@@ -43,8 +43,8 @@ class Pom : public waitpoint::genom::Module {
     posters::Localisation localisation;
     if (localisation_.read(localisation) == PosterStatus::ok && localisation.position.date != localised_) {
       localised_ = localisation.position.date;
-      // There is a scan every 100 ms: the n-th position to arrive is that of the n-th scan. One that is written over
-      // before it was read never arrives, and from then on each is taken for the one before it.
+      // There is a scan every 100 ms: the n-th position is taken for that of the n-th scan. A position that is
+      // overwritten before it is read never arrives, and from then on each is dated one scan too early.
       if (by_arrival) {
         expected_ = expected_ ? *expected_ + Duration(100ms) : localised_;
         localisation.position.date = *expected_;

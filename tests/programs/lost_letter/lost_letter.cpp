@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A test of somebody's own threads, with a mistake that few schedules show: the bell rings before anybody waits for it.
+// A test of a user's own threads, with a bug that few schedules show: a notification before the wait is lost.
 #include <gtest/gtest.h>
 
 #include <mutex>
@@ -8,7 +8,7 @@
 
 namespace {
 
-namespace threads = waitpoint::threads;  // the code under test names its threads so, instead of std
+namespace threads = waitpoint::threads;  // the code under test uses this name instead of std
 
 void lose_a_letter() {
   threads::mutex door("door");
@@ -52,7 +52,7 @@ TEST(Letter, ArrivesInEverySchedule) {
 TEST(MendedLetter, ArrivesInEverySchedule) {
   const auto report = waitpoint::explore(deliver_a_letter, {.strategy = "dpor"});
   EXPECT_TRUE(report.passed) << report;
-  EXPECT_TRUE(report.complete);  // there are no others
+  EXPECT_TRUE(report.complete);  // all schedules were tried
 }
 
 }  // namespace

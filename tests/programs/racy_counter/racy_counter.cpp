@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two threads and a counter without a lock, to be built with waitpoint-races: racy_counter locked|unlocked. Its race is
-// found in whatever schedule.
+// found in every schedule.
 #include <iostream>
 #include <mutex>
 #include <string>

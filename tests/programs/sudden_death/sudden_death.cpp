@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program whose schedules are explored, and which dies in some of them of the signal that it is given.
+// A program whose schedules are explored; in some of them it dies by the signal in its argument.
 #include <csignal>
 #include <cstdlib>
 #include <iostream>

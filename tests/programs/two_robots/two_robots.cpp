@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program whose robots talk to each other over a medium: each tells its mate where it is, by datagrams, which may be
-// lost, and writes a log that the mate keeps, by letters, which are not. The paper's modules drive them.
+// Robots that communicate over a medium: each sends its position by datagrams, which may be lost, and writes a log to
+// the other robot's mailbox, by letters, which are not lost. The paper's modules drive them.
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -17,12 +17,12 @@ using waitpoint::field;
 using waitpoint::Time;
 namespace io = waitpoint::io;
 
-/// What the poster radio.mate shows of the other robot.
+/// The content of the poster radio.mate about the other robot.
 struct Mate {
   double x_m = 0, y_m = 0;
-  Time date;                    ///< when it was there
-  std::uint32_t positions = 0;  ///< heard so far
-  std::uint32_t entries = 0;    ///< of its log, kept so far
+  Time date;                    ///< of its last position
+  std::uint32_t positions = 0;  ///< received so far
+  std::uint32_t entries = 0;    ///< of its log, received so far
   static constexpr auto fields() {
     return std::tuple(field("x_m", &Mate::x_m), field("y_m", &Mate::y_m), field("date", &Mate::date),
                       field("positions", &Mate::positions), field("entries", &Mate::entries));
@@ -35,10 +35,10 @@ struct LogEntry {
   static constexpr auto fields() { return std::tuple(field("number", &LogEntry::number)); }
 };
 
-/// What a scenario sets of the module.
+/// The module's settings in a scenario.
 struct RadioParameters {
   std::string mate;              ///< the other robot
-  Duration silence_ms = 1500ms;  ///< without a position for so long, contact is lost
+  Duration silence_ms = 1500ms;  ///< contact is lost after this time without a position
   static constexpr auto fields() {
     return std::tuple(field("mate", &RadioParameters::mate), field("silence_ms", &RadioParameters::silence_ms));
   }
@@ -52,7 +52,7 @@ class Radio : public waitpoint::genom::Module {
         task_(add_task("main", {.period_ms = 200ms, .cost_us = 50us})),
         position_(read_poster<waitpoint::posters::FusedPosition>("pom.position")) {
     setup.settings.read(parameters_);
-    add_poster<Mate>("mate", task_, &mate_);  // given at the end of every period
+    add_poster<Mate>("mate", task_, &mate_);  // written at the end of every period
     task_.set_start([this] { open(); });
     task_.set_permanent([this] {
       tell_position();
@@ -85,7 +85,7 @@ class Radio : public waitpoint::genom::Module {
       say(std::string("cannot send: ") + to_string(status));
   }
 
-  // Every fifth period. What the medium holds up is tried again.
+  // Every fifth period; entries that the medium delays are tried again.
   void write_log() {
     if (++periods_ % 5 == 0) ++written_;
     while (sent_ < written_ && to_log_->try_send({sent_ + 1}) == io::Status::ok) ++sent_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A module that gives a value to a poster every 100 ms, and takes it from where no module may: each source of
-// nondeterminism that a self-check (`run SCENARIO --check`) has to find. The setting `source` says which. Two more do
-// not come to their end wherever they find themselves in other surroundings.
+// A module that writes a value to a poster every 100 ms, from a source that modules must not use: all sources of
+// nondeterminism that a self-check (`run SCENARIO --check`) must find. The setting `source` selects one. Others do not
+// end in another environment.
 #include <dirent.h>
 #include <pthread.h>
 #include <sys/random.h>
@@ -41,10 +41,10 @@ struct Parameters {
   static constexpr auto fields() { return std::tuple(field("source", &Parameters::source)); }
 };
 
-/// Of numbers in their order.
+/// A hash that depends on the order.
 Value mixed(Value sum, Value next) { return (sum ^ next) * 0x100000001B3; }
 
-/// Things that know their number, each in a block of the heap.
+/// Heap blocks with consecutive numbers.
 std::vector<std::unique_ptr<Value>> things() {
   std::vector<std::unique_ptr<Value>> result;
   for (Value i = 0; i < 200; ++i) result.push_back(std::make_unique<Value>(i));
@@ -62,7 +62,7 @@ Value order_of(const std::vector<std::unique_ptr<Value>>& all) {
 
 Value none() { return 42; }
 
-Value wall_clock() {  // to the hour: two runs in a row see the same one
+Value wall_clock() {  // to the hour: two consecutive runs see the same value
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return static_cast<Value>(std::chrono::floor<std::chrono::hours>(now).count());
 }
@@ -79,7 +79,7 @@ Value pointer_order() { return order_of<std::set<const Value*>>(things()); }
 
 Value hash_order() { return order_of<std::unordered_set<const Value*>>(things()); }
 
-/// Of memory that nobody set.
+/// The sum of uninitialised memory.
 Value sum_of(const volatile unsigned char* bytes, std::size_t size) {
   Value sum = 0;
   for (std::size_t i = 0; i < size; ++i) sum = mixed(sum, bytes[i]);
@@ -115,7 +115,7 @@ Value directory_order() {
 
 Value heap_address() { return reinterpret_cast<Value>(std::make_unique<Value>(1).get()); }
 
-/// Counts as long as it lives, on a thread that the simulation knows nothing of.
+/// Counts during its lifetime, on a thread outside the simulation.
 class Counter {
  public:
   Counter()
@@ -147,7 +147,7 @@ Value environment() {
   return sum;
 }
 
-/// Whether this is a process in other surroundings than the person's who called it.
+/// True in the perturbed process, by its environment.
 bool elsewhere() {
   const char* const user = std::getenv("USER");
   return user != nullptr && (std::string(user) == "somebody" || std::string(user) == "another");

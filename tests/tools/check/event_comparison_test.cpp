@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two runs of small programs of threads: whatever differs, the first event that does is found and named.
+// Comparison of two runs of small programs of threads: the first event that differs is found and named.
 #include "tools/check/event_comparison.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What a thread of the robot "walker" does, and what is said of the run's end.
+/// The body of a thread of the robot "walker", and the text for the end of the run.
 struct Program {
   std::function<void()> body;
   std::string end = "no task remains";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a user's signals are taken.
+// The handling of a user's signals.
 #include "tools/command/interruption.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace waitpoint::tools {
 namespace {
 
-/// Ends with status 0 if the signal was noted.
+/// Exits with status 0 if the signal was noted.
 [[noreturn]] void end() { std::_Exit(interruption() == SIGINT ? 0 : 1); }
 
 TEST(Interruption, TheFirstSignalIsNoted) {

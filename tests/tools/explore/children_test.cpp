@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes of which each does one thing: what they give back, and what becomes of those that do not end.
+// Child processes for one job each: their results, and the termination of those that do not end.
 #include "tools/explore/children.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace waitpoint::tools {
 namespace {
 
-// How each ended, by number.
+// The end of each child, by number.
 std::map<std::uint64_t, Children::Ended> all_of(Children& children) {
   constexpr int look_around_ms = 100;
   std::map<std::uint64_t, Children::Ended> ended;

@@ -10,7 +10,7 @@
 namespace waitpoint::tools {
 namespace {
 
-// Of `waitpoint explore`.
+// The arguments of `waitpoint explore`.
 std::vector<const char*> words(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "explore");
   return arguments;

@@ -43,7 +43,7 @@ TEST(ScheduleFile, is_text_that_reads_as_it_was_written) {
   EXPECT_EQ(read_schedule(folder / "t").trail, trailed.trail);
 }
 
-// What is refused when the sample's `from` is `to`, without the file's name.
+// The error, without the file's name, if `from` in the sample is replaced by `to`.
 std::string message(const std::string& from, const std::string& to) {
   const Folder folder;
   std::string text = sample_text;

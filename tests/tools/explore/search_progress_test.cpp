@@ -12,7 +12,7 @@ namespace {
 double fake_now_s = 0;
 double fake_clock() { return fake_now_s; }
 
-/// What is shown of a minute with 10 schedules a second.
+/// The output during a minute with 10 schedules a second.
 std::string a_minute(bool terminal) {
   char* text = nullptr;
   std::size_t size = 0;

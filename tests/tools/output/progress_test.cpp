@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 double fake_now_s = 0;
 double fake_clock() { return fake_now_s; }
 
-/// What was written to the stream that `shown` gets.
+/// The output of `shown` on the stream that it gets.
 template <class Shown>
 std::string output_of(Shown&& shown) {
   char* text = nullptr;

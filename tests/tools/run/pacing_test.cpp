@@ -12,7 +12,7 @@ double fake_clock() { return fake_now_s; }
 Time at_s(double seconds) { return Time() + Duration::from_seconds(seconds); }
 
 const auto never = [] { return false; };
-// What waits is let go at once, as by a signal.
+// Ends a wait at once, as a signal does.
 const auto at_once = [] { return true; };
 
 TEST(Pacing, tells_the_lag_of_each_wait) {
