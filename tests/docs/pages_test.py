@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The commands in the documents give the outputs in the documents: pages_test.py BUILD.
 
-A block ```console is a session: a line `$ COMMAND` (continued after a backslash) is executed by bash, and the lines below it are
-the expected output, both streams together. In them `...` matches any text, and a line `...` any lines. `$ cat FILE` of a missing
-file creates it with the lines below. Progress lines of a run are ignored. The blocks of a page share a folder with the `scenarios`
-of the tree and the sources of tests/programs; `waitpoint` is the built program, and pkg-config finds its installation.
+A block ```console is a session: a line `$ COMMAND` (continued after a backslash) is executed by bash, and the lines below it
+are the expected output, both streams together. In them `...` matches any text, and a line `...` any lines. `$ cat FILE` of a
+missing file creates it with the lines below. Progress lines of a run are ignored. The blocks of a page share a folder with the
+`scenarios` of the tree and the sources of tests/programs; `waitpoint` is the built program, and pkg-config finds its
+installation.
 """
 
 import os

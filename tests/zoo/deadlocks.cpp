@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tasks that wait for each other in a circle.
+// Tasks that wait for each other in a cycle.
 #include <array>
 #include <mutex>
 #include <utility>
@@ -14,7 +14,7 @@
 namespace waitpoint::zoo {
 namespace {
 
-// A crossing without a rule: each robot holds its own cell of the floor and waits for the one ahead.
+// A crossing without a rule: each robot holds its own cell of the floor and waits for the cell ahead.
 template <bool mended, std::size_t robots>
 void crossing() {
   std::array<mutex, robots> cells;
@@ -29,7 +29,7 @@ void crossing() {
   crew.join();
 }
 
-// Philosophers who take both forks several times; mended, there is a butler who seats all but one.
+// Philosophers who take both forks several times; mended, a butler admits all but one.
 template <bool mended>
 void philosophers() {
   constexpr std::size_t seats = 5;
@@ -51,7 +51,7 @@ void philosophers() {
   crew.join();
 }
 
-// The planner tells its listeners while it holds its lock; a listener asks the planner while it holds its own.
+// The planner notifies its listeners while it holds its lock; a listener calls the planner while it holds its own.
 template <bool mended>
 void callback_under_lock() {
   mutex planner, display;
@@ -76,7 +76,7 @@ void callback_under_lock() {
   crew.join();
 }
 
-// Who stops the worker joins it with the lock in hand that the worker takes once more at its end.
+// A thread joins the worker while it holds the lock that the worker takes once more at its end.
 template <bool mended>
 void join_under_lock() {
   mutex statistics;
@@ -97,7 +97,7 @@ void join_under_lock() {
   worker.join();
 }
 
-// A nested monitor: who waits for the gripper releases the gripper's lock, but not the arm's, which the one who would
+// A nested monitor: waiting for the gripper releases the gripper's lock, but not the arm's, which the thread that would
 // open the gripper needs.
 template <bool mended>
 void nested_monitor() {
@@ -121,7 +121,7 @@ void nested_monitor() {
   crew.join();
 }
 
-// Three locks, of which the order is wrong only on the path that is taken when the battery is low.
+// Three locks, in the wrong order only on the path for a low battery.
 template <bool mended>
 void rare_path() {
   mutex map, path, log;

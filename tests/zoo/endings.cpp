@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends that come while something is still under way: stops, cancellations, results, last messages.
+// Endings during pending work: stops, cancellations, results, last messages.
 #include <array>
 #include <deque>
 #include <mutex>
@@ -15,8 +15,8 @@
 namespace waitpoint::zoo {
 namespace {
 
-// The worker finds no message, and then that it shall stop: the last one came in between. Mended, it looks for the stop
-// first.
+// The worker finds no message, then the stop request: the last message came in between. Mended, it checks the stop
+// request first.
 template <bool mended>
 void last_message() {
   constexpr int messages = 3;
@@ -51,7 +51,7 @@ void last_message() {
   check(handled == messages, "the last message is lost");
 }
 
-// A stop that is asked for between the look at the token and the wait wakes nobody. Mended, it takes the lock.
+// A stop request between the test of the token and the wait wakes no thread. Mended, it takes the lock.
 template <bool mended>
 void stop_between() {
   mutex lock;
@@ -71,7 +71,7 @@ void stop_between() {
   crew.join();
 }
 
-// Two answers to one request: each looks whether there is one yet.
+// Two answers to one request: each thread checks whether there is one already.
 template <bool mended>
 void promise_kept_twice() {
   promise<int> answer;
@@ -88,7 +88,7 @@ void promise_kept_twice() {
   (void)answer.get_future().get();
 }
 
-// A request is completed while its client cancels it: both call it off, and its buffer is given back twice.
+// A request completes while its client cancels it: both finish it, and its buffer is released twice.
 template <bool mended>
 void cancel_against_complete() {
   enum State { pending, running, completed, cancelled };
@@ -113,7 +113,8 @@ void cancel_against_complete() {
   check(given_back.load() == 1, "the buffer is given back twice");
 }
 
-// Readers announce themselves after they have read which table is in use; the old one is freed when nobody is there.
+// Readers register after they have read the address of the current table; the old one is freed when no reader is
+// registered.
 template <bool mended>
 void freed_in_use() {
   std::array<atomic<bool>, 2> freed;
@@ -139,7 +140,7 @@ void freed_in_use() {
   crew.join();
 }
 
-// A pool closes as soon as no job is open; a job that makes another one closes itself first.
+// A pool closes as soon as no job is open; a job that starts another one closes itself first.
 template <bool mended>
 void closed_too_early() {
   atomic<int> open(1);

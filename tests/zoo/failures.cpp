@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Failures that are stored by one program and replayed by another, built from the same code: `./dev test --replays`.
+// Stores failures that another program, built from the same code, replays: `./dev test --replays`.
 //
-//   zoo-failures store FILE [SEEDS]    of each specimen, for each of so many seeds (default: 15), what the portfolio
-//   finds zoo-failures replay FILE           how many of them come to the same run; status 1 if not all do
+//   zoo-failures store FILE [SEEDS]    the portfolio's failures of each specimen, for SEEDS seeds (default: 15)
 //
-// A line is "TOKEN DIGEST NAME": once as seed and number, and once, where it fits into a token, as the choices alone.
+//   zoo-failures replay FILE           replays them and prints how many give the same run; status 1 if not all do
+//
+// A line is "TOKEN DIGEST NAME": once with seed and number, and once, if it fits into a token, with the choices alone.
 #include <cinttypes>
 #include <cstdio>
 #include <fstream>

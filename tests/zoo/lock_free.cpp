@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Without locks: stacks, queues, flags and counters that are nearly right.
+// Lock-free stacks, queues, flags and counters with small errors.
 #include <array>
 
 #include "fibers/explore/explore.hpp"
@@ -9,8 +9,8 @@
 namespace waitpoint::zoo {
 namespace {
 
-// A stack of free buffers, numbered from 1. Between a pop's look at the second and its exchange of the first, others
-// take both and give the first back. Mended, each exchange advances a tag.
+// A stack of free buffers, numbered from 1: the ABA problem. Between a pop's read of the second and its exchange of the
+// first, other threads take both and return the first. Mended, each exchange advances a tag.
 template <bool mended>
 void aba_stack() {
   constexpr std::uint32_t tag = 16;
@@ -50,7 +50,7 @@ void aba_stack() {
   crew.join();
 }
 
-// A work-stealing queue: the owner takes at the tail, a thief at the head; for the last job both must agree.
+// A work-stealing queue: the owner takes at the tail, a thief at the head; for the last job they must agree.
 template <bool mended>
 void work_stealing() {
   constexpr int jobs = 3;
@@ -78,7 +78,7 @@ void work_stealing() {
   crew.join();
 }
 
-// A sequence lock whose reader looks whether a write is under way before it reads, and not once more behind.
+// A sequence lock whose reader checks for a write in progress before it reads, but not again afterwards.
 template <bool mended>
 void sequence_lock() {
   atomic<int> sequence(0), x(0), y(0);
@@ -101,7 +101,7 @@ void sequence_lock() {
   crew.join();
 }
 
-// A lock of one flag: tested first, set then.
+// A lock of one flag: test and set in two steps.
 template <bool mended>
 void spin_flag() {
   atomic<bool> taken(false);
@@ -122,7 +122,7 @@ void spin_flag() {
   crew.join();
 }
 
-// Peterson's lock with its two first stores swapped.
+// Peterson's lock with its first two stores swapped.
 template <bool mended>
 void petersons_lock() {
   std::array<atomic<bool>, 2> wants;
@@ -142,8 +142,7 @@ void petersons_lock() {
   crew.join();
 }
 
-// Two buffers in turn: the reader has one as long as it needs, the writer comes round to it with its second frame
-// after.
+// Two alternating buffers: the reader uses one for any time, the writer returns to it with its second frame.
 template <bool mended>
 void double_buffer() {
   struct Frame {
@@ -178,7 +177,7 @@ void double_buffer() {
   crew.join();
 }
 
-// A three-bit sequence number: a reader that is held up for eight messages takes the ninth for the first.
+// A three-bit sequence number: a reader that is delayed for eight messages takes the ninth for the first.
 template <bool mended>
 void sequence_wrap() {
   constexpr int wrap = mended ? 1000 : 8;

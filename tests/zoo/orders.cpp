@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Events that were thought to come in one order, among 3 to 100 threads.
+// Events assumed to come in one order, among 3 to 100 threads.
 #include <mutex>
 
 #include "fibers/explore/explore.hpp"
@@ -11,8 +11,8 @@
 namespace waitpoint::zoo {
 namespace {
 
-// Robots that open a door and then say so; a supervisor sees an open door that no robot has told it of: it looks when
-// one has opened it and none has said so yet.
+// Robots open a door and then report it; the supervisor finds an open door without a report if it checks after the
+// first has opened it and before any has reported it.
 template <bool mended, int robots>
 void reorder() {
   mutex both;
@@ -34,8 +34,8 @@ void reorder() {
   crew.join();
 }
 
-// The first thread makes the table that the last one uses, which has to read its parameters before: there is time
-// enough, usually.
+// The first thread creates the table that the last one uses after reading its parameters, which usually takes long
+// enough.
 template <bool mended, int threads>
 void last_before_first() {
   constexpr int parameters = 12;
@@ -55,7 +55,7 @@ void last_before_first() {
   crew.join();
 }
 
-// A convoy whose rearguard is thought to report behind the others, as it was sent behind them.
+// A convoy whose rearguard is assumed to report after the others, since it was sent after them.
 template <bool mended, int robots>
 void convoy() {
   atomic<int> reported(0);
@@ -73,7 +73,7 @@ void convoy() {
   crew.join();
 }
 
-// The subscriber comes when the first messages are gone, which nobody keeps for it.
+// The subscriber starts after the first messages, which are not stored for it.
 template <bool mended>
 void late_subscriber() {
   constexpr int messages = 15;
@@ -96,8 +96,8 @@ void late_subscriber() {
   check(received > 0, "no message at all is received");
 }
 
-// Who follows from the middle of the route on takes its second half for all of it. All or nearly all, or nothing, would
-// be noticed.
+// A follower that starts in the middle of the route takes its second half for all of it. Any other part of the route
+// would be noticed.
 template <bool mended>
 void half_the_route() {
   constexpr int points = 14;

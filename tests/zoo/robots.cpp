@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes wrong between the modules of a robot: posters, commands, emergency stops, sensors' buffers.
+// Bugs between the modules of a robot: posters, commands, emergency stops, sensors' buffers.
 #include <array>
 #include <mutex>
 
@@ -12,8 +12,8 @@
 namespace waitpoint::zoo {
 namespace {
 
-// Motion takes the position from its poster, prepares, and drives off from a position that is eight updates old.
-// Mended, it takes the position when it is prepared.
+// Motion reads the position from its poster, prepares, and starts from a position that is eight updates old. Mended, it
+// reads the position after preparing.
 template <bool mended>
 void stale_poster() {
   constexpr int updates = 12, tolerated = 8;
@@ -39,7 +39,8 @@ void stale_poster() {
   crew.join();
 }
 
-// The goal refers to a frame that is published before it. Who reads the frame first may have the goal of the next.
+// The goal refers to a frame that is published before it. A reader of the frame first may get the goal of the next
+// frame.
 template <bool mended>
 void goal_of_the_next_frame() {
   atomic<int> frame(0), goal(0);
@@ -58,7 +59,7 @@ void goal_of_the_next_frame() {
   crew.join();
 }
 
-// The control loop takes the command and clears it in two steps.
+// The control loop reads the command and clears it in two steps.
 template <bool mended>
 void lost_command() {
   atomic<int> command(0);
@@ -88,7 +89,7 @@ void lost_command() {
   check((executed & 2) != 0, "a command is dropped");
 }
 
-// Going on after a stop clears the stop that was pressed for the second time meanwhile. Mended, stops are counted.
+// Resuming after a stop clears a second stop that was pressed meanwhile. Mended, stops are counted.
 template <bool mended>
 void emergency_stop() {
   atomic<int> pressed(0), handled(0);
@@ -113,7 +114,7 @@ void emergency_stop() {
   check(stopped.load() || pressed.load() == handled.load(), "the robot drives with the button pressed");
 }
 
-// A ring of eight scans: the reader is lapped while it copies one. Mended, it looks whether it was.
+// A ring of eight scans: the writer overtakes the reader while it copies one. Mended, the reader checks for that.
 template <bool mended>
 void lapped_reader() {
   constexpr int slots = 8, scans = 12;
@@ -135,7 +136,7 @@ void lapped_reader() {
   crew.join();
 }
 
-// The supervisor asks a dozen times whether the arm is there, and gives up. Mended, it waits.
+// The supervisor polls a dozen times for the arm, and gives up. Mended, it waits.
 template <bool mended>
 void limited_patience() {
   constexpr int looks = 12;
@@ -161,7 +162,7 @@ void limited_patience() {
 }
 
 // The planner counts its steps since the last heartbeat of the base; after ten it takes the base for dead. Mended, it
-// counts time, which has not passed.
+// measures time, which has not passed.
 template <bool mended>
 void heartbeat() {
   constexpr int steps = 12, tolerated = 10;
@@ -185,7 +186,7 @@ void heartbeat() {
   check(alive, "the base is taken for dead");
 }
 
-// The object is handed over: the giver opens its gripper as soon as the taker says that it will close its own.
+// An object is handed over: the giver opens its gripper as soon as the taker announces that it will close its own.
 template <bool mended>
 void handover() {
   atomic<bool> gives(true), takes(false);
@@ -204,7 +205,7 @@ void handover() {
   crew.join();
 }
 
-// Six modules must be initialised, in a chain, before the robot moves; each thinks that its predecessor is.
+// Six modules must be initialised, in a chain, before the robot moves; each assumes that its predecessor is.
 template <bool mended>
 void initialised_in_a_chain() {
   constexpr std::size_t modules = 6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A specimen under many schedules, as explore() does it, without what explore() says of a failure.
+// A specimen under many schedules, as in explore(), without the report of a failure.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 namespace waitpoint::zoo {
 
 struct Found {
-  std::uint64_t schedules;  ///< tried, that one included
+  std::uint64_t schedules;  ///< tried, including that one
   exploration::Failure failure;
 };
 
@@ -20,9 +20,9 @@ class Search {
  public:
   explicit Search(void (*function)());
 
-  /// What the default order came to.
+  /// The outcome of the default order.
   const exploration::Outcome& usual() const { return usual_; }
-  /// The first failure among `most` schedules of `strategy`; nothing if there is none, or all are tried.
+  /// The first failure among `most` schedules of `strategy`; nothing if there is none, or all have been tried.
   std::optional<Found> find(const std::string& strategy, std::uint64_t seed, std::uint64_t most);
   /// The run of that token.
   exploration::Outcome play(const exploration::Token& token) { return exploration::play(body_, token, profile_); }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the table of docs/zoo.md: how many schedules each strategy needs for each specimen, in the median of 20 seeds.
+// Writes the table of docs/zoo.md: the number of schedules that each strategy needs for each specimen, the median of 20
+// seeds.
 //
 //   zoo-table [--seed=N] [NAME ...]    of those specimens alone, with the seeds from N on (default: 1)
 //
-// Below it, how many of the portfolio's failures came to the same digest when what was chosen was played again.
+// Below the table: the number of the portfolio's failures that gave the same digest when their choices were replayed.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>

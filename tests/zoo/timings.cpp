@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bugs of time: they need computations that take less, or more, than usual, and events that meet at one instant. In the
-// default order each computation takes its longest.
+// Timing bugs: they need computations that take less, or more, than usual, and events at one instant. In the default
+// order each computation takes its longest time.
 #include <array>
 #include <deque>
 #include <mutex>
@@ -18,8 +18,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The loop takes one command each period. Who plans faster than that for a while fills the queue, and the last command
-// is dropped. Mended, the loop takes all there are.
+// The loop takes one command each period. A planner that is faster for a while fills the queue, and the last command is
+// dropped. Mended, the loop takes all commands.
 template <bool mended>
 void missed_period() {
   constexpr std::size_t room = 4;
@@ -50,8 +50,8 @@ void missed_period() {
   check(dropped == 0, "a command is dropped");
 }
 
-// A request that timed out is repeated, and the answer to the first taken for that to the second. Mended, answers have
-// the number of their question.
+// A request that timed out is repeated, and the answer to the first is taken for that to the second. Mended, answers
+// have the numbers of their requests.
 template <bool mended>
 void timeout_race() {
   mutex lock;
@@ -75,12 +75,12 @@ void timeout_race() {
     asked = 1;
     changed.notify_all();
     if (changed.wait_for(guard, 5ms, [&] { return answered == 1; })) {
-      asked = 2;  // the server is to end
+      asked = 2;  // tells the server to end
       changed.notify_all();
       return;
     }
     guard.unlock();
-    compute(1ms, 6ms);  // what it does before it asks again
+    compute(1ms, 6ms);  // other work before it asks again
     guard.lock();
     answer = 0;
     asked = 2;
@@ -91,7 +91,7 @@ void timeout_race() {
   crew.join();
 }
 
-// The wait ends at its deadline, and at that very instant the letter comes: the reader leaves without it.
+// The wait ends at its deadline, and at that very instant the letter arrives: the reader leaves without it.
 template <bool mended>
 void deadline_tie() {
   mutex lock;
@@ -114,7 +114,8 @@ void deadline_tie() {
   crew.join();
 }
 
-// On Mars: whoever is urgent waits for the bus, which a thread holds that does not get the processor.
+// Priority inversion, as on Mars Pathfinder: an urgent thread waits for the bus, whose holder does not get the
+// processor.
 template <bool mended>
 void priority_inversion() {
   processor board;
@@ -137,8 +138,8 @@ void priority_inversion() {
   for (thread* each : {&low, &middle, &high}) each->join();
 }
 
-// The watchdog looks at the kick, writes its log and then clears it: kicks that come in between are lost. Three in a
-// row stop the robot. Mended, it clears what it has seen.
+// The watchdog reads the kick, writes its log and then clears it: kicks in between are lost. Three lost in a row stop
+// the robot. Mended, it clears only the kicks that it has read.
 template <bool mended>
 void watchdog_against_kick() {
   constexpr int rounds = 5, tolerated = 2;
@@ -164,8 +165,8 @@ void watchdog_against_kick() {
   crew.join();
 }
 
-// Measurements are applied as they come: one that is long under way comes behind another that was taken three later.
-// Three such jumps, and the robot is lost. Mended, what is older than the estimate is left out.
+// Measurements are applied by arrival: one that is delayed arrives after another that was taken three later. Three such
+// jumps, and the robot is lost. Mended, measurements older than the estimate are ignored.
 template <bool mended>
 void late_measurement() {
   constexpr int measurements = 6, tolerated = 2;
@@ -175,7 +176,7 @@ void late_measurement() {
   for (int i = 1; i <= measurements; ++i)
     crew.add("camera", [&, i] {
       this_thread::sleep_until(Time() + Duration(5ms) * i);
-      compute(1ms, 20ms);  // the image is recognised
+      compute(1ms, 20ms);  // image recognition
       const std::lock_guard guard(lock);
       if (mended && i < estimate) return;
       jumps += estimate - i > tolerated;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The zoo: small programs with a planted bug each, of the kinds that robot software and the known suites of concurrency
-// bugs have, and the same programs mended. What exploration is worth is measured by them.
+// The zoo: small programs with one planted bug each, of the kinds found in robot software and in the known suites of
+// concurrency bugs, and their mended twins. The strength of the exploration is measured by them.
 //
-// A specimen is a template whose parameter says whether it is mended: a twin differs in those lines only. Each passes
-// in the default order. They meet at primitives and atomics alone, so that no instrumented code is needed to find them.
+// A specimen is a template with a parameter that selects the mended twin, which differs in those lines only. Each
+// passes in the default order. Their threads interact by primitives and atomics alone, so that no instrumented code is
+// needed to find the bugs.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +20,14 @@ struct Specimen {
   const char* name;
   void (*buggy)();
   void (*correct)();
-  std::uint32_t switches;  ///< away from the default order, the fewest that show it
+  std::uint32_t switches;  ///< the least number of switches away from the default order that show it
   const char* kind;
 };
 
 /// All of them, by kind.
 const std::vector<Specimen>& specimens();
 
-// Of one kind each, for specimens().
+// One function for each kind, for specimens().
 using Specimens = std::vector<Specimen>;
 Specimens deadlocks();
 Specimens atomicities();

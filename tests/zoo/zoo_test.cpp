@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The zoo's animals are what they are said to be, and exploration finds, shortens and repeats each of them.
+// Exploration finds, minimises and repeats each bug of the zoo, and the specimens are as declared.
 #include "tests/zoo/zoo.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(Zoo, NoCorrectTwinIsReported) {
   }
 }
 
-// With a switch more than it needs at most, for nine of ten.
+// Nine of ten failures need at most one switch more than the least number.
 TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
   std::uint32_t failures = 0, longer = 0;
   for (const Specimen& specimen : specimens()) {
@@ -78,7 +78,7 @@ TEST(Zoo, WhatWasChosenRepeatsTheFailure) {
   }
 }
 
-// As a token says it, in a campaign of its own; some of them, as each failure is explained.
+// By a token, in a campaign of its own; only some specimens, since each failure is explained.
 TEST(Zoo, ATokenRepeatsTheFailure) {
   constexpr std::size_t every = 6;
   for (std::size_t i = 0; i < specimens().size(); i += every) {
