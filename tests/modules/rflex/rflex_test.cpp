@@ -11,7 +11,7 @@
 namespace waitpoint::rflex {
 namespace {
 
-// A module that sets its position next would otherwise take the step between frames for a motion.
+// A module whose position is set next would otherwise take the step between frames for a motion.
 TEST(SetPos, IsSeenInTheOdometryWhenItsReplyComes) {
   on_threads([] {
     genom::NameSpace names;
