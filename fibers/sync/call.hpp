@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace waitpoint::sync {
@@ -17,36 +18,48 @@ class Call {
   virtual void run() = 0;
 };
 
-template <class... Parts>
+template <class Function>
 class CallOf final : public Call {
  public:
-  template <class... Given>
-  explicit CallOf(Given&&... given) : parts_(std::forward<Given>(given)...) {}
+  template <class Given>
+  explicit CallOf(Given&& given) : function_(std::forward<Given>(given)) {}
 
   void run() override {
-    if constexpr (sizeof parts_ <= small) {
-      // On the thread's own stack: what the function works with shares the pages that the thread has anyway.
-      auto parts = std::move(parts_);
-      invoke(parts);
+    if constexpr (sizeof function_ <= small) {
+      // On the thread's own stack: the function's data shares the pages that the thread has anyway.
+      Function function = std::move(function_);
+      std::move(function)();
     } else {
-      invoke(parts_);
+      std::move(function_)();
     }
   }
 
  private:
-  static constexpr std::size_t small = 512;  // against the stack of a thread
+  static constexpr std::size_t small = 512;  // relative to a thread's stack
 
-  static void invoke(std::tuple<Parts...>& parts) {
+  Function function_;
+};
+
+/// A function with its arguments.
+template <class... Parts>
+struct Bound {
+  std::tuple<Parts...> parts;
+  void operator()() && {
     std::apply([](auto&&... part) { std::invoke(std::move(part)...); }, std::move(parts));
   }
-
-  std::tuple<Parts...> parts_;
 };
 
 /// Copies or moves the function and its arguments, as std::thread does.
-template <class... Parts>
-std::unique_ptr<Call> make_call(Parts&&... parts) {
-  return std::make_unique<CallOf<std::decay_t<Parts>...>>(std::forward<Parts>(parts)...);
+template <class Function, class... Arguments>
+std::unique_ptr<Call> make_call(Function&& function, Arguments&&... arguments) {
+  // Most are lambdas without arguments: no tuple is instantiated for each of them.
+  if constexpr (sizeof...(Arguments) == 0 && std::is_invocable_v<std::decay_t<Function>&&>) {
+    return std::unique_ptr<Call>(new CallOf<std::decay_t<Function>>(std::forward<Function>(function)));
+  } else {
+    using WithArguments = Bound<std::decay_t<Function>, std::decay_t<Arguments>...>;
+    return std::unique_ptr<Call>(new CallOf<WithArguments>(
+        WithArguments{{std::forward<Function>(function), std::forward<Arguments>(arguments)...}}));
+  }
 }
 
 }  // namespace waitpoint::sync

@@ -140,7 +140,7 @@ RequestType& Module::add_control(const std::string& name,
                                  std::type_identity_t<std::function<Report(const In&, Out&)>> codel,
                                  std::vector<std::string> interrupts) {
   RequestType& type = add_request(name, RequestKind::control, std::move(interrupts));
-  type.accepts = [](const Payload& input) { return input.holds<In>(); };
+  type.accepts = internal::accepts<In>;
   type.read_input = internal::read_input<In>;
   type.control = [codel = std::move(codel)](const Payload& input, Payload& output) {
     Out out{};
@@ -156,7 +156,7 @@ RequestType& Module::add_activity(const std::string& name, ExecutionTask& task,
                                   std::type_identity_t<Codels<In, Out>> codels, std::vector<std::string> interrupts) {
   RequestType& type = add_request(name, RequestKind::execution, std::move(interrupts));
   type.task = &task;
-  type.accepts = [](const Payload& input) { return input.holds<In>(); };
+  type.accepts = internal::accepts<In>;
   type.read_input = internal::read_input<In>;
   type.control = [control = codels.control](const Payload& input, Payload&) {
     return control ? control(input.as<In>()) : ok;

@@ -28,7 +28,7 @@ struct RequestType {
   ExecutionTask* task = nullptr;        ///< of execution requests
   std::vector<std::string> interrupts;  ///< request types whose activities a new one of this type ends
   Duration cost;                        ///< of one call of a codel of this request
-  std::function<bool(const Payload& input)> accepts;
+  bool (*accepts)(const Payload& input) = nullptr;
   /// The input from text, by its declared fields; what is not set keeps its default. BadInput for what does not fit.
   Payload (*read_input)(Settings& arguments) = nullptr;
   std::function<Report(const Payload& input, Payload& output)> control;
@@ -54,6 +54,11 @@ struct Codels {
 };
 
 namespace internal {
+
+template <class In>
+bool accepts(const Payload& input) {
+  return input.holds<In>();
+}
 
 template <class In>
 Payload read_input(Settings& arguments) {

@@ -17,7 +17,7 @@ python3 "$root/tools/dev/wraps.py" "$root/build-wraps"
 (
   build=$root/build-wraps/build
   root=$root/build-wraps/tree
-  configure -Dwrap_mode=forcefallback -Dtests=enabled -Dbenchmarks=disabled -Dbullet=disabled -Dassimp=disabled -Drosbag=disabled -Dwerror=false
+  configure -Ddefault_library=static -Db_pch=false -Dwrap_mode=forcefallback -Dtests=enabled -Dbenchmarks=disabled -Dbullet=disabled -Dassimp=disabled -Drosbag=disabled -Dwerror=false
   compile tools/waitpoint tests/test-core tests/test-fibers
 )
 # Those of the compiler, and those that only tests have, which can do without.
