@@ -41,7 +41,8 @@ void describe_run(const Task& task) {
   if (chooser.order() != Order::explored) text.add(", seed ").add(chooser.seed());  // else a strategy decides
   text.add("\n").write();
   SignalSafeText replay;
-  if (task.scheduler->replay()[0] != '\0') replay.add("  replay: ").add(task.scheduler->replay()).add("\n").write();
+  const char* const command = task.scheduler->hooks().replay;
+  if (command[0] != '\0') replay.add("  replay: ").add(command).add("\n").write();
 }
 
 }  // namespace waitpoint::kernel

@@ -82,9 +82,9 @@ inline bool Scheduler::can_dispatch_present() const {
 
 // Puts `task` among the waiters; false, with nothing done, where that may be a deadlock or its timeout has no place
 // near the end of the list.
+template <bool is_finite>
 [[gnu::always_inline]] inline bool Scheduler::try_fast_wait(Task& task, Object& object, Time deadline) {
-  const bool is_finite = deadline != Time::max();
-  if (is_finite) {
+  if constexpr (is_finite) {
     const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next())};
     if (__builtin_expect(deadline <= agenda_.now || !agenda_.events.try_insert_fast(task.event, key), 0)) return false;
   } else if (__builtin_expect(object.holder_count != 0, 0) ||
@@ -99,9 +99,10 @@ inline bool Scheduler::can_dispatch_present() const {
 }
 
 // The blocked task's fast path, which is for the present instant, goes over to the next one.
+template <bool is_finite>
 Departure Scheduler::start_block(Object& object, Time deadline) {
   Task& task = *running;
-  if (__builtin_expect(!can_dispatch_present() || !try_fast_wait(task, object, deadline), 0))
+  if (__builtin_expect(!can_dispatch_present() || !try_fast_wait<is_finite>(task, object, deadline), 0))
     return block_slow(object, deadline);
   Task& next = agenda_.present.take();
   next.state = TaskState::running;
@@ -111,6 +112,8 @@ Departure Scheduler::start_block(Object& object, Time deadline) {
   ++switches_;
   return start_switch(task.fiber, next.fiber);
 }
+template Departure Scheduler::start_block<true>(Object&, Time);
+template Departure Scheduler::start_block<false>(Object&, Time);
 
 // As wake() of the first waiter, where that is all.
 Task* Scheduler::wake_waiter(Object& object) {

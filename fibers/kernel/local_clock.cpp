@@ -59,7 +59,8 @@ Duration Scheduler::choose(Task& task, Duration least, Duration greatest) {
 }
 
 Duration Scheduler::pass(const Task& task, Duration cost) {
-  return durations_ != nullptr ? durations_->pass(*durations_, task, cost) : cost;
+  Durations* const durations = hooks_.durations;
+  return durations != nullptr ? durations->pass(*durations, task, cost) : cost;
 }
 
 }  // namespace waitpoint::kernel

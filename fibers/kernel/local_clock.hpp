@@ -28,12 +28,6 @@ struct LocalClock {
   void (*compute)(LocalClock&, Task&, Duration least, Duration greatest) = nullptr;
 };
 
-/// Where durations go that do not follow from the run itself, before they count: to be written down, or replaced by
-/// what was written down.
-struct Durations {
-  Duration (*pass)(Durations&, const Task&, Duration) = nullptr;
-};
-
 /// Gives `task` a clock; null: the fixed one. It must live until the task ends or has another.
 void set_clock(Task& task, LocalClock* clock);
 

@@ -20,10 +20,12 @@
 #include "core/time.hpp"
 #include "fibers/kernel/agenda.hpp"
 #include "fibers/kernel/fast_path.hpp"
+#include "fibers/kernel/hooks.hpp"
 #include "fibers/kernel/limits.hpp"
 #include "fibers/kernel/run_state.hpp"
 #include "fibers/kernel/spawn_options.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/kernel/wait_graph.hpp"
 #include "fibers/kernel/watch.hpp"
 #include "fibers/switch/departure.hpp"
 #include "fibers/switch/stack_arena.hpp"
@@ -115,8 +117,10 @@ class Scheduler {
   }
   /// Blocks the running task on `object` until it is woken or `deadline` comes; Time::max() is for ever.
   [[gnu::always_inline]] Wake block(Object& object, Time deadline) {
-    const Departure away = start_block(object, deadline);
-    return away.leads_away() ? end_block(depart(away), object, deadline != Time::max()) : wake_of(away);
+    // Two instances, since the deadline is mostly a constant: the compiler then chooses, and no test is left.
+    const bool is_finite = deadline != Time::max();
+    const Departure away = is_finite ? start_block<true>(object, deadline) : start_block<false>(object, deadline);
+    return away.leads_away() ? end_block(depart(away), object, is_finite) : wake_of(away);
   }
   /// Wakes one waiter of `object`, of the chooser's choice; null if there is none. The waiter's local time becomes the
   /// global.
@@ -193,24 +197,12 @@ class Scheduler {
   void set_watch(Watch* watch);
   /// Where the events of the task that ran last are hashed: its robot's digest.
   const PairDigest* lane_in_use() const { return lane_; }
-  /// Null: durations that do not follow from the run count as they are.
-  void set_durations(Durations* durations) { durations_ = durations; }
   Watch* watch() const { return watch_; }
-  /// What waitpoint_describe_run() prints as the way to repeat this run; must outlive the run.
-  void set_replay(const char* text) { replay_ = text; }
-  const char* replay() const { return replay_; }
+  /// What the layers above attach to the run.
+  Hooks& hooks() { return hooks_; }
+  const Hooks& hooks() const { return hooks_; }
   /// Sets or clears a bit of a task's attention.
   void attend(Task& task, std::uint8_t reason, bool needed);
-  /// What delivers a task's signals, at its next waitpoint after attention::signal is set; called in the task, it may
-  /// compute and pass waitpoints itself.
-  void set_signal_delivery(void (*deliver)(Task&)) { deliver_ = deliver; }
-  /// What is asked when a task has blocked for ever in a cycle: whether the run goes on all the same. Null: it does
-  /// not.
-  void set_cycle_handler(bool (*goes_on)(Task&)) { cycle_handler_ = goes_on; }
-  /// What the layer above hangs on the run.
-  void set_client(void* client) { client_ = client; }
-  void* client() const { return client_; }
-
   /// Writes the call stack of `task` (not running, started) to `frames`, at most `room`, innermost first; returns how
   /// many.
   std::size_t call_stack(Task& task, void** frames, std::size_t room);
@@ -254,7 +246,7 @@ class Scheduler {
   void hash_events_of(Robot& robot);
   void set_local_time(Task& task, Time time);
 
-  // Algorithm 2, and what deadlocks are: waiting.cpp, wait_graph.cpp.
+  // Algorithm 2: waiting.cpp.
   void adopt(Object& object);
   Departure block_slow(Object& object, Time deadline);
   Wake end_block_slow(Task& task, Object& object);
@@ -263,8 +255,6 @@ class Scheduler {
   void reclaim_priority(Task& task, Object& object);
   void put(EventNode& node, const EventKey& key);
   bool is_deadlock(Task& task, const Object& object);
-  bool closes_a_cycle(Task& task);
-  bool ends_in_cycle(Task& task);
 
   // The run: run.cpp, explored.cpp, call_stack.cpp.
   void enter_run(Fiber& to);
@@ -293,7 +283,9 @@ class Scheduler {
     return true;
   }
   bool can_dispatch_present() const;
+  template <bool is_finite>
   bool try_fast_wait(Task& task, Object& object, Time deadline);
+  template <bool is_finite>
   Departure start_block(Object& object, Time deadline);
   [[gnu::always_inline]] Wake end_block(const Arrival& arrival, Object& object, bool is_finite) {
     note_where_left(arrival);
@@ -324,13 +316,9 @@ class Scheduler {
   Task* first_abandoned_ = nullptr;
   Watch* watch_ = nullptr;
   bool watched_ = false;  // by a watch or a sanitizer
-  Durations* durations_ = nullptr;
-  const char* replay_ = "";
-  void* client_ = nullptr;
-  void (*deliver_)(Task&) = nullptr;
-  bool (*cycle_handler_)(Task&) = nullptr;
+  Hooks hooks_;
+  WaitGraph wait_graph_;
   std::uint64_t epoch_;
-  std::uint64_t searches_ = 0;
   std::uint64_t outputs_ = 0;  // hashed among the events
   std::uint64_t switches_ = 0;
   std::uint32_t live_tasks_ = 0;

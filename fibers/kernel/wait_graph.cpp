@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Who waits for whom. A task that is blocked without a timeout on something that is held waits for those who hold it,
-// for each of them: so a cycle is a deadlock, whatever else happens.
-//
-//   A --lock--> left, held by B        B --lock--> map, held by C and D (who read it)        D --lock--> ..., held by A
-//
-// The search goes from the task that just blocked, depth first, each task once; its state lies in the tasks.
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/wait_graph.hpp"
 
 namespace waitpoint::kernel {
 namespace {
@@ -16,7 +9,7 @@ struct Tasks {
   std::uint32_t count = 0;
 };
 
-// A reader waits for other readers only because a writer stands between them, until it is served or gives up.
+// A reader waits for other readers only while a writer is queued between them.
 bool waits_behind_a_writer(const Object& object) {
   for (const Task* waiter = object.first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
     if (!waiter->shared_wait && !waiter->finite_wait) return true;
@@ -35,10 +28,10 @@ Tasks awaited_by(const Task& task) {
 
 }  // namespace
 
-bool Scheduler::closes_a_cycle(Task& task) {
-  // Mostly who holds it goes on.
+Task* WaitGraph::find_cycle(Task& task) {
+  // The common case: the owner is not blocked.
   const Task* owner = task.blocked_on->owner;
-  if (owner != nullptr && !waits_for_ever(*owner)) return false;
+  if (owner != nullptr && !waits_for_ever(*owner)) return nullptr;
   ++searches_;
   Task* at = &task;
   at->search = {searches_, nullptr, nullptr, 0, true};
@@ -56,18 +49,10 @@ bool Scheduler::closes_a_cycle(Task& task) {
       next.search = {searches_, at, nullptr, 0, true};
       at = &next;
     } else if (next.search.on_path) {
-      culprit_ = &next;
-      return true;
+      return &next;
     }
   }
-  return false;
-}
-
-bool Scheduler::ends_in_cycle(Task& task) {
-  if (!closes_a_cycle(task)) return false;
-  if (cycle_handler_ == nullptr || !cycle_handler_(task)) return true;
-  culprit_ = nullptr;
-  return false;
+  return nullptr;
 }
 
 }  // namespace waitpoint::kernel

@@ -84,10 +84,16 @@ void Scheduler::wake(Task& task) {
   fast_path_.note_present_event(task.phase);
 }
 
-// Whether `task` waits for ever for tasks of which one waits for it, and that ends the run.
+// True if `task` closes a cycle of the wait-for graph, and that ends the run.
 bool Scheduler::is_deadlock(Task& task, const Object& object) {
   if (task.finite_wait || (object.owner == nullptr && object.holder_count == 0)) return false;
-  if (!ends_in_cycle(task)) return false;
+  Task* const member = wait_graph_.find_cycle(task);
+  if (member == nullptr) return false;
+  culprit_ = member;
+  if (hooks_.continues_after_cycle != nullptr && hooks_.continues_after_cycle(task)) {
+    culprit_ = nullptr;
+    return false;
+  }
   cause_ = StopCause::deadlock;
   return true;
 }

@@ -86,8 +86,8 @@ bool Scheduler::end_segment(Task& task) {
   while ((task.attention & attention::signal) != 0) {
     task.attention = static_cast<std::uint8_t>(task.attention & ~attention::signal);
     if (task.clock != nullptr && task.clock->begin != nullptr) task.clock->begin(*task.clock, task);
-    WAITPOINT_CHECK(deliver_ != nullptr, "a signal is pending, and nobody delivers it");
-    deliver_(task);
+    WAITPOINT_CHECK(hooks_.deliver_signals != nullptr, "a signal is pending without a hook that delivers it");
+    hooks_.deliver_signals(task);
     if (unwinding_ || !end_segment(task)) return false;
     task.operation = operation;
     task.at = object;

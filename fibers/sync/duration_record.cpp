@@ -101,7 +101,7 @@ DurationRecorder::DurationRecorder(Simulation& simulation, std::string run) {
     self.record_.entries.push_back({at->second, cost.ns()});
     return cost;
   };
-  simulation.scheduler().set_durations(this);
+  simulation.scheduler().hooks().durations = this;
 }
 
 DurationReplay::DurationReplay(Simulation& simulation, const DurationRecord& record, const std::string& run,
@@ -112,7 +112,7 @@ DurationReplay::DurationReplay(Simulation& simulation, const DurationRecord& rec
   pass = [](kernel::Durations& durations, const kernel::Task& task, Duration) {
     return static_cast<DurationReplay&>(durations).next(task);
   };
-  simulation.scheduler().set_durations(this);
+  simulation.scheduler().hooks().durations = this;
 }
 
 Duration DurationReplay::next(const kernel::Task& task) {

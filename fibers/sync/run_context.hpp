@@ -12,7 +12,7 @@ namespace waitpoint::sync {
 class RunContext {
  public:
   /// Of the run that `scheduler` executes.
-  static RunContext& of(const kernel::Scheduler& scheduler) { return *static_cast<RunContext*>(scheduler.client()); }
+  static RunContext& of(const kernel::Scheduler& scheduler) { return *static_cast<RunContext*>(scheduler.hooks().client); }
 
   /// From within a task: ends the run with an exception. `how` and the task's name begin what the run's report says.
   virtual void fail(std::exception_ptr failure, const char* how = "an exception escaped from") = 0;

@@ -45,11 +45,11 @@ bool are_fast_paths_off() {
 
 Simulation::Simulation(SimulationOptions options)
     : options_(checked(std::move(options))), scheduler_(options_.order, options_.seed) {
-  scheduler_.set_client(static_cast<sync::RunContext*>(this));
+  scheduler_.hooks().client = static_cast<sync::RunContext*>(this);
   scheduler_.set_most_tasks(options_.most_tasks);
   if (!options_.fast_paths || are_fast_paths_off()) scheduler_.use_fast_paths(false);
-  scheduler_.set_replay(options_.replay.c_str());
-  scheduler_.set_signal_delivery(sync::deliver_signals);
+  scheduler_.hooks().replay = options_.replay.c_str();
+  scheduler_.hooks().deliver_signals = sync::deliver_signals;
   add(environment_, "environment");
 }
 

@@ -49,7 +49,7 @@ void RobotPrograms::add(const ProgramScenario& program, kernel::Robot& robot) {
   posix::Guest* const guest = guests()->load(program.name.c_str(), static_cast<int>(words.size()), words.data(), error);
   if (guest == nullptr) throw program.written.bad(error);
   programs_.push_back({guest, &robot});
-  scheduler_.set_signal_delivery(deliver_signals);
+  scheduler_.hooks().deliver_signals = deliver_signals;
   if (!guests()->start(*guest, scheduler_, robot))
     throw program.written.bad("there is no memory for the thread of program '" + program.name + "'");
 }

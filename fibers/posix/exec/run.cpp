@@ -128,8 +128,8 @@ kernel::Scheduler& begin_run() {
     refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
   kernel::Scheduler& scheduler =
       *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
-  scheduler.set_signal_delivery(deliver_signals);
-  scheduler.set_cycle_handler(goes_on_in_cycle);
+  scheduler.hooks().deliver_signals = deliver_signals;
+  scheduler.hooks().continues_after_cycle = goes_on_in_cycle;
   if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
   names_waitables =
       record->settings.traced ||

@@ -60,7 +60,7 @@ Guest* load_guest(const char* name, int argc, const char* const* argv, Guests::E
 
 bool start_guest(Guest& guest, kernel::Scheduler& scheduler, kernel::Robot& robot) {
   guest.member.robot = &robot;
-  scheduler.set_cycle_handler(goes_on_in_cycle);
+  scheduler.hooks().continues_after_cycle = goes_on_in_cycle;
   return start(guest.member, scheduler);
 }
 

@@ -137,12 +137,12 @@ TEST(Signals, AreDeliveredAtTheNextWaitpointAndTheOperationComesAfterTheHandler)
     TaskRun here;
     run = &here;
     SetClock clock;
-    here.scheduler.set_signal_delivery([](Task& task) {
+    here.scheduler.hooks().deliver_signals = [](Task& task) {
       run->log("handler");
       compute(task, Duration::from_ns(20));
       run->scheduler.yield();
       compute(task, Duration::from_ns(5));
-    });
+    };
     Task& task = here.spawn(
         [&] {
           here.sleep(10);

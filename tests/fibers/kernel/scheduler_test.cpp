@@ -344,7 +344,7 @@ TEST(SchedulerDeathTest, MisuseIsABug) {
 // The report of a bug has the time and place in the run.
 TEST(SchedulerDeathTest, ABugsReportNamesTimeTaskSeedAndReplay) {
   TaskRun run(Order::seeded, 77);
-  run.scheduler.set_replay("the replay line");
+  run.scheduler.hooks().replay = "the replay line";
   run.spawn(
       [&] {
         run.sleep(1'500'000'000);
