@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A running 64-bit hash of what a run did.
+// A running 64-bit hash of a run's events, outputs and states.
 //
 // Every step maps (state, word) to a state, and is a bijection of the state for a given word and of the word for a
 // given state. So two sequences of equal length that differ in exactly one word always have different digests: no
-// single changed bit can be lost. Against several independent changes it is a 64-bit hash (2^-64). It is no
+// single changed bit can be lost. Against several independent changes it is a 64-bit hash (2^-64). It is not a
 // cryptographic hash: it guards against accidents, not against an adversary.
 //
-// What is added is defined by value, not by memory: integers as they are, doubles by their bits with every NaN made one
-// and -0 kept, text by its length and bytes. No padding and no pointer can get in.
+// Input is hashed by value, not by memory: integers as they are, doubles by their bits with one NaN for all and -0
+// kept, text by its length and bytes. Padding and pointers are never hashed.
 #pragma once
 
 #include <bit>
@@ -45,9 +45,8 @@ class Digest {
   std::uint64_t state_ = 0x77616974706F696Eu;  // "waitpoin"
 };
 
-/// A hash of a sequence of pairs of words that may be long and must be quick: each pair is hashed with its place in the
-/// sequence, by one multiplication to 128 bits, and the hashes are added, so that none waits for the one before it. A
-/// changed word is lost with a chance of 2^-64.
+/// A hash for long sequences of pairs of words: each pair is hashed with its position by one multiplication to 128
+/// bits, and the hashes are added, so that there is no dependency chain. A changed word is lost with a chance of 2^-64.
 class PairDigest {
  public:
   [[gnu::always_inline]] constexpr void add(std::uint64_t first, std::uint64_t second) {
@@ -58,7 +57,7 @@ class PairDigest {
   }
 
   constexpr std::uint64_t pairs() const { return last_key_ * inverse_of_step; }
-  /// Of all pairs so far, and how many they are.
+  /// The hash of all pairs so far and of their number.
   constexpr Digest digest() const {
     Digest digest;
     digest.add(pairs());
@@ -70,7 +69,7 @@ class PairDigest {
  private:
   __extension__ using Product = unsigned __int128;
 
-  // Each pair's key is that of the one before it and a step more, which is odd: so keys count pairs, modulo 2^64.
+  // The key grows by an odd step per pair, so it also counts pairs, modulo 2^64.
   static constexpr std::uint64_t key_step = 0x9E3779B97F4A7C15u;
   static constexpr std::uint64_t inverse_of_step = 0xF1DE83E19937733Du;
   static_assert(key_step * inverse_of_step == 1);
@@ -79,7 +78,7 @@ class PairDigest {
   std::uint64_t last_key_ = 0;
 };
 
-/// The printed form: "wp1:" and 16 hexadecimal digits. The prefix changes when the definition of what is hashed does.
+/// The printed form: "wp1:" and 16 hexadecimal digits. The prefix changes with the definition of the hashed input.
 std::string to_string(const Digest& digest);
 
 }  // namespace waitpoint

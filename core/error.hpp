@@ -13,12 +13,12 @@
 
 namespace waitpoint {
 
-/// Input that cannot be used. what() is the one line shown to the user: "file:line: what was expected".
+/// Unusable input. what() is the one line shown to the user: "file:line: what was expected".
 class BadInput : public std::runtime_error {
  public:
   /// `line` counts from 1; 0 where the input has no lines (a missing file, an option).
   BadInput(const std::string& file, int line, const std::string& message);
-  /// For input that is no file: `where` is the option or key at fault.
+  /// For input without a file: `where` is the option or key at fault.
   BadInput(const std::string& where, const std::string& message);
 
   const std::string& file() const { return file_; }
@@ -32,19 +32,19 @@ class BadInput : public std::runtime_error {
 /// Reports a broken invariant and aborts. Used by WAITPOINT_CHECK.
 [[noreturn]] void bug(const char* file, int line, const char* condition, const char* message);
 
-/// Writes what the run was doing (virtual time, task, seed, replay line) to the error stream. The kernel defines it; a
-/// program without the kernel has none, and a bug is then reported by its place alone.
+/// Writes the state of the run (virtual time, task, seed, replay line) to the error stream. Defined by the kernel;
+/// without it, a bug is reported by its place alone.
 extern "C" void waitpoint_describe_run() __attribute__((weak));
 
 }  // namespace waitpoint
 
-/// Stops the run where `condition` does not hold; `message` says what that means.
+/// Aborts if `condition` is false; `message` names the broken invariant.
 #define WAITPOINT_CHECK(condition, message)                    \
   (__builtin_expect(static_cast<bool>(condition), 1) ? (void)0 \
                                                      : ::waitpoint::bug(__FILE__, __LINE__, #condition, message))
 
-/// The same on a fast path, where a comparison is felt: compiled in by -Dfast_path_checks=true, as all builds with
-/// sanitizers and all fuzz targets are.
+/// The same for fast paths, where the comparison would cost measurably: compiled in by -Dfast_path_checks=true, which
+/// all builds with sanitizers and all fuzz targets set.
 #ifdef WAITPOINT_FAST_PATH_CHECKS
 #define WAITPOINT_FAST_CHECK(condition, message) WAITPOINT_CHECK(condition, message)
 #else

@@ -30,10 +30,10 @@ double exp(double x);
 double log(double x);
 /// sqrt(x^2 + y^2), without protection against overflow: lengths in metres.
 double hypot(double x, double y);
-/// The angle's equal in (-pi, pi].
+/// The equivalent angle in (-pi, pi].
 double wrap_angle(double x);
 
-/// A hash of some thousand results of the functions above: equal on every machine where they are.
+/// A hash of some thousand results of the functions above: equal on all machines on which the results are.
 std::uint64_t fingerprint();
 
 }  // namespace waitpoint::exact

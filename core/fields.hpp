@@ -11,10 +11,10 @@
 //   };
 //
 // Fields are integers, enums, bool, double, Time, Duration, Point, Pose, std::array and Bounded of such, and other
-// types with declared fields. No pointers: a value is what it says.
+// types with declared fields. Pointers are not allowed.
 //
-// A field that a type gets later than runs with it have been published is declared by added_field(), after the others:
-// the digest hashes it, with its name, only where it is set. So a run that does not use it keeps its digest.
+// A field added after runs with the type were published is declared by added_field(), after the others: the digest
+// hashes it, with its name, only if it is set, so that runs without it keep their digests.
 #pragma once
 
 #include <algorithm>
@@ -59,8 +59,8 @@ concept HasFields = requires {
   T::fields();
 };
 
-/// An array of at most `Capacity` elements in place: values without pointers, of which only the first size() count. The
-/// others are neither made nor copied: a value costs by what it holds, not by what it could.
+/// An array of at most `Capacity` elements in place, for values without pointers. Only the first size() elements are
+/// constructed and copied: the cost is that of the content, not of the capacity.
 template <class T, std::size_t Capacity>
 class Bounded {
  public:
@@ -79,7 +79,7 @@ class Bounded {
   bool empty() const { return size_ == 0; }
   bool full() const { return size_ == Capacity; }
   void clear() { size_ = 0; }
-  /// The new elements are value-initialised; more than the capacity is a bug.
+  /// The new elements are value-initialised; a size above the capacity is a bug.
   void resize(std::size_t n) {
     WAITPOINT_CHECK(n <= Capacity, "more elements than a bounded array holds");
     for (std::size_t i = size_; i < n; ++i) items_[i] = T{};
@@ -121,7 +121,7 @@ void add_elements(Digest& digest, const Bounded<T, N>& items) {
   for (const T& item : items) add_value(digest, item);
 }
 
-/// Whether it is other than a value that nobody has written.
+/// True if `value` differs from a default-constructed one.
 template <std::equality_comparable T>
 bool is_set(const T& value) {
   return value != T{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "Did you mean": which of the known names a misspelt one was probably meant to be.
+// "Did you mean": the known name that a misspelt one probably stands for.
 //
 // Distance: inserted, missing, changed letters and swapped neighbours, one each (optimal string alignment, after
 // Damerau, "A technique for computer detection and correction of spelling errors", CACM 1964).
@@ -15,11 +15,11 @@ namespace waitpoint {
 /// The least number of edits that make `a` into `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known name that is nearest to `word`, the first of equals; "" if none is near: more than a third of the longer
-/// one's letters would have to be edited.
+/// The known name nearest to `word`, the first of equals; "" if the distance exceeds a third of the longer word's
+/// letters.
 std::string nearest_name(std::string_view word, std::span<const std::string_view> known);
 
-/// ", did you mean 'step_ms'?", or "" where no known name is near: the end of a message about an unknown `word`.
+/// ", did you mean 'step_ms'?", or "" if no known name is near: the end of a message about an unknown `word`.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
 
 }  // namespace waitpoint

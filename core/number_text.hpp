@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers read from text: all of the text or nothing, whatever the locale, the same bits from every standard library
-// (libc++ 14 has no std::from_chars for doubles). And counts as text.
+// Numbers parsed from text: the whole text or nothing, independent of the locale, with the same bits from every
+// standard library (libc++ 14 has no std::from_chars for doubles). Also counts formatted as text.
 #pragma once
 
 #include <charconv>
@@ -11,11 +11,11 @@
 
 namespace waitpoint {
 
-/// The double nearest to a decimal like "-2.5e3". False, and `number` as it was, for anything else: a space, a leading
-/// '+', hexadecimal digits, "inf", "nan", or a number beyond all doubles.
+/// The double nearest to a decimal such as "-2.5e3". False, with `number` unchanged, for anything else: a space, a
+/// leading '+', hexadecimal digits, "inf", "nan", or a number outside the range of double.
 bool parse_number(std::string_view text, double& number);
 
-/// A decimal integer. False for anything else, or one that the type does not hold; `number` is then as it was.
+/// A decimal integer. False, with `number` unchanged, for anything else, or outside the type's range.
 template <std::integral Integer>
 bool parse_number(std::string_view text, Integer& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map of square cells: where it is free, where not, and where nobody knows.
+// A map of square cells: free, occupied or unknown.
 //
 // Column x counts along the grid's own x axis, row y along its y axis, both from the grid's origin, which is the outer
-// corner of cell (0, 0); the grid's frame may be turned. Unknown cells are closed to a planner and open to a beam.
+// corner of cell (0, 0); the grid's frame may be rotated. Unknown cells are closed to a planner and open to a beam.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace waitpoint {
 
 enum class Cell : std::uint8_t { free, occupied, unknown };
 
-/// A cell's place in a grid.
+/// A cell's indices in a grid.
 struct CellIndex {
   int x = 0, y = 0;
 
@@ -26,7 +26,7 @@ struct CellIndex {
 
 class OccupancyGrid {
  public:
-  /// The most cells a grid may have.
+  /// The greatest number of cells of a grid.
   static constexpr std::int64_t cells_max = std::int64_t{1} << 28;
 
   OccupancyGrid() = default;
@@ -42,9 +42,9 @@ class OccupancyGrid {
   Cell operator[](CellIndex c) const { return cells_[offset(c)]; }
   Cell& operator[](CellIndex c) { return cells_[offset(c)]; }
 
-  /// The middle of a cell, in the outer frame.
+  /// The centre of a cell, in the outer frame.
   Point centre(CellIndex c) const;
-  /// The cell that a point of the outer frame lies in; none if it lies outside the grid.
+  /// The cell that contains a point of the outer frame; none if the point is outside the grid.
   std::optional<CellIndex> cell_at(Point p) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stood in a file, fit to be shown to a person within a line.
+// Text from a file, made safe to print within a line.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace waitpoint {
 
-/// The text with each control character (of ASCII) as '?': it ends no line, and a terminal obeys nothing in it.
+/// The text with each ASCII control character replaced by '?': no line breaks, no terminal escape sequences.
 std::string one_line(std::string_view text);
 
 }  // namespace waitpoint

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Named random streams, without state.
 //
-// A stream is a function (tick, index) -> value, keyed by the run's seed and by who draws: the robot and the source
-// ("sick.range"). There is no draw order to keep and nothing to reset: what one sensor draws cannot shift another's
-// numbers, and a replay may start anywhere.
+// A stream is a function (tick, index) -> value, keyed by the run's seed, the robot and the source ("sick.range").
+// Draws have no order and no state: one sensor's draws cannot shift another's numbers, and a replay may start anywhere.
 //
 // The function is Philox 4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011):
 // counter = (tick, index), key = hash(seed, robot, source). Distributions are our own: the standard library's differ

@@ -46,7 +46,7 @@ class Duration {
   friend constexpr Duration operator*(Duration a, std::int64_t k) { return from_ns(checked_mul(a.ns_, k)); }
   friend constexpr Duration operator*(std::int64_t k, Duration a) { return a * k; }
   friend constexpr Duration operator/(Duration a, std::int64_t k) { return from_ns(checked_div(a.ns_, k)); }
-  /// How many whole `b` fit in `a`, towards zero.
+  /// The whole number of `b` in `a`, towards zero.
   friend constexpr std::int64_t operator/(Duration a, Duration b) { return checked_div(a.ns_, b.ns_); }
   constexpr Duration& operator+=(Duration b) { return *this = *this + b; }
   constexpr Duration& operator-=(Duration b) { return *this = *this - b; }

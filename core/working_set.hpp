@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory that somebody touches whenever his turn comes, told beforehand, so that it can be fetched into the cache
-// while others have theirs. It changes how long a turn takes and nothing else: what is fetched is not read, and may be
-// gone by then.
+// The memory that a task touches at each turn, declared beforehand so that the kernel can fetch it into the cache
+// during other tasks' turns. It affects speed only: the memory is prefetched, not read, and may be freed by then.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +14,7 @@ namespace waitpoint {
 struct CacheLines {
   static constexpr std::uintptr_t bytes = 64;
 
-  std::uint64_t first : 52, count : 12;  ///< the address of the first is that times their size
+  std::uint64_t first : 52, count : 12;  ///< the index of the first line: its address / bytes
 };
 
 class WorkingSet {
@@ -25,12 +24,12 @@ class WorkingSet {
     const auto from = reinterpret_cast<std::uintptr_t>(address), last = from + size - 1;
     lines_.push_back({from / CacheLines::bytes, last / CacheLines::bytes - from / CacheLines::bytes + 1});
   }
-  /// What lies from one address to another.
+  /// Adds the memory between two addresses.
   void add_between(const void* from, const void* to) {
     const auto first = reinterpret_cast<std::uintptr_t>(from), end = reinterpret_cast<std::uintptr_t>(to);
     if (first < end) add(from, end - first);
   }
-  /// That much of the caller's stack, where the functions lie that it calls.
+  /// Adds `size` bytes of stack below the caller's frame, for the functions that it calls.
   void add_stack_below(std::size_t size) {
     const char* const here = static_cast<const char*>(__builtin_frame_address(0));
     add(here - size, size);

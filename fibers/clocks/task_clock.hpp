@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The local clocks that there are: see ClockOptions.
+// The implementations of the local clocks: see ClockOptions.
 //
-// What the machine measured, the chooser chose or the code was counted to cost goes through the scheduler's Durations
-// before it counts, so that it can be recorded, and replayed where it was not reproducible.
+// Measured, chosen and counted costs pass through the scheduler's Durations before they are charged, so that a run that
+// is not reproducible can be recorded and replayed.
 #pragma once
 
 #include "fibers/clocks/clock_options.hpp"
@@ -12,11 +12,11 @@ namespace waitpoint::kernel {
 
 /// The clock of one task.
 struct TaskClock : LocalClock {
-  /// A negative scale, cost or interval, or one whose ends are swapped, is a bug.
+  /// A negative scale, cost or interval, or one with swapped ends, is a bug.
   explicit TaskClock(const ClockOptions& options);
 
   ClockOptions options;
-  std::int64_t started = 0;  ///< what its source read when the segment began: ns, or basic blocks
+  std::int64_t started = 0;  ///< the reading of its source at the start of the segment: ns, or basic blocks
   bool runs = false;         ///< within a segment
 };
 
