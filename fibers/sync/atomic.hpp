@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Atomic variables, in the names and semantics of std::atomic and std::atomic_flag.
 //
-// Each operation is a waitpoint: what other tasks do can come before it, so that schedules explore the interleavings of
-// atomics too. One OS thread runs them all, hence whatever order is asked for, the operations of all tasks have one
-// single order (memory_order_seq_cst), and the weak form of compare-exchange never fails for nothing. Orders that the
-// standard forbids for an operation are bugs.
+// Each operation is a waitpoint, so that exploration covers the interleavings of atomics, too. All tasks run in one OS
+// thread: for any requested memory order, the operations have a single total order (memory_order_seq_cst), and the weak
+// form of compare-exchange never fails spuriously. Orders that the standard forbids for an operation are bugs.
 //
-// When the run is over, what a task may do again and again until it sees a change (load, exchange, compare_exchange,
-// test_and_set, wait) throws Unwind as blocking calls do; the others still take effect and throw nothing.
+// After the end of the run, operations that tasks may repeat until they see a change (load, exchange, compare_exchange,
+// test_and_set, wait) throw Unwind as blocking calls do; the others still take effect and do not throw.
 //
-// Outside any task an atomic is plain memory, and what is stored there is what each run begins with: one that a run
-// leaves behind reads as fresh in the next run.
+// Outside any task an atomic is plain memory, and the value stored there is the initial value of every run: after a
+// run, the atomic has that value again.
 #pragma once
 
 #include <atomic>
@@ -35,7 +34,7 @@ using std::memory_order_seq_cst;
 
 namespace sync {
 
-/// Whether two values are the same bit for bit, padding aside.
+/// True if two values are the same bit for bit, padding aside.
 template <class T>
 bool same_bits(T a, T b) {
 #if defined(__has_builtin)
@@ -87,7 +86,7 @@ class atomic {
  public:
   using value_type = T;
   using difference_type = std::conditional_t<std::is_pointer_v<T>, std::ptrdiff_t, T>;
-  static constexpr bool is_always_lock_free = true;  // no operation can find another one under way
+  static constexpr bool is_always_lock_free = true;  // no other operation can be in progress
 
   constexpr atomic() noexcept(std::is_nothrow_default_constructible_v<T>) : value_(), initial_() {}
   /// `label` is shown in reports; it must outlive the atomic.
@@ -174,12 +173,12 @@ class atomic {
   T operator|=(T bits) requires sync::AtomicInteger<T> { return static_cast<T>(fetch_or(bits) | bits); }
   T operator^=(T bits) requires sync::AtomicInteger<T> { return static_cast<T>(fetch_xor(bits) ^ bits); }
 
-  /// Waits until the value is another than `old` when this task is notified, or at once.
+  /// Blocks until a notification finds the value different from `old`; returns at once if it differs already.
   void wait(T old, memory_order order = memory_order_seq_cst) const {
     WAITPOINT_CHECK(sync::can_load(order), "an atomic load is asked to release");
     (void)wait_before(old, Time::max());
   }
-  /// As wait(); false if the value is `old` still when the time has come. The standard has no timed waits here.
+  /// As wait(); false if the value is still `old` at the deadline. The standard has no timed waits here.
   template <class Rep, class Ratio>
   bool try_wait_for(T old, const std::chrono::duration<Rep, Ratio>& span) const {
     return wait_before(old, sync::after(span));
@@ -219,7 +218,7 @@ class atomic {
     const sync::Unseen unseen;
     return value_;
   }
-  // The value before.
+  // Returns the previous value.
   T put(T value) {
     const sync::Unseen unseen;
     const T before = value_;
@@ -272,11 +271,11 @@ class atomic_flag {
   atomic<bool> set_{false, ""};
 };
 
-/// A waitpoint; there is nothing else to order.
+/// A waitpoint; all operations are sequentially consistent already.
 inline void atomic_thread_fence(memory_order) {
   (void)sync::running_task().scheduler->waitpoint(kernel::Operation::fence, nullptr);
 }
-/// Nothing: signals are delivered at waitpoints.
+/// No effect: signals are delivered at waitpoints.
 inline void atomic_signal_fence(memory_order) {}
 
 using atomic_bool = atomic<bool>;

@@ -21,11 +21,11 @@ BarrierCore::Arrival BarrierCore::arrive(std::ptrdiff_t count, std::ptrdiff_t dr
 }
 
 void BarrierCore::end_phase() {
-  // The completion function may have met the end of the run.
+  // The run may have ended in the completion function.
   if (kernel::running->scheduler->unwinding()) return;
   missing_ = expected_;
   ++phase_;
-  // What the completion function did came after the last arrival's waitpoint.
+  // The completion function ran after the last arrival's waitpoint.
   kernel::sanitizer::release(&object_);
   kernel::running->scheduler->wake_all(object_);
 }

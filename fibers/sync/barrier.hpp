@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A place where a fixed number of tasks wait for each other, phase by phase, in the names and semantics of
-// std::barrier. The timed waits are ours: the standard has none.
+// A barrier for a fixed number of tasks and repeated phases, in the names and semantics of std::barrier. The timed
+// waits are an extension: the standard has none.
 //
-// Who arrives last in a phase calls the completion function and lets all through; what it expects then begins anew. The
-// completion function should not block: it may let no exception through, and one that waits when the run ends is
-// abandoned there. A barrier that a run leaves behind reads as fresh in the next run.
+// The last arrival of a phase calls the completion function, wakes all and starts the next phase. The completion
+// function should not block: exceptions must not leave it, and one that blocks at the end of the run is abandoned
+// there. After a run, the barrier has its initial state again.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct NoCompletion {
   void operator()() noexcept {}
 };
 
-/// The part that does not depend on the completion function.
+/// The part that is independent of the completion function.
 class BarrierCore {
  public:
   constexpr BarrierCore(std::ptrdiff_t expected, const char* label) : object_("barrier", label), initial_(expected) {
@@ -32,10 +32,10 @@ class BarrierCore {
     std::uint64_t phase;
     bool was_last;
   };
-  /// More arrivals than the phase still expects are a bug. Who was last must call end_phase().
+  /// More arrivals than the phase expects are a bug. The last arrival must call end_phase().
   Arrival arrive(std::ptrdiff_t count, std::ptrdiff_t dropped);
   void end_phase();
-  /// False if `phase` does not end before the deadline. A phase before the last is a bug.
+  /// False if `phase` does not end before the deadline. A phase earlier than the previous one is a bug.
   bool wait_before(std::uint64_t phase, Time deadline);
 
  private:
@@ -43,8 +43,8 @@ class BarrierCore {
 
   Object object_;
   std::ptrdiff_t initial_;
-  std::ptrdiff_t expected_ = 0;  // in each phase from the next on
-  std::ptrdiff_t missing_ = 0;   // in this one
+  std::ptrdiff_t expected_ = 0;  // per phase, from the next phase on
+  std::ptrdiff_t missing_ = 0;   // in the current phase
   std::uint64_t phase_ = 0;
 };
 
@@ -55,7 +55,7 @@ class barrier {
   static_assert(std::is_nothrow_invocable_v<Completion&>, "as the standard says, it must be noexcept");
 
  public:
-  /// Whom its holder waits with: those who arrive in the same phase of the same barrier.
+  /// Identifies a phase of a barrier, for wait().
   class arrival_token {
    public:
     arrival_token(arrival_token&& other) noexcept : of_(std::exchange(other.of_, nullptr)), phase_(other.phase_) {}
@@ -80,14 +80,14 @@ class barrier {
 
   static constexpr std::ptrdiff_t max() noexcept { return PTRDIFF_MAX; }
 
-  /// More than the phase still expects, or fewer than one, is a bug.
+  /// A count below one, or above the number still expected in the phase, is a bug.
   [[nodiscard]] arrival_token arrive(std::ptrdiff_t count = 1) { return arrive(count, 0); }
   void wait(arrival_token&& arrival) const { (void)wait_before(arrival, Time::max()); }
   void arrive_and_wait() { wait(arrive()); }
-  /// Arrives, and is expected no more in later phases.
+  /// Arrives, and reduces the expected count of later phases by one.
   void arrive_and_drop() { (void)arrive(1, 1); }
 
-  /// False if the phase does not end in time: then `arrival` can be waited for again.
+  /// False if the phase does not end in time: `arrival` then remains valid.
   template <class Rep, class Ratio>
   bool try_wait_for(arrival_token& arrival, const std::chrono::duration<Rep, Ratio>& span) const {
     return wait_before(arrival, sync::after(span));

@@ -17,7 +17,7 @@ constexpr std::size_t frames_shown = 4;
 constexpr std::size_t tasks_shown = 16;
 constexpr std::size_t frames_searched = 24;
 
-// A line for each task, the first of them, and below it the places in the source where it is.
+// A line for each task, the first few of them, followed by its source locations.
 template <class Describe>
 std::string describe_each(kernel::Scheduler& scheduler, const std::vector<Task*>& tasks, Places told,
                           Describe describe_one) {
@@ -38,7 +38,7 @@ std::string describe_each(kernel::Scheduler& scheduler, const std::vector<Task*>
   return text;
 }
 
-// The writer that a reader waits behind, where other readers hold the lock.
+// The waiting writer that blocks this reader, where other readers hold the lock.
 const Task* writer_before(const Task& task) {
   if (!task.shared_wait || task.blocked_on->owner != nullptr) return nullptr;
   for (const Task* waiter = task.blocked_on->first_waiter; waiter != nullptr; waiter = waiter->next_waiter)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why nothing goes on, in words: who waits for what, who holds it, and where in the source each waits.
+// Reports of deadlocks and of runs without progress: each blocked task, the object it waits for, the object's owner,
+// and the source location of the wait.
 #pragma once
 
 #include <string>
@@ -8,16 +9,16 @@
 
 namespace waitpoint::sync {
 
-/// Whether to say where in the source each task is: that takes a second.
+/// Controls the source locations in a report: looking them up takes a second.
 enum class Places : bool { left_out, told };
 
-/// After a run stopped for a deadlock, or went idle with tasks left: the cycle where there is one, else all that wait.
+/// After a run stopped for a deadlock, or went idle with tasks left: the cycle if there is one, else all blocked tasks.
 std::string describe_deadlock(kernel::Scheduler& scheduler, Places places);
 
 /// After a run stopped for lack of progress: the tasks that spin at this instant.
 std::string describe_spinning(kernel::Scheduler& scheduler, Places places);
 
-/// After a run that had all the time there is: the tasks that sleep for ever.
+/// After a run that reached the end of virtual time: the tasks that sleep for ever.
 std::string describe_endless(kernel::Scheduler& scheduler, Places places);
 
 }  // namespace waitpoint::sync

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How primitives wait: the way from the standard library's vocabulary to the kernel's.
+// The blocking calls of primitives, from the standard library's vocabulary to the kernel's.
 //
-// When a run ends before its tasks do, their fibers are unwound: calls that can block then throw Unwind, which runs the
-// destructors of all frames, and return at once if a destructor makes them. Calls that release never throw it.
+// When a run ends before its tasks do, their fibers are unwound: blocking calls then throw Unwind, which runs the
+// destructors of all frames; within a destructor they return at once instead. Releasing calls never throw it.
 #pragma once
 
 #include <exception>
@@ -14,8 +14,8 @@
 
 namespace waitpoint::sync {
 
-/// Thrown through a task whose run is over. Derives from nothing: code under test should not catch it; if it does, the
-/// next blocking call throws it again.
+/// Unwinds a task whose run is over. It has no base class, so that code under test does not catch it by accident; if it
+/// does, the next blocking call throws it again.
 struct Unwind {};
 
 inline kernel::Task& running_task() {
@@ -23,17 +23,17 @@ inline kernel::Task& running_task() {
   return *kernel::running;
 }
 
-/// Called where the kernel said that the run is over.
+/// Called when the kernel reports the end of the run.
 inline void unwind() {
   if (std::uncaught_exceptions() == 0) throw Unwind();
 }
 
-// Parts of what follows in the library: what the kernel reads there is nothing of the user's.
+// The out-of-line parts of the functions below, so that the kernel's accesses are not attributed to user code.
 bool waitpoint_unseen(kernel::Operation operation, kernel::Object& object);
 bool block_unseen(kernel::Object& object, Time deadline);
 kernel::Task* wake_one_unseen(kernel::Object& object);
 
-/// A waitpoint before an operation that does not block; false when the run is over, and then nothing is to be done.
+/// A waitpoint before an operation that does not block; false if the run is over: the operation is then skipped.
 inline bool before_releasing(kernel::Operation operation, kernel::Object& object) {
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
   return waitpoint_unseen(operation, object);
@@ -43,15 +43,15 @@ inline bool before_releasing(kernel::Operation operation, kernel::Object& object
 #endif
 }
 
-/// A waitpoint before an operation that may block. When the run is over it throws Unwind, or in a destructor that runs
-/// then, returns false: nothing is to be done.
+/// A waitpoint before an operation that may block. If the run is over it throws Unwind, or, within a destructor,
+/// returns false: the operation is then skipped.
 inline bool before_blocking(kernel::Operation operation, kernel::Object& object) {
   const bool goes_on = before_releasing(operation, object);
   if (!goes_on) unwind();
   return goes_on;
 }
 
-/// Wakes one of those that wait for `object`, of the chooser's choice; null if there is none.
+/// Wakes one waiter of `object`, chosen by the chooser; null if there is none.
 inline kernel::Task* wake_one(kernel::Object& object) {
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
   return wake_one_unseen(object);
@@ -60,7 +60,7 @@ inline kernel::Task* wake_one(kernel::Object& object) {
 #endif
 }
 
-/// Blocks the running task on `object`; false if the deadline came first. Throws Unwind when the run is over.
+/// Blocks the running task on `object`; false if the deadline came first. Throws Unwind if the run is over.
 [[gnu::always_inline]] inline bool block(kernel::Object& object, Time deadline = Time::max());
 /// The same in the caller's frame, see departure.hpp.
 [[gnu::always_inline]] inline bool block_here(kernel::Object& object, Time deadline) {
@@ -69,7 +69,7 @@ inline kernel::Task* wake_one(kernel::Object& object) {
     ++object.users;
   }
   const kernel::Wake wake = kernel::running->scheduler->block(object, deadline);
-  // A run that is over leaves its objects as they are: this one may be gone.
+  // At the end of a run objects may be destroyed before their waiters: do not touch this one.
   if (__builtin_expect(wake == kernel::Wake::unwinding, 0)) {
     unwind();
     return false;

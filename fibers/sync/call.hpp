@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a thread runs: a function and its arguments, in one piece of memory until the thread begins.
+// The function and arguments of a thread, in one allocation until the thread begins.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace waitpoint::sync {
 class Call {
  public:
   virtual ~Call() = default;
-  /// To be done once.
+  /// Must be called once.
   virtual void run() = 0;
 };
 

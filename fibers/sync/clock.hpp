@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The clocks of simulated tasks, in the shape of the standard library's: both show the caller's local virtual time, one
-// since the start of the run, one as a date. And the way from its time points and durations to ours.
+// The clocks of simulated tasks, with the interface of the standard library's: both show the caller's local virtual
+// time, one since the start of the run, one as a date. Also the conversions from their time points and durations to
+// Time.
 //
-// What timed calls do with unusual ones, all of them alike:
+// All timed calls treat unusual arguments alike:
 //
-//   a negative duration, a time point that is past   as the standard says: what can be had at once is had, none waits
-//   a duration or time point beyond the range of Time for ever: hours::max() is no error
-//   a fraction of a nanosecond                       rounded up: no call returns early
+//   negative duration, time point in the past        as in the standard: try once, do not wait
+//   duration or time point beyond the range of Time  no timeout: hours::max() is not an error
+//   fraction of a nanosecond                         rounded up: no call returns early
 //   not a number                                     a bug
 #pragma once
 
@@ -19,8 +20,8 @@
 
 namespace waitpoint {
 
-/// The caller's local virtual time. Who looks at it again and again gives other tasks a turn now and then; where none
-/// of them lets time pass, the run makes no progress.
+/// The caller's local virtual time. A task that polls it yields to other tasks now and then; if none of them advances
+/// in time, the run ends with no progress.
 inline Time now() {
   Time local;
   if (!sync::running_task().scheduler->read_clock(local)) sync::unwind();
@@ -34,12 +35,12 @@ struct steady_clock {
   using time_point = std::chrono::time_point<steady_clock>;
   static constexpr bool is_steady = true;
 
-  /// No noexcept: it is left by an exception when the run is over.
+  /// Not noexcept: throws Unwind at the end of the run.
   static time_point now() { return time_point(duration(waitpoint::now().ns())); }
 };
 
-/// Counts from 1970-01-01 as std::chrono::system_clock does; a run starts at SimulationOptions::start_date. Nobody sets
-/// it while the run goes on.
+/// Counts from 1970-01-01 as std::chrono::system_clock does; a run starts at SimulationOptions::start_date. It is never
+/// set during a run.
 struct system_clock {
   using rep = std::int64_t;
   using period = std::nano;
@@ -51,7 +52,7 @@ struct system_clock {
 
   static std::time_t to_time_t(const time_point& t) noexcept { return std::chrono::system_clock::to_time_t(cut(t)); }
   static time_point from_time_t(std::time_t t) noexcept { return time_point(std::chrono::seconds(t)); }
-  /// To and from the standard's own time points of that epoch, which its calendar is made for.
+  /// To and from the standard's time points of that epoch, for use with its calendar.
   template <class Span>
   static std::chrono::sys_time<Span> to_sys(const std::chrono::time_point<system_clock, Span>& t) {
     return std::chrono::sys_time<Span>(t.time_since_epoch());
@@ -69,11 +70,10 @@ struct system_clock {
 
 namespace sync {
 
-/// A deadline that is past whatever the time is.
+/// A deadline in the past at any time.
 inline constexpr Time long_past = Time::from_ns(std::numeric_limits<std::int64_t>::min());
 
-/// `span` in nanoseconds, rounded up; the greatest or the least value where it is out of range. What is not a number is
-/// a bug.
+/// `span` in nanoseconds, rounded up, saturated to the range. NaN is a bug.
 template <class Rep, class Ratio>
 constexpr std::int64_t ns_within_range(const std::chrono::duration<Rep, Ratio>& span) {
   using Limits = std::numeric_limits<std::int64_t>;
@@ -85,14 +85,14 @@ constexpr std::int64_t ns_within_range(const std::chrono::duration<Rep, Ratio>& 
     const std::int64_t whole = static_cast<std::int64_t>(ns);
     return static_cast<double>(whole) < ns ? whole + 1 : whole;
   } else {
-    __extension__ using Wide = __int128;  // holds any count of any of the standard's units
+    __extension__ using Wide = __int128;  // holds any count of any standard unit
     const Wide ns = std::chrono::ceil<std::chrono::duration<Wide, std::nano>>(span).count();
     if (ns > Limits::max()) return Limits::max();
     return ns < Limits::min() ? Limits::min() : static_cast<std::int64_t>(ns);
   }
 }
 
-/// The deadline `span` from the caller's local virtual time: now at the earliest.
+/// The deadline `span` from the caller's local virtual time; not before that time.
 template <class Rep, class Ratio>
 [[gnu::always_inline]] inline Time after(const std::chrono::duration<Rep, Ratio>& span) {
   const Time from = kernel::local_time(running_task());
@@ -102,12 +102,12 @@ template <class Rep, class Ratio>
   return __builtin_add_overflow(from.ns(), ns, &at) ? Time::max() : Time::from_ns(at);
 }
 
-/// What system_clock shows at the start of the caller's run, in nanoseconds.
+/// The date of system_clock at the start of the caller's run, in nanoseconds.
 std::int64_t start_date_ns();
 
 }  // namespace sync
 
-/// The virtual time of a time point of the clocks above.
+/// Converts a time point of the clocks above to virtual time.
 template <class Span>
 Time to_time(const std::chrono::time_point<steady_clock, Span>& t) {
   return Time::from_ns(sync::ns_within_range(t.time_since_epoch()));
@@ -122,7 +122,7 @@ Time to_time(const std::chrono::time_point<system_clock, Span>& t) {
 
 namespace sync {
 
-/// The deadline that a time point of a simulated clock is: one that has a to_time() as those above.
+/// The deadline for a time point of any simulated clock, i.e. one with a to_time() like those above.
 template <class Clock, class Span>
 Time until(const std::chrono::time_point<Clock, Span>& deadline) {
   static_assert(!std::is_same_v<Clock, std::chrono::steady_clock> && !std::is_same_v<Clock, std::chrono::system_clock>,
@@ -132,14 +132,13 @@ Time until(const std::chrono::time_point<Clock, Span>& deadline) {
 
 }  // namespace sync
 
-/// Tells the local clock that what the caller computed costs something from `least` to `greatest`: its local virtual
-/// time moves on, and what it does next is seen by others that much later. Nothing happens in between: this is no
-/// waitpoint, unless the caller shares a processor, for which it waits. Which cost it is, the chooser says: the
-/// greatest in the default order. Costs that are negative or swapped are a bug.
+/// Declares the cost of the caller's computation, between `least` and `greatest`: its local virtual time advances by
+/// it, which delays its next operations. This is not a waitpoint, except on a shared processor, for which the caller
+/// waits. The chooser picks the cost: the greatest in the default order. Negative or swapped costs are a bug.
 inline void compute(Duration least, Duration greatest) { kernel::compute(sync::running_task(), least, greatest); }
 inline void compute(Duration cost) { kernel::compute(sync::running_task(), cost); }
 
-/// The caller waits for a device: its local virtual time moves on by `latency`, which no local clock scales.
+/// The caller waits for a device: its local virtual time advances by `latency`, which no local clock scales.
 inline void access_hardware(Duration latency) { kernel::access_hardware(sync::running_task(), latency); }
 
 }  // namespace waitpoint

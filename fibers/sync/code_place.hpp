@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a call stands, in the words of the module that it is in: what is left of an address when the process is gone.
+// A call's location by module and offset: valid after the process has ended, unlike an address.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 namespace waitpoint::sync {
 
 struct CodePlace {
-  std::string module;  ///< its file; empty where none has the address
+  std::string module;  ///< its file; empty if the address is in none
   std::uintptr_t offset = 0;
-  std::string symbol;  ///< as the linker knows it; empty where it does not
+  std::string symbol;  ///< the linker's name; empty if unknown
 };
 
-/// A symbol as people write it: of C++ without its mangling, of C as it is.
+/// A demangled C++ symbol; a C symbol unchanged.
 std::string demangled(const std::string& symbol);
 
-/// Of the call that returns to this address of this process.
+/// The location of the call that returns to this address of this process.
 CodePlace code_place_of(const void* return_address);
 
 }  // namespace waitpoint::sync

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Condition variable, in the names and semantics of std::condition_variable, over waitpoint::mutex.
 //
-// Releasing the mutex and starting to wait are one step. There are no spurious wake-ups, but where exploration chooses
-// one. To wait without the mutex, or with another one than those who wait already, is a bug, and so is destroying it
-// while tasks wait; but as the standard says, it may be destroyed as soon as all are notified.
+// Releasing the mutex and starting to wait are one atomic step. Spurious wake-ups occur only where exploration chooses
+// one. It is a bug to wait without the mutex, to wait with a mutex other than the present waiters', or to destroy it
+// while tasks wait; as in the standard, it may be destroyed as soon as all waiters are notified.
 #pragma once
 
 #include <condition_variable>
@@ -72,7 +72,7 @@ class condition_variable {
   }
 
   sync::Object object_{"condition variable"};
-  const mutex* mutex_ = nullptr;  // of those who wait
+  const mutex* mutex_ = nullptr;  // the waiters' mutex
 };
 
 }  // namespace waitpoint

@@ -45,7 +45,7 @@ void condition_variable_any::strike_off(Waiter& waiter) {
 
 void condition_variable_any::leave(Waiter& waiter) {
   if (waiter.stop != nullptr) waiter.stop->waiter = nullptr;
-  // Once the run is over, the list may be gone.
+  // After the end of the run, the list may be gone.
   if (kernel::running->scheduler->unwinding()) return;
   if (!waiter.notified) strike_off(waiter);
   --object_.users;

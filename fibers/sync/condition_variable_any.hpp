@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Condition variable over any lock with lock() and unlock(), in the names and semantics of std::condition_variable_any.
 //
-// Who waits stands in its list before it unlocks, so that a notification between its unlock and its sleep is not lost.
-// Different tasks may wait with different locks. Only exploration chooses spurious wake-ups. A wait with a stop token
-// also ends when somebody asks to stop: that wakes this wait alone.
+// A waiter enters the list before it unlocks, so that a notification between its unlock and its sleep is not lost.
+// Different tasks may wait with different locks. Spurious wake-ups occur only where exploration chooses one. A stop
+// request ends the waits with its token, and no others.
 #pragma once
 
 #include <condition_variable>
@@ -57,7 +57,7 @@ class condition_variable_any {
     return wait_before(lock, sync::after(span), ready);
   }
 
-  /// Each returns ready() once that is true, somebody has asked `token` to stop, or the deadline has come.
+  /// Each returns ready() once that is true, a stop is requested through `token`, or the deadline has passed.
   template <class Lock, class Predicate>
   bool wait(Lock& lock, stop_token token, Predicate ready) {
     return wait_before(lock, std::move(token), Time::max(), ready);
@@ -73,15 +73,15 @@ class condition_variable_any {
 
  private:
   struct Stop;
-  // One wait, in the frame of who waits.
+  // One wait, in the waiter's frame.
   struct Waiter {
     Stop* stop = nullptr;
     kernel::Task* task = nullptr;
     Waiter* next = nullptr;
-    bool blocked = false;   // else still on its way to sleep
-    bool notified = false;  // and no longer in the list
+    bool blocked = false;   // false: still between its unlock and its sleep
+    bool notified = false;  // and out of the list
   };
-  // What a request to stop does to the waits of one call.
+  // Links the waits of one call to a stop request.
   struct Stop {
     bool is_asked() const {
       const sync::Unseen unseen;
@@ -93,10 +93,10 @@ class condition_variable_any {
       if (waiter != nullptr && !waiter->notified) condition.notify(*waiter);
     }
     condition_variable_any& condition;
-    Waiter* waiter = nullptr;  // in the list, or just out of it
+    Waiter* waiter = nullptr;  // in the list, or just removed
     bool requested = false;
   };
-  // Locks again whatever ends the wait. Lets Unwind through, as lock() throws it only where no exception is under way.
+  // Relocks however the wait ends. Passes Unwind on: lock() throws it only if no exception is in flight.
   template <class Lock>
   struct Relock {
     ~Relock() noexcept(false) { lock.lock(); }
@@ -108,7 +108,7 @@ class condition_variable_any {
   bool wait_before(Lock& lock, Time deadline, Stop* stop = nullptr) {
     Waiter self{stop};
     if (!enlist(self)) return false;
-    if (stop != nullptr && stop->is_asked()) {  // before there was a waiter to wake
+    if (stop != nullptr && stop->is_asked()) {  // requested before there was a waiter to wake
       leave(self);
       return true;
     }
@@ -138,7 +138,7 @@ class condition_variable_any {
     return ready();
   }
 
-  // `users` counts who is in the list or was woken from it. Where it is 0, as in a new run, the list is nobody's.
+  // `users` counts the waiters in the list or woken from it. If it is 0, as in a new run, the list is empty.
   bool has_users() const {
     const sync::Unseen unseen;
     return object_.users != 0;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view first_line = "waitpoint durations 1";
 
-/// The lines of a text, and the words of a line, from left to right.
+/// Splits a text into lines, or a line into words, from left to right.
 std::string_view take_until(std::string_view& rest, char separator) {
   const std::size_t at = rest.find(separator);
   const std::string_view taken = rest.substr(0, at);
@@ -28,7 +28,7 @@ std::string hexadecimal(std::uint64_t value) {
   return std::string(digits, end);
 }
 
-// One line after the head; false if it is none that can stand there.
+// One line after the head; false if it is malformed.
 bool read_line(std::string_view line, DurationRecord& record) {
   const std::string_view word = take_until(line, ' ');
   if (word == "task") {

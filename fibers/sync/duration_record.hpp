@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The durations of a run that do not follow from its scenario and seed: what local clocks measured, counted or chose.
+// The durations of a run that do not follow from its scenario and seed: measured, counted or chosen by local clocks.
 //
-// They are written down in the order in which they began to count. The run that gets them back in that order is the
-// same run, whatever the machine measures then. As text:
+// They are recorded in the order in which they were charged. A run that reads them back in that order is the same run,
+// on any machine. As text:
 //
 //   waitpoint durations 1
-//   run 5f0d97a1c0ffee42 seed 7         which scenario, with what was set, and which seed
-//   task 1 8c0d2f0a9b3e4f55 r0.motion   the first duration of each task says its name before
+//   run 5f0d97a1c0ffee42 seed 7         hash of the scenario with its settings, and the seed
+//   task 1 8c0d2f0a9b3e4f55 r0.motion   introduces a task, before its first duration
 //   1 15322                             of task 1: 15 322 ns
 //   1 900
-//   end 2                               how many there were; a record without its last line ends early
+//   end 2                               the number of durations; a record without this line is truncated
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,11 @@ struct DurationRecord {
     friend bool operator==(const TaskName&, const TaskName&) = default;
   };
   struct Entry {
-    std::uint32_t task = 0;  ///< its place in `tasks`
+    std::uint32_t task = 0;  ///< index into `tasks`
     std::int64_t ns = 0;
     friend bool operator==(const Entry&, const Entry&) = default;
   };
-  std::string run;  ///< what the record belongs to, in one line
+  std::string run;  ///< identifies the run of the record, in one line
   std::vector<TaskName> tasks;
   std::vector<Entry> entries;
 
@@ -44,10 +44,10 @@ struct DurationRecord {
 
 std::string to_text(const DurationRecord& record);
 
-/// Throws BadInput, naming `file` and the line, for what is no record, or one that ends early.
+/// Throws BadInput, naming `file` and the line, for a malformed or truncated record.
 DurationRecord parse_duration_record(const std::string& file, std::string_view text);
 
-/// Writes down the durations of a run; must outlive it.
+/// Records the durations of a run; must outlive it.
 class DurationRecorder : private kernel::Durations {
  public:
   DurationRecorder(Simulation& simulation, std::string run);
@@ -58,19 +58,19 @@ class DurationRecorder : private kernel::Durations {
 
  private:
   DurationRecord record_;
-  std::map<std::uint64_t, std::uint32_t> places_;  // of tasks, by their ids
+  std::map<std::uint64_t, std::uint32_t> places_;  // index in `tasks`, by task id
 };
 
-/// Gives a run the durations of a record, which belongs to it; both must outlive the run. If the record ends before the
-/// run does, or is another task's, the run fails with BadInput.
+/// Replays the durations of a record of this run; both must outlive the run. If the record ends early, or has another
+/// task's duration next, the run fails with BadInput.
 class DurationReplay : private kernel::Durations {
  public:
-  /// Throws BadInput if the record, read from `file`, does not belong to `run`.
+  /// Throws BadInput if the record, read from `file`, belongs to another run than `run`.
   DurationReplay(Simulation& simulation, const DurationRecord& record, const std::string& run, std::string file);
   DurationReplay(const DurationReplay&) = delete;
   DurationReplay& operator=(const DurationReplay&) = delete;
 
-  /// Throws BadInput if durations are left: for a run that is over by itself.
+  /// Throws BadInput if durations are left: for a run that ended by itself.
   void check_used_up() const;
 
  private:

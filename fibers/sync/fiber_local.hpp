@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A variable of which each task has its own: what thread_local is to threads. All fibers share one OS thread, so that
-// thread_local itself is one variable for them all.
+// A task-local variable, the counterpart of thread_local. All fibers share one OS thread, hence one instance of a
+// thread_local variable.
 //
 //   waitpoint::fiber_local<std::vector<int>> scratch;      // static, or a member
 //   scratch->push_back(1);                                 // the running task's own, empty at first
 //
-// A value is made at the first use by its task, and destroyed when the task's function has returned or was left by an
-// exception or by unwinding, the latest first.
+// A value is made at its first use by a task, and destroyed when the task's function returns, throws or is unwound, in
+// reverse order of construction.
 #pragma once
 
 #include "fibers/sync/local_values.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A result that one task gives and others wait for, in the names and semantics of std::promise, std::future and
+// A result that one task provides and others wait for, in the names and semantics of std::promise, std::future and
 // std::shared_future; misuse throws std::future_error with the standard's codes.
 //
-// Storing and waiting are waitpoints. Who is woken goes on at the virtual time of the storing.
+// Storing and waiting are waitpoints. A woken task continues at the virtual time of the storing.
 #pragma once
 
 #include "fibers/sync/shared_state.hpp"
@@ -14,13 +14,13 @@ class shared_future;
 
 namespace sync {
 
-/// What future and shared_future have in common.
+/// Common part of future and shared_future.
 template <class T>
 class FutureBase {
  public:
   bool valid() const noexcept { return state_ != nullptr; }
   void wait() const { existing(state_).wait(); }
-  /// `deferred` where the function runs only when somebody waits without a timeout.
+  /// `deferred` if the function runs only at the first wait without a timeout.
   template <class Rep, class Ratio>
   future_status wait_for(const std::chrono::duration<Rep, Ratio>& span) const {
     return existing(state_).wait_before(after(span));
@@ -48,7 +48,7 @@ class future : public sync::FutureBase<T> {
   future(future&&) noexcept = default;
   future& operator=(future&&) noexcept = default;
 
-  /// Waits; the result, or its exception thrown. The future is not valid afterwards.
+  /// Waits, and returns the result or rethrows its exception. The future is not valid afterwards.
   T get() {
     (void)sync::existing(this->state_);
     const auto state = std::move(this->state_);
@@ -74,7 +74,7 @@ class shared_future : public sync::FutureBase<T> {
   shared_future() noexcept = default;
   shared_future(future<T>&& other) noexcept : sync::FutureBase<T>(std::move(other.state_)) {}
 
-  /// Waits; the result, which lives as long as its futures, or its exception thrown.
+  /// Waits, and returns a reference to the result, which lives as long as its futures, or rethrows its exception.
   Result get() const {
     sync::existing(this->state_).wait();
     this->state_->rethrow_failure();
@@ -91,7 +91,7 @@ class promise {
     promise(std::move(other)).swap(*this);
     return *this;
   }
-  /// What nobody has given, nobody will: its futures throw broken_promise.
+  /// Without a stored result, its futures throw broken_promise.
   ~promise() {
     if (state_ != nullptr && state_.use_count() > 1) state_->break_promise();
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A thread that is asked to stop and joined when its handle goes, in the names and semantics of std::jthread.
+// A thread that is asked to stop and joined by the destructor of its handle, in the names and semantics of
+// std::jthread.
 #pragma once
 
 #include "fibers/sync/stop_token.hpp"
@@ -13,7 +14,7 @@ class jthread {
   using native_handle_type = thread::native_handle_type;
 
   jthread() noexcept : source_(nostopstate) {}
-  /// A function that takes a stop_token before its arguments gets this thread's.
+  /// A function whose first parameter is a stop_token receives this thread's.
   template <class Function, class... Arguments>
   requires(!std::is_same_v<std::remove_cvref_t<Function>, jthread> &&
            !std::is_same_v<std::remove_cvref_t<Function>, thread_attributes>) explicit jthread(Function&& function,
@@ -27,7 +28,7 @@ class jthread {
     jthread(std::move(other)).swap(*this);
     return *this;
   }
-  /// Asks the thread to stop and joins it. While a run is unwound, and after it, the thread is let go.
+  /// Asks the thread to stop and joins it. While a run is unwound, and after it, the thread is detached.
   ~jthread() {
     if (!joinable() || kernel::running == nullptr) return;
     request_stop();

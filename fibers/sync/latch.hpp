@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A count that goes down to zero once and lets all through then, in the names and semantics of std::latch. The timed
-// waits are ours: the standard has none.
+// A single-use count-down that wakes all waiters at zero, in the names and semantics of std::latch. The timed waits are
+// an extension: the standard has none.
 //
-// A latch that a run leaves behind reads as fresh, with its initial count, in the next run.
+// After a run, the latch has its initial count again.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ class latch {
 
   static constexpr std::ptrdiff_t max() noexcept { return PTRDIFF_MAX; }
 
-  /// Below zero, or by a negative number, is a bug.
+  /// A negative argument, or a count that falls below zero, is a bug.
   void count_down(std::ptrdiff_t by = 1);
   bool try_wait();
   void wait() { wait_before(Time::max()); }

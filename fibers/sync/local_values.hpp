@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The values that one thread has of what is local to threads, simulated or real: made at first use, destroyed in the
-// reverse order. A thread has few of them: they are sought one after the other.
+// The thread-local values of one thread, simulated or real: made at first use, destroyed in reverse order. They are
+// few, so the search is linear.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ class LocalValues {
   LocalValues(const LocalValues&) = delete;
   LocalValues& operator=(const LocalValues&) = delete;
 
-  /// The value of that key; where there is none, made by `initial`, or by default where that is empty.
+  /// The value for `key`; a new one is made by `initial`, or default-constructed if `initial` is empty.
   template <class T>
   T& get(std::uint64_t key, const std::function<T()>& initial) {
     for (const Value& value : values_)
@@ -35,7 +35,7 @@ class LocalValues {
     return *made.release();
   }
 
-  /// The latest first; also what destructors use for the first time.
+  /// In reverse order of construction, including values that destructors create meanwhile.
   void clear() {
     while (!values_.empty()) {
       const Value last = values_.back();
@@ -53,24 +53,24 @@ class LocalValues {
   std::vector<Value> values_;
 };
 
-/// What tells one thread-local from all others that ever were in this process; never part of an event.
+/// A key unique to each thread-local variable of the process; never part of an event.
 inline std::uint64_t next_local_key() {
   static std::atomic<std::uint64_t> last = 0;
   return ++last;
 }
 
-/// A variable of which each thread has its own; `values` says whose turn it is.
+/// A thread-local variable; `values` returns the running thread's values.
 template <class T, LocalValues& (*values)()>
 class Local {
  public:
   Local() requires std::is_default_constructible_v<T>
   = default;
-  /// `initial` makes the value of each thread.
+  /// `initial` makes each thread's value.
   explicit Local(std::function<T()> initial) : initial_(std::move(initial)) {}
   Local(const Local&) = delete;
   Local& operator=(const Local&) = delete;
 
-  /// The running thread's own value.
+  /// The running thread's value.
   T& operator*() const { return get(); }
   T* operator->() const { return &get(); }
   T& get() const { return values().template get<T>(key_, initial_); }

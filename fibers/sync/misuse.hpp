@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Misuse of a primitive is a bug with a name: what was done, to which object, and who holds it.
+// Misuse of a primitive is reported as a bug with the operation, the object and its holders.
 //
 //   WAITPOINT_CHECK(owner == running, sync::about(object, "a task unlocks a mutex that it does not hold"));
 #pragma once
@@ -9,14 +9,14 @@
 
 namespace waitpoint::sync {
 
-/// `message` and the object's name and holders, for a check that failed: the text is the only one there is.
+/// `message` with the object's name and holders, for a failed check; the text is a static buffer.
 const char* about(const kernel::Object& object, const char* message);
 
-/// For destructors of what may be destroyed as soon as nobody waits any more: those who were woken, but have not had
-/// their turn since, get it.
+/// For the destructors of objects that may be destroyed once no task waits: gives woken tasks that have not run since a
+/// turn to leave.
 void let_notified_leave(const kernel::Object& object);
 
-/// For the end of a thread: it is a bug to hold something then.
+/// Called at the end of a thread: holding a lock then is a bug.
 void check_holds_nothing(const kernel::Task& task);
 
 }  // namespace waitpoint::sync

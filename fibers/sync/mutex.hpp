@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mutual exclusion, in the names and semantics of std::mutex and std::timed_mutex.
 //
-// An unlock with waiters hands the mutex to one of them: the first in the default order, the chooser's choice else.
-// Locking a mutex that the caller holds is a deadlock of one, and reported as such. Trying to, which the standard
-// leaves undefined, is a bug, and so are unlocking what one does not hold, ending while one holds it, and destroying it
-// while it is held or waited for.
+// An unlock with waiters hands the mutex to one of them: the first in the default order, else the chooser's choice.
+// Relocking a mutex that the caller holds is reported as a self-deadlock. Undefined behaviour in the standard is a bug
+// here: try_lock() by the holder, unlock() by another task, ending a thread that holds the mutex, destroying it while
+// it is held or waited for.
 #pragma once
 
 #include "fibers/sync/mutex_core.hpp"

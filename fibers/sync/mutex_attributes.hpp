@@ -8,7 +8,8 @@ namespace waitpoint {
 
 struct mutex_attributes {
   kernel::LockProtocol protocol = kernel::LockProtocol::inherit;
-  int ceiling = 0;         ///< of `ceiling`: not below the priority of any thread that locks it, which is a bug
+  int ceiling = 0;         ///< of `ceiling`: must be at least the priority of every thread that locks the mutex; a
+                           ///< lower one is a bug
   const char* label = "";  ///< shown in reports; must outlive the mutex
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exclusive ownership: what mutex, timed_mutex and their recursive kin have in common.
+// Exclusive ownership: the common part of mutex, timed_mutex and their recursive variants.
 //
-// A lock has one owner or none (kernel/ownership.hpp). A release with waiters hands the lock to one of them, of the
-// chooser's choice: nobody comes between.
+// A lock has one owner or none (kernel/ownership.hpp). A release with waiters hands the lock directly to one of them,
+// chosen by the chooser: no other task can take it in between.
 #pragma once
 
 #include "fibers/kernel/ownership.hpp"
@@ -21,7 +21,7 @@ class MutexCore {
 
   // --- after the caller's waitpoint ---
 
-  /// True once the caller owns the lock; false if the deadline came first. An owner waits for itself.
+  /// True once the caller owns the lock; false if the deadline came first. Relocking by the owner blocks.
   [[gnu::always_inline]] bool acquire(Time deadline) {
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
     return acquire_unseen(deadline);
@@ -29,7 +29,7 @@ class MutexCore {
     return acquire_here(deadline);
 #endif
   }
-  /// Hands the lock on; it is a bug not to own it.
+  /// Hands the lock over; it is a bug not to own it.
   [[gnu::always_inline]] void release() {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
     if (__builtin_expect(is_owned_by_caller(), 1)) return release_here();
@@ -43,9 +43,9 @@ class MutexCore {
       kernel::own(object_, *kernel::running);
       return true;
     }
-    // Who has no time to wait is no waiter, not even for this instant.
+    // An expired deadline must not enqueue a waiter, not even for this instant.
     if (deadline != Time::max() && deadline <= kernel::running->local_time) return false;
-    return block(object_, deadline);  // release makes the woken one the owner
+    return block(object_, deadline);  // release made the woken task the owner
   }
   [[gnu::always_inline]] void release_here() {
     kernel::disown(object_);

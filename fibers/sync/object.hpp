@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a primitive has for tasks to wait for and meet at: a kernel's object that cannot vanish under those who do.
+// The kernel object of a primitive, checked against destruction while in use.
 #pragma once
 
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::sync {
 
-/// It is a bug to destroy what a task of the running run holds or waits for. What another run left, or a run that is
-/// over, is not looked at; nor is what is destroyed outside any task.
+/// Destroying an object that a task of the current run holds or waits for is a bug. Objects left by an earlier or
+/// finished run, and destruction outside any task, are not checked.
 void check_destroyed(const kernel::Object& object);
 
 struct Object : kernel::Object {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tasks and objects in words, as reports show them.
+// Names of tasks and objects, as reports show them.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ std::string describe(const kernel::Task& task);
 /// "mutex #3 "label"".
 std::string describe(const kernel::Object& object);
 
-/// "held by anna of r1", or "shared by" the first few and how many more; empty where nobody holds it.
+/// "held by anna of r1", or "shared by" the first few and the number of the others; empty if it is not held.
 std::string describe_holders(const kernel::Object& object);
 
 }  // namespace waitpoint::sync

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Doing something once, in the names and semantics of std::once_flag and std::call_once.
+// One-time calls, in the names and semantics of std::once_flag and std::call_once.
 //
-// Who comes first calls; the others wait until it has returned. If it throws, the exception is its caller's and one of
-// those who wait calls in its place. A function that calls itself by the same flag waits for itself: a deadlock of one,
-// reported as such. A flag that a run leaves behind reads as fresh in the next run.
+// The first caller runs the function; the others wait until it has returned. If it throws, its caller gets the
+// exception, and one of the waiters runs the function instead. A recursive call with the same flag is reported as a
+// self-deadlock. After a run, the flag is unset again.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ class once_flag {
   template <class Function, class... Arguments>
   friend void call_once(once_flag& flag, Function&& function, Arguments&&... arguments);
 
-  // True if the caller is to call; then it must say how that ended. False once somebody has returned.
+  // True if the caller must run the function and report the result to end(). False if it has returned already.
   bool begin();
   void end(bool returned);
 

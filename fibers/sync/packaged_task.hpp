@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A function whose result a future gets, in the names and semantics of std::packaged_task and std::async.
+// A function whose result is delivered to a future, in the names and semantics of std::packaged_task and std::async.
 //
-// async(launch::async, ...) makes a thread of the calling task's robot, and who lets its last future go waits for that
-// thread's end; launch::deferred runs the function where somebody first waits without a timeout. Asked for either,
-// async makes a thread.
+// async(launch::async, ...) makes a thread of the calling task's robot, which the destructor of the last future joins;
+// launch::deferred runs the function at the first wait without a timeout. With both flags, async makes a thread.
 #pragma once
 
 #include <memory>
@@ -16,7 +15,7 @@
 
 namespace waitpoint {
 
-/// How async runs a function. Not the standard's type, which would bring in std::async where ours is meant.
+/// The launch policy of async. Not the standard's type, which would bring in std::async by argument-dependent lookup.
 enum class launch : std::uint8_t { async = 1, deferred = 2 };
 constexpr launch operator|(launch a, launch b) {
   return static_cast<launch>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -41,7 +40,7 @@ class packaged_task<Result(Arguments...)> {
     packaged_task(std::move(other)).swap(*this);
     return *this;
   }
-  /// What was not called will not be: its future throws broken_promise.
+  /// If it was never called, its future throws broken_promise.
   ~packaged_task() {
     if (state_ != nullptr && state_.use_count() > 1) state_->break_promise();
   }
@@ -51,12 +50,12 @@ class packaged_task<Result(Arguments...)> {
     sync::existing(state_).retrieve();
     return future<Result>(state_);
   }
-  /// A second call throws promise_already_satisfied, without calling the function where the first is done.
+  /// A second call throws promise_already_satisfied; if the first has finished, without calling the function.
   void operator()(Arguments... arguments) { run(sync::Ready::now, std::forward<Arguments>(arguments)...); }
   void make_ready_at_thread_exit(Arguments... arguments) {
     run(sync::Ready::at_thread_exit, std::forward<Arguments>(arguments)...);
   }
-  /// Begins anew, for another call and another future.
+  /// A new shared state, for another call and another future.
   void reset() {
     (void)sync::existing(state_);
     packaged_task fresh;
@@ -99,7 +98,7 @@ class packaged_task<Result(Arguments...)> {
 
 namespace sync {
 
-/// The thread of an async call, and what it gives; who drops it waits for the thread's end.
+/// The thread of an async call, and its result; the destructor joins the thread.
 template <class T>
 struct AsyncCall {
   ~AsyncCall() { task.await_end(); }
@@ -126,7 +125,7 @@ template <class Function, class... Arguments>
     return future<Result>(std::move(state));
   }
   auto started = std::make_shared<sync::AsyncCall<Result>>();
-  // The thread has its own share of the state: when a run is over, its futures may be gone before it.
+  // The thread shares ownership of the state: at the end of a run, the futures may be destroyed before it.
   started->task = thread({.name = "async"}, [state = started->state, call] {
     state->own();
     state->set_from(sync::Ready::now, call);

@@ -13,7 +13,7 @@ void periodic_timer::enter() {
   scheduler_ = sync::running_task().scheduler;
   if (!scheduler_->enter(object_)) return;
   running_ = true;
-  next_ = -1;  // not started: it does so at the first waitpoint
+  next_ = -1;  // not started: the first waitpoint starts it
   missed_ = pending_ = 0;
 }
 
@@ -30,7 +30,7 @@ void periodic_timer::tick(kernel::EventNode& node) {
   if (self.object_.first_waiter != nullptr) self.scheduler_->schedule(node, self.time_of(self.next_), self.object_);
 }
 
-// The ticks that came while nobody waited.
+// Counts the ticks that passed without a waiter.
 void periodic_timer::catch_up() {
   if (!running_) return;
   const Duration since = kernel::running->local_time.since_start() - phase_;
@@ -46,10 +46,10 @@ std::int64_t periodic_timer::wait_before(Time deadline) {
   if (!sync::before_blocking(kernel::Operation::timer_wait, object_)) return 0;
   if (next_ < 0) start();
   catch_up();
-  // Another may have come between a tick and who was woken by it.
+  // Another tick may have passed between the wake-up and the task's turn.
   while (pending_ == 0 && running_ && deadline > kernel::running->local_time) {
     if (!event_.in_list()) scheduler_->schedule(event_, time_of(next_), object_);
-    // With nobody who waits, it need not stand in the list.
+    // Without waiters, its event is removed from the list.
     if (!sync::block(object_, deadline) && object_.first_waiter == nullptr && event_.in_list())
       scheduler_->cancel(event_);
   }

@@ -21,7 +21,7 @@ bool priority_mutex::lock_before(Time deadline) {
 bool priority_mutex::acquire(Time deadline) {
   if (object_.owner != nullptr) {
     if (deadline <= running->local_time) return false;
-    return sync::block(object_, deadline);  // unlock() makes the woken one the owner
+    return sync::block(object_, deadline);  // unlock() made the woken task the owner
   }
   kernel::own(object_, *running);
   kernel::hold(*running, lock_);

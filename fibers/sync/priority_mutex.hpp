@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mutex for threads that share processors, in the shape of std::timed_mutex and with the protocols of POSIX
-// (pthread_mutexattr_setprotocol), which bound how long a more urgent thread waits for a less urgent one:
+// A mutex for threads that share processors, with the interface of std::timed_mutex and the protocols of POSIX
+// (pthread_mutexattr_setprotocol), which bound priority inversion:
 //
-//   inherit   its holder is as urgent as the most urgent thread that waits for it, also along a chain of such mutexes,
-//             until that one gives up waiting (PTHREAD_PRIO_INHERIT)
-//   ceiling   its holder is as urgent as the declared ceiling, as soon as it holds it (PTHREAD_PRIO_PROTECT)
+//   inherit   the holder inherits the priority of its most urgent waiter, also along a chain of such mutexes, until
+//   that
+//             waiter gives up (PTHREAD_PRIO_INHERIT)
+//   ceiling   the holder has the declared ceiling as its priority from the lock on (PTHREAD_PRIO_PROTECT)
 //
-// An unlock hands it to the most urgent waiter, of these to the first, in every order: there is no choice. Misuse is
-// what it is of a mutex.
+// An unlock hands it to the most urgent waiter, the first of equals, in every order: there is no choice. Misuse as of
+// mutex.
 #pragma once
 
 #include "fibers/kernel/processor.hpp"
@@ -36,7 +37,7 @@ class priority_mutex {
   bool try_lock_until(const std::chrono::time_point<Clock, Span>& deadline) {
     return lock_before(sync::until(deadline));
   }
-  /// By its holder only.
+  /// Only by its holder.
   void unlock();
 
  private:

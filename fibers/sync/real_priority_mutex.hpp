@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// priority_mutex on the threads of the system: POSIX's with priority inheritance, whatever the protocol asked for. (A
-// ceiling is a number on a simulated processor's scale; the system's is another, and only for real-time threads.)
+// priority_mutex for OS threads: a POSIX mutex with priority inheritance, whatever protocol is requested. (Ceilings are
+// on the scale of simulated processors; the system's scale differs and exists for real-time threads only.)
 #pragma once
 
 #include <pthread.h>
@@ -33,7 +33,7 @@ class priority_mutex {
   bool try_lock() { return had(pthread_mutex_trylock(&mutex_)); }
   template <class Rep, class Ratio>
   bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
-    // With inheritance, the clock of dates is the only one that can be waited for everywhere.
+    // With inheritance, timed waits work on CLOCK_REALTIME only.
     return try_lock_until(std::chrono::system_clock::now() + std::chrono::ceil<std::chrono::nanoseconds>(span));
   }
   template <class Clock, class Span>

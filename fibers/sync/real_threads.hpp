@@ -59,7 +59,7 @@ struct system_clock : std::chrono::system_clock {
 struct real {};
 using kind = real;
 
-/// Wall-clock time since the process first asked.
+/// Wall-clock time since the first call in the process.
 inline Time now() {
   static const steady_clock::time_point start = steady_clock::now();
   return Time() + Duration(std::chrono::nanoseconds(steady_clock::now() - start));
@@ -103,14 +103,14 @@ struct condition_variable : std::condition_variable_any {
   condition_variable() = default;
   explicit condition_variable(const char*) {}
 };
-/// Not the standard library's: libstdc++ 12's loses wake-ups where several threads acquire.
+/// Not the standard library's: libstdc++ 12's loses wake-ups with several acquiring threads.
 template <std::ptrdiff_t LeastMax = PTRDIFF_MAX>
 class counting_semaphore {
  public:
   explicit counting_semaphore(std::ptrdiff_t initial, const char* = "") : count_(initial) {}
   static constexpr std::ptrdiff_t max() noexcept { return LeastMax; }
 
-  // Notifies under the lock: who acquires may destroy the semaphore then.
+  // Notifies under the lock: the acquiring thread may destroy the semaphore afterwards.
   void release(std::ptrdiff_t units = 1) {
     const std::lock_guard guard(mutex_);
     count_ += units;
@@ -179,7 +179,7 @@ inline sync::LocalValues& local_values() {
   return values;
 }
 
-/// What thread_local itself cannot be: a member.
+/// Unlike thread_local, this can be a member.
 template <class T>
 using fiber_local = sync::Local<T, local_values>;
 
@@ -187,7 +187,7 @@ struct thread_attributes {
   const char* name = "thread";
   kernel::StackSize stack = kernel::StackSize::medium;
   bool service = false;
-  ClockOptions clock = {};  ///< not heeded, like the rest: the system has its own
+  ClockOptions clock = {};  ///< ignored, like the rest: the system has its own
   processor* on = nullptr;
   int priority = 0;
 };

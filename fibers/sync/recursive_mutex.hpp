@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mutual exclusion with as many locks by its owner as it likes, in the names and semantics of std::recursive_mutex and
-// std::recursive_timed_mutex. The last of as many unlocks hands it on, as a mutex.
+// A mutex that its owner may lock repeatedly, in the names and semantics of std::recursive_mutex and
+// std::recursive_timed_mutex. The last matching unlock hands it over, as a mutex.
 #pragma once
 
 #include "fibers/sync/mutex_core.hpp"
@@ -25,7 +25,7 @@ class recursive_mutex {
 
  private:
   sync::MutexCore core_{"recursive mutex", ""};
-  std::uint64_t depth_ = 0;  // of the owner's locks
+  std::uint64_t depth_ = 0;  // the owner's lock count
 };
 
 using recursive_timed_mutex = sync::timed<recursive_mutex>;

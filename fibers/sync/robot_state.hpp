@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a layer keeps for one robot of one run: made when first asked for, destroyed with the simulation, after its
-// tasks. So nothing of a run is left in a static variable, and robots share nothing.
+// A layer's state of one robot of one run: made at first access, destroyed with the simulation, after its tasks. So no
+// state of a run is left in static variables, and robots share none.
 //
 //   struct Names : sync::RobotState { explicit Names(kernel::Robot&); ... };
 //   sync::state_of<Names>(*sync::running_task().robot)
@@ -20,13 +20,13 @@ struct RobotState {
   virtual ~RobotState() = default;
 };
 
-/// All that hangs on one robot, in the order of its making: Robot::client.
+/// All layers' states of one robot, in order of construction: Robot::client.
 struct RobotStates {
   struct Entry {
     const void* kind;
     std::unique_ptr<RobotState> state;
   };
-  std::vector<Entry> entries;  // a few: they are searched one by one
+  std::vector<Entry> entries;  // few: searched linearly
 
   RobotStates() = default;
   RobotStates(const RobotStates&) = delete;
@@ -36,11 +36,11 @@ struct RobotStates {
   }
 };
 
-/// Its address tells the states of one type from those of others.
+/// Its address identifies the type of a state.
 template <class State>
 inline constexpr char state_kind = 0;
 
-/// The robot's state of this type, which is made from the robot's record at the first call.
+/// The robot's state of this type, constructed from the robot's record at the first call.
 template <class State>
 State& state_of(kernel::Robot& robot) {
   RobotStates& states = *static_cast<RobotStates*>(robot.client);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run as a task within it sees it. The simulation is one.
+// The interface of a run for the tasks within it; Simulation implements it.
 #pragma once
 
 #include <chrono>
@@ -11,14 +11,16 @@ namespace waitpoint::sync {
 
 class RunContext {
  public:
-  /// Of the run that `scheduler` executes.
-  static RunContext& of(const kernel::Scheduler& scheduler) { return *static_cast<RunContext*>(scheduler.hooks().client); }
+  /// The context of the run that `scheduler` executes.
+  static RunContext& of(const kernel::Scheduler& scheduler) {
+    return *static_cast<RunContext*>(scheduler.hooks().client);
+  }
 
-  /// From within a task: ends the run with an exception. `how` and the task's name begin what the run's report says.
+  /// From within a task: ends the run with an exception. `how` and the task's name begin the run's report.
   virtual void fail(std::exception_ptr failure, const char* how = "an exception escaped from") = 0;
-  /// What system_clock shows at virtual time 0.
+  /// The date of system_clock at virtual time 0.
   virtual std::chrono::sys_time<std::chrono::nanoseconds> start_date() const = 0;
-  /// What threads are told of the machine's processors.
+  /// The number of processors reported to threads.
   virtual unsigned hardware_concurrency() const = 0;
 
  protected:

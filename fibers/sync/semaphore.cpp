@@ -3,7 +3,7 @@
 
 namespace waitpoint::sync {
 
-// The waitpoint before an operation, in the first use in a run that of a fresh semaphore; false when the run is over.
+// The waitpoint before an operation; resets a semaphore at its first use in a run. False if the run is over.
 bool SemaphoreCore::pass(kernel::Operation operation) {
   kernel::Scheduler& scheduler = *running_task().scheduler;
   if (scheduler.enter(object_)) count_ = initial_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Counting semaphore, in the names and semantics of std::counting_semaphore.
 //
-// A release with waiters hands a unit to one of them directly. A semaphore that a run leaves behind reads as fresh,
-// with its initial count, in the next run. An initial count out of range is a bug, and so are a release beyond the
-// greatest count and destroying a semaphore while tasks wait for it.
+// A release with waiters hands a unit to one of them directly. After a run, the semaphore has its initial count again.
+// An initial count out of range, a release beyond the greatest count and destroying a semaphore while tasks wait for it
+// are bugs.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class counting_semaphore;
 
 namespace sync {
 
-/// The part that does not depend on the greatest count.
+/// The part that is independent of the greatest count.
 class SemaphoreCore {
  public:
   constexpr SemaphoreCore(std::ptrdiff_t initial, std::ptrdiff_t most, const char* label)
@@ -85,7 +85,7 @@ class counting_semaphore {
 
   static constexpr std::ptrdiff_t max() noexcept { return LeastMax; }
 
-  /// Adds units; more than max() in all is a bug.
+  /// Adds units; a sum above max() is a bug.
   [[gnu::always_inline]] void release(std::ptrdiff_t units = 1) { core_.release(units); }
   [[gnu::always_inline]] void acquire() { core_.acquire_before(Time::max()); }
   bool try_acquire() { return core_.try_acquire(); }

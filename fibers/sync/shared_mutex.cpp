@@ -11,7 +11,7 @@ using kernel::Operation;
 using kernel::running;
 using kernel::Task;
 
-// What another run left is forgotten.
+// Drops the state left by another run.
 void shared_mutex::refresh() {
   if (sync::running_task().scheduler->enter(object_)) readers_.clear();
 }
@@ -43,7 +43,7 @@ bool shared_mutex::acquire(Time deadline) {
   if (deadline <= running->local_time) return false;
   if (sync::block(object_, deadline)) return true;
   if (running->scheduler->unwinding()) return false;
-  // The readers that waited because this writer did.
+  // The readers that waited because of this writer.
   const Task* waiter = object_.first_waiter;
   while (waiter != nullptr && waiter->shared_wait) waiter = waiter->next_waiter;
   if (waiter == nullptr && object_.owner == nullptr) admit_readers();
@@ -76,7 +76,7 @@ bool shared_mutex::lock_shared_before(Time deadline) {
   return acquire_shared(deadline);
 }
 
-// Where no writer holds the lock, whoever waits is a writer, or waits behind one.
+// If no writer holds the lock, each waiter is a writer or waits behind one.
 bool shared_mutex::acquire_shared(Time deadline) {
   if (object_.owner == nullptr && object_.first_waiter == nullptr) {
     add_reader(*running);
@@ -111,7 +111,7 @@ void shared_mutex::remove_reader(Task& task) {
   --task.held_shared;
 }
 
-// --- whose turn it is ---
+// --- hand-over ---
 
 void shared_mutex::admit_readers() {
   for (Task* waiter = object_.first_waiter; waiter != nullptr;) {
@@ -123,7 +123,7 @@ void shared_mutex::admit_readers() {
   }
 }
 
-// Nobody holds the lock. Those who could come in are each writer, and all readers as one.
+// The lock is free. The candidates are each writer, and all readers as one.
 void shared_mutex::hand_over(bool readers_first) {
   std::uint32_t writers = 0, readers = 0;
   for (const Task* waiter = object_.first_waiter; waiter != nullptr; waiter = waiter->next_waiter)

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lock that one writer holds or any number of readers, in the names and semantics of std::shared_mutex and
-// std::shared_timed_mutex.
+// A reader-writer lock, in the names and semantics of std::shared_mutex and std::shared_timed_mutex.
 //
-// Readers and writers take turns, so that neither starves (phase-fair: Brandenburg, Anderson: Spin-based reader-writer
+// Readers and writers alternate, so that neither starves (phase-fair: Brandenburg, Anderson: Spin-based reader-writer
 // synchronization for multiprocessor real-time systems, 2010). In the default order:
 //
-//   a reader comes in at once where no writer holds the lock or waits for it; else it waits
-//   when the last reader leaves, the first writer that waits comes in
-//   when a writer leaves, all readers that wait come in together; without any, the first writer
+//   a reader acquires at once if no writer holds the lock or waits for it; else it waits
+//   when the last reader leaves, the first waiting writer acquires
+//   when a writer leaves, all waiting readers acquire together; if there are none, the first writer
 //
-// In other orders, who comes in at an unlock is the chooser's choice: one of the writers, or all readers together.
+// In other orders the chooser picks the next holder at an unlock: one of the writers, or all readers together.
 //
-// Waiting for what one holds oneself is a deadlock of one, and reported as such: lock() by a reader or by the writer,
-// lock_shared() by the writer. What else the standard leaves undefined is a bug: trying to, a second lock_shared() by a
-// reader, unlocking what one does not hold, ending while one holds it, destroying it while it is held or waited for.
+// Relocking is reported as a self-deadlock: lock() by a reader or by the writer, lock_shared() by the writer. Other
+// undefined behaviour of the standard is a bug here: the same by try_lock(), a second lock_shared() by a reader,
+// unlocking without holding it, ending a thread that holds it, destroying it while it is held or waited for.
 #pragma once
 
 #include <vector>
@@ -53,7 +52,7 @@ class shared_mutex {
   void admit_readers();
   void hand_over(bool readers_first);
 
-  std::vector<kernel::Task*> readers_;  // those who hold it
+  std::vector<kernel::Task*> readers_;  // the shared holders
   sync::Object object_{"shared mutex"};
 };
 

@@ -14,7 +14,7 @@ void SharedState::wait() {
     run();
   }
   while (!ready_)
-    if (!block(object_)) throw Unwind();  // in a destructor: there is nothing to return
+    if (!block(object_)) throw Unwind();  // in a destructor: there is no result
 }
 
 future_status SharedState::wait_before(Time deadline) {
@@ -65,7 +65,7 @@ void SharedState::store(Ready when) {
 void SharedState::publish() {
   ready_ = true;
   object_.owner = nullptr;
-  // What was stored came after the waitpoint before it.
+  // The result was stored after the preceding waitpoint.
   kernel::sanitizer::release(&object_);
   kernel::running->scheduler->wake_all(object_);
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shared state of the standard's futures: what a promise, a packaged task or async makes ready, once, and futures
-// wait for.
+// The shared state of the standard's futures: made ready once by a promise, a packaged task or async; futures wait for
+// it.
 //
 //   promise, packaged_task --+                        +-- future, shared_future
 //   async's thread         --+--> SharedState <-------+
 //                                 value or exception
 //
-// Whoever is known to make it ready (async's thread, the task that runs a deferred function) owns it until then, so
-// that waiting for each other is found as a deadlock.
+// The task known to make it ready (async's thread, the one that runs a deferred function) owns it until then, so that
+// circular waits are found as deadlocks.
 #pragma once
 
 #include <exception>
@@ -29,38 +29,38 @@ using std::future_status;
 
 namespace sync {
 
-/// When what is stored is made ready: now, or when the running thread has ended.
+/// When a stored result is made ready: now, or at the end of the running thread.
 enum class Ready : std::uint8_t { now, at_thread_exit };
 
-/// The part that does not depend on the result's type.
+/// The part that is independent of the result's type.
 class SharedState : public std::enable_shared_from_this<SharedState> {
  public:
   virtual ~SharedState() = default;
 
-  /// Waits until ready, and runs what was deferred. Where the run is over it throws Unwind in any case.
+  /// Waits until ready; runs a deferred function. Throws Unwind if the run is over, also in destructors.
   void wait();
-  /// As wait(), but runs nothing.
+  /// As wait(), but does not run a deferred function.
   future_status wait_before(Time deadline);
   void rethrow_failure() const {
     if (failure_ != nullptr) std::rethrow_exception(failure_);
   }
 
-  /// promise_already_satisfied where something is stored already.
+  /// Throws promise_already_satisfied if a result is stored already.
   void fail(std::exception_ptr failure, Ready when = Ready::now);
-  /// Stores broken_promise if nothing is stored. Never throws.
+  /// Stores broken_promise unless a result is stored. Never throws.
   void break_promise();
   void defer(std::function<void()> run) { deferred_ = std::move(run); }
-  /// The running task is the one that will make it ready.
+  /// Makes the running task the owner: it will make the state ready.
   void own();
-  /// promise_already_satisfied where something is stored already. No waitpoint.
+  /// Throws promise_already_satisfied if a result is stored already. No waitpoint.
   void check_not_stored() const {
     if (stored_) throw future_error(future_errc::promise_already_satisfied);
   }
-  /// future_already_retrieved at the second call.
+  /// Throws future_already_retrieved at the second call.
   void retrieve();
 
  protected:
-  // A waitpoint before storing; false where the run is over.
+  // A waitpoint before storing; false if the run is over.
   bool claim();
   void store(Ready when);
 
@@ -88,7 +88,7 @@ class ResultState : public SharedState {
       value_.emplace(std::forward<Value>(value)...);
     store(when);
   }
-  /// Stores what `function` returns or throws.
+  /// Stores the result of `function`, or its exception.
   template <class Function, class... Arguments>
   void set_from(Ready when, Function&& function, Arguments&&... arguments) {
     try {
@@ -104,7 +104,7 @@ class ResultState : public SharedState {
       fail(std::current_exception(), when);
     }
   }
-  /// After wait().
+  /// Valid after wait().
   auto& value() {
     if constexpr (std::is_reference_v<T>)
       return **value_;
@@ -119,7 +119,7 @@ class ResultState : public SharedState {
   std::optional<Stored> value_;
 };
 
-/// `state` as what std::future and its kin give to their user: no_state where there is none.
+/// `state`, for use by std::future's counterparts: throws no_state if it is null.
 template <class State>
 State& existing(const std::shared_ptr<State>& state) {
   if (state == nullptr) throw future_error(future_errc::no_state);

@@ -14,7 +14,7 @@ namespace sync {
 
 using Handlers = std::array<signal_handler, signals_max>;
 
-/// What a task keeps of its signals, from the first one that it has to do with.
+/// A task's signal state, from its first use of signals on.
 struct TaskSignals {
   Handlers handlers;
   signal_set pending;
@@ -56,7 +56,7 @@ signal_sent post(ThreadState& to, int signal) {
 }
 
 void handle(kernel::Task& task, TaskSignals& signals, int signal) {
-  // A copy: the handler may set another one.
+  // A copy: the handler may replace itself.
   signal_handler handler = slot(signals.handlers, signal);
   if (!handler) handler = slot(state_of<RobotSignals>(*task.robot).handlers, signal);
   WAITPOINT_CHECK(handler, "a signal is delivered to a task that has no handler for it");
@@ -75,7 +75,7 @@ void deliver_signals(kernel::Task& task) {
     while (!(signals.pending - signals.blocked).empty()) {
       const int signal = (signals.pending - signals.blocked).least();
       signals.pending.remove(signal);
-      kernel::sanitizer::acquire(&signals);  // who sent it did so before
+      kernel::sanitizer::acquire(&signals);  // the sending happened before
       const signal_set blocked = signals.blocked;
       signals.blocked.add(signal);
       set_attention(task, signals);
@@ -83,7 +83,7 @@ void deliver_signals(kernel::Task& task) {
       signals.blocked = blocked;
     }
   } catch (const Unwind&) {
-    // The call whose waitpoint this is throws it again, if it may.
+    // The call at this waitpoint rethrows it, if it may.
   } catch (...) {
     if (!task.scheduler->unwinding()) RunContext::of(*task.scheduler).fail(std::current_exception());
   }

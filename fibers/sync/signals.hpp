@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals: a task is sent a number, and its handler runs in it at its next waitpoint, as by POSIX (a robot is the
-// process, a task the thread), with these choices where POSIX leaves some or where fibers differ:
+// Signals: a number sent to a task, whose handler runs in the task at its next waitpoint. The semantics are those of
+// POSIX (a robot is the process, a task the thread); where POSIX leaves a choice or fibers differ:
 //
 //   * A handler runs at a waitpoint and nowhere else: never amidst computing, so it may use every primitive. It runs
-//     before the operation whose waitpoint it is; while it runs, its own signal is blocked.
-//   * Who blocks is not interrupted: the handler runs when the task was woken or its timeout came, before the blocking
-//     call returns.
-//   * A signal that is pending is pending once, however often it is sent. Of several pending the least number is first.
-//   * A signal without a handler is a bug: there is no process to kill. One to be ignored has a handler that does
-//   nothing.
-//   * Signals still pending when a task ends are gone.
+//     before the waitpoint's operation, with its own signal blocked.
+//   * Blocking calls are not interrupted: the handler runs after the wake-up or timeout, before the call returns.
+//   * Pending signals do not queue. Of several pending signals, the least number is delivered first.
+//   * A signal without a handler is a bug: there is no process to kill. To ignore a signal, give it an empty function.
+//   * Signals still pending at the end of a task are discarded.
 //
 // An exception that escapes from a handler ends the run, like one that escapes from a task.
 #pragma once
@@ -21,7 +19,7 @@
 
 namespace waitpoint {
 
-/// Signals are numbered from 1 to this.
+/// Signals are numbered from 1 to signals_max.
 inline constexpr int signals_max = 64;
 
 /// A set of signals: sigset_t.
@@ -41,7 +39,7 @@ class signal_set {
   constexpr void remove(int signal) { bits_ &= ~bit(signal); }
   constexpr bool contains(int signal) const { return (bits_ & bit(signal)) != 0; }
   constexpr bool empty() const { return bits_ == 0; }
-  /// The least number in the set, which is not empty.
+  /// The least number in the set, which must not be empty.
   constexpr int least() const { return __builtin_ctzll(bits_) + 1; }
 
   friend constexpr bool operator==(signal_set, signal_set) = default;
@@ -63,40 +61,39 @@ class signal_set {
 
 using signal_handler = std::function<void(int signal)>;
 
-/// What became of a signal: pthread_kill's 0 or ESRCH.
+/// The result of sending: pthread_kill's 0 or ESRCH.
 enum class signal_sent : std::uint8_t {
-  pending,     ///< its task will meet it
-  task_ended,  ///< there is no such task any more
+  pending,     ///< to be delivered to the task
+  task_ended,  ///< the task has ended
 };
 
 /// Sends a signal to a thread; may be called by a timer's callback too.
 signal_sent send_signal(const thread& to, int signal);
-/// As above, to the task of this run that has this id: also to those that have no handle, as the first of all.
+/// As above, by the id of a task of this run: also for tasks without a handle, such as the first.
 signal_sent send_signal(thread::id to, int signal);
 
-/// Sets the handler of a signal for all tasks of the caller's robot that have none of their own; an empty one takes it
-/// away.
+/// Sets the robot-wide handler of a signal, for all tasks without one of their own; an empty one removes it.
 void handle_robot_signal(int signal, signal_handler handler);
 
 namespace this_thread {
 
-/// Sets the caller's own handler of a signal; an empty one takes it away.
+/// Sets the caller's own handler of a signal; an empty one removes it.
 void handle_signal(int signal, signal_handler handler);
-/// Sends a signal to the caller; unless it is blocked, its handler has run when this returns.
+/// Sends a signal to the caller; unless it is blocked, its handler has run on return.
 void raise_signal(int signal);
-/// What is not to be delivered to the caller for now. Returns what was blocked before.
+/// Sets the caller's blocked signals. Returns the previous set.
 signal_set block_signals(signal_set blocked);
-/// What is no longer to be blocked; what of it is pending has been delivered when this returns.
+/// Unblocks signals; those pending are delivered before it returns.
 signal_set unblock_signals(signal_set unblocked);
 signal_set blocked_signals();
-/// What was sent to the caller and is not delivered yet.
+/// The signals sent to the caller and not delivered yet.
 signal_set pending_signals();
 
 }  // namespace this_thread
 
 namespace sync {
 
-/// Runs the handlers of what is pending for `task`, which is running, and not blocked: the kernel calls it.
+/// Runs the handlers of the pending, unblocked signals of `task`, the running one: called by the kernel.
 void deliver_signals(kernel::Task& task);
 
 }  // namespace sync

@@ -16,7 +16,7 @@
 namespace waitpoint {
 namespace {
 
-// Before the scheduler takes it, who could not say so but by a bug's report.
+// Checked before the scheduler's constructor, which could report a failure only as a bug.
 SimulationOptions checked(SimulationOptions options) {
   WAITPOINT_CHECK(options.most_tasks >= 1 && options.most_tasks <= kernel::tasks_max,
                   "a run may have from 1 to 2^20 tasks at once");
@@ -97,7 +97,7 @@ RunEnd Simulation::run_before(Time until) {
     trouble_ = sync::describe_spinning(scheduler_, places_);
     return RunEnd::no_progress;
   }
-  // Services that wait for each other are a deadlock too, whoever else is left.
+  // Services that wait for each other are a deadlock, too, whichever tasks are left.
   if (scheduler_.live_tasks() == 0 && scheduler_.stop_cause() != kernel::StopCause::deadlock) return RunEnd::ended;
   trouble_ = sync::describe_deadlock(scheduler_, places_);
   return RunEnd::deadlock;
@@ -110,7 +110,7 @@ void Simulation::unwind() {
   std::set_terminate(terminate_);
 }
 
-// Unwind came to a frame that lets nothing through: a destructor in which the task waited when the run ended.
+// Unwind reached a noexcept frame: a destructor in which the task waited at the end of the run.
 void Simulation::terminate_task() {
   if (kernel::running != nullptr && std::current_exception() != nullptr) {
     try {
@@ -188,7 +188,7 @@ Report simulate(std::function<void()> body, SimulationOptions options) {
   simulation.spawn(simulation.environment(), {.name = "main"}, std::move(body));
   try {
     report.end = simulation.run_before();
-  } catch (...) {  // told by simulation.trouble()
+  } catch (...) {  // reported by simulation.trouble()
   }
   report.text = simulation.trouble();
   report.digest = simulation.digest();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run: the tasks of some robots, from virtual time 0 until no task remains, or a time, or a failure.
+// A run: the tasks of some robots, from virtual time 0 until no task remains, a given time, or a failure.
 //
 //   waitpoint::Report report = waitpoint::simulate([] { /* threads, mutexes, sleeps, in virtual time */ });
 //   EXPECT_TRUE(report.passed) << report;
@@ -31,64 +31,64 @@ struct SimulationOptions {
   kernel::Order order = kernel::Order::fifo;
   std::uint64_t seed = 0;
   std::string replay;  ///< the line that repeats this run, for reports
-  /// What system_clock shows at virtual time 0: a declared constant, never the date of the machine.
+  /// The date of system_clock at virtual time 0: a declared constant, never the machine's date.
   std::chrono::sys_time<std::chrono::nanoseconds> start_date = default_start_date;
-  unsigned hardware_concurrency = 4;  ///< what threads are told; each has a processor of its own nevertheless
-  /// Threads at once, from 1 to kernel::tasks_max: one more is a std::system_error.
+  unsigned hardware_concurrency = 4;  ///< the number reported to threads; each has a processor of its own nevertheless
+  /// The greatest number of simultaneous threads, from 1 to kernel::tasks_max: one more is a std::system_error.
   std::uint32_t most_tasks = kernel::tasks_max;
-  /// Without them each event takes the kernel's plain path: for comparing, since the run is the same.
-  /// WAITPOINT_FAST_PATHS=0 in the environment asks for that in every simulation.
+  /// If false, each event takes the kernel's plain path: for comparison, since the run is the same.
+  /// WAITPOINT_FAST_PATHS=0 in the environment sets it to false in every simulation.
   bool fast_paths = true;
 };
 
-/// How a run ended, or that it did not.
+/// The reason why run_before() returned.
 enum class RunEnd : std::uint8_t {
-  time_reached,  ///< or it was stopped by somebody
+  time_reached,  ///< or stopped from outside
   ended,         ///< no task remains but services
-  deadlock,      ///< tasks wait for each other, or none can ever run
-  no_progress,   ///< tasks spin while virtual time stands still
+  deadlock,      ///< a cycle of waiting tasks, or none can run again
+  no_progress,   ///< tasks spin without progress of virtual time
 };
 
 class Simulation final : public sync::RunContext {
  public:
-  /// Throws std::system_error where the process may not have the address space that a run takes.
+  /// Throws std::system_error if the address space of a run cannot be reserved.
   explicit Simulation(SimulationOptions options = {});
-  /// Unwinds what is left.
+  /// Unwinds the remaining tasks.
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// After unwind(): as a new one with the same options but for the seed. The robots that were added are gone. For many
-  /// short runs: it takes a microsecond, as memory stays in place.
+  /// After unwind(): resets to the state of a new simulation with the same options and a new seed; added robots are
+  /// removed. For many short runs: it takes a microsecond, since memory is kept.
   void restart(std::uint64_t seed);
 
-  /// The lane of tasks that belong to no robot.
+  /// The pseudo-robot of tasks that belong to no robot.
   kernel::Robot& environment() { return environment_; }
   const kernel::Robot& environment() const { return environment_; }
-  /// `name` must be new.
+  /// `name` must be unique.
   kernel::Robot& add_robot(const std::string& name);
 
-  /// A task that starts at virtual time 0, or now if the run has begun. To be called from outside tasks. Throws
-  /// std::system_error where no more can be had.
+  /// Creates a task that starts at virtual time 0, or now if the run has begun. Only from outside tasks. Throws
+  /// std::system_error if no more tasks can be created.
   void spawn(kernel::Robot& robot, const kernel::SpawnOptions& options, std::function<void()> body);
 
   /// Executes all events before `until`; may be called again with a later time. An exception that escaped from a task
   /// is rethrown here, and at every later call.
   RunEnd run_before(Time until = Time::max());
 
-  /// What run_before() found, in words: a deadlock, a lack of progress, who sleeps for ever, from which task an
-  /// exception escaped, and when. Else empty.
+  /// The report of run_before()'s failure: a deadlock, a lack of progress, tasks that sleep for ever, or an exception
+  /// with its task and time. Empty if there was none.
   const std::string& trouble() const { return trouble_; }
-  /// Whether trouble() says where in the source tasks wait, as it does otherwise: for who has many troubles.
+  /// Controls the source locations in trouble(), on by default: off for callers with many failures.
   void tell(sync::Places places) { places_ = places; }
 
-  /// Ends every task that is left. Nothing can be run afterwards.
+  /// Ends all remaining tasks. Nothing can be run afterwards.
   void unwind();
-  /// After unwind(): the tasks that did not leave, "name of robot" each, and leak what their frames own: they waited
-  /// in a destructor, or go on and on although every call throws.
+  /// After unwind(): the tasks that could not be unwound, "name of robot" each; objects in their frames leak. They
+  /// waited in a destructor, or catch Unwind in a loop.
   std::vector<std::string> abandoned() const;
 
-  /// Of the robots in the order of their names, then of the environment.
+  /// Combines the robots' digests in the order of their names, then the environment's.
   Digest digest() const;
   const SimulationOptions& options() const { return options_; }
   Time global_time() const { return scheduler_.global_time(); }
@@ -98,7 +98,7 @@ class Simulation final : public sync::RunContext {
   static Simulation& of(kernel::Scheduler& scheduler) { return static_cast<Simulation&>(RunContext::of(scheduler)); }
   std::chrono::sys_time<std::chrono::nanoseconds> start_date() const override { return options_.start_date; }
   unsigned hardware_concurrency() const override { return options_.hardware_concurrency; }
-  /// From within a task: ends the run with an exception. `how` and the task's name begin what trouble() says of it.
+  /// From within a task: ends the run with an exception. `how` and the task's name begin its report in trouble().
   void fail(std::exception_ptr failure, const char* how = "an exception escaped from") override;
 
  private:
@@ -106,7 +106,7 @@ class Simulation final : public sync::RunContext {
   kernel::Scheduler scheduler_;
   kernel::Robot environment_;
   std::deque<kernel::Robot> robots_;
-  std::set<std::string_view> names_;            // of those
+  std::set<std::string_view> names_;            // the robots' names
   std::deque<sync::RobotStates> robot_states_;  // of the environment, then of the robots
   static void terminate_task();
   void add(kernel::Robot& robot, const char* name);
@@ -114,14 +114,14 @@ class Simulation final : public sync::RunContext {
   std::exception_ptr failure_;
   std::string trouble_;
   sync::Places places_ = sync::Places::told;
-  std::terminate_handler terminate_ = nullptr;  // what std::terminate called before unwind() did
+  std::terminate_handler terminate_ = nullptr;  // the std::terminate handler before unwind()
 };
 
-/// What one simulated run of a test body came to.
+/// The result of one simulated run of a test body.
 struct Report {
   bool passed = false;
   RunEnd end = RunEnd::ended;
-  std::string text;  ///< what happened and how to repeat it; empty if it passed
+  std::string text;  ///< the failure and how to replay it; empty if it passed
   Digest digest;
   Time end_time;
   std::uint64_t events = 0;
@@ -130,9 +130,9 @@ struct Report {
 
 std::ostream& operator<<(std::ostream& out, const Report& report);
 
-/// Runs `body` as the first task of a run of its own, until no task remains but services. An exception that escapes
-/// from a task is a failure of the report. WAITPOINT_SEED in the environment asks for that seed's order in place of
-/// `options`; BadInput where that is no number.
+/// Runs `body` as the first task of a new run, until no task remains but services. An exception that escapes from a
+/// task is a failure of the report. WAITPOINT_SEED in the environment selects that seed's order instead of that of
+/// `options`; BadInput if it is not a number.
 Report simulate(std::function<void()> body, SimulationOptions options = {});
 
 }  // namespace waitpoint

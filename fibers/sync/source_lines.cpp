@@ -14,8 +14,8 @@ namespace {
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-// Frames that implement the primitives say nothing about the user's program. Where the place is known it decides: what
-// a compiler inlined may stand under the name of a function of ours.
+// Frames that implement the primitives say nothing about the user's program. If the file is known it decides: inlined
+// user code may carry the name of one of our functions.
 bool is_ours(const std::string& line) {
   if (contains(line, "tests/fibers/")) return false;
   const std::size_t place = line.rfind(" at ");
@@ -28,8 +28,8 @@ bool is_ours(const std::string& line) {
   return false;
 }
 
-// "function at file:line" for people: a lambda that was compiled into what std::function or a thread calls has its own
-// name there, as the first argument of some template; and long names go without their template arguments.
+// "function at file:line", shortened: a lambda compiled into std::function or a thread's call gets its own name, found
+// as the first argument of some template; long names lose their template arguments.
 std::string readable(const std::string& line) {
   constexpr std::size_t long_name = 100;
   const std::size_t end = line.rfind(" at ");
@@ -57,7 +57,7 @@ bool is_entry(const std::string& line) {
          contains(line, "waitpoint::kernel::Scheduler::task_main");
 }
 
-// A call, and the inlined functions there, innermost first: "function at file:line".
+// A call, and the functions inlined there, innermost first: "function at file:line".
 struct Place : CodePlace {
   std::vector<std::string> lines;
 };
@@ -72,7 +72,7 @@ std::string name_from_symbols(const Place& place) {
 
 constexpr int patience_s = 20;  // it reads all of a program's debugging information
 
-// Asks addr2line for all places of one module at once: starting it is what takes its time.
+// Looks up all places of one module by one addr2line: most of its time is its start.
 void add_lines(const std::vector<Place*>& asked, const std::string& module) {
   if (contains(module, "'")) return;
   std::string command = "timeout " + std::to_string(patience_s) + " addr2line -aCfip -e '" + module + "'";
@@ -95,13 +95,13 @@ void add_lines(const std::vector<Place*>& asked, const std::string& module) {
     } else if (line.starts_with(inlined)) {
       line.erase(0, inlined.size());
     }
-    line.erase(std::min(line.find(" (discriminator "), line.size()));  // a compiler's own count of what is on one line
+    line.erase(std::min(line.find(" (discriminator "), line.size()));  // the compiler's number of a block on one line
     if (begun > 0 && begun <= asked.size() && !contains(line, "??")) asked[begun - 1]->lines.push_back(line);
   }
   pclose(pipe);
 }
 
-// Of one stack whose places are known.
+// The lines of one stack with known places.
 std::vector<std::string> user_lines(std::span<const Place> places, const std::string& own_library, std::size_t most) {
   std::vector<std::string> found;
   for (const Place& place : places) {
@@ -137,7 +137,7 @@ std::vector<std::vector<std::string>> user_source_lines(std::span<const CodePlac
   for (const auto& [module, asked] : modules) add_lines(asked, module);
   Dl_info own{};
   const bool known = dladdr(reinterpret_cast<void*>(&is_entry), &own) != 0;
-  // In a shared library of its own everything is ours, also where it has no debugging information.
+  // If this library is a shared one, all of its frames are ours, also without debugging information.
   const std::string own_library = known && contains(own.dli_fname, ".so") ? own.dli_fname : "";
   std::vector<std::vector<std::string>> lines;
   lines.reserve(places.size());

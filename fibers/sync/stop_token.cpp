@@ -24,7 +24,7 @@ bool StopState::request() {
 }
 
 void StopState::call(StopCallback& callback) {
-  // Whoever destroys the callback meanwhile waits for its caller. The callback may be gone afterwards.
+  // A task that destroys the callback meanwhile waits for the call's end. The callback may be destroyed afterwards.
   struct Called {
     Called(StopState& of, StopCallback& callback) : state(of) {
       state.unlink(callback);
@@ -47,7 +47,7 @@ void StopState::call(StopCallback& callback) {
 
 bool StopState::add(StopCallback& callback) {
   refresh();
-  if (!before_blocking(kernel::Operation::add_callback, object_)) return true;  // the run is over: nothing is called
+  if (!before_blocking(kernel::Operation::add_callback, object_)) return true;  // the run is over: no calls
   if (requested_) return false;
   callback.epoch = object_.epoch;
   callback.previous = last_;
@@ -71,12 +71,12 @@ void StopState::remove(StopCallback& callback) {
   if (callback.epoch != 0 && callback.epoch == object_.epoch) return unlink(callback);
   if (kernel::running == nullptr || called_ != &callback) return;
   if (object_.owner == kernel::running) {
-    called_ = nullptr;  // it destroys itself
+    called_ = nullptr;  // the callback destroys itself
     return;
   }
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   while (called_ == &callback)
-    // Its caller is within it still: to go on would pull it away under its feet.
+    // The callback is still running: returning would destroy it during its call.
     if (scheduler.block(object_, Time::max()) == kernel::Wake::unwinding) scheduler.abandon();
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asking a task to stop, in the names and semantics of std::stop_token, std::stop_source and std::stop_callback.
+// Stop requests, in the names and semantics of std::stop_token, std::stop_source and std::stop_callback.
 //
-// The standard's own would do but for two things: asking is no waitpoint there, so that no schedule could come between,
-// and a callback's destructor waits by spinning, which in one OS thread is for ever.
+// The standard's own are unsuitable for two reasons: a request is not a waitpoint there, so that no schedule could
+// interleave with it, and a callback's destructor waits by spinning, which never ends in a single OS thread.
 //
 //   stop_source --+                   +-- stop_callback: in the state's list until called or destroyed
 //   stop_token  --+--> StopState <----+
 //
-// Callbacks are called by the task that asks, in the order in which they were made. A state that a run leaves behind
-// reads as fresh in the next run: nobody has asked.
+// Callbacks are called by the requesting task, in order of construction. After a run, the state has no request any
+// more.
 #pragma once
 
 #include <cstdint>
@@ -23,28 +23,28 @@
 namespace waitpoint {
 namespace sync {
 
-/// A callback as its state sees it.
+/// A callback, for its state.
 struct StopCallback {
   explicit StopCallback(void (*invoke_it)(StopCallback&)) : invoke(invoke_it) {}
 
   void (*invoke)(StopCallback&);
   StopCallback* next = nullptr;
   StopCallback* previous = nullptr;
-  std::uint64_t epoch = 0;  ///< of the run in whose list it is; 0 when in none
+  std::uint64_t epoch = 0;  ///< the run in whose list it is; 0 if in none
 };
 
-/// What the sources, tokens and callbacks of one stop share.
+/// The shared state of the sources, tokens and callbacks of one stop.
 class StopState {
  public:
   bool requested();
-  /// Asks, and calls the callbacks; false if somebody had asked before, or the run is over.
+  /// Requests a stop and calls the callbacks; false if it was requested before, or the run is over.
   bool request();
-  /// False if somebody had asked before: then `callback` is the caller's to call.
+  /// False if the stop was requested before: the caller then calls `callback` itself.
   bool add(StopCallback& callback);
-  /// Takes `callback` out. If another task is calling it, waits until that is done.
+  /// Removes `callback`. If another task is calling it, waits for the call's end.
   void remove(StopCallback& callback);
 
-  /// Counts those who may ask.
+  /// Counts the sources.
   void add_source() {
     const Unseen unseen;
     ++sources_;
@@ -53,7 +53,7 @@ class StopState {
     const Unseen unseen;
     --sources_;
   }
-  /// Without a waitpoint: whether there is somebody who has asked or may do so.
+  /// True if a stop was requested or a source remains. No waitpoint.
   bool possible() const {
     const Unseen unseen;
     return sources_ > 0 || requested_;
@@ -69,7 +69,7 @@ class StopState {
   bool requested_ = false;
   StopCallback* first_ = nullptr;
   StopCallback* last_ = nullptr;
-  StopCallback* called_ = nullptr;  // now, by the object's owner
+  StopCallback* called_ = nullptr;  // the callback that the owner is calling
 };
 
 }  // namespace sync
@@ -82,7 +82,7 @@ class stop_token {
  public:
   stop_token() noexcept = default;
 
-  /// A waitpoint: a task that asks again and again is seen to.
+  /// A waitpoint, so that polling loops let other tasks run.
   [[nodiscard]] bool stop_requested() const { return state_ != nullptr && state_->requested(); }
   [[nodiscard]] bool stop_possible() const noexcept { return state_ != nullptr && state_->possible(); }
   void swap(stop_token& other) noexcept { state_.swap(other.state_); }
@@ -120,8 +120,8 @@ class stop_source {
     if (state_ != nullptr) state_->remove_source();
   }
 
-  /// True for the first who asks. The callbacks have been called then; an exception out of one ends the program, as the
-  /// standard says.
+  /// True for the first request. The callbacks have then been called; an exception from one ends the program, as in the
+  /// standard.
   bool request_stop() {
     const std::shared_ptr<sync::StopState> state = state_;  // a callback may destroy this source
     return state != nullptr && state->request();
@@ -143,7 +143,7 @@ class stop_callback : private sync::StopCallback {
  public:
   using callback_type = Callback;
 
-  /// Calls `callback` at once if somebody has asked, else whoever asks will.
+  /// Calls `callback` at once if a stop was requested, else at the request.
   template <class Function>
   requires std::is_constructible_v<Callback, Function>
   explicit stop_callback(stop_token token, Function&& callback)
@@ -154,7 +154,7 @@ class stop_callback : private sync::StopCallback {
     else
       call(*this);
   }
-  /// When it returns, the callback is not called any more, unless it is the callback that destroys itself.
+  /// The callback is not running on return, unless it destroys itself.
   ~stop_callback() {
     if (state_ != nullptr) state_->remove(*this);
   }

@@ -12,28 +12,28 @@ namespace waitpoint {
 namespace sync {
 namespace {
 
-// What is local to a thread goes when its function is done, whether that has returned or was left by an exception: then
-// while it is under way, so that destructors need not wait.
+// Destroys thread-locals after the thread's function. If it was left by an exception, that is then in flight, so that
+// destructors need not wait.
 struct LocalsEnd {
   ~LocalsEnd() { state.locals.clear(); }
   ThreadState& state;
 };
 
 void run_thread(void* argument) {
-  // The handle may be gone before.
+  // The handle may be destroyed before.
   const std::shared_ptr<ThreadState> share = std::move(static_cast<ThreadState*>(argument)->share);
   ThreadState& state = *share;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   try {
     const LocalsEnd locals_end{state};
     const std::unique_ptr<Call> call = std::move(state.call);
-    // What the function owns is let go while an exception is under way, so that its destructors need not wait.
+    // The function's captures are destroyed while an exception is in flight, so that their destructors need not wait.
     if (scheduler.unwinding()) throw Unwind();
     call->run();
     if (!scheduler.unwinding()) check_holds_nothing(*kernel::running);
   } catch (const Unwind&) {
   } catch (...) {
-    // While unwinding, this is what a task made of Unwind.
+    // While unwinding, this is an exception that the task made of Unwind.
     if (!scheduler.unwinding()) RunContext::of(scheduler).fail(std::current_exception());
   }
   for (const std::function<void()>& make_ready : std::exchange(state.at_end, {})) make_ready();
@@ -41,7 +41,7 @@ void run_thread(void* argument) {
     state.ended.owner = nullptr;
     scheduler.wake_all(state.ended);
   }
-  // These go with the state.
+  // These are destroyed with the state.
   kernel::vacate(*kernel::running);
   kernel::set_clock(*kernel::running, nullptr);
   state.task = nullptr;
@@ -49,7 +49,7 @@ void run_thread(void* argument) {
   state.run_over = scheduler.unwinding();
 }
 
-// As std::thread's.
+// As std::thread does.
 [[noreturn]] void refuse(const kernel::Scheduler& scheduler, const kernel::Robot& robot,
                          const kernel::SpawnOptions& options) {
   const bool all_made = scheduler.tasks() >= scheduler.most_tasks();
@@ -109,14 +109,14 @@ thread& thread::operator=(thread&& other) noexcept {
 
 thread::~thread() {
   if (!joinable()) return;
-  // Outside any task, what ended with its run was let go there.
+  // Outside any task, a thread that ended with its run is detached already.
   const bool let_go = kernel::running != nullptr ? kernel::running->scheduler->unwinding() : state_->task == nullptr;
   WAITPOINT_CHECK(let_go, "a thread that is joinable is destroyed");
 }
 
 namespace {
 
-// When the run is over its threads end as they can, in no order of the program's: nothing is a misuse then.
+// At the end of a run threads are unwound in no order of the program's: nothing is a misuse then.
 bool run_is_over() { return kernel::running != nullptr && kernel::running->scheduler->unwinding(); }
 
 }  // namespace

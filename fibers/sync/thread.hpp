@@ -2,8 +2,8 @@
 // Threads, in the names and semantics of std::thread, as fibers of the running simulation.
 //
 // A thread belongs to the robot of the task that makes it. An exception that escapes its function ends the run and is
-// rethrown by the call that runs it. Joining oneself is a deadlock of one, and reported as such; joining or detaching
-// what is not joinable is a bug.
+// rethrown by the call that runs it. Joining oneself is reported as a self-deadlock; joining or detaching a thread that
+// is not joinable is a bug.
 #pragma once
 
 #include <functional>
@@ -21,19 +21,18 @@
 
 namespace waitpoint {
 
-/// What std::thread cannot be told.
+/// Attributes beyond std::thread's interface.
 struct thread_attributes {
   const char* name = "thread";
   kernel::StackSize stack = kernel::StackSize::medium;
   bool service = false;  ///< does not keep the run alive
-  /// How its local virtual time moves while it computes; its children do not inherit it.
+  /// The local clock, i.e. how computing moves local virtual time; not inherited by child threads.
   kernel::ClockOptions clock = {};
-  /// The processor that it shares with others, null for one of its own; and its priority there, the greater the more
-  /// urgent.
+  /// The shared processor, null for one of its own; and the priority there, the greater the more urgent.
   processor* on = nullptr;
   int priority = 0;
 };
-/// Of a thread of which nothing else was said.
+/// The default attributes.
 inline constexpr thread_attributes plain_thread;
 
 enum class signal_sent : std::uint8_t;
@@ -42,36 +41,36 @@ namespace sync {
 
 struct TaskSignals;
 
-/// What a thread's handle and its task share; it lives until both are gone.
+/// Shared by a thread's handle and its task; destroyed with the later of the two.
 struct ThreadState {
-  std::unique_ptr<Call> call;          ///< null once it began
-  std::shared_ptr<ThreadState> share;  ///< the task's, until it ends
+  std::unique_ptr<Call> call;          ///< null once the function has begun
+  std::shared_ptr<ThreadState> share;  ///< the task's own reference, until it ends
   kernel::Object ended{"end of thread"};
-  kernel::Task* task = nullptr;  ///< null once it ended
+  kernel::Task* task = nullptr;  ///< null once the task has ended
   std::optional<kernel::TaskClock> clock;
   std::optional<kernel::Seat> seat;
-  bool run_over = false;  ///< ended with its run: there is nothing to join
+  bool run_over = false;  ///< ended with its run: nothing to join
   std::uint64_t id = 0;
-  std::shared_ptr<TaskSignals> signals;       ///< null until it has to do with one
+  std::shared_ptr<TaskSignals> signals;       ///< null until its first use of signals
   LocalValues locals;                         ///< see fiber_local.hpp
-  std::vector<std::function<void()>> at_end;  ///< what is made ready when the thread has ended
+  std::vector<std::function<void()>> at_end;  ///< the shared states to make ready at the thread's end
 };
 
-/// How a thread computes, beside what every task has.
+/// A thread's processor and clock, beyond those of any task.
 struct Computing {
   kernel::ClockOptions clock;
   processor* on = nullptr;
   int priority = 0;
 };
 
-/// Makes a task of `robot` that runs `call`; std::system_error where no more can be had.
+/// Creates a task of `robot` that runs `call`; std::system_error if no more can be created.
 std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::Robot& robot,
                                           kernel::SpawnOptions options, std::unique_ptr<Call> call,
                                           const Computing& computing = {});
 
-/// The state of the thread that `task` is; null once its function has returned, and for a task that is no thread.
+/// The state of the thread of `task`; null once its function has returned, and for tasks that are not threads.
 ThreadState* thread_of(const kernel::Task& task);
-/// The values of the running task; not to be within a thread is a bug.
+/// The values of the running task; calling it outside a thread is a bug.
 LocalValues& values_of_running_task();
 
 }  // namespace sync
@@ -106,12 +105,12 @@ class thread {
   thread(thread&& other) noexcept = default;
   /// As std::thread: the target must not be joinable, or the program ends.
   thread& operator=(thread&& other) noexcept;
-  /// As std::thread: must not be joinable. While a run is unwound, and after it, the thread is let go.
+  /// As std::thread: must not be joinable. While a run is unwound, and after it, the thread is detached.
   ~thread();
 
   bool joinable() const noexcept { return state_ != nullptr && !state_->run_over; }
   void join();
-  /// False if the thread has not ended when the time has come; it is joinable still. The standard has no timed join.
+  /// False if the thread has not ended by the deadline; it remains joinable. The standard has no timed join.
   template <class Rep, class Ratio>
   bool try_join_for(const std::chrono::duration<Rep, Ratio>& span) {
     return join_before(sync::after(span));
@@ -124,13 +123,12 @@ class thread {
   id get_id() const noexcept { return state_ ? id(state_->id) : id(); }
   /// The kernel's record; null once the thread has ended.
   native_handle_type native_handle() const noexcept { return state_ ? state_->task : nullptr; }
-  /// A declared number, SimulationOptions::hardware_concurrency, never that of the machine; 0 outside any task.
+  /// The declared SimulationOptions::hardware_concurrency, never the machine's; 0 outside any task.
   static unsigned hardware_concurrency() noexcept;
   void swap(thread& other) noexcept { state_.swap(other.state_); }
   friend void swap(thread& a, thread& b) noexcept { a.swap(b); }
 
-  /// For destructors: waits for the end if there is something to join, and when the run is over lets go without a
-  /// throw.
+  /// For destructors: joins if joinable; detaches without a throw if the run is over.
   void await_end() noexcept;
 
  private:
@@ -146,14 +144,14 @@ namespace this_thread {
 
 inline thread::id get_id() { return thread::id(sync::running_task().id); }
 
-/// Tells what the caller touches whenever it runs; that is to stay until it has ended, or been told anew.
+/// Declares the memory that the caller touches at each turn; it must stay valid until the caller ends or sets another.
 inline void set_working_set(const WorkingSet& set) {
   kernel::Task& task = sync::running_task();
   task.working_set = set.lines().data();
   task.working_set_size = static_cast<std::uint32_t>(set.lines().size());
 }
 
-/// Goes behind all tasks of this instant.
+/// Moves the caller behind all tasks of this instant.
 inline void yield() {
   if (!sync::running_task().scheduler->yield()) sync::unwind();
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one namespace by which module code names its threads: simulated by default, real ones where
-// WAITPOINT_REAL_THREADS is defined. The same source runs in simulation and on the robot.
+// The namespace of thread primitives for module code: simulated by default, real ones where WAITPOINT_REAL_THREADS is
+// defined. The same source runs in simulation and on the robot.
 //
 //   waitpoint::threads::mutex m;                       // a fiber's mutex in virtual time, or std::mutex
 //   waitpoint::threads::periodic_timer tick(Period::hertz(50));
-//   waitpoint::threads::compute(300us);                // declares what the code before it costs; nothing in reality
+//   waitpoint::threads::compute(300us);                // declares the cost of the code before it; no-op on the robot
 #pragma once
 
 #include "core/fields.hpp"
@@ -78,18 +78,17 @@ using waitpoint::thread_attributes;
 using waitpoint::timed_mutex;
 namespace this_thread = waitpoint::this_thread;
 
-/// Which threads these are: a parameter of this type keeps code that was compiled for others from being linked.
+/// Identifies the kind of threads: a parameter of this type makes linking with code compiled for the other kind fail.
 struct simulated {};
 using kind = simulated;
 
-/// What an observer outside the run holds while it looks at what tasks share under `mutex`: here nothing, for no task
-/// runs meanwhile and looking makes no event; in reality the mutex.
+/// The lock of an observer outside the run that reads state protected by `mutex`. Here it is empty: no task runs
+/// meanwhile, and reading makes no event. With real threads it locks the mutex.
 struct observer_lock {
   explicit observer_lock(mutex&) {}
 };
 
-/// Adds a value that the caller gives to others (a poster, a message) to its robot's digest, by the value's declared
-/// fields.
+/// Adds an output of the caller (a poster, a message) to its robot's digest, by the value's declared fields.
 template <class T>
 void record(std::uint64_t name, const T& value) {
   Digest digest;

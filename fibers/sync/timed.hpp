@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Timed locking, in the names and semantics of the standard's timed mutexes, over what a mutex has: lock_before(Time).
+// Timed locking, in the names and semantics of the standard's timed mutexes, over a mutex's lock_before(Time).
 #pragma once
 
 #include "fibers/sync/clock.hpp"
@@ -11,7 +11,7 @@ class timed : public Mutex {
  public:
   using Mutex::Mutex;
 
-  /// False if the lock cannot be had in time.
+  /// False if the lock is not acquired in time.
   template <class Rep, class Ratio>
   bool try_lock_for(const std::chrono::duration<Rep, Ratio>& span) {
     return this->lock_before(after(span));

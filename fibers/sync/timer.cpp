@@ -8,7 +8,7 @@ timer::~timer() { WAITPOINT_CHECK(!firing_, "a timer is destroyed by its own cal
 void timer::start_at(Time time) {
   if (!sync::before_releasing(kernel::Operation::timer_start, object_)) return;
   recurrence_.reset();
-  // For ever is never.
+  // Time::max() means never.
   if (time == Time::max())
     event_.cancel();
   else
@@ -37,7 +37,7 @@ bool timer::stop() {
 
 void timer::fire(void* self_address) {
   timer& self = *static_cast<timer*>(self_address);
-  // The next tick stands before the callback is called: it may stop the timer.
+  // Schedules the next tick before the callback, which may stop the timer.
   if (self.recurrence_.has_value()) {
     ++self.recurrence_->next;
     self.schedule_next();

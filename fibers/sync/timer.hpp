@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A timer that calls a function: once at a time, or at every tick of a period. (One that wakes a task: periodic_timer.)
+// A timer that calls a function, once or periodically. (To wake a task: periodic_timer.)
 //
 // The callback runs between tasks, before those of its instant; it may notify, release, send signals, start and stop
-// timers, and must not wait. Timers due at one instant fire in the order of their numbers, which they get when they are
-// first started. A timer keeps no run alive: see timer_event.hpp.
+// timers, and must not block. Timers due at one instant fire in the order of their numbers, which are assigned at the
+// first start. A timer does not keep a run alive: see timer_event.hpp.
 //
 //   waitpoint::timer beat([&] { ready.release(); });
 //   beat.start_every(Period::hertz(50));
@@ -23,12 +23,12 @@ class timer {
       : object_("timer", label), callback_(std::move(callback)), event_(&timer::fire, this) {
     WAITPOINT_CHECK(callback_ != nullptr, "a timer has nothing to call");
   }
-  /// Stops it. To be destroyed by its own callback is a bug.
+  /// Stops it. Destruction by its own callback is a bug.
   ~timer();
   timer(const timer&) = delete;
   timer& operator=(const timer&) = delete;
 
-  /// Fires once, at `time`, or now if that is past. Starting it again replaces what was pending.
+  /// Fires once, at `time`, or now if that is past. Starting it again replaces the pending start.
   void start_at(Time time);
   void start_at(steady_clock::time_point time) { start_at(to_time(time)); }
   template <class Rep, class Ratio>
@@ -36,21 +36,21 @@ class timer {
     start_at(sync::after(span));
   }
   void start_after(Duration span) { start_after(std::chrono::nanoseconds(span.ns())); }
-  /// Fires at every multiple of the period plus `phase`, counted from the start of the run, that comes after now.
-  /// Also how a running timer changes its period.
+  /// Fires at every multiple of the period plus `phase`, counted from the start of the run, after the present. On a
+  /// running timer, changes the period.
   void start_every(Period period, Duration phase = Duration());
-  /// Fires no more; true if it would have.
+  /// Cancels the timer; true if it was pending.
   bool stop();
 
   bool pending() const { return event_.pending(); }
-  /// When it fires next, if it is pending; else when it last did.
+  /// The time of its next firing if it is pending, else of the last.
   Time due() const { return event_.due(); }
 
  private:
   struct Recurrence {
     Period period;
     Duration phase;
-    std::int64_t next;  // the tick that is pending
+    std::int64_t next;  // index of the pending tick
   };
   static void fire(void* self);
   void schedule_next();

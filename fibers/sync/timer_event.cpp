@@ -11,11 +11,11 @@
 namespace waitpoint::sync {
 namespace {
 
-// Of the whole run: hangs on its first robot, the environment.
+// Of the whole run: attached to its first robot, the environment.
 struct RunTimers : RobotState {
   explicit RunTimers(kernel::Robot&) {}
   std::uint32_t pending = 0;
-  std::uint32_t barren = 0;  // timers that fired on end while only timers were left
+  std::uint32_t barren = 0;  // consecutive timers fired while only timers were scheduled
   Time instant;
   std::uint32_t firings = 0;  // at that instant
 };
@@ -34,7 +34,7 @@ struct RobotTimers : RobotState {
   ~RobotTimers() override { kernel::sanitizer::end_timer(known_as); }
   RunTimers& run;
   kernel::Task task;
-  void* known_as = nullptr;  // to a sanitizer
+  void* known_as = nullptr;  // its identity for a sanitizer
 };
 
 }  // namespace
@@ -72,17 +72,17 @@ void TimerEvent::fire(kernel::EventNode& node) {
 
   void* const left = kernel::sanitizer::enter_timer(timers.known_as);
   kernel::Task* const interrupted = kernel::running;
-  kernel::Object* const timer = self.timer_;  // its callback may end what this is part of
+  kernel::Object* const timer = self.timer_;  // the callback may destroy the object that contains *this
   kernel::running = &timers.task;
   timers.task.local_time = self.due_;
-  // What happens is part of the robot's digest, like what a task does.
+  // A firing is part of the robot's digest, like a task's event.
   scheduler.waitpoint(kernel::Operation::timer_tick, self.timer_);
   try {
     self.function_(self.of_);
   } catch (...) {
     WAITPOINT_CHECK(false, "an exception escapes from a timer's callback");
   }
-  // Who stops or starts the timer later comes after what it did.
+  // Later stops or starts of the timer happen after the callback.
   kernel::sanitizer::release(timer);
   kernel::running = interrupted;
   kernel::sanitizer::leave_timer(left);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Something that happens at a time by itself: an event of no task, whose function runs between tasks, before those of
-// its instant. What timers and watchdogs are made of.
+// A scheduled function call: an event without a task, whose function runs between tasks, before those of its instant.
+// Timers and watchdogs are built on it.
 //
-// The function acts in the name of its robot's timer task, which is none: it has a robot and a time, no stack of its
-// own, and cannot wait; a call that would is a bug. Whatever releases or wakes may be called, and is then no waitpoint.
+// The function runs as its robot's timer task, a pseudo-task with a robot and a time but no stack, so it cannot block;
+// a blocking call is a bug. Releasing and waking calls are allowed, and are not waitpoints then.
 //
-// Timers keep no run alive. While nothing is in the event list but timers, only a timer can wake a task; when they have
-// fired `barren_max` times so without waking any, they are let go, and the run is found to be what it is: a deadlock.
-// Timers that fire at one instant for ever end the run: it makes no progress.
+// Timers do not keep a run alive. While the event list holds only timers, only a timer can wake a task; after
+// `barren_max` consecutive firings without a wake-up the timers are dropped, and the run is reported as a deadlock.
+// Timers that fire without end at one instant end the run with no progress.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@
 
 namespace waitpoint::sync {
 
-/// How often timers may fire on end while no task is left that could go on without them.
+/// The greatest number of consecutive firings while no task can continue without them.
 inline constexpr std::uint32_t barren_max = 1'000'000;
-/// How often they may fire at one instant: more than there can be timers, so that some start again at once each time.
+/// The greatest number of firings at one instant: above the number of possible timers, so some restarted at once.
 inline constexpr std::uint32_t firings_max = 2 * kernel::events_max;
 
 class TimerEvent {
  public:
-  /// `function(of)` is what happens.
+  /// `function(of)` is called at each firing.
   TimerEvent(void (*function)(void*), void* of) : function_(function), of_(of) {
     event_.self = this;
     event_.fire = &TimerEvent::fire;
@@ -32,13 +32,13 @@ class TimerEvent {
   TimerEvent(const TimerEvent&) = delete;
   TimerEvent& operator=(const TimerEvent&) = delete;
 
-  /// Happens once, at `time`, not before the present instant, in the name of the robot of `timer`, which has entered
-  /// the run and whose number decides between timers of one instant. What was pending is replaced.
+  /// Fires once, at `time`, not before the present instant, as the timer task of the robot of `timer`; `timer` must
+  /// have entered the run, and its number orders the timers of one instant. Replaces a pending firing.
   void schedule(Time time, kernel::Object& timer);
   void cancel();
 
   bool pending() const { return event_.in_list(); }
-  /// When it is due, while it is pending; else when it was last due.
+  /// The time of its firing while it is pending, else of the last.
   Time due() const { return due_; }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a primitive does in a header is compiled with the user's code, and with what that is instrumented by. Between
-// its waitpoints it works on its own state, which no other task can come in between: that is no access of the user's,
-// no data race, and no switch point.
+// The primitives' code in headers is compiled, and instrumented, with the user's code. Between its waitpoints it works
+// on its own state, which no other task can touch meanwhile: these accesses must not count as the user's, as data races
+// or as switch points.
 #pragma once
 
 #if defined(__SANITIZE_THREAD__)
@@ -21,8 +21,8 @@ void __tsan_ignore_thread_end();
 
 namespace waitpoint::sync {
 
-/// While there is one, the running task's accesses to memory count for nothing in ThreadSanitizer and in
-/// explore/races. Without -fsanitize=thread it is nothing.
+/// In its scope, ThreadSanitizer and explore/races ignore the running task's accesses to memory. Empty without
+/// -fsanitize=thread.
 class Unseen {
  public:
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
