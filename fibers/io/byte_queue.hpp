@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes first in, first out, in a ring of bounded size; memory is taken at the first use.
+// A FIFO of bytes in a ring of bounded size, allocated at the first use.
 //
 //   |  room  | oldest ... newest |  room  |
 //            ^ first_
@@ -35,7 +35,7 @@ class ByteQueue {
     size_ += data.size();
   }
 
-  /// Takes out as many bytes as there are and `buffer` holds; returns how many.
+  /// Moves bytes to `buffer`, as many as are queued and fit; returns their number.
   std::size_t pop(std::span<std::byte> buffer) {
     const std::size_t count = std::min(buffer.size(), size_);
     const std::size_t straight = std::min(count, capacity_ - first_);

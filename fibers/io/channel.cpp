@@ -41,14 +41,14 @@ void Channel::wake_pollers() {
 }
 
 void Channel::wake_one(kernel::Object& side) {
-  if (scheduler_ == nullptr) return;  // nobody has used it yet
-  // What is there to be had came after the waitpoint before it.
+  if (scheduler_ == nullptr) return;  // not used yet
+  // The data was made available after the preceding waitpoint.
   kernel::sanitizer::release(&side);
   scheduler_->wake_one(side);
   wake_pollers();
 }
 
-// Who is served hangs on nothing but this channel and what arrives at it: no unrelated robot can shift it.
+// The choice of the waiter depends on this channel and its arrivals only: no unrelated robot can shift it.
 void Channel::wake_one_for_arrival(kernel::Object& side) {
   if (scheduler_ == nullptr || scheduler_->unwinding() || !scheduler_->has_entered(side)) return;
   ++arrivals_;

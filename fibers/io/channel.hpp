@@ -5,8 +5,9 @@
 //                                     ready()
 //                                       ^ pollers_: tasks in poll()
 //
-// A channel belongs to the robot whose task first uses it in a run; use by another robot's task is a bug: what crosses
-// between robots goes through a medium. The one exception is an arrival, an event of no task, which wakes who waits.
+// A channel belongs to the robot of the first task that uses it in a run; use by another robot's task is a bug:
+// communication between robots goes through a medium. The one exception is an arrival, an event without a task, which
+// wakes waiting tasks.
 #pragma once
 
 #include <string>
@@ -17,12 +18,12 @@
 
 namespace waitpoint::io {
 
-/// What a poll asks for and finds; a set.
+/// The events a poll requests and returns; a set.
 enum class Events : std::uint8_t {
   none = 0,
-  readable = 1,  ///< a receiving call would not block: it has something to give, or end of file
-  writable = 2,  ///< a sending call would not block: there is room, or nobody left to send to
-  closed = 4,    ///< this end or the other one is closed; told whether asked for or not
+  readable = 1,  ///< a receiving call would not block: data or end of file is available
+  writable = 2,  ///< a sending call would not block: there is room, or the peer is gone
+  closed = 4,    ///< this end or the other one is closed; reported even if not requested
 };
 constexpr Events operator|(Events a, Events b) {
   return static_cast<Events>(static_cast<std::uint8_t>(a) | static_cast<std::uint8_t>(b));
@@ -40,12 +41,12 @@ class Channel {
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
-  /// What would not block now.
+  /// The calls that would not block now.
   virtual Events ready() const = 0;
 
-  /// Before a task uses the channel: makes it fresh in a new run. A task of another robot is a bug.
+  /// Must be called before a task uses the channel: resets it in a new run. A task of another robot is a bug.
   void enter();
-  /// `poller` is woken whenever ready() may have grown, until it is taken away.
+  /// `poller` is woken whenever ready() may have grown, until it is removed.
   void add_poller(kernel::Object& poller) { pollers_.push_back(&poller); }
   void remove_poller(const kernel::Object& poller);
 
@@ -53,14 +54,14 @@ class Channel {
   Channel(const char* kind, std::string label)
       : label_(std::move(label)), receiving_(kind, label_.c_str()), sending_(kind, label_.c_str()) {}
 
-  /// A waitpoint at one of the sides before a call that may block. False in a destructor of a run that is over, else
-  /// throws sync::Unwind then.
+  /// The waitpoint of a call that may block, at one of the sides. If the run is over, throws sync::Unwind, or in a
+  /// destructor returns false.
   bool begin(kernel::Operation operation, kernel::Object& side);
-  /// The same before a call that does not block; never throws. False when there is nothing to be done: the run is
-  /// over, or the caller is no task.
+  /// The same for a call that does not block; never throws. False if the call is to be skipped: the run is over, or the
+  /// caller is not a task.
   bool begin_release(kernel::Operation operation, kernel::Object& side);
 
-  /// Blocks at `side` until `holds()`, which is asked again whenever the side is woken.
+  /// Blocks at `side` until `holds()`, which is evaluated again after each wake-up of the side.
   template <class Condition>
   Status wait(kernel::Object& side, const Deadline& deadline, Condition holds) {
     while (!holds()) {
@@ -70,23 +71,23 @@ class Channel {
     return Status::ok;
   }
 
-  /// For one thing to be had: wakes one who waits at `side`, of the chooser's choice, and the pollers.
+  /// For one new item: wakes one waiter at `side`, chosen by the chooser, and the pollers.
   void wake_one(kernel::Object& side);
-  /// The same for an arrival from another task's channel, which may be an event of no task.
+  /// The same for an arrival from another task's channel, which may be an event without a task.
   void wake_one_for_arrival(kernel::Object& side);
-  /// Wakes all who wait at `side`, to look again, and the pollers.
+  /// Wakes all waiters at `side`, to check their conditions again, and the pollers.
   void wake_all(kernel::Object& side);
 
-  /// Whether a task stands at one of the sides, or polls.
+  /// True if a task waits at one of the sides, or polls.
   bool is_waited_for() const {
     return receiving_.first_waiter != nullptr || sending_.first_waiter != nullptr || !pollers_.empty();
   }
-  /// Names the channel in reports.
+  /// Sets the channel's name in reports.
   void set_label(std::string label) {
     label_ = std::move(label);
     receiving_.label = sending_.label = label_.c_str();
   }
-  /// Forgets what an earlier run left.
+  /// Resets the state left by an earlier run.
   virtual void refresh() {}
 
  private:
@@ -103,7 +104,7 @@ class Channel {
   std::uint64_t arrivals_ = 0;
 };
 
-/// Adds what is sent to the digest of the sender's robot.
+/// Adds a sent item to the digest of the sender's robot.
 void record_sent(std::string_view to, std::uint64_t what);
 
 }  // namespace waitpoint::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long a communication may wait. Every call that can block takes one:
+// The time limit of a communication. Every call that can block takes one:
 //
 //   read(buffer)              for ever
 //   read(buffer, io::no_wait) not at all: Status::would_block
@@ -18,7 +18,7 @@ inline constexpr NoWait no_wait{};
 
 class Deadline {
  public:
-  /// For ever.
+  /// No limit.
   constexpr Deadline() = default;
   Deadline(NoWait) : at_(sync::running_task().local_time), late_(Status::would_block) {}
   template <class Rep, class Ratio>
@@ -27,9 +27,9 @@ class Deadline {
   Deadline(steady_clock::time_point time) : at_(to_time(time)) {}
   Deadline(Time time) : at_(time) {}
 
-  /// Time::max() for ever.
+  /// Time::max() if there is no limit.
   Time at() const { return at_; }
-  /// What the call says when it is too late.
+  /// The status returned when the limit is exceeded.
   Status late() const { return late_; }
 
  private:

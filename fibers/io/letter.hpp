@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What values that are sent between robots need: declared fields, for the digest and for how long they are on the air.
+// Requirements of values sent between robots: declared fields, for the digest and for their transmission time.
 #pragma once
 
 #include <concepts>
@@ -14,7 +14,7 @@ namespace waitpoint::io {
 template <class T>
 concept Sendable = HasFields<T> || std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// The bytes of the declared fields, without padding; of a Bounded array, those of its elements and 4 for their number.
+/// The bytes of the declared fields, without padding; a Bounded array counts its elements and 4 bytes for their number.
 template <class T>
 std::size_t wire_bytes(const T& value) {
   if constexpr (HasFields<T>) {

@@ -7,10 +7,10 @@
 namespace waitpoint::io {
 namespace {
 
-// What is drawn for a message: an index of the link's stream each.
+// Random draws per message: each has an index of the link's stream.
 enum Draw : std::uint64_t { of_latency, of_loss };
 
-// Where somebody decides about schedules, it is also about what media do; else null.
+// The exploration strategy that also decides about the media's latencies and losses; else null.
 kernel::Decisions* who_decides(kernel::Scheduler& scheduler) {
   return kernel::running != nullptr ? scheduler.chooser().decisions() : nullptr;
 }
@@ -47,7 +47,7 @@ double Link::distance_m() const {
   return distance_m;
 }
 
-// When the message arrives whose last bit follows those of all before it.
+// The arrival time of a message whose last bit follows those of all earlier messages.
 Time Link::put_on_air(std::size_t bytes, double distance_m) {
   ++number_;
   free_at_ = std::max(free_at_, scheduler_.global_time()) + time_on_air(*medium_, bytes);
@@ -85,7 +85,7 @@ void Link::send_datagram(std::size_t bytes, Arrival arrival) {
   }
   const double away_m = distance_m();
   const bool in_range = away_m <= medium_->range_m;
-  // One that is lost has been on the air all the same.
+  // A lost message occupies the medium all the same.
   const Time arrives = put_on_air(bytes, in_range ? away_m : 0);
   if (!in_range)
     ++statistics.out_of_range;

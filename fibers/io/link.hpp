@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One direction between two robots: carries messages over the medium, as events of the sender; or within one robot,
-// where a message arrives at once.
+// One direction between two robots: carries messages over the medium, as events of the sender. Within one robot a
+// message arrives at once.
 //
-// What becomes of a message is a function of (seed, sender, receiver, the message's number on this link) and of the
-// distance at its sending: no other link's traffic has a part in it.
+// A message's latency and loss are a function of (seed, sender, receiver, the message's number on this link) and of the
+// distance at its sending: independent of other links' traffic.
 #pragma once
 
 #include <deque>
@@ -18,38 +18,39 @@
 
 namespace waitpoint::io {
 
-/// Metres between two robots now, by their names.
+/// The current distance in metres of two robots, by name.
 using Distance = std::function<double(const std::string& from, const std::string& to)>;
 
-/// What became of the messages sent on a link.
+/// Counts of the messages sent on a link.
 struct LinkStatistics {
-  std::uint64_t sent = 0;          ///< all of them
-  std::uint64_t lost = 0;          ///< datagrams, by the medium
+  std::uint64_t sent = 0;          ///< all messages
+  std::uint64_t lost = 0;          ///< datagrams lost by the medium
   std::uint64_t out_of_range = 0;  ///< datagrams sent beyond the range
-  std::uint64_t overflowed = 0;    ///< datagrams for which the sender's queue was too long
-  std::uint64_t unreachable = 0;   ///< datagrams to a name that no socket had
+  std::uint64_t overflowed = 0;    ///< datagrams dropped at the sender's full queue
+  std::uint64_t unreachable = 0;   ///< datagrams to an unbound name
 };
 
 class Link {
  public:
-  /// Called when a message arrives, by the task that sent it or by no task: must neither block nor use the running one.
+  /// Called when a message arrives, by the task that sent it or without a task: must neither block nor use the running
+  /// task.
   using Arrival = std::function<void()>;
 
-  /// `medium` none: within one robot.
+  /// Without `medium`: within one robot.
   Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, std::optional<Medium> medium,
        const Distance& distance, std::size_t in_flight_max);
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  /// May be lost, or arrive before what was sent earlier.
+  /// May be lost, or arrive before earlier messages.
   void send_datagram(std::size_t bytes, Arrival arrival);
-  /// Arrives after all that was sent in order before; beyond the range it waits.
+  /// Arrives after all earlier messages sent in order; beyond the range it waits.
   void send_in_order(std::size_t bytes, Arrival arrival);
 
-  /// The network is gone: nothing arrives any more, and to send is a bug.
+  /// The network is destroyed: nothing arrives any more, and sending is a bug.
   void stop();
 
-  /// Between robots, what is under way takes room that the receiver cannot give back at once.
+  /// True between robots: messages in transit then occupy room that the receiver cannot free at once.
   bool crosses() const { return medium_.has_value(); }
   const std::string& to() const { return to_; }
   LinkStatistics statistics;
@@ -86,13 +87,13 @@ class Link {
   std::size_t in_flight_max_;
   RandomStream random_;
   bool stopped_ = false;
-  std::uint64_t number_ = 0;  // of the last message that went on the air
-  Time free_at_;              // when the last bit of all so far is on the air
+  std::uint64_t number_ = 0;  // of the last transmitted message
+  Time free_at_;              // when the last bit of all messages so far is transmitted
   Time in_order_until_;       // when the last message in order arrives
   std::deque<Waiting> waiting_;
   RangeCheck range_check_;
   std::deque<Flight> flights_;
-  std::vector<Flight*> landed_;  // of flights_, to be used again
+  std::vector<Flight*> landed_;  // unused entries of flights_
 };
 
 }  // namespace waitpoint::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bounded queue of values between tasks. Tasks of its own robot use it directly; others, and whoever knows it only by
-// name, by a mailbox_sender.
+// A bounded queue of values between tasks. Tasks of its own robot use it directly; others, or those that know only its
+// name, through a mailbox_sender.
 //
 //   io::mailbox<Order> orders(8);              // ada
 //   orders.bind(network, "orders");
@@ -9,8 +9,8 @@
 //   io::mailbox_sender<Order> to_ada(network, "ada:orders");    // bob
 //   to_ada.send(order);
 //
-// A full mailbox holds its own robot's senders up. A letter from a sender by name is bounded by the sender's window
-// instead: so many may be under way or not yet received. Letters are never lost: the medium delays them.
+// A full mailbox blocks its own robot's senders. Letters from a mailbox_sender are limited by the sender's window
+// instead, which counts letters in transit and not yet received. Letters are never lost: the medium delays them.
 #pragma once
 
 #include <deque>
@@ -25,10 +25,10 @@
 
 namespace waitpoint::io {
 
-/// What a mailbox tells the sender of a letter: ok once it is received; refused or peer_closed if it never will be.
+/// The mailbox's answer to the sender of a letter: ok once it is received; refused or peer_closed if it never will be.
 using Receipt = std::function<void(Status)>;
 
-/// The most letters that a mailbox may hold, or a sender may have under way.
+/// The greatest capacity of a mailbox, and the greatest window of a sender.
 inline constexpr std::size_t letters_max = 65536;
 
 template <class T>
@@ -39,17 +39,17 @@ class mailbox : public Channel {
       : Channel("mailbox", std::move(label)), capacity_(capacity) {
     WAITPOINT_CHECK(capacity > 0 && capacity <= letters_max, "a mailbox holds at least one letter and at most 65536");
   }
-  /// One at which a task waits is destroyed by a bug.
+  /// Destroying a mailbox at which a task waits is a bug.
   ~mailbox() override {
     const bool tell = begin_release(kernel::Operation::close, receiving_);
     WAITPOINT_CHECK(!tell || !is_waited_for(), "a mailbox is destroyed while a task waits at it");
     shut(tell);
   }
 
-  /// Gives it a name on this robot: ok or address_in_use. A second name is a bug.
+  /// Binds a name on this robot: ok or address_in_use. A second name is a bug.
   Status bind(Network& network, const std::string& port);
 
-  /// Puts a letter in, moved from only if the status is ok; peer_closed once the mailbox is closed.
+  /// Enqueues a letter, moved from only if the status is ok; peer_closed once the mailbox is closed.
   template <class Letter = T>
   Status send(Letter&& letter, const Deadline& deadline = {});
   template <class Letter = T>
@@ -61,7 +61,7 @@ class mailbox : public Channel {
     return send(std::forward<Letter>(letter), Deadline(span));
   }
 
-  /// Takes the oldest letter; end_of_file once the mailbox is closed and empty.
+  /// Dequeues the oldest letter; end_of_file once the mailbox is closed and empty.
   Result<T> receive(const Deadline& deadline = {});
   Result<T> try_receive() { return receive(no_wait); }
   template <class Span>
@@ -69,7 +69,7 @@ class mailbox : public Channel {
     return receive(Deadline(span));
   }
 
-  /// Takes no letter any more, and no name; those that are in it can be received. Closing again does nothing.
+  /// Accepts no more letters and releases its name; queued letters can still be received. Closing again does nothing.
   void close() {
     if (begin_release(kernel::Operation::close, receiving_)) shut(true);
   }
@@ -81,7 +81,7 @@ class mailbox : public Channel {
            when(letters_.size() < capacity_ || closed_, Events::writable) | when(closed_, Events::closed);
   }
 
-  /// A letter from a sender by name.
+  /// A letter from a mailbox_sender.
   void arrive(const T& letter, Receipt receipt) {
     const sync::Unseen unseen;
     letters_.push_back({letter, std::move(receipt)});
@@ -91,7 +91,7 @@ class mailbox : public Channel {
  private:
   struct Entry {
     T letter;
-    Receipt receipt;  // none for the own robot's
+    Receipt receipt;  // none for the own robot's letters
   };
   void refresh() override {
     const sync::Unseen unseen;
@@ -104,7 +104,7 @@ class mailbox : public Channel {
   std::size_t capacity_;
   std::deque<Entry> letters_;
   bool closed_ = false;
-  std::shared_ptr<Node> node_;  // where it has a name
+  std::shared_ptr<Node> node_;  // where its name is bound
   std::string port_;
 };
 
@@ -151,7 +151,7 @@ Result<T> mailbox<T>::receive(const Deadline& deadline) {
   Entry entry = std::move(letters_.front());
   letters_.pop_front();
   if (entry.receipt != nullptr) entry.receipt(Status::ok);
-  // A letter by name may have stood above the capacity: then there is no room yet.
+  // Letters of mailbox_senders may exceed the capacity: then there is no room yet.
   if (letters_.size() < capacity_) wake_one(sending_);
   return std::move(entry.letter);
 }

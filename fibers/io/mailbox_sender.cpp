@@ -28,7 +28,7 @@ void SenderCore::send(std::size_t bytes, std::uint64_t hash, std::function<void(
   Node& target = *network_.node(link_->to());
   link_->send_in_order(bytes, [&target, port = address_.port, own = node_->name(), sender = weak_from_this(),
                                arrive = std::move(arrive)] {
-    // Word for the sender goes back the same way.
+    // The receipt returns over the reverse link.
     const Receipt receipt = [&target, own, sender](Status status) {
       target.link_to(own)->send_in_order(0, [sender, status] {
         if (const auto there = sender.lock()) there->receipt(status);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way to a mailbox by its name, on another robot or on this one. See mailbox.hpp.
+// Sends to a mailbox by its name, on another robot or on this one. See mailbox.hpp.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace waitpoint::io {
 
-/// What a sender's handle shares with its letters under way.
+/// Shared by a sender's handle and its letters in transit.
 class SenderCore : public Channel, public std::enable_shared_from_this<SenderCore> {
  public:
   SenderCore(Network& network, const Address& address, std::size_t window);
@@ -28,18 +28,19 @@ class SenderCore : public Channel, public std::enable_shared_from_this<SenderCor
   Address address_;
   Link* link_;
   std::size_t room_;
-  Status status_ = Status::ok;  // what the mailbox said of letters that it will never give
+  Status status_ = Status::ok;  // the mailbox's answer to letters that will never be received
 };
 
-/// Copies share their window. A letter of another type than the mailbox's is a bug.
+/// Copies share their window. A letter of a type other than the mailbox's is a bug.
 template <Sendable T>
 class mailbox_sender {
  public:
-  /// Of the running task's robot. At most `window` letters, from one to letters_max, are under way or not yet received.
+  /// A sender of the running task's robot. At most `window` letters, from one to letters_max, are in transit or not yet
+  /// received.
   mailbox_sender(Network& network, const Address& address, std::size_t window = 16)
       : core_(std::make_shared<SenderCore>(network, address, window)) {}
 
-  /// ok says that the letter was sent. refused once the medium has brought word that nothing has the name (any more),
+  /// ok means that the letter was sent. refused once the medium has reported that the name is not bound (any more),
   /// peer_closed that the mailbox was closed with a letter in it; no_route.
   Status send(const T& letter, const Deadline& deadline = {}) {
     const std::shared_ptr<SenderCore> core = core_;

@@ -68,7 +68,8 @@ Network::Network() : scheduler_(*sync::running_task().scheduler) {}
 
 Network::~Network() {
   for (const auto& [name, node] : nodes_) node->stop();
-  // Outside tasks the run that uses the sockets may not be unwound yet; and what cannot be unwound leaves some behind.
+  // Outside tasks the run that uses the sockets may not be unwound yet, and tasks that cannot be unwound leave some
+  // open.
   if (kernel::running == nullptr || scheduler_.unwinding()) return;
   for (const auto& [name, node] : nodes_) WAITPOINT_CHECK(node->sockets() == 0, "a network goes before its sockets");
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The network of a run: the names that sockets and mailboxes have on each robot, and the links between robots.
+// The network of a run: the names of sockets and mailboxes on each robot, and the links between robots.
 //
 //   io::Network network(simulation);
 //   network.declare({.latency_least = 2ms, .latency_most = 5ms, .loss = 0.01});     // between all robots
-//   network.declare("ada", "bob", {.latency_least = 40ms, .latency_most = 40ms});   // but between these
+//   network.declare("ada", "bob", {.latency_least = 40ms, .latency_most = 40ms});   // except between these
 //
-// Within a robot no medium is asked. Between robots without a declared medium there is no route. A network belongs to
-// one run; nothing is sent once it is gone.
+// No medium applies within a robot. Robots without a declared medium have no route. A network belongs to one run;
+// nothing is sent after its destruction.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@
 
 namespace waitpoint::io {
 
-/// Where something can be sent to: a robot's name and a name there.
+/// A destination: a robot's name and a name there.
 struct Address {
   Address() = default;
   /// "ada:door", or "door" on the caller's own robot.
@@ -38,34 +38,34 @@ struct Address {
 /// "ada:door".
 std::string to_string(const Address& address);
 
-/// What a program can make grow is bounded by these; going beyond is a bug with a name.
+/// Bounds on what a program can make grow; exceeding one is reported as a bug.
 struct NetworkLimits {
   std::size_t sockets_max = 4096;     ///< of one robot, connections and mailbox senders included
-  std::size_t in_flight_max = 65536;  ///< messages under way from one robot to another
+  std::size_t in_flight_max = 65536;  ///< messages in transit from one robot to another
 };
 
-/// Each has names of its own.
+/// Each has a name space of its own.
 enum class Protocol : std::uint8_t { datagram, stream, mailbox };
 
 class Network;
 
-/// One robot's share of the network. Its sockets keep it: they may be closed after the network is gone.
+/// One robot's part of the network. Its sockets share ownership: they may be closed after the network's destruction.
 class Node {
  public:
   Node(Network& network, kernel::Robot& robot) : network_(network), robot_(robot) {}
 
-  /// The network is gone: what is under way never arrives.
+  /// The network is destroyed: messages in transit never arrive.
   void stop();
 
   std::string name() const { return robot_.name; }
   /// The link to a robot, which may be this one; null if there is no route.
   Link* link_to(const std::string& robot);
-  /// Null if nothing has the name.
+  /// Null if the name is not bound.
   Channel* find(Protocol protocol, const std::string& port) const;
   /// False if the name is in use.
   bool bind(Protocol protocol, const std::string& port, Channel& channel);
   void release(Protocol protocol, const std::string& port) { ports_.erase({protocol, port}); }
-  /// Counts a socket more; beyond NetworkLimits::sockets_max is a bug.
+  /// Counts one more socket; beyond NetworkLimits::sockets_max is a bug.
   void take_socket();
   void give_socket() { --sockets_; }
   std::size_t sockets() const { return sockets_; }
@@ -82,24 +82,23 @@ class Node {
 class Network {
  public:
   explicit Network(Simulation& simulation, NetworkLimits limits = {});
-  /// Of the running task's simulation.
+  /// The network of the running task's simulation.
   Network();
   ~Network();
   Network(const Network&) = delete;
   Network& operator=(const Network&) = delete;
 
-  /// Declares the medium between all robots. Before anything is sent between robots; one that makes no sense is
-  /// BadInput.
+  /// Declares the medium between all robots. Must precede all messages between robots; an invalid one is BadInput.
   void declare(const Medium& medium);
-  /// Declares the medium between two robots, in both directions, in place of the one between all.
+  /// Declares the medium between two robots, in both directions, instead of the general one.
   void declare(const std::string& a, const std::string& b, const Medium& medium);
-  /// How far robots are from each other; without it, not at all.
+  /// The distance of two robots; zero if not set.
   void set_distance(Distance metres) { distance_ = std::move(metres); }
 
-  /// What became of all that a robot has sent to another.
+  /// Counts of all messages that a robot has sent to another.
   LinkStatistics statistics(const std::string& from, const std::string& to);
 
-  /// For sockets: the running task's robot.
+  /// For sockets: the node of the running task's robot.
   std::shared_ptr<Node> own_node();
   /// Null if there is no robot of that name.
   std::shared_ptr<Node> node(const std::string& robot);
@@ -112,9 +111,9 @@ class Network {
   kernel::Scheduler& scheduler_;
   NetworkLimits limits_;
   Distance distance_;
-  bool crossed_ = false;  // robots have sent to each other
+  bool crossed_ = false;  // messages were sent between robots
   std::optional<Medium> between_all_;
-  std::map<std::pair<std::string, std::string>, Medium> between_;  // names in order
+  std::map<std::pair<std::string, std::string>, Medium> between_;  // robots' names in order
   std::map<std::string, std::shared_ptr<Node>> nodes_;
 };
 

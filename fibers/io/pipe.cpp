@@ -14,7 +14,7 @@ Result<std::size_t> Pipe::read(std::span<std::byte> buffer, const Deadline& dead
   if (status != Status::ok) return status;
   const std::size_t count = bytes_.pop(buffer);
   if (count == 0) return Status::end_of_file;
-  // All, because a writer of much may have to wait on while one of little has room.
+  // All, because a large write may have to keep waiting where a small one fits.
   wake_all(sending_);
   return count;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pipe between tasks of one robot: a bounded queue of bytes with an end to read and an end to write, to the semantics
-// of POSIX pipes.
+// A pipe between tasks of one robot: a bounded queue of bytes with a read end and a write end, with the semantics of
+// POSIX pipes.
 //
 //   auto [reader, writer] = io::make_pipe();
 //
 // Ends are handles that may be copied, as by dup(): an end is closed when its last copy is closed or destroyed; a call
-// under way keeps its end open. Bytes come out in the order in which they were written.
+// in progress keeps its end open. Bytes are read in the order in which they were written.
 #pragma once
 
 #include <memory>
@@ -16,12 +16,13 @@
 
 namespace waitpoint::io {
 
-/// A write of so many bytes, if the capacity allows, is made as a whole and not mixed with others' (POSIX: PIPE_BUF).
+/// A write of at most this many bytes, if the capacity allows, is atomic, not interleaved with others' (POSIX:
+/// PIPE_BUF).
 inline constexpr std::size_t atomic_max = 4096;
 inline constexpr std::size_t buffer_default = 65536;
 inline constexpr std::size_t buffer_max = 64 << 20;
 
-/// What the ends of a pipe share.
+/// Shared by the ends of a pipe.
 class Pipe : public Channel {
  public:
   enum class Side : std::uint8_t { reading, writing };
@@ -36,7 +37,7 @@ class Pipe : public Channel {
   void refresh() override { bytes_.clear(); }
 
   ByteQueue bytes_;
-  bool reading_ = true;  // an end to read is open
+  bool reading_ = true;  // a read end is open
   bool writing_ = true;
 };
 
@@ -44,7 +45,7 @@ class Pipe : public Channel {
 class PipeHandle {
  public:
   bool is_open() const { return end_ != nullptr; }
-  /// Gives this handle up.
+  /// Releases this handle.
   void close() {
     use();
     end_ = nullptr;
@@ -63,7 +64,7 @@ class PipeHandle {
     std::shared_ptr<Pipe> pipe;
     Pipe::Side side;
   };
-  // A share of its own, which keeps the end open while a call is under way.
+  // A reference of its own, which keeps the end open during a call.
   std::shared_ptr<End> use() const {
     WAITPOINT_CHECK(end_ != nullptr, "an end of a pipe is used after its close");
     return end_;
@@ -78,8 +79,8 @@ class pipe_reader : public PipeHandle {
   pipe_reader() = default;  ///< closed
   explicit pipe_reader(std::shared_ptr<Pipe> pipe) : PipeHandle(std::move(pipe), Pipe::Side::reading) {}
 
-  /// Takes at least one byte and at most buffer.size(): how many. end_of_file once the pipe is empty and no end to
-  /// write is open.
+  /// Reads at least one byte and at most buffer.size(), and returns the number. end_of_file once the pipe is empty and
+  /// no write end is open.
   Result<std::size_t> read(std::span<std::byte> buffer, const Deadline& deadline = {}) {
     return use()->pipe->read(buffer, deadline);
   }
@@ -90,8 +91,8 @@ class pipe_writer : public PipeHandle {
   pipe_writer() = default;  ///< closed
   explicit pipe_writer(std::shared_ptr<Pipe> pipe) : PipeHandle(std::move(pipe), Pipe::Side::writing) {}
 
-  /// Puts all of `data` in: how many bytes, which is less than all of them only if the status is not ok. peer_closed
-  /// once no end to read is open.
+  /// Writes all of `data` and returns the number of bytes, which is less only if the status is not ok. peer_closed once
+  /// no read end is open.
   Result<std::size_t> write(std::span<const std::byte> data, const Deadline& deadline = {}) {
     return use()->pipe->write(data, deadline);
   }

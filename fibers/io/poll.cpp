@@ -6,7 +6,7 @@
 namespace waitpoint::io {
 namespace {
 
-// Stands with all channels polled for as long as it lives.
+// Registered with all polled channels during its lifetime.
 class Poller {
  public:
   explicit Poller(std::span<PollEntry> entries) : entries_(entries) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Waiting for the first of several channels: poll() and select(), to the semantics of POSIX.
+// Waiting for the first of several channels: poll() and select(), with the semantics of POSIX.
 //
 //   io::PollEntry entries[] = {{reader, io::Events::readable}, {orders, io::Events::readable}};
 //   if (io::poll(entries, 20ms)) ...entries[0].ready...
 //
-// Level-triggered: what is ready is told again by every poll until it is used up. Several tasks may poll a channel and
-// are all told; who comes second finds that the first has been there. A channel that is closed while it is polled is
-// told as Events::closed.
+// Level-triggered: an event is reported by every poll until it is consumed. Several tasks may poll a channel and are
+// all woken; a later one may find the event consumed. Closing a channel while it is polled is reported as
+// Events::closed.
 #pragma once
 
 #include <memory>
@@ -35,13 +35,14 @@ class Source {
 struct PollEntry {
   Source source;
   Events wanted = Events::readable;
-  Events ready = Events::none;  ///< written by poll(): of those wanted, and closed
+  Events ready = Events::none;  ///< set by poll(): the ready ones of those wanted, and closed
 };
 
-/// Waits until an entry is ready; how many are. would_block or timed_out where none is in time.
+/// Waits until an entry is ready; returns the number of ready ones. would_block or timed_out if there is none in time.
 Result<std::size_t> poll(std::span<PollEntry> entries, const Deadline& deadline = {});
 
-/// As poll(); leaves in both lists those that are ready, in their order. Empty lists where none is in time.
+/// As poll(); removes from both lists the sources that are not ready, keeping the order. Empty lists if none is in
+/// time.
 Result<std::size_t> select(std::vector<Source>& readable, std::vector<Source>& writable, const Deadline& deadline = {});
 
 }  // namespace waitpoint::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What came of a communication, as a value: everything that a correct program must expect. Misuse (a handle used after
-// its close, a name bound twice by one socket, an object of another robot) is a bug with a name instead.
+// The result of a communication, as a value: all outcomes that a correct program must expect. Misuse (a handle used
+// after its close, a second name for one socket, an object of another robot) is reported as a bug instead.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace waitpoint::io {
 
 enum class Status : std::uint8_t {
   ok,
-  end_of_file,       ///< all that was sent has been read, and nobody can send any more
+  end_of_file,       ///< all sent data has been read, and no sender is left
   would_block,       ///< with no_wait
   timed_out,         ///< with a finite timeout
-  peer_closed,       ///< nobody reads what is sent (POSIX: EPIPE)
+  peer_closed,       ///< no reader is left (POSIX: EPIPE)
   closed,            ///< the object was closed while the caller waited
-  refused,           ///< nobody listens at that address, or too many wait there
-  no_route,          ///< there is no such robot, or no link to it
-  address_in_use,    ///< another one of this robot has the name
+  refused,           ///< no listener at that address, or its backlog is full
+  no_route,          ///< no such robot, or no link to it
+  address_in_use,    ///< the name is in use on this robot
   message_too_long,  ///< for the datagrams of this socket
 };
 
@@ -30,8 +30,8 @@ constexpr const char* to_string(Status status) {
   return names[static_cast<int>(status)];
 }
 
-/// A status, and the value that comes with it. The value may be looked at whatever the status is: a write that timed
-/// out says how much it had written.
+/// A status, and its value. The value is valid for every status: after a timeout, a write's is the number of bytes
+/// written.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// How two ends of a stream find each other: the question of the client, by way of the listener, and the server's
-// answer.
+// The handshake of a stream's ends: the client's request, by way of the listener, and the server's answer.
 #include "fibers/io/stream_listener.hpp"
 #include "fibers/io/stream_socket.hpp"
 
@@ -34,7 +32,7 @@ void Stream::answer(const std::weak_ptr<Stream>& client, std::size_t credit, Lin
       there->established(server, own_room);
       return;
     }
-    // The client has given up meanwhile, and nobody else would tell the server.
+    // The client has given up meanwhile; the server must be told.
     question.send_in_order(0, [server] {
       if (const std::shared_ptr<Stream> left = server.lock()) left->peer_gone();
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A name at which stream sockets are asked for, as a listening socket of TCP: connections are made when they are asked
-// for, and wait in a bounded backlog until accepted.
+// A name that stream sockets connect to, like a listening TCP socket: connections are established at the request, and
+// wait in a bounded backlog until accepted.
 #pragma once
 
 #include <deque>
@@ -12,11 +12,11 @@
 namespace waitpoint::io {
 
 struct ListenOptions {
-  std::size_t backlog = 16;   ///< connections that wait to be accepted; more are refused
+  std::size_t backlog = 16;   ///< connections waiting to be accepted; more are refused
   StreamOptions stream = {};  ///< of the connections
 };
 
-/// What a listener's handle shares with a task that waits in it.
+/// Shared by a listener's handle and the tasks that wait in it.
 class Listener : public Channel {
  public:
   Listener(Network& network, const ListenOptions& options);
@@ -24,7 +24,7 @@ class Listener : public Channel {
   Status listen(const std::string& port);
   Result<std::shared_ptr<Stream>> accept(const Deadline& deadline);
   void close();
-  /// An end for a connection asked for over the link whose way back is `back`; null if it is refused.
+  /// The server's end for a connection requested over the link with the reverse link `back`; null if it is refused.
   std::shared_ptr<Stream> take_in(Link& back);
   Events ready() const override;
 
@@ -36,21 +36,20 @@ class Listener : public Channel {
   bool closed_ = false;
 };
 
-/// Movable; closed when it is destroyed, with the connections that nobody accepted. Any other use after close() is a
-/// bug.
+/// Movable; closed by its destructor, with the connections not yet accepted. Any other use after close() is a bug.
 class stream_listener {
  public:
   stream_listener() = default;  ///< closed
-  /// Of the running task's robot.
+  /// A listener of the running task's robot.
   explicit stream_listener(Network& network, const ListenOptions& options = {})
       : core_(std::make_shared<Listener>(network, options)) {}
   stream_listener(stream_listener&&) noexcept = default;
   stream_listener& operator=(stream_listener&& other) noexcept;
   ~stream_listener();
 
-  /// Takes a name on this robot: ok or address_in_use. A second name for one listener is a bug.
+  /// Binds a name on this robot: ok or address_in_use. A second name for one listener is a bug.
   Status listen(const std::string& port) { return use()->listen(port); }
-  /// The connection that waits longest; closed if the listener is closed meanwhile.
+  /// The connection that has waited longest; closed if the listener is closed meanwhile.
   Result<stream_socket> accept(const Deadline& deadline = {});
   void close();
 

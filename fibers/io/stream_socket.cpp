@@ -12,7 +12,7 @@ Stream::Stream(std::shared_ptr<Node> node, Link& link, const StreamOptions& opti
 
 Stream::~Stream() { node_->give_socket(); }
 
-// Sends a message that does something at the peer, if it is still there then.
+// Sends a message that acts on the peer, if it still exists at the arrival.
 template <class Message>
 void Stream::tell_peer(std::size_t bytes, Message message) {
   link_.send_in_order(bytes, [peer = peer_, message = std::move(message)] {
@@ -20,7 +20,7 @@ void Stream::tell_peer(std::size_t bytes, Message message) {
   });
 }
 
-// --- the beginning: see also stream_handshake.cpp ---
+// --- connecting: see also stream_handshake.cpp ---
 
 void Stream::established(const std::weak_ptr<Stream>& peer, std::size_t credit) {
   peer_ = peer;
@@ -99,7 +99,7 @@ void Stream::room_again(std::size_t bytes) {
   wake_all(sending_);
 }
 
-// --- the end ---
+// --- closing ---
 
 void Stream::shutdown_write() {
   if (!begin_release(kernel::Operation::close, sending_)) return;
@@ -147,7 +147,7 @@ Result<stream_socket> connect(Network& network, const Address& address, const De
   Link* const link = node->link_to(address.robot);
   if (link == nullptr) return Status::no_route;
   const auto stream = std::make_shared<Stream>(node, *link, options, "to " + to_string(address));
-  stream_socket socket(stream);  // closes the stream whatever comes
+  stream_socket socket(stream);  // closes the stream on every return
   const Status status = stream->connect(*network.node(link->to()), address.port, deadline);
   if (status != Status::ok) return status;
   return Result<stream_socket>(std::move(socket));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stream socket: bytes in order in both directions between two tasks, of one robot or of two, to the semantics of
+// A stream socket: bytes in order in both directions between two tasks, of one robot or of two, with the semantics of
 // TCP.
 //
 //   robot bob                                             robot ada
@@ -7,9 +7,9 @@
 //   door.listen("door");                                  if (socket) socket->write(question);
 //   auto socket = door.accept();
 //
-// Nothing is lost: the medium delays. A sender may have as many bytes under way or unread as the other side's buffer
-// holds, and learns that there is room again when word of it has come back over the medium. Between robots a write of
-// few bytes takes the room of `least_charge`: so what is under way is bounded in messages too.
+// Nothing is lost: the medium delays. Flow control is by credit: bytes in transit or unread are limited to the
+// receiver's buffer, and freed room is reported back over the medium. Between robots a short write is charged
+// `least_charge`, which bounds the number of messages in transit, too.
 //
 //   write() -> credit_ falls --- bytes ---> received_ -> read()
 //              credit_ rises <--- room --------------------'
@@ -25,13 +25,13 @@
 
 namespace waitpoint::io {
 
-/// A write is cut into messages of so many bytes at most.
+/// The greatest message: longer writes are split.
 inline constexpr std::size_t segment_bytes_max = 4096;
-/// The room that a message between robots takes of the receiver's buffer at least.
+/// The least charge of a message between robots to the receiver's buffer, in bytes.
 inline constexpr std::size_t least_charge = 64;
 
 struct StreamOptions {
-  std::size_t buffer_bytes = buffer_default;  ///< for what arrives and is not yet read; 1 to buffer_max
+  std::size_t buffer_bytes = buffer_default;  ///< capacity for unread data; 1 to buffer_max
 };
 
 /// One end of a connection.
@@ -40,9 +40,9 @@ class Stream : public Channel, public std::enable_shared_from_this<Stream> {
   Stream(std::shared_ptr<Node> node, Link& link, const StreamOptions& options, const std::string& label);
   ~Stream() override;
 
-  /// The client's side of the beginning: asks for the connection, and waits for the answer.
+  /// The client's side of the handshake: requests the connection and waits for the answer.
   Status connect(Node& target, const std::string& port, const Deadline& deadline);
-  /// The server's side: the connection that `client` asked for over `question`.
+  /// The server's side: the connection that `client` requested over `question`.
   void answer(const std::weak_ptr<Stream>& client, std::size_t credit, Link& question);
 
   Result<std::size_t> read(std::span<std::byte> buffer, const Deadline& deadline);
@@ -55,7 +55,7 @@ class Stream : public Channel, public std::enable_shared_from_this<Stream> {
  private:
   enum class State : std::uint8_t { asking, open, refused };
 
-  // What the other end's messages do here; each may find this end closed.
+  // Effects of the peer's messages; this end may be closed already.
   void established(const std::weak_ptr<Stream>& peer, std::size_t credit);
   void refuse();
   void arrive(std::span<const std::byte> data, std::size_t charge);
@@ -70,15 +70,15 @@ class Stream : public Channel, public std::enable_shared_from_this<Stream> {
   std::weak_ptr<Stream> peer_;
   State state_ = State::asking;
   ByteQueue received_;
-  std::size_t extra_charge_ = 0;  // room taken by short messages beyond their bytes
-  std::size_t credit_ = 0;        // bytes that may be sent
+  std::size_t extra_charge_ = 0;  // room charged for short messages beyond their bytes
+  std::size_t credit_ = 0;        // bytes that may still be sent
   bool finished_ = false;         // shutdown_write() was called
   bool closed_ = false;
   bool peer_finished_ = false;
   bool peer_gone_ = false;
 };
 
-/// Movable; closed when it is destroyed. Any other use after close() is a bug.
+/// Movable; closed by its destructor. Any other use after close() is a bug.
 class stream_socket {
  public:
   stream_socket() = default;  ///< closed
@@ -87,17 +87,18 @@ class stream_socket {
   stream_socket& operator=(stream_socket&& other) noexcept;
   ~stream_socket();
 
-  /// Takes at least one byte and at most buffer.size(): how many. end_of_file once all has been read and the peer has
-  /// closed, or shut down its writing; closed if this end is closed meanwhile.
+  /// Reads at least one byte and at most buffer.size(), and returns the number. end_of_file once all is read and the
+  /// peer has closed or shut down its writing; closed if this end is closed meanwhile.
   Result<std::size_t> read(std::span<std::byte> buffer, const Deadline& deadline = {}) {
     return use()->read(buffer, deadline);
   }
-  /// Sends all of `data`: how many bytes, which is less than all of them only if the status is not ok. ok says that
-  /// they were sent, not that they were read. peer_closed once the peer is known to have closed.
+  /// Sends all of `data` and returns the number of bytes, which is less only if the status is not ok. ok means sent,
+  /// not read. peer_closed once the peer is known to have closed.
   Result<std::size_t> write(std::span<const std::byte> data, const Deadline& deadline = {}) {
     return use()->write(data, deadline);
   }
-  /// Half-close: the peer reads end of file after what was written; reading goes on. A write afterwards is a bug.
+  /// Half-close: the peer reads end of file after the data written; reading remains possible. A write afterwards is a
+  /// bug.
   void shutdown_write() { use()->shutdown_write(); }
   void close();
 
@@ -114,8 +115,8 @@ class stream_socket {
   std::shared_ptr<Stream> stream_;
 };
 
-/// Connects to a listener: refused if nobody listens there or its backlog is full, no_route, timed_out, would_block
-/// (with no_wait, between robots). The question and the answer each take the medium's time.
+/// Connects to a listener: refused if there is none or its backlog is full, no_route, timed_out, would_block (with
+/// no_wait, between robots). The request and the answer each take the medium's time.
 Result<stream_socket> connect(Network& network, const Address& address, const Deadline& deadline = {},
                               const StreamOptions& options = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// comLib's events: each task has an h2 semaphore that counts what it was signalled, from its first h2evnSusp() on.
+// comLib's events: each task has an h2 semaphore that counts its signals, from its first h2evnSusp() on.
 #pragma once
 
 #include "fibers/laas/portLib.hpp"
@@ -8,12 +8,13 @@ namespace waitpoint::laas {
 
 inline constexpr int S_h2evnLib_BAD_TASK_ID = H2_ENCODE_ERR(507, 0);
 
-/// Waits for an event and takes it: TRUE. A time-out of 0 is for ever; n ticks end at the n+1st: FALSE, with
+/// Waits for an event and consumes it: TRUE. A time-out of 0 waits for ever; n ticks end at the n+1st: FALSE, with
 /// S_h2semLib_TIMEOUT.
 BOOL h2evnSusp(int timeout);
-/// Signals an event to a task of the caller's robot, which has called h2evnSusp() before: else S_h2evnLib_BAD_TASK_ID.
+/// Signals an event to a task of the caller's robot, which must have called h2evnSusp() before: else
+/// S_h2evnLib_BAD_TASK_ID.
 STATUS h2evnSignal(long taskId);
-/// Forgets the caller's events.
+/// Discards the caller's events.
 void h2evnClear();
 
 }  // namespace waitpoint::laas

@@ -13,8 +13,8 @@ namespace {
 struct H2Semaphores : sync::RobotState {
   explicit H2Semaphores(kernel::Robot& of) : robot(of) {}
   kernel::Robot& robot;
-  std::deque<Semaphore> all;   // number 1 first
-  std::set<H2SEM_ID> deleted;  // for new ones, the least first
+  std::deque<Semaphore> all;   // starts with number 1
+  std::set<H2SEM_ID> deleted;  // for reuse, the least first
 };
 
 H2Semaphores& here() { return sync::state_of<H2Semaphores>(*sync::running_task().robot); }
@@ -47,7 +47,7 @@ STATUS h2semDelete(H2SEM_ID sem) {
   Semaphore* const found = find(sem);
   if (found == nullptr) return fail(S_h2semLib_NOT_A_SEM);
   if (!sync::before_releasing(kernel::Operation::release, found->object())) return OK;
-  if (find(sem) == nullptr) return fail(S_h2semLib_NOT_A_SEM);  // another was first
+  if (find(sem) == nullptr) return fail(S_h2semLib_NOT_A_SEM);  // another task deleted it first
   found->destroy();
   here().deleted.insert(sem);
   return OK;

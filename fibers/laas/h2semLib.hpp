@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// comLib's semaphores: numbers, of one table per robot. Here a time-out of 0 ticks is for ever, too.
+// comLib's semaphores: numbers, from one table per robot. A time-out of 0 ticks waits for ever, as WAIT_FOREVER does.
 //
-// Who may not have what it asked for gets FALSE or ERROR, and the caller's error code says why.
+// Failures return FALSE or ERROR, and set the caller's error code.
 #pragma once
 
 #include "fibers/laas/portLib.hpp"
@@ -13,7 +13,7 @@ inline constexpr int S_h2semLib_NOT_A_SEM = H2_ENCODE_ERR(503, 3);
 inline constexpr int S_h2semLib_TIMEOUT = H2_ENCODE_ERR(503, 4);
 inline constexpr int S_h2semLib_BAD_SEM_TYPE = H2_ENCODE_ERR(503, 5);
 
-/// How many of them a robot may have: pocolibs has at most 120 devices of 20 semaphores, of which the first is its own.
+/// The greatest number per robot: pocolibs has at most 120 devices of 20 semaphores, the first of which is its own.
 inline constexpr int h2_semaphores_max = 120 * 20 - 1;
 
 inline constexpr int H2SEM_SYNC = 0;  ///< starts empty
@@ -23,14 +23,14 @@ using H2SEM_ID = int;
 
 /// The id of a new semaphore, the least free; or ERROR.
 H2SEM_ID h2semAlloc(int type);
-/// Who waits goes on with S_h2semLib_NOT_A_SEM.
+/// Waiting tasks fail with S_h2semLib_NOT_A_SEM.
 STATUS h2semDelete(H2SEM_ID sem);
-/// TRUE with a unit; FALSE without: 0 and WAIT_FOREVER wait for ever, n ticks end at the n+1st from now.
+/// TRUE with a unit; FALSE without. 0 and WAIT_FOREVER wait for ever, n ticks end at the n+1st from now.
 BOOL h2semTake(H2SEM_ID sem, int timeout);
 STATUS h2semGive(H2SEM_ID sem);
-/// Makes it empty: what was given and not taken is gone.
+/// Empties it: units not yet taken are discarded.
 BOOL h2semFlush(H2SEM_ID sem);
-/// Sets how many units it has; who waits is served from them. A negative count is EINVAL.
+/// Sets the number of units; waiting tasks are served from them. A negative count is EINVAL.
 STATUS h2semSet(H2SEM_ID sem, int value);
 
 }  // namespace waitpoint::laas

@@ -14,7 +14,7 @@ struct H2TIMER : TickItem {
 
   bool allocated() const { return fired.has_value() && fired->kind() != Semaphore::Kind::none; }
 
-  // Counts what has fired until the caller's time, where nobody waited for it.
+  // Counts the firings without a waiter, until the caller's time.
   void catch_up() {
     if (status == Status::stopped || Ticks::listed(*this)) return;
     const std::int64_t now = ticks->now();
@@ -26,7 +26,7 @@ struct H2TIMER : TickItem {
     fired->count = static_cast<int>(std::min(most, fired->count + firings));
   }
 
-  // With somebody who waits, the next firing is an event.
+  // With a waiter, the next firing is an event.
   void list() {
     ticks->unlist(*this);
     if (status != Status::stopped && fired->has_waiters()) ticks->list(*this, next, rank);
@@ -44,7 +44,7 @@ struct H2TIMER : TickItem {
   std::uint64_t rank = 0;
   Status status = Status::stopped;
   int period = 1;
-  std::int64_t next = 0;  // the tick at which it fires next
+  std::int64_t next = 0;  // the tick of the next firing
 };
 
 namespace {
@@ -56,7 +56,7 @@ struct Timers : sync::RobotState {
     for (std::size_t i = 0; i < table.size(); ++i) {
       table[i].ticks = &sync::state_of<Ticks>(robot);
       table[i].fired.emplace(robot, "h2 timer");
-      // Behind all watchdogs.
+      // After all watchdogs.
       table[i].rank = (std::uint64_t{1} << 63) + i;
     }
   }
@@ -65,7 +65,7 @@ struct Timers : sync::RobotState {
 
 bool is_timer(H2TIMER_ID timer) { return timer != nullptr && timer->allocated(); }
 
-// Blocks until the timer fires, unless it has; false if it was given back meanwhile.
+// Blocks until the timer fires, unless it has; false if it was freed meanwhile.
 bool wait(H2TIMER& timer) {
   if (!timer.allocated()) return false;
   timer.catch_up();
@@ -73,7 +73,7 @@ bool wait(H2TIMER& timer) {
     --timer.fired->count;
     return true;
   }
-  // It is listed first: once the caller blocks, others go on.
+  // Listed before blocking, since other tasks run then.
   if (timer.status != H2TIMER::Status::stopped && !Ticks::listed(timer))
     timer.ticks->list(timer, timer.next, timer.rank);
   return timer.fired->wait(Time::max()) == Taken::taken;
@@ -163,7 +163,7 @@ STATUS h2timerFree(H2TIMER_ID timerId) {
   if (!is_timer(timerId)) return fail(S_h2timerLib_TIMER_NOT_INIT);
   H2TIMER& timer = *timerId;
   if (!sync::before_releasing(Operation::timer_stop, timer.fired->object())) return OK;
-  if (!is_timer(timerId)) return fail(S_h2timerLib_TIMER_NOT_INIT);  // another was first
+  if (!is_timer(timerId)) return fail(S_h2timerLib_TIMER_NOT_INIT);  // another task freed it first
   timer.status = H2TIMER::Status::stopped;
   timer.ticks->unlist(timer);
   timer.fired->destroy();

@@ -14,7 +14,7 @@ struct Semaphores : sync::RobotState {
   explicit Semaphores(kernel::Robot& of) : robot(of) {}
   kernel::Robot& robot;
   std::deque<Semaphore> all;
-  std::vector<Semaphore*> deleted;  // for new ones
+  std::vector<Semaphore*> deleted;  // for reuse
 };
 
 SEM_ID create(Semaphore::Kind kind, int count) {
@@ -50,7 +50,7 @@ SEM_ID semMCreate(int) { return create(Semaphore::Kind::mutex, 0); }
 STATUS semDelete(SEM_ID semId) {
   if (!is_semaphore(semId)) return fail(S_semLib_NOT_A_SEM);
   if (!sync::before_releasing(kernel::Operation::release, semId->object())) return OK;
-  if (!is_semaphore(semId)) return fail(S_semLib_NOT_A_SEM);  // another was first
+  if (!is_semaphore(semId)) return fail(S_semLib_NOT_A_SEM);  // another task deleted it first
   semId->destroy();
   sync::state_of<Semaphores>(*semId->object().robot).deleted.push_back(semId);
   return OK;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What semLib's and h2semLib's semaphores are both made of: a count, or a holder, and who waits.
+// The common part of semLib's and h2semLib's semaphores: a count, or a holder, and the waiting tasks.
 //
-// A mutex is a ticket lock, first come, first served, in every order: giving it hands it to who has waited longest, so
-// that two tasks which loop over take and give alternate strictly. pocolibs draws the ticket also where it then does
-// not wait, and a take that fails without waiting leaves a ticket that nobody will serve; here only who waits has a
-// place in the queue, and gives it up with the time-out. A count does not saturate; who of several is served is a
-// choice.
+// A mutex is a ticket lock, first come, first served, in every order: a give hands it to the longest waiting task, so
+// that two tasks which loop over take and give alternate strictly. pocolibs also draws a ticket if the call then does
+// not wait, so a failed try leaves a ticket that is never served; here only waiting tasks have a place in the queue,
+// and a time-out gives it up. A count does not saturate; the chooser picks among several waiting tasks.
 #pragma once
 
 #include <cstdint>
@@ -26,26 +25,26 @@ class Semaphore {
 
   explicit Semaphore(kernel::Robot& robot, const char* label = "") : object_("semaphore", label), robot_(robot) {}
 
-  /// Makes it one of `kind` with `count` units (a mutex: free). It must be of none.
+  /// Makes an unused one a semaphore of `kind` with `count` units (a mutex: free).
   void create(Kind kind, int count);
-  /// Makes it one of none; who waits goes on with Taken::deleted.
+  /// Makes it unused; waiting tasks return Taken::deleted.
   void destroy();
   Kind kind() const { return kind_; }
 
-  /// Takes a unit, or the mutex, within a time-out in ticks that counts from the call: see Ticks::deadline.
+  /// Takes a unit, or the mutex, within a time-out in ticks from the call: see Ticks::deadline.
   Taken take(int ticks);
-  /// Gives one back. OK, or an errno: EPERM for a mutex that the caller does not hold, EOVERFLOW for a unit too many.
+  /// Releases one. OK, or an errno: EPERM for a mutex not held by the caller, EOVERFLOW for a count overflow.
   int give();
-  /// Lets all go on that wait; a count stays what it is.
+  /// Wakes all waiting tasks; the count is unchanged.
   void flush();
-  /// Sets the count; who waits is served from it.
+  /// Sets the count; waiting tasks are served from it.
   void set(int count);
 
-  // --- without a waitpoint, for who has passed one ---
+  // --- without a waitpoint: the caller has passed one ---
 
   /// Blocks the caller until a unit is handed to it, or the deadline.
   Taken wait(Time deadline);
-  /// Hands a unit to one that waits, or adds it to the count.
+  /// Hands a unit to a waiting task, or adds it to the count.
   void hand_over();
   bool has_waiters() const { return kind_ != Kind::none && object_.first_waiter != nullptr; }
 
@@ -56,7 +55,7 @@ class Semaphore {
   kernel::Object object_;
   kernel::Robot& robot_;
   Kind kind_ = Kind::none;
-  std::uint32_t generation_ = 0;  // of what this place was made and destroyed for
+  std::uint32_t generation_ = 0;  // counts creations and destructions
 };
 
 }  // namespace waitpoint::laas

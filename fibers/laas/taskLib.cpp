@@ -19,7 +19,7 @@ kernel::StackSize stack_for(int bytes) {
   return size;
 }
 
-// The caller's control block, while its function runs.
+// Registers the caller's control block while its function runs.
 struct Spawned {
   explicit Spawned(TaskControlBlock& block) { Tasks::here().adopt(block); }
   ~Spawned() { Tasks::here().end(); }

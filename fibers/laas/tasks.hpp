@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's table of tasks as pocolibs knows them: what VxWorks keeps in a task's control block.
+// A robot's table of tasks for pocolibs: the contents of VxWorks' task control blocks.
 //
-// A task is in the table from taskSpawn() to its end. One that was made otherwise, and the stand-in of the robot's
-// timers, comes into it with its first call, and stays until the end of the run.
+// A task is in the table from taskSpawn() to its end. A task created otherwise, and the pseudo-task of the robot's
+// timers, is added at its first call, and stays until the end of the run.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,9 @@ struct TaskControlBlock {
   int options = 0;
   int error = 0;
   unsigned long user_data = 0;
-  int events = 0;                              ///< the h2 semaphore that counts its events; 0 until it waits for one
-  kernel::Object suspended{"suspended task"};  ///< where it stays between taskSuspend and taskResume
+  int events = 0;                              ///< the h2 semaphore that counts its events; 0 until it first waits for
+                                               ///< one
+  kernel::Object suspended{"suspended task"};  ///< it blocks on this between taskSuspend and taskResume
 };
 
 class Tasks : public sync::RobotState {
@@ -32,7 +33,7 @@ class Tasks : public sync::RobotState {
   explicit Tasks(kernel::Robot&) {}
   static Tasks& here() { return sync::state_of<Tasks>(*sync::running_task().robot); }
 
-  /// The caller's; made now if it has none.
+  /// The caller's block; created if it has none.
   TaskControlBlock& self();
   /// By its id, 0 being the caller; null if there is none.
   TaskControlBlock* find(long id);
@@ -40,12 +41,12 @@ class Tasks : public sync::RobotState {
   TaskControlBlock* find(const std::string& name);
 
   TaskControlBlock& make();
-  /// Makes `block` the caller's.
+  /// Registers `block` as the caller's.
   void adopt(TaskControlBlock& block) { by_task_.emplace(sync::running_task().id, &block); }
-  /// Forgets the caller's.
+  /// Removes the caller's.
   void end();
 
-  /// What meets at the table: a task may end before another comes to act on it.
+  /// The object of operations on the table, which conflict: a task may end before another acts on it.
   kernel::Object& object() { return object_; }
 
  private:

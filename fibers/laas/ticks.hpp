@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's clock: ticks at the multiples of 1/rate from where h2initGlob() started it, and what is to be done at them.
+// A robot's clock: ticks at the multiples of 1/rate since its start by h2initGlob(), and the actions scheduled at them.
 //
-// No tick is walked at which nothing is due: the clock's one event stands at the next tick that has something to do,
-// and an idle robot has none. What is due at one tick is done in the order in which pocolibs' walk would come to it:
-// the watchdogs, the latest created first, then the h2 timers in the order of their table. What is started at tick k
-// counts from k, wherever it stands in that walk. All that comes before the tasks of that instant.
+// Ticks without an action cost nothing: the clock has one event, at the next tick with an action, and an idle robot has
+// none. The actions of one tick run in the order of pocolibs' walk: the watchdogs, the latest created first, then the
+// h2 timers in the order of their table. An action started at tick k counts from k, whatever its place in that walk.
+// All actions precede the tasks of that instant.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace waitpoint::laas {
 
-/// Something that is done at a tick.
+/// An action at a tick.
 class TickItem {
  public:
   virtual ~TickItem() = default;
@@ -26,14 +26,14 @@ class TickItem {
   friend class Ticks;
   virtual void at_tick() = 0;
   std::int64_t due_ = 0;
-  std::uint64_t rank_ = 0;  // among those of one tick
+  std::uint64_t rank_ = 0;  // orders the actions of one tick
   bool listed_ = false;
 };
 
 class Ticks : public sync::RobotState {
  public:
   explicit Ticks(kernel::Robot&) : event_(&Ticks::fire, this) {}
-  /// Those of the caller's robot.
+  /// The clock of the caller's robot.
   static Ticks& here() { return sync::state_of<Ticks>(*sync::running_task().robot); }
 
   /// See h2initGlob().
@@ -41,23 +41,23 @@ class Ticks : public sync::RobotState {
   bool running() const { return rate_ > 0; }
   int rate() const { return rate_; }
 
-  /// The last tick that came until the caller's local time; tick 0 is the start. The clock runs.
+  /// The last tick not after the caller's local time; tick 0 is the start. The clock must run.
   std::int64_t now() const;
   Time time_of(std::int64_t tick) const;
-  /// How long `ticks` last.
+  /// The duration of `ticks`.
   Duration span(std::int64_t ticks) const;
-  /// When a time-out of `ticks` ends. pocolibs asks at each tick whether more than `ticks` have come since the call, so
-  /// it is the n+1st. WAIT_FOREVER never ends, NO_WAIT is past. A finite one without a clock is a bug.
+  /// The end of a time-out of `ticks`: the n+1st tick, since pocolibs checks at each tick for more than `ticks` since
+  /// the call. WAIT_FOREVER never ends, NO_WAIT is past. A finite one without a clock is a bug.
   Time deadline(int ticks) const;
 
-  /// Has `item` done at tick `due`, a later one than now; what it was listed for before is forgotten.
+  /// Schedules `item` at tick `due`, which must be in the future; replaces its earlier schedule.
   void list(TickItem& item, std::int64_t due, std::uint64_t rank);
   void unlist(TickItem& item);
   static bool listed(const TickItem& item) { return item.listed_; }
 
-  /// What meets at the clock.
+  /// The object of operations on the clock, which conflict.
   kernel::Object& object() { return object_; }
-  /// What tickSet() added to the count.
+  /// The offset that tickSet() added to the count.
   std::uint64_t offset = 0;
 
  private:
@@ -71,11 +71,11 @@ class Ticks : public sync::RobotState {
 
   kernel::Object object_{"tick"};
   sync::TimerEvent event_;
-  std::set<TickItem*, Before> items_;  // no two have both the same tick and the same rank
+  std::set<TickItem*, Before> items_;  // no two have the same tick and the same rank
   std::optional<Period> period_;
   Time start_;
   int rate_ = 0;
-  std::int64_t scheduled_ = 0;  // the tick at which the event stands
+  std::int64_t scheduled_ = 0;  // the tick of the scheduled event
   bool firing_ = false;
 };
 

@@ -13,14 +13,14 @@ namespace waitpoint::laas {
 struct wdog : TickItem {
   explicit wdog(Ticks& of) : ticks(of) {}
   void at_tick() override {
-    // A copy: the routine may start its watchdog with another one.
+    // A copy: the routine may restart its watchdog with another one.
     const std::function<void(long)> call = routine;
     call(parameter);
   }
   Ticks& ticks;
   std::function<void(long)> routine;
   long parameter = 0;
-  std::uint64_t rank = 0;  // less for what was created later
+  std::uint64_t rank = 0;  // smaller for later creation
   bool created = false;
 };
 
@@ -30,8 +30,8 @@ struct Watchdogs : sync::RobotState {
   explicit Watchdogs(kernel::Robot& robot) : ticks(sync::state_of<Ticks>(robot)) {}
   Ticks& ticks;
   std::deque<wdog> all;
-  std::vector<wdog*> deleted;  // for new ones
-  // The ranks of h2 timers, which come behind all watchdogs, are above.
+  std::vector<wdog*> deleted;  // for reuse
+  // The ranks of h2 timers, which follow all watchdogs, are above.
   std::uint64_t next_rank = std::uint64_t{1} << 63;
 };
 
@@ -59,7 +59,7 @@ WDOG_ID wdCreate() {
 STATUS wdDelete(WDOG_ID wdId) {
   if (!is_watchdog(wdId)) return fail(S_wdLib_ID_ERROR);
   if (!sync::before_releasing(kernel::Operation::timer_stop, wdId->ticks.object())) return OK;
-  if (!is_watchdog(wdId)) return fail(S_wdLib_ID_ERROR);  // another was first
+  if (!is_watchdog(wdId)) return fail(S_wdLib_ID_ERROR);  // another task deleted it first
   wdId->ticks.unlist(*wdId);
   wdId->created = false;
   wdId->routine = nullptr;
