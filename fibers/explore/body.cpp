@@ -55,7 +55,7 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   Outcome outcome;
   try {
     outcome.end = simulation_.run_before(until_);
-  } catch (...) {  // told by trouble()
+  } catch (...) {  // reported by trouble()
   }
   outcome.failure = simulation_.trouble();
   outcome.was_cut = explorer_.was_cut();

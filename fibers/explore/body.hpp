@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The body of a test, run under one schedule after the other, in one place in memory.
+// The body of a test, run repeatedly under different schedules, at a fixed place in memory.
 #pragma once
 
 #include <functional>
@@ -11,28 +11,28 @@
 
 namespace waitpoint::exploration {
 
-/// What else can find a fault with a run, beside what the kernel sees: a test framework's expectations.
+/// An external source of failures, beside the kernel's checks: a test framework's expectations.
 class ForeignChecks {
  public:
   virtual ~ForeignChecks() = default;
-  /// A run begins.
+  /// Called at the start of a run.
   virtual void begin() = 0;
-  /// It is over: what failed since begin(), in words; empty if nothing.
+  /// Called at the end of the run: the failures since begin(), as text; empty if none.
   virtual std::string end() = 0;
-  /// Of the test that is running, and the program's option that runs it alone; empty where there is none.
+  /// The name of the running test, and the program's option that runs it alone; empty if there is none.
   virtual std::string name() const = 0;
   virtual std::string option_for(const std::string& name) const = 0;
 };
 
-/// A test framework says so when the tests that were to run have, and before it says that they have passed. Where
-/// WAITPOINT_REPLAY asks for a run that was not come to, the program ends here, with a line and status 2.
+/// Called by a test framework after the last test, before it prints the result. If the run of WAITPOINT_REPLAY was
+/// never reached, the program ends here, with a line and status 2.
 void tests_are_over();
 
-/// What a schedule came to.
+/// The result of a schedule.
 struct Outcome {
   RunEnd end = RunEnd::ended;
-  std::string failure;   ///< in words, its first line what happened; empty if it passed
-  bool was_cut = false;  ///< it did not end, as nothing new could have followed; it has passed then
+  std::string failure;   ///< the report, whose first line is the failure; empty if it passed
+  bool was_cut = false;  ///< abandoned, since nothing new could follow; counts as passed
   std::uint64_t digest = 0;
   Time end_time;
   std::uint64_t events = 0;
@@ -43,20 +43,21 @@ struct Outcome {
 
 class Body {
  public:
-  /// `checks` may be null. A schedule has `until` of virtual time, and `steps_max` switch points at one instant.
+  /// `checks` may be null. The limits of a schedule are `until` in virtual time, and `steps_max` switch points at one
+  /// instant.
   Body(std::function<void()> function, ForeignChecks* checks, Time until, std::uint32_t steps_max);
 
-  /// Runs it from the beginning, by `strategy`, which was begun for it, but for what is played.
+  /// Runs it from the beginning: first `played`, then `strategy`, which must have begun this schedule.
   Outcome run(Strategy& strategy, const Played& played = {});
-  /// As run(), up to the decision where `played` stops; then `look` is called, before all is unwound.
+  /// As run(), up to the decision where `played` stops; then calls `look`, before everything is unwound.
   void run_up_to(const Played& played, const std::function<void()>& look);
 
   /// As run() with that schedule, with `decisions` between the kernel and the explorer.
   void run_watched_by(kernel::Decisions& decisions, const Schedule& schedule);
 
-  /// Data races are failures, unless this is called.
+  /// Data races no longer count as failures.
   void ignore_races() { heeds_races_ = false; }
-  /// Whether failures say where in the source tasks are: that takes a second. They do not, unless it is asked for.
+  /// Controls the source locations in failures, off by default: looking them up takes a second.
   void tell(sync::Places places);
 
   const Explorer& explorer() const { return explorer_; }
@@ -70,7 +71,7 @@ class Body {
   ForeignChecks* checks_;
   Time until_;
   Simulation simulation_;
-  kernel::FaultReports reports_;  // once, not for each schedule
+  kernel::FaultReports reports_;  // installed once, not per schedule
   Explorer explorer_;
   sync::Places places_ = sync::Places::left_out;
   bool heeds_races_ = true;

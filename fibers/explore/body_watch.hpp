@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the runs of a body show beside what they come to.
+// Runs of a body under observation: its profile, timeline, events and trail.
 #pragma once
 
 #include "fibers/explore/body.hpp"
@@ -10,16 +10,16 @@
 
 namespace waitpoint::exploration {
 
-/// Runs `body` in the default order and looks at what it does; what that came to.
+/// Runs `body` in the default order and records its profile; returns the result.
 Outcome take_profile(Body& body, Profile& profile);
 
-/// Runs `body` once more by `schedule`, and looks.
+/// Runs `body` once more by `schedule`, and records its timeline.
 Timeline take_timeline(Body& body, const Schedule& schedule);
 
-/// Runs `body` by these decisions, and then in the default order: its events behind decision `from`.
+/// Runs `body` by these decisions, then in the default order: its events after decision `from`.
 std::vector<DoneEvent> take_events(Body& body, std::span<const Decision> decisions, std::size_t from);
 
-/// Runs `body` once more by `schedule`: its trail, with a mark behind each 2^log_spacing events.
+/// Runs `body` once more by `schedule`: its trail, with a mark after each 2^log_spacing events.
 Trail take_trail(Body& body, const Schedule& schedule, std::uint32_t log_spacing);
 
 }  // namespace waitpoint::exploration

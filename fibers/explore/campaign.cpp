@@ -23,12 +23,12 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t runs_to_minimize = 200'000;
 constexpr std::uint64_t runs_to_explain = 20'000;
 
-// By which two runs of one schedule are known to be one.
+// Identifies the result of a run: equal for two runs of one schedule.
 std::uint64_t number_of(const Outcome& outcome) {
   return Digest::mix(outcome.digest) ^ static_cast<std::uint64_t>(outcome.passed());
 }
 
-// Of what is run: the token that is to be replayed, or the schedules' but for their numbers.
+// The token to replay, or that of the campaign's schedules, without their numbers.
 Token first_token(const ExploreOptions& options, std::uint32_t call) {
   if (!options.replay.empty()) return read_token(options.replay);
   return {call, 0, options.strategy, options.seed, 0, {}};
@@ -59,7 +59,7 @@ ExploreReport Campaign::run() {
   return report_;
 }
 
-// In the default order, twice: that is the profile, and shows whether the body is the same a second time.
+// Runs the default order twice: for the profile, and to check that the body repeats.
 bool Campaign::begins_well() {
   supervisor_.begin_default();
   const Outcome first = take_profile(body_, profile_);
@@ -77,11 +77,11 @@ bool Campaign::begins_well() {
   return report_.text.empty();
 }
 
-// What the default schedule takes from the heap and does not give back: on the average of some runs, after some more in
-// which the allocator's caches are filled and used up.
+// The heap bytes that the default schedule allocates and does not free: the average of several runs, after others that
+// fill the allocator's caches.
 void Campaign::look_for_leaks() {
   constexpr std::size_t repeats = 16;
-  constexpr std::uint32_t short_body = 10'000;  // switch points: of what takes longer, a person has too few to leak
+  constexpr std::uint32_t short_body = 10'000;  // in switch points: a longer body runs too seldom for a leak to matter
   if (profile_.steps > short_body) return;
   Fifo usual;
   const auto in_use_after_some = [&] {
@@ -96,7 +96,7 @@ void Campaign::look_for_leaks() {
   if (after > before) report_.leaked_bytes = (after - before) / repeats;
 }
 
-// Of the default order, run once more.
+// Compares with the first run of the default order.
 std::string Campaign::difference_to_the_first() {
   const Timeline& before = usual_;
   const Timeline after = take_timeline(body_, {});
@@ -172,8 +172,8 @@ std::string Campaign::replay_by(const Token& token, const Failure& failure) {
   return to_text_with(token, take_trail(body_, failure.schedule, log_spacing_for(failure.outcome.events)));
 }
 
-// Whether a process that has run nothing before does the same by that failure's schedule. A process under a debugger
-// has nobody to ask: then it is taken for granted.
+// True if a fresh process gets the same result by the failure's schedule. There is none under a debugger: then true is
+// assumed.
 bool Campaign::is_of_its_schedule(const Failure& failure) {
   const std::optional<std::uint64_t> fresh = supervisor_.outcome_when_fresh(token_of(failure));
   return !fresh || *fresh == number_of(failure.outcome);
@@ -194,7 +194,7 @@ void Campaign::tell(const Found& found) {
   supervisor_.begin_minimizing(found.token.number, found.failure.outcome.failure);
   if (options_.minimize) least = minimize(body_, found.failure, {runs_to_minimize});
   least = with_places(body_, least);
-  // What was run meanwhile may have left something, too.
+  // The runs in between may have leaked state, too.
   if (!found.is_default && !is_of_its_schedule(least)) return tell_leak(found);
   report_.replay = replay_by(token_of(least), least);
   const bool is_shortest = report_.replay.size() <= token_length_max;
@@ -218,14 +218,14 @@ void Campaign::tell(const Found& found) {
   text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_line(checks_);
 }
 
-// Of a schedule that is written out nothing else is run, so that a debugger stops in no other; but which memory tasks
-// share is learned.
+// For a written-out schedule no other is run, so that a debugger stops in this one only; but shared memory must be
+// learned.
 Outcome Campaign::play(const Token& token) {
   if (!token.strategy.empty() || races::present()) (void)take_profile(body_, profile_);
   return exploration::play(body_, token, profile_);
 }
 
-// Of a token's run: the event before which that decision is made.
+// The event of a token's run before which that decision is made.
 std::string Campaign::event_at(const Token& token, std::uint32_t decision) {
   std::string text;
   Played played{.deviations = token.deviations};
@@ -237,7 +237,7 @@ std::string Campaign::event_at(const Token& token, std::uint32_t decision) {
   return text;
 }
 
-// What is wrong with it as the run of that token; empty if nothing is.
+// The difference of the run from the token's; empty if there is none.
 std::string Campaign::difference_to(const Token& token, const Outcome& outcome) {
   const std::vector<Decision> decisions = body_.explorer().schedule().decisions;
   for (const Deviation& deviation : token.deviations) {
@@ -245,7 +245,7 @@ std::string Campaign::difference_to(const Token& token, const Outcome& outcome) 
     if (deviation.decision >= decisions.size())
       return which + " was never come to: it left the record before its end, behind event " +
              std::to_string(outcome.events) + ", at " + to_string(outcome.end_time) + " s";
-    // An explorer that does not have the alternative takes the last that there is, or what is usual.
+    // Without that alternative, the explorer takes the last or the usual one.
     if (deviation.chosen >= decisions[deviation.decision].count)
       return which + " has only " + std::to_string(decisions[deviation.decision].count) +
              " alternatives, none of the number " + std::to_string(deviation.chosen) + ": it left the record at " +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One call of explore(): schedule after schedule of one body, until one fails or it is enough.
+// One call of explore(): runs schedules of one body until one fails or a limit is reached.
 #pragma once
 
 #include <unordered_set>
@@ -17,19 +17,19 @@ namespace waitpoint::exploration {
 
 class Campaign {
  public:
-  /// `call` counts the campaigns of one test.
+  /// `call` numbers the campaigns of one test.
   Campaign(ForeignChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call);
 
   ExploreReport run();
-  /// The schedule of `token` alone, that of the options.
+  /// Runs only the schedule of `token`, which is that of the options.
   ExploreReport replay(const Token& token);
 
  private:
   struct Found {
     Failure failure;
     Token token;
-    std::string which;        // schedule, in words
-    bool is_default = false;  // its order
+    std::string which;        // name of the schedule
+    bool is_default = false;  // the default order
   };
 
   bool begins_well();
@@ -54,7 +54,7 @@ class Campaign {
   Profile profile_;
   Supervisor supervisor_;
   std::uint64_t usual_digest_ = 0;  // of the default schedule
-  Timeline usual_;                  // when it was run first
+  Timeline usual_;                  // its first run
   std::unordered_set<std::uint64_t> seen_;
   ExploreReport report_;
 };

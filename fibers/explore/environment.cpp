@@ -35,7 +35,7 @@ void take(const char* name, Number& number, Zero zero, const char* expected) {
     throw BadInput(name, std::string("expected ") + expected + ", found '" + text + "'");
 }
 
-// Before anything is run: what a campaign of hours found must not be lost. It is left as it was found.
+// Checked before the first run: the results of a campaign of hours must not be lost. An existing file is unchanged.
 void check_can_be_written(const char* name) {
   const std::string file = variable(name);
   if (file.empty()) return;
@@ -61,7 +61,7 @@ void check_replayed() {
          "': no test that was run has such a call");
 }
 
-// As a shell takes it for one.
+// Quoted for a shell where necessary.
 std::string as_word(const std::string& word) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%^";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person asks of a test that explores, without editing it: WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT,
+// Options of exploring tests set by the environment: WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT,
 // _SCHEDULE_LIMIT, _REPLAY and _TRACE.
 #pragma once
 
@@ -9,24 +9,24 @@
 
 namespace waitpoint::exploration {
 
-/// `options`, but for what the environment says. Throws BadInput, which names the variable.
+/// `options`, overridden by the environment. Throws BadInput, which names the variable.
 ExploreOptions with_environment(ExploreOptions options);
 
-/// Where the environment asks for something, ends the program with a line that says what is wrong with it, and status
-/// 2: it is whoever started the program, and no test, that is at fault.
+/// If the environment sets options, ends the program with a line for the error and status 2: the user's environment is
+/// at fault, not a test.
 void refuse_environment(const BadInput& input);
 
-/// Whether WAITPOINT_REPLAY is set: a token is whoever started the program's, not the test's own.
+/// True if WAITPOINT_REPLAY is set: the token is then the user's, not the test's own.
 bool asks_for_replay();
 
-/// The run that WAITPOINT_REPLAY asks for is about to be replayed. A program that ends without, says so and ends with
-/// status 2.
+/// Call this before replaying the run of WAITPOINT_REPLAY. A program that ends without such a call reports it and exits
+/// with status 2.
 void replay_was_come_to();
 
-/// The file for a trace of what failed; empty where none is asked for.
+/// The file for a trace of the failure; empty if none is requested.
 std::string trace_file();
 
-/// The command that runs this program again, with its arguments, and of its tests the running one alone.
+/// The command that reruns this program with its arguments, restricted to the running test.
 std::string command_line(const ForeignChecks* checks);
 
 }  // namespace waitpoint::exploration

@@ -19,26 +19,26 @@ constexpr std::size_t events_shown = 40;
 
 struct Crossing {
   std::size_t decision;
-  std::uint32_t instead;              // with which it passes
+  std::uint32_t instead;              // the alternative that passes
   std::vector<Decision> passing;      // all decisions of that run
   std::optional<EventPair> reversed;  // the pair of events whose order differs
 };
 
-// What of the alternatives that pass at one decision shows best what mattered: the one that passes by the order of the
-// two events between which is chosen, then of one of them.
+// Ranks the passing alternatives of one decision by how well they explain the failure: best is the one that passes by
+// reversing the two events between which is chosen, then one of them.
 bool is_plainer(const Crossing& a, const Crossing& b) {
   if (!a.reversed || !b.reversed) return a.reversed && !b.reversed;
   return a.reversed->indirection < b.reversed->indirection;
 }
 
-// From the end backwards: where another choice, and the default order from there on, passes.
+// Searches backwards from the end: a different choice, followed by the default order, that passes.
 std::optional<Crossing> last_crossing(Body& body, const Failure& failure, Effort effort) {
   const std::vector<Decision>& decisions = failure.schedule.decisions;
   Fifo rest;
   std::optional<Crossing> best;
   for (std::size_t i = decisions.size(); i-- > 0 && !best;) {
     std::vector<Decision> changed(decisions.begin(), decisions.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-    // That a wait might have ended for nothing explains nothing.
+    // The absence of a spurious wake-up explains nothing.
     if (decisions[i].choice == Choice::spurious && !decisions[i].is_switch()) continue;
     for (std::uint32_t other = 0; other < decisions[i].count; ++other) {
       if (other == decisions[i].chosen) continue;
@@ -55,7 +55,7 @@ std::optional<Crossing> last_crossing(Body& body, const Failure& failure, Effort
   return best;
 }
 
-// An event, in words and with the call stack of its task when it came to it.
+// An event as text, with its task's call stack.
 struct ToldEvent {
   std::string words;
   sync::ReturnAddresses stack;
@@ -77,7 +77,7 @@ ToldEvent tell_event(Body& body, std::span<const Decision> decisions, const Even
   return told;
 }
 
-// The two events whose order differs, or that there are none.
+// The two events in reversed order, or a statement that there are none.
 std::string describe_pair(Body& body, const Failure& failure, const Crossing& crossing) {
   if (!crossing.reversed) return "\n" + no_pair_in_words();
   const ToldEvent pair[] = {tell_event(body, failure.schedule.decisions, crossing.reversed->failing),
@@ -98,7 +98,7 @@ const char* description(Choice choice) {
   return "";
 }
 
-// In lines; empty where there is none.
+// As lines; empty if there is none.
 std::string describe_last_crossing(Body& body, const Failure& failure, Effort effort) {
   const std::optional<Crossing> crossing = last_crossing(body, failure, effort);
   if (!crossing) return "";
@@ -124,7 +124,7 @@ std::string describe_last_crossing(Body& body, const Failure& failure, Effort ef
   return text + describe_pair(body, failure, *crossing);
 }
 
-// Waits that end for nothing, waiters out of their order, costs: what no order of tasks shows.
+// Spurious wake-ups, waiters out of order, costs: switches that the order of tasks does not show.
 std::string describe_other_switches(Body& body, const Schedule& schedule) {
   std::string text;
   std::size_t shown = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a schedule failed: the last choice from which it could still have passed, and the two events whose order that
-// was, with the call stacks of both; and what each task did.
+// Explains a failed schedule: the last choice from which it could still have passed, the two events that this choice
+// reorders, with both call stacks, and the timeline of each task.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace waitpoint::exploration {
 
-/// The same failure with the places in the source where tasks are, which takes a second.
+/// The same failure with the tasks' source locations, which take a second to look up.
 Failure with_places(Body& body, const Failure& failure);
 
-/// In words, some lines: how many switches it has, and which of them are none between tasks; the last choice from which
-/// it could still have passed, where one was found with that effort; and the last events.
+/// The explanation, in some lines: the number of switches, and those that are not between tasks; the last choice from
+/// which it could still have passed, if one was found within `effort`; and the last events.
 std::string explain(Body& body, const Failure& failure, Effort effort);
 
 }  // namespace waitpoint::exploration

@@ -9,7 +9,7 @@
 namespace waitpoint {
 namespace {
 
-// The calls within one test, or within a program that has none: what a token tells them apart by.
+// Numbers the calls within a test, or a program without tests: a token stores this number.
 std::uint32_t count_call(const std::string& test) {
   static std::string last;
   static std::uint32_t calls = 0;
@@ -27,7 +27,7 @@ void check_can_be_meant(const ExploreOptions& options) {
 
 ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<void()> body, ExploreOptions options) {
   const std::uint32_t call = count_call(checks != nullptr ? checks->name() : "");
-  check_can_be_meant(options);  // before anything is run
+  check_can_be_meant(options);  // before the first run
   if (options.replay.empty()) return exploration::Campaign(checks, std::move(body), options, call).run();
   const exploration::Token token = exploration::read_token(options.replay);
   if (token.call == 0)
@@ -36,7 +36,7 @@ ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<voi
     exploration::replay_was_come_to();
     return exploration::Campaign(checks, std::move(body), options, call).replay(token);
   }
-  options.iterations = 0;  // the token is another call's: this one has to be passed to come there
+  options.iterations = 0;  // the token is for a later call: this one runs nothing
   return exploration::Campaign(checks, std::move(body), options, call).run();
 }
 

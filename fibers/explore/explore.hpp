@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same test body, run under many schedules, in one process: does any of them fail?
+// Runs a test body under many schedules in one process, until one fails.
 //
 //   #include <gtest/gtest.h>            // before this one: its expectations are caught, and reported once
 //   #include <waitpoint/fibers/explore/explore.hpp>
@@ -9,13 +9,13 @@
 //     EXPECT_TRUE(report.passed) << report;
 //   }
 //
-// The body is run from its beginning again and again, within the same process: what it captures or finds in static
-// variables must be as it was before. A schedule fails by a deadlock, by a lack of progress, by check(), by an
-// exception that escapes from a task, by a GoogleTest expectation; a crash or an abort ends the process, and still says
-// how to repeat it, and so does what blocks for real or loops for ever.
+// The body is run repeatedly from its beginning within the same process: captured and static variables must have the
+// same values at each start. A schedule fails by a deadlock, by a lack of progress, by check(), by an exception that
+// escapes from a task, or by a GoogleTest expectation. A crash, an abort, a real blocking call or an endless loop ends
+// the process, after printing the replay line.
 //
-// Computing takes no virtual time unless the body says so: then all schedules are tried that the order of primitives
-// allows. With compute(least, greatest) between them, only those that the times allow.
+// By default computing takes no virtual time: then all schedules that the order of primitives allows are possible. With
+// compute(least, greatest) between primitives, only those within the declared times.
 #pragma once
 
 #include <functional>
@@ -29,14 +29,13 @@
 
 namespace waitpoint {
 
-/// Tries `body` under schedule after schedule until one fails, or `options` say that it is enough. BadInput for options
-/// that cannot be meant; what the environment asks for and cannot be meant ends the program with a line and status 2.
-/// A token in the options whose run is another one now fails the report, as it is the test's own.
-/// To be called from outside any task.
+/// Runs `body` under different schedules until one fails, or a limit of `options` is reached. Throws BadInput for
+/// invalid options; invalid environment variables end the program with a line and status 2. A token in the options that
+/// no longer matches its run is a failure of the report, as it is the test's own. Must be called outside any task.
 ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<void()> body,
                            const ExploreOptions& options);
 
-/// As above, with the expectations of GoogleTest where that was included before.
+/// As above, with GoogleTest's expectations if its header was included before.
 static inline ExploreReport explore(std::function<void()> body, const ExploreOptions& options = {}) {
 #ifdef GTEST_TEST
   exploration::GoogleTestChecks checks;
@@ -46,7 +45,7 @@ static inline ExploreReport explore(std::function<void()> body, const ExploreOpt
 #endif
 }
 
-/// Within a task: the run fails here unless `holds`.
+/// Within a task: fails the run here if `holds` is false.
 void check(bool holds, const char* message = "a check failed", const char* file = __builtin_FILE(),
            int line = __builtin_LINE());
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is asked of one call of explore().
+// The options of one call of explore().
 #pragma once
 
 #include <chrono>
@@ -10,19 +10,20 @@
 
 namespace waitpoint {
 
-/// Each is replaced by the environment's WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT and _SCHEDULE_LIMIT
-/// (seconds), _REPLAY where that is set.
+/// Overridden by the environment's WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT and _SCHEDULE_LIMIT (seconds),
+/// _REPLAY where set.
 struct ExploreOptions {
   std::string strategy = "portfolio";
   std::uint64_t seed = 1;
-  std::uint64_t iterations = 10'000;    ///< schedules, at most
-  double time_limit_s = 0;              ///< of the wall clock; 0: none
-  std::uint32_t schedule_limit_s = 60;  ///< of one: what takes longer ends the program; 0: none does
-  std::string replay = {};              ///< a token: that schedule alone
-  bool races = true;                    ///< a data race is a failure, though it did no harm; see races/races.hpp
-  bool minimize = true;                 ///< what failed, to the fewest switches that still fail
-  Time until = Time() + std::chrono::hours(1);  ///< a schedule that has not ended then fails
-  std::uint32_t steps_max = 100'000;            ///< switch points at one instant, after which there is no progress
+  std::uint64_t iterations = 10'000;    ///< greatest number of schedules
+  double time_limit_s = 0;              ///< wall-clock time of the campaign; 0: no limit
+  std::uint32_t schedule_limit_s = 60;  ///< wall-clock time of one schedule, after which the program ends; 0: no limit
+  std::string replay = {};              ///< a token: runs that schedule only
+  bool races = true;                    ///< a data race is a failure, even without an effect; see races/races.hpp
+  bool minimize = true;                 ///< reduces a failing schedule to the fewest switches that still fail
+  Time until = Time() + std::chrono::hours(1);  ///< virtual time at which an unfinished schedule fails
+  std::uint32_t steps_max = 100'000;            ///< greatest number of switch points at one instant; more is no
+                                                ///< progress
 };
 
 }  // namespace waitpoint

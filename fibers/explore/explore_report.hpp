@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one call of explore() came to.
+// The result of one call of explore().
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@ namespace waitpoint {
 
 struct ExploreReport {
   bool passed = false;
-  std::string text;  ///< of a failure: what happened, where, why, and the line that repeats it; else empty
+  std::string text;  ///< of a failure: its description, location, explanation and replay line; else empty
   std::uint64_t schedules = 0;
   std::uint64_t distinct = 0;
-  bool complete = false;   ///< all there are were tried, as an exhaustive strategy knows, but for spurious wake-ups
-  std::string scope = {};  ///< where an exhaustive strategy came to its end: of what it tried all, in words
-  std::size_t leaked_bytes = 0;  ///< of the heap, that the default schedule leaves in use each time
+  bool complete = false;         ///< an exhaustive strategy has tried all schedules, except spurious wake-ups
+  std::string scope = {};        ///< after an exhaustive search: the space searched, as text
+  std::size_t leaked_bytes = 0;  ///< heap bytes leaked by each default schedule
   double seconds = 0;
-  std::uint64_t failed_at = 0;     ///< the number of the schedule that failed
-  exploration::Schedule schedule;  ///< that failed; the least that was found
-  std::string replay;              ///< the token of the failure
+  std::uint64_t failed_at = 0;     ///< number of the failing schedule
+  exploration::Schedule schedule;  ///< the smallest failing schedule found
+  std::string replay;              ///< token of the failure
 };
 
 std::ostream& operator<<(std::ostream& out, const ExploreReport& report);

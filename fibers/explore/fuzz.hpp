@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Schedules from a fuzzer: its input says what is chosen, a byte for each choice, and it looks for the inputs that come
-// to new code. For libFuzzer, whose whole program this is:
+// Schedules from a fuzzer: each byte of the input makes a choice, and the fuzzer searches for inputs that reach new
+// code. A complete program for libFuzzer:
 //
 //   extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
 //     static waitpoint::fuzz_target target([] { /* threads, mutexes, ...; waitpoint::check(...); */ });
@@ -20,8 +20,8 @@ class fuzz_target {
  public:
   explicit fuzz_target(std::function<void()> body);
 
-  /// Runs the body once, by these bytes; what they leave open is the default order. A failure is told, and ends the
-  /// process as fuzzers expect it: by abort(). Else 0.
+  /// Runs the body once by these bytes, then in the default order. A failure is printed, and ends the process by
+  /// abort(), as fuzzers expect. Else returns 0.
   int run(const std::uint8_t* data, std::size_t size);
 
  private:

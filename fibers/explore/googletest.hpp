@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expectations of GoogleTest that fail within an explored body are caught: they make its schedule fail, and are shown
-// once, with the report. A body that skips the test (GTEST_SKIP) in the default order, which is the first, skips it; in
-// another schedule it only leaves. Comes with explore.hpp where GoogleTest was included before.
+// Catches failing GoogleTest expectations within an explored body: they make its schedule fail, and are shown once,
+// with the report. A body that skips the test (GTEST_SKIP) in the default order, which runs first, skips it; in another
+// schedule it merely returns. Included by explore.hpp if GoogleTest was included before.
 #pragma once
 
 #include <gtest/gtest-spi.h>
@@ -48,7 +48,7 @@ class GoogleTestChecks final : public ForeignChecks {
   std::string option_for(const std::string& name) const override { return "--gtest_filter=" + name; }
 
  private:
-  // Comes before the printer of results, of which the last word would else be that all have passed.
+  // Runs before the printer of results, whose last line would otherwise claim that all tests passed.
   class Ends final : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
       if (testing::UnitTest::GetInstance()->test_to_run_count() == 1) tests_are_over();
@@ -56,13 +56,13 @@ class GoogleTestChecks final : public ForeignChecks {
     void OnTestIterationEnd(const testing::UnitTest&, int) override { tests_are_over(); }
   };
 
-  // Told to the test itself.
+  // Forwards the skip to the test itself.
   static void skip(const testing::TestPartResult& result) {
     GTEST_SKIP() << (result.file_name() != nullptr ? result.file_name() : "?") << ":" << result.line_number() << ": "
                  << result.message();
   }
 
-  // From the program's start, as a filter may leave no test that explores.
+  // Installed at program start, since a filter may leave no exploring test.
   inline static const bool listens_ = (testing::UnitTest::GetInstance()->listeners().Append(new Ends), true);
 
   std::uint64_t runs_ = 0;

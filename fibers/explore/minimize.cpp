@@ -11,7 +11,7 @@
 namespace waitpoint::exploration {
 namespace {
 
-// Schedules with so many switches are tried exhaustively.
+// Schedules with up to this many switches are searched exhaustively.
 constexpr std::size_t searched_max = 2;
 
 // The first line without the task and the time of an escaped exception.
@@ -26,7 +26,7 @@ class Minimizer {
   Minimizer(Body& body, const Failure& found, Effort effort) : body_(body), least_(found), effort_(effort) {}
 
   Failure run() {
-    // As switches by tasks and events it may come to another run: then it stays as it was found.
+    // Expressed as switches of tasks and events it may be another run: then it stays as it was found.
     if (const auto again = fails_with(least_.schedule.switches)) least_ = *again;
     do leave_out_switches();
     while (switches() > searched_max && replace_two_by_one());
@@ -61,8 +61,7 @@ class Minimizer {
               });
   }
 
-  // One switch anywhere in the place of two: where none can be left out, one that comes earlier may do the work of
-  // both.
+  // Replaces two switches by one anywhere: where none can be left out, an earlier one may have the effect of both.
   bool replace_two_by_one() {
     const std::vector<Switch> kept = least_.schedule.switches;
     for (std::size_t i = 0; i + 1 < kept.size(); ++i)
@@ -91,7 +90,7 @@ class Minimizer {
     return false;
   }
 
-  // All schedules that are `prefix` up to `from`, and then differ `count` times from the default order.
+  // All schedules that follow `prefix` up to `from`, and then differ `count` times from the default order.
   std::optional<Failure> search(std::vector<Decision> prefix, std::size_t from, std::size_t count) {
     prefix.resize(from);
     if (const auto failed = failing({.prefix = prefix})) return failed;
@@ -122,7 +121,7 @@ class Minimizer {
 bool is_same_failure(const Outcome& a, const Outcome& b) {
   if (a.passed() || b.passed()) return false;
   if (a.end != b.end) return false;
-  // What a deadlock or a lack of progress says names places and times, which differ from schedule to schedule.
+  // Reports of deadlocks and of no progress name places and times, which differ from schedule to schedule.
   if (a.end != RunEnd::ended) return true;
   return words_of(a.failure) == words_of(b.failure);
 }

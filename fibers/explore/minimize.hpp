@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A failing schedule with as few switches away from the default order as can be found: what is left is what matters.
+// Minimises a failing schedule: searches for the fewest switches away from the default order that still fail.
 //
-// First switches are left out as long as the rest still fails in the same way (leave_out.hpp), and replaced, two by
-// one, wherever that one may be; then all schedules with fewer switches than are left are tried, with one, with two, as
-// far as the budget goes.
+// First, switches are left out while the rest still fails in the same way (leave_out.hpp), and pairs are replaced by a
+// single switch at any place; then all schedules with fewer switches are tried, with one, then two, within the budget.
 #pragma once
 
 #include <algorithm>
@@ -13,30 +12,30 @@
 
 namespace waitpoint::exploration {
 
-/// Where it failed, and how: the schedule, and what it came to.
+/// A failing schedule, and its result.
 struct Failure {
   Schedule schedule;
   Outcome outcome;
 };
 
-/// Whether two outcomes are the same failure: of one kind, and where it has words of its own, in the same words.
+/// True if two outcomes are the same failure: of the same kind and, for failures with a message, with the same message.
 bool is_same_failure(const Outcome& a, const Outcome& b);
 
-/// How much may be spent on running a body. Not in time, so that the same failure always comes to the same report.
+/// The budget for runs of a body. Not in time, so that a failure always gets the same report.
 struct Effort {
   std::uint64_t runs;
-  std::uint64_t steps = 30'000'000;  ///< switch points in all: some seconds
+  std::uint64_t steps = 30'000'000;  ///< switch points in total: some seconds
 
-  /// Whether there is enough left for another run.
+  /// True if there is budget for another run.
   bool is_left() const { return runs > 0 && steps > 0; }
-  /// A run was done.
+  /// Charges one run.
   void spend(const Body& body) {
     --runs;
     steps -= std::min<std::uint64_t>(steps, body.explorer().steps());
   }
 };
 
-/// What it returns fails as `found` does.
+/// The result fails as `found` does.
 Failure minimize(Body& body, const Failure& found, Effort effort);
 
 }  // namespace waitpoint::exploration

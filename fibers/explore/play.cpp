@@ -13,7 +13,7 @@ Outcome play(Body& body, const Token& token, const Profile& profile) {
     return body.run(rest, {.deviations = token.deviations});
   }
   const std::unique_ptr<Strategy> strategy = make_strategy(token.strategy);
-  // An exhaustive one comes to a schedule by those before it.
+  // An exhaustive strategy reaches a schedule only through those before it.
   for (std::uint64_t number = strategy->is_exhaustive() ? 0 : token.number;; ++number) {
     strategy->begin(number, Draws(token.seed, token.strategy, number), profile);
     const Outcome outcome = body.run(*strategy);

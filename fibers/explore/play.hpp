@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A token's schedule, once more.
+// Replays a token's schedule.
 #pragma once
 
 #include "fibers/explore/body.hpp"
@@ -8,8 +8,8 @@
 
 namespace waitpoint::exploration {
 
-/// Runs the body by that token; by one of a strategy with the body's profile. Throws BadInput if the strategy does not
-/// come as far.
+/// Runs the body by that token; a token of a strategy needs the body's profile. Throws BadInput if the strategy ends
+/// before the token's number.
 Outcome play(Body& body, const Token& token, const Profile& profile);
 
 }  // namespace waitpoint::exploration

@@ -9,7 +9,7 @@ namespace waitpoint::exploration {
 std::optional<std::uint64_t> ticks_of(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string text;
-  std::getline(file, text, ')');  // the number and the name, which may have blanks
+  std::getline(file, text, ')');  // skips the process id and the name, which may contain blanks
   char state = 0;
   file >> state;
   constexpr int fields_between = 10;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether another process computes or waits: by what the system counts of it.
+// Tells a computing process from a waiting one, by the system's accounting.
 #pragma once
 
 #include <sys/types.h>
@@ -9,10 +9,10 @@
 
 namespace waitpoint::exploration {
 
-/// So long may a process of which nothing but computing is expected compute nothing.
+/// The longest time without CPU usage before a process that should compute counts as blocked.
 inline constexpr std::uint32_t idle_s_max = 10;
 
-/// The time that `process` has computed, in the system's ticks; nothing where it is stopped, by a debugger for example.
+/// The CPU time of `process`, in the system's ticks; none if it is stopped, for example by a debugger.
 std::optional<std::uint64_t> ticks_of(pid_t process);
 
 }  // namespace waitpoint::exploration

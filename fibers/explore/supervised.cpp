@@ -14,10 +14,10 @@
 namespace waitpoint::exploration {
 namespace {
 
-// After so many seconds a schedule is told to go on for long.
+// A schedule that takes longer is reported as long.
 constexpr std::uint32_t long_s = 10;
 constexpr int second_ms = 1000, patience_ms = 2000, fresh_ms_max = 10'000;
-// A status that no body is likely to end a process with.
+// An exit status that no body is likely to use.
 constexpr int came_to_its_end = 87;
 
 class Watchman {
@@ -42,7 +42,7 @@ class Watchman {
     return false;
   }
 
-  // In a process of its own, as this one is: it has never run the body.
+  // In a child of this process, which has never run the body.
   void run_fresh(const std::string& token) {
     const pid_t child = fork();
     if (child == 0) {
@@ -56,7 +56,7 @@ class Watchman {
       if (waited_ms == fresh_ms_max) kill(child, SIGKILL);
       usleep(1000);
     }
-    // Said last of all: the next request may follow at once.
+    // Stored last: the next request may follow at once.
     const bool is_known = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == came_to_its_end;
     supervised_.fresh = is_known ? Fresh::known : Fresh::unknown;
   }
@@ -114,7 +114,7 @@ class Watchman {
   Supervised& supervised_;
   const Supervision& supervision_;
   std::uint64_t turn_ = 0, ticks_ = 0;
-  std::uint32_t seconds_ = 0, idle_s_ = 0;  // of this turn; without computing
+  std::uint32_t seconds_ = 0, idle_s_ = 0;  // on the present turn; without CPU usage
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a process that explores says of itself, in memory that it shares with the one that supervises it.
+// The state of the exploring process, in memory that it shares with its supervisor.
 #pragma once
 
 #include <sys/types.h>
@@ -16,39 +16,38 @@ namespace waitpoint::exploration {
 
 enum class Doing : std::uint8_t { nothing, default_schedule, schedule, replay, minimizing };
 
-/// A run in a process that has run nothing before.
+/// The state of a requested run in a fresh process, one that has not run the body before.
 enum class Fresh : std::uint8_t { not_asked, asked, known, unknown };
 
-/// What the explored process writes into the pipe: it has ended well; a token follows, up to the end of the line, whose
-/// run it wants to know from a fresh process.
+/// Messages of the explored process in the pipe: a normal end; a request to run a token, which follows up to the end of
+/// the line, in a fresh process.
 inline constexpr char it_is_done = '\0', asks_for_fresh = 'F';
 
 struct Supervised {
   std::atomic<std::uint64_t> number;  ///< of the schedule
-  std::atomic<std::uint64_t> turn;    ///< another one for each run that begins
+  std::atomic<std::uint64_t> turn;    ///< incremented at the start of each run
   std::atomic<Doing> doing;
   std::atomic<bool> done;
-  std::atomic<Fresh> fresh;                  ///< what became of the run that was asked for last
-  std::atomic<std::uint64_t> fresh_outcome;  ///< what it came to
-  char failure[400];                         ///< of what is minimised
+  std::atomic<Fresh> fresh;                  ///< the state of the last requested fresh run
+  std::atomic<std::uint64_t> fresh_outcome;  ///< its result
+  char failure[400];                         ///< the failure being minimised
 };
 
-/// What the supervisor knows from the beginning.
+/// The supervisor's constant parameters.
 struct Supervision {
   pid_t explored;
-  Token token;                                     ///< but for the number; of a replay, its own
-  std::string replay, after;                       ///< the line that repeats a schedule, around its token
-  std::function<std::uint64_t(const Token&)> run;  ///< what a token's run came to, as a number
-  std::uint32_t limit_s;  ///< of the wall clock: a schedule that takes longer is ended; 0: none is
+  Token token;                                     ///< without the number; for a replay, complete
+  std::string replay, after;                       ///< the replay line's parts before and after the token
+  std::function<std::uint64_t(const Token&)> run;  ///< the result of a token's run, as a number
+  std::uint32_t limit_s;                           ///< wall-clock limit of a schedule; 0: none
 };
 
-/// In the supervising process: waits for the explored one to end, which closes the other end of `pipe`, or says that it
-/// is done. Tells of a schedule that goes on for long, ends the process where one does for too long or waits for
-/// something that is not simulated, and tells within which one the process has ended. Carries out runs that are asked
-/// for.
+/// Runs in the supervising process: waits until the explored one ends, which closes the other end of `pipe`, or reports
+/// a normal end. Reports a schedule that takes long; ends the process if one exceeds the limit or waits for something
+/// that is not simulated; reports the schedule in which the process ended. Executes requested fresh runs.
 [[noreturn]] void supervise(int pipe, Supervised& supervised, const Supervision& supervision);
 
-/// Whoever sends it this signal wants it to end with status 1.
+/// The signal that makes the explored process end with status 1.
 inline constexpr int end_signal = SIGXCPU;
 
 }  // namespace waitpoint::exploration

@@ -15,7 +15,7 @@ namespace waitpoint::exploration {
 
 namespace {
 
-// Blocked wherever it is, it can do no more.
+// The process may be blocked anywhere: nothing else is safe.
 void end_with_status_1(int signal, siginfo_t* from, void*) {
   if (from->si_code == SI_USER) _exit(1);
   std::signal(signal, SIG_DFL);
@@ -46,7 +46,7 @@ Supervisor::Supervisor(Supervision supervision) {
   shared_ = static_cast<Supervised*>(memory);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return;
-  std::fflush(nullptr);  // or what is buffered would be written twice
+  std::fflush(nullptr);  // or buffered output would be written twice
   process_ = fork();
   if (process_ == 0) {
     close(ends[1]);
@@ -61,7 +61,7 @@ Supervisor::Supervisor(Supervision supervision) {
   if (process_ > 0) sigaction(end_signal, &ending, &before_);
 }
 
-// A test program that ends within a schedule has not passed, whatever status the body would have it leave with.
+// A test program that exits within a schedule has not passed, whatever exit status the body gives.
 void Supervisor::refuse_exit() {
   if (latest_ == nullptr || latest_->shared_ == nullptr || latest_->shared_->doing == Doing::nothing) return;
   if (latest_->explored_ != getpid()) return;  // a process that the body forked
@@ -72,7 +72,7 @@ void Supervisor::refuse_exit() {
 Supervisor::~Supervisor() {
   if (latest_ == this) latest_ = outer_;
   if (shared_ != nullptr) shared_->done = true;
-  // Not the end of the pipe alone: processes that a debugger or the body forked may have it open still.
+  // The pipe's end of file is not enough: processes forked by a debugger or the body may keep it open.
   if (pipe_ >= 0) {
     (void)!write(pipe_, &it_is_done, 1);
     close(pipe_);
@@ -117,7 +117,7 @@ std::optional<std::uint64_t> Supervisor::outcome_when_fresh(const Token& token) 
     at += static_cast<std::size_t>(written);
   }
   while (shared_->fresh == Fresh::asked)
-    if (usleep(100); waitpid(process_, nullptr, WNOHANG) != 0) return std::nullopt;  // nobody is there
+    if (usleep(100); waitpid(process_, nullptr, WNOHANG) != 0) return std::nullopt;  // the supervisor has ended
   return shared_->fresh == Fresh::known ? std::optional(shared_->fresh_outcome.load()) : std::nullopt;
 }
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sees to it that a schedule which takes the whole process down still says how to repeat it: a process of its own,
-// which does nothing but wait for the explored one to end, in a session of its own, so that what kills a whole process
-// group does not find it. What it would have to say lies in memory that both share, and is written there before each
-// schedule.
+// Prints the replay line of a schedule that takes the whole process down: a separate process that only waits for the
+// explored one to end, in a session of its own, so that a signal to the process group does not reach it. The data for
+// its report is in shared memory, written before each schedule.
 //
-// It also tells of a schedule that goes on for long, and ends the process, with status 1, where that is too long or the
-// schedule waits for something that is not simulated. A body that calls exit() does not end the process as if all were
-// well.
+// It also reports a schedule that takes long, and ends the process, with status 1, if a schedule exceeds the limit or
+// waits for something that is not simulated. A body that calls exit() does not end the process with success.
 //
 //   explored process   ===|schedule 1|===|schedule 2|== killed
-//   supervisor             ............................ waits ... prints the line that repeats schedule 2
+//   supervisor             ............................ waits ... prints the replay line of schedule 2
 #pragma once
 
 #include <sys/types.h>
@@ -25,38 +23,38 @@ namespace waitpoint::exploration {
 
 class Supervisor {
  public:
-  /// Of this process, whatever `supervision` says. Where no process can be had there is no supervision, and none under
-  /// a debugger, which sees the end itself and often is the cause of it.
+  /// Supervises this process, for any `supervision.explored`. Without supervision if no process can be forked, and
+  /// under a debugger, which sees the end itself and often causes it.
   explicit Supervisor(Supervision supervision);
-  /// The explored process goes on: nothing is printed.
+  /// Ends the supervision; the explored process continues, and nothing is printed.
   ~Supervisor();
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// The default schedule begins, maybe again.
+  /// A run of the default schedule begins.
   void begin_default();
   /// Schedule `number` begins.
   void begin(std::uint64_t number);
-  /// The schedule of the token that is supervised begins.
+  /// The schedule of the supervised token begins.
   void begin_replay();
-  /// Schedule `number` has failed, in these words, and is cut down and explained by running others.
+  /// Schedule `number` has failed with `failure`; its minimisation begins.
   void begin_minimizing(std::uint64_t number, const std::string& failure);
-  /// What the run of `token` comes to in a process that was forked before anything was run; nothing where it is not
-  /// known: there is no supervision, or the process did not come to the end.
+  /// The result of `token`'s run in a process forked before the first run; none if it is unknown: without supervision,
+  /// or if that process did not finish.
   std::optional<std::uint64_t> outcome_when_fresh(const Token& token);
-  /// Nothing of a schedule is under way.
+  /// No schedule is running.
   void pause();
 
  private:
   void begin(Doing doing);
   static void refuse_exit();
-  static Supervisor* latest_;  // for the handler of exit(), which is told nothing
+  static Supervisor* latest_;  // for the exit() handler, which has no argument
 
   Supervised* shared_ = nullptr;
   int pipe_ = -1;
   pid_t explored_ = -1;
   pid_t process_ = -1;
-  Supervisor* outer_ = nullptr;  // whose body explores in its turn
+  Supervisor* outer_ = nullptr;  // the supervisor of an enclosing exploration
   struct sigaction before_ {};   // of end_signal
 };
 

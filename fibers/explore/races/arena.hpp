@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory of the race runtime, straight from the system: it sees the program's malloc, so it must not call it.
+// Memory of the race runtime, allocated directly from the system: the runtime intercepts the program's malloc, so it
+// must not call it.
 //
 //   Arena   pieces that live until the end of a run: clocks, synchronisation points. Addresses are stable.
 //   Table   a growing array of plain records by index. Its address changes when it grows.
@@ -30,7 +31,7 @@ class Arena {
     used_ += bytes;
     return piece;
   }
-  /// All pieces are free again.
+  /// Frees all pieces.
   void reset() {
     at_ = first_;
     used_ = 0;
@@ -65,7 +66,7 @@ class Table {
  public:
   T& operator[](std::uint32_t index) { return records_[index]; }
   std::uint32_t size() const { return size_; }
-  /// The new one's index; its contents are old or zero.
+  /// Adds an element and returns its index; its contents are old or zero.
   std::uint32_t add() {
     if (size_ == room_) grow();
     return size_++;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The functions that g++ and clang++ call for atomic operations and fences under -fsanitize=thread
+// (tsan_interface_atomic.h).
 //
-// What g++ and clang++ make of atomic operations and fences under -fsanitize=thread (tsan_interface_atomic.h).
-//
-// The operation itself is always the strongest: all tasks run in one thread of the system. What it orders is taken from
-// the order that was asked for. Values that only a weaker memory could show are not explored.
+// The operation itself is always sequentially consistent: all tasks run in one OS thread. Its happens-before edges
+// follow the requested order. Values that only a weaker memory could show are not explored.
 #include <cstddef>
 #include <cstdint>
 
@@ -16,7 +16,7 @@ using waitpoint::kernel::Operation;
 using waitpoint::races::Detector;
 namespace kind = waitpoint::races::kind;
 
-// Before an atomic operation: its switch point, and its access. False where nothing is watched.
+// Before an atomic operation: its switch point and its access. False while accesses are not watched.
 inline bool access(const volatile void* at, std::uint32_t size, bool writes, const void* place, Operation operation) {
   Detector& detector = Detector::the();
   if (!detector.watching()) {
@@ -34,10 +34,10 @@ inline bool access(const volatile void* at, std::uint32_t size, bool writes, con
 
 inline const void* plain(const volatile void* at) { return const_cast<const void*>(at); }
 
-// Hardware lock elision is asked for in higher bits.
+// Higher bits request hardware lock elision.
 inline int order_of(int asked) { return asked & 0x7FFF; }
 
-// The operations themselves. For 16 bytes g++ would call a library; the old builtin is the instruction.
+// The operations themselves. For 16 bytes g++ would call a library; the old builtin compiles to the instruction.
 template <class T>
 inline T value_of(const volatile T* at) {
   if constexpr (sizeof(T) == 16)
@@ -46,7 +46,7 @@ inline T value_of(const volatile T* at) {
     return __atomic_load_n(at, __ATOMIC_SEQ_CST);
 }
 
-// The value before; `desired` is stored if that is what was expected.
+// Returns the previous value; stores `desired` if that was `expected`.
 template <class T>
 inline T swap_if(volatile T* at, T expected, T desired) {
   return __sync_val_compare_and_swap(at, expected, desired);
@@ -143,7 +143,7 @@ void __tsan_atomic_thread_fence(int order) {
   detector.fence(order_of(order));
 }
 
-// Signals are delivered at waitpoints: they interrupt no code.
+// Signals are delivered at waitpoints only, so no fence is needed.
 void __tsan_atomic_signal_fence(int order);
 void __tsan_atomic_signal_fence(int) {}
 

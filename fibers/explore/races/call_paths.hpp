@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Call stacks, kept small: each path of calls that an access was made from has a number, and is kept as the number of
-// its caller's path and one return address. Paths outlive runs: the same code takes the same ones again.
+// Compact call stacks: each call path of an access has a number, and is stored as its caller's number and one return
+// address. Paths persist across runs: the same code reuses them.
 //
-// A task's own stack of calls is an array of return addresses; the number of a path is only sought when something is
-// accessed from it.
+// A task's call stack is an array of return addresses; the number of a path is looked up only at an access.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +14,10 @@ namespace waitpoint::races {
 
 class CallPaths {
  public:
-  /// The path that leads on from `caller`'s by a call that returns to `address`; 0 is the path without calls.
+  /// The path that extends `caller` by a call that returns to `address`; 0 is the path without calls.
   std::uint32_t extend(std::uint32_t caller, std::uint64_t address) {
     std::uint32_t& found = children_[(address << 16 ^ caller * 0x9E3779B97F4A7C15u) | 1];
-    // Different paths with one key are rare: they lie one after the other.
+    // Collisions of keys are rare, and chained.
     for (std::uint32_t at = found; at != 0; at = paths_[at].same_key)
       if (paths_[at].caller == caller && paths_[at].address == address) return at;
     if (paths_.size() == 0) paths_.add();
@@ -26,7 +25,7 @@ class CallPaths {
     paths_[made] = {address, caller, found};
     return found = made;
   }
-  /// Writes the path's return addresses to `addresses`, innermost first, at most `room`; returns how many.
+  /// Writes the path's return addresses to `addresses`, innermost first, at most `room`; returns their number.
   std::size_t write(std::uint32_t path, void** addresses, std::size_t room) {
     std::size_t count = 0;
     for (; path != 0 && count < room; path = paths_[path].caller)
@@ -44,7 +43,7 @@ class CallPaths {
   Table<Path> paths_;
 };
 
-/// The calls that a task is in. Beyond `depth_max` they are counted only.
+/// A task's present calls. Beyond `depth_max` they are only counted.
 class CallStack {
  public:
   static constexpr std::uint32_t depth_max = 1000;
@@ -66,7 +65,7 @@ class CallStack {
  private:
   struct Call {
     std::uint64_t address;
-    std::uint32_t path;  // 0: not sought yet
+    std::uint32_t path;  // 0: not looked up yet
   };
 
   [[gnu::noinline]] std::uint32_t seek(CallPaths& paths) {
@@ -79,7 +78,7 @@ class CallStack {
   }
 
   std::uint32_t depth_ = 0;
-  std::uint32_t path_ = 0;  // 0: not sought yet, or there are no calls
+  std::uint32_t path_ = 0;  // 0: not looked up yet, or no calls
   Call calls_[depth_max];
 };
 

@@ -19,7 +19,7 @@ bool is_unwound(const kernel::Task* task) { return task != nullptr && task->sche
 
 // --- accesses ---
 
-// The first touch of a word.
+// The first access to a word in this run.
 void Detector::touch(std::uint64_t word, Seen seen) {
   Cell& cell = shadow_.new_cell(word);
   if (!is_other_switch_point(seen)) return begin_cell(cell, seen);
@@ -28,7 +28,7 @@ void Detector::touch(std::uint64_t word, Seen seen) {
   if (watching_) record(shadow_.cell_again(index, word), seen);
 }
 
-// What record() comes to where there is nothing yet.
+// record() for an empty cell.
 inline void Detector::begin_cell(Cell& cell, const Seen& seen) {
   current_->accessed = current_->epoch();
   cell.touched = true;
@@ -49,7 +49,7 @@ void Detector::access_shared(Cell& known, Seen seen) {
   record(*cell, seen);
 }
 
-// Nobody else has touched it: nothing can race.
+// No other task has accessed it: no race is possible.
 void Detector::record_own(Cell& cell, Seen seen) {
   current_->accessed = current_->epoch();
   const unsigned kept = !footprint::covers(seen.footprint, cell.latest.footprint);
@@ -65,7 +65,7 @@ void Detector::access_range(std::uint64_t address, std::size_t size, std::uint8_
             .footprint = footprint::of(0, kind),
             .size = static_cast<std::uint8_t>(std::min<std::size_t>(size, 63)),
             .operation = operation};
-  // One switch point for all of it.
+  // One switch point for the whole range.
   for (std::uint64_t word = address / 8; word * 8 < end; ++word) {
     Cell* const cell = shadow_.find(word);
     if ((cell == nullptr || !is_shared_switch_point(*cell, seen.writes())) && !is_other_switch_point(seen)) continue;
@@ -100,7 +100,7 @@ void Detector::pass_switch_point(kernel::Operation operation, Cell& cell) {
   kernel::access(operation, &shadow_.object(cell));
 }
 
-// A task that is unwound and spins on memory would never end: the kernel gives up who goes on calling it.
+// A task that spins on memory while it is unwound would never end: the kernel abandons it.
 void Detector::unwatched(std::uint32_t weight) {
   if (!is_unwound(kernel::running) || (weight_ += weight) < weight_max) return;
   weight_ = 0;
@@ -120,7 +120,7 @@ void Detector::unwatched(std::uint32_t weight) {
   cell.several |= cell.owner != self.index;
   cell.written |= seen.writes() && (cell.several || seen.is_atomic());
 
-  // Of the earlier ones, those that this one does not stand for, one bit each.
+  // The earlier accesses that this one does not cover, one bit each.
   const auto is_kept = [&](const MemoryAccess& earlier) -> unsigned {
     const bool is_ordered = earlier.task == self.index || earlier.epoch <= self.clock.of(earlier.task);
     if (!is_ordered) {
@@ -146,7 +146,7 @@ void Detector::unwatched(std::uint32_t weight) {
   cell.latest = describe(seen);
 }
 
-// What is kept of the earlier accesses moves back, the latest first; the earliest falls off where there is no room.
+// Shifts the kept accesses back, the latest first; the earliest is dropped if there is no room.
 void Detector::keep(Cell& cell, unsigned kept) {
   const unsigned count = cell.more_count;
   cell.more_count = 0;
@@ -164,7 +164,7 @@ void Detector::keep(Cell& cell, unsigned kept) {
   if (is_moving && cell.more_count < more_max) more[cell.more_count++] = moved;
 }
 
-// The same where all are of one task; of the latest it is known already whether it is kept.
+// The same if all are of one task; the latest has been classified already.
 void Detector::keep_own(Cell& cell, Footprint footprint, unsigned kept) {
   if (cell.more_count != 0) {
     const MemoryAccess* const more = shadow_.more(cell);
@@ -174,12 +174,12 @@ void Detector::keep_own(Cell& cell, Footprint footprint, unsigned kept) {
       none_covered |= bit;
       if (!footprint::covers(footprint, more[i].footprint)) kept |= bit;
     }
-    if (kept == none_covered) return;  // the new one comes in the place of the latest
+    if (kept == none_covered) return;  // the new one replaces the latest
   }
   keep(cell, kept);
 }
 
-// All the code that accesses what tasks share, as far as it is remembered.
+// Learns all remembered code places that access the shared word.
 void Detector::learn_from(Cell& cell, std::uint64_t place) {
   learn_place(place);
   learn_place(cell.latest.place);

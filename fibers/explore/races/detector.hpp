@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data races by happens-before (Flanagan and Freund, FastTrack, PLDI 2009), and memory accesses as switch points.
+// Detects data races by happens-before (Flanagan and Freund, FastTrack, PLDI 2009), and makes memory accesses switch
+// points.
 //
-// Two accesses to the same memory race if one writes, they are not both atomic, and nothing orders them. What orders is
-// told by the kernel (see switch/sanitizer.hpp: making a task, each use of an object), and by atomics to their
-// memory order. Each task has a vector clock; an access is known by its task and that one's epoch.
+// Two accesses to the same memory race if one writes, they are not both atomic, and neither happens before the other.
+// Happens-before edges come from the kernel (see switch/sanitizer.hpp: creation of tasks, uses of objects), and from
+// atomics by their memory order. Each task has a vector clock; an access is identified by its task and that one's
+// epoch.
 //
-// An access is a switch point where others can tell when it happens: to a word that another task has touched in this
-// run, unless all of them only read; and where such a word was accessed by the same code in an earlier run of which the
-// detector was to learn. First touches alone cannot be told from private ones: without learning, what comes between a
-// task's first touch and its switch point before that is not tried.
+// An access is a switch point if its order may be observable: to a word that another task has accessed in this run,
+// unless all of them only read; and to such a word at its first access, if the same code accessed shared memory in an
+// earlier run while the detector learned. A first access cannot be told from a private one: without learning, schedules
+// that interleave between a task's first access and its previous switch point are not tried.
 //
-// All fibers run in one thread of the system: nothing here locks. Outside tasks, and in tasks that are unwound,
-// accesses count for nothing.
+// All fibers run in one OS thread: no locks are needed. Outside tasks, and in tasks that are unwound, accesses are
+// ignored.
 #pragma once
 
 #include <cstddef>
@@ -24,25 +26,25 @@
 
 namespace waitpoint::races {
 
-/// Of an access by which a task may wait for another's, against a plain one.
+/// The weight of an access that may poll for another task's write, relative to a plain one.
 inline constexpr std::uint32_t atomic_weight = 100;
-/// Who accesses only what nobody else touches passes no switch point. One that waits so for another's write would wait
-/// for ever: after accesses of so much weight the others get a turn.
+/// Private accesses are no switch points. A task that polls such memory for another's write would never yield: after
+/// accesses of this total weight the other tasks get a turn.
 inline constexpr std::uint32_t weight_max = 100'000;
 
-/// A task as the detector sees it, or what runs outside all tasks.
+/// The detector's record of a task, or of the code outside all tasks.
 struct Context {
-  VectorClock clock;       ///< what happened before what it does now
-  VectorClock released;    ///< what its last release fence gave
-  VectorClock acquirable;  ///< what its relaxed loads saw: its next acquire fence takes it
-  Epoch accessed;          ///< its epoch when it was last recorded
-  std::uint16_t index;     ///< into clocks
+  VectorClock clock;       ///< the events that happen before its next one
+  VectorClock released;    ///< the clock at its last release fence
+  VectorClock acquirable;  ///< acquired by its relaxed loads, pending its next acquire fence
+  Epoch accessed;          ///< its epoch at its last recorded access
+  std::uint16_t index;     ///< index into clocks
   bool is_task;
-  std::uint32_t ignoring;  ///< calls of ignore_begin that are open
-  std::uint32_t record;    ///< index of what reports call it
-  Context* next;           ///< of those that there are, or that are free
+  std::uint32_t ignoring;  ///< open calls of ignore_begin
+  std::uint32_t record;    ///< index of its record for reports
+  Context* next;           ///< list of the contexts in use, or of the free ones
   Context* previous;
-  std::uint64_t outside_known;  ///< how often the code outside had been left when it learned what that did
+  std::uint64_t outside_known;  ///< the value of outside_left_ when it last acquired the outside's clock
   CallStack calls;
 
   Epoch epoch() const { return clock.epochs[index]; }
@@ -50,28 +52,28 @@ struct Context {
 
 class Detector {
  public:
-  /// The one of this program: the compiler's calls name none.
+  /// The program's only one: the compiler's calls have no context argument.
   static Detector& the();
 
   // --- runs and tasks ---
 
-  /// Forgets all, but what was learned. Not from within a task.
+  /// Resets everything except learned code. Not from within a task.
   void begin_run();
   bool has_current() const { return current_ != nullptr; }
   Context& current() { return *current_; }
-  /// A task made by the current one.
+  /// A task created by the current one.
   Context& make();
   void name(Context& context, const char* name);
   void switch_to(Context& context);
   void end(Context& context);
 
-  // --- what happens before what ---
+  // --- happens-before ---
 
   void release(const void* at);
   /// acquire(), then release().
   void use(const void* at);
   void acquire(const void* at);
-  /// An atomic operation at `at` with that order, as it takes effect.
+  /// An atomic operation at `at` with that order, at the moment of its effect.
   void atomic_load(const void* at, int order);
   void atomic_store(const void* at, int order);
   void atomic_modify(const void* at, int order);
@@ -80,7 +82,7 @@ class Detector {
   // --- accesses ---
 
   bool watching() const { return watching_; }
-  /// One within an aligned word. Most are plain ones to words that no other task has touched: nothing can race.
+  /// An access within one aligned word. Most are plain ones to words that no other task has accessed, and cannot race.
   [[gnu::always_inline]] void access_word(std::uint64_t address, std::uint32_t size, std::uint8_t kind,
                                           const void* place, kernel::Operation operation) {
     Cell* const cell = shadow_.find(address / 8);
@@ -98,13 +100,13 @@ class Detector {
   }
   void access_range(std::uint64_t address, std::size_t size, std::uint8_t kind, const void* place,
                     kernel::Operation operation);
-  /// In place of an access where nothing is watched.
+  /// Replaces an access while none are watched.
   void unwatched(std::uint32_t weight);
   void ignore(bool begin);
-  /// The memory is another's from now on.
+  /// The memory gets a new owner.
   void forget(const void* low, std::size_t size) { shadow_.forget(low, size); }
 
-  // --- what came of it ---
+  // --- results ---
 
   std::size_t found(const FoundRace*& races) const;
   void learn(bool on) { learning_ = on; }
@@ -116,7 +118,7 @@ class Detector {
   struct TaskRecord {
     char name[kernel::name_size];
     std::uint16_t index;
-    Epoch first;  // of this task: earlier ones are of another with its index
+    Epoch first;  // of this task: earlier ones belong to a former task with its index
   };
   struct FreeIndex {
     std::uint16_t index;
@@ -127,7 +129,7 @@ class Detector {
     std::uint64_t run;
   };
 
-  /// An access to a word as it comes; it goes through registers.
+  /// An access to a word; passed in registers.
   struct Seen {
     std::uint64_t place;
     Footprint footprint;
@@ -184,8 +186,8 @@ class Detector {
   HashTable<SyncPoint> sync_points_;
   const void* recent_sync_at_ = nullptr;
   VectorClock* recent_sync_point_ = nullptr;
-  HashTable<bool> learned_;  // places of code
-  // A bit for each of them, shared by some: of most code it tells that it is not among them.
+  HashTable<bool> learned_;  // by address of the code
+  // A bit filter over them: most code is excluded by it.
   std::uint64_t learned_bits_[64] = {};
   Table<TaskRecord> tasks_;
   Table<FreeIndex> free_indices_;
@@ -193,8 +195,8 @@ class Detector {
   Context* free_contexts_ = nullptr;
   Context* contexts_in_use_ = nullptr;  // the tasks'
   Context* outside_ = nullptr;
-  VectorClock ended_;               // what tasks that ended knew, for the code outside to learn
-  std::uint64_t outside_left_ = 0;  // how often that was left
+  VectorClock ended_;               // the clocks of ended tasks, for the code outside to acquire
+  std::uint64_t outside_left_ = 0;  // counts the ends of code outside
   Context* current_ = nullptr;
   std::uint64_t run_ = 0;
   std::uint32_t indices_ = 0;
@@ -206,7 +208,7 @@ class Detector {
   FoundRace races_[races_kept] = {};
 };
 
-/// For the compiler's and the kernel's calls; zero-initialised, so that they may come before any constructor.
+/// Called by the compiler and the kernel; zero-initialised, so that it works before any constructor has run.
 extern Detector detector;
 inline Detector& Detector::the() { return detector; }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// The detector's tasks, and what orders what they do.
+// The detector's tasks, and the happens-before edges between them.
 #include <cstring>
 #include <new>
 
@@ -11,7 +10,7 @@ namespace waitpoint::races {
 namespace {
 
 constexpr std::uint32_t indices_max = 65'535;
-// Of the indices of ended tasks, how many are looked at for one to take over.
+// The number of ended tasks' indices examined for reuse.
 constexpr std::uint32_t free_indices_tried = 8;
 
 bool acquires(int order) { return order != __ATOMIC_RELAXED && order != __ATOMIC_RELEASE; }
@@ -51,8 +50,8 @@ void Detector::begin_run() {
 
 Context& Detector::fresh_context() { return *new (contexts_.take(sizeof(Context))) Context; }
 
-// An index of its own; or that of an ended task of which all is known to the maker: whoever learns of the new task
-// learns of the old one too, as if they were one.
+// Assigns a new index, or reuses that of an ended task whose past the maker knows completely: acquiring the new task's
+// clock then implies the old one's.
 void Detector::take_index(Context& context, const Context& maker) {
   const std::uint32_t record = tasks_.add();
   Epoch first = 1;
@@ -113,10 +112,10 @@ void Detector::switch_to(Context& context) {
   update_watching();
 }
 
-// What was done outside happens before what any task does from now on: each learns of it when it is next switched to.
+// Events outside happen before all later events of tasks: each acquires them when it is next resumed.
 void Detector::leave_outside() { ++outside_left_; }
 
-// All that tasks did happens before what is done outside from now on.
+// All past events of tasks happen before later events outside.
 void Detector::enter_outside() {
   join(outside_->clock, ended_, clocks_);
   for (Context* context = contexts_in_use_; context != nullptr; context = context->next) {
@@ -140,9 +139,9 @@ void Detector::update_watching() {
               (kernel::running == nullptr || !kernel::running->scheduler->unwinding());
 }
 
-// --- what happens before what ---
+// --- happens-before ---
 
-// What is acquired is mostly released next.
+// An acquired point is usually released next.
 VectorClock& Detector::sync_point(const void* at) {
   if (at == recent_sync_at_) return *recent_sync_point_;
   SyncPoint& point = sync_points_[reinterpret_cast<std::uint64_t>(at)];
@@ -152,7 +151,7 @@ VectorClock& Detector::sync_point(const void* at) {
   return point.clock;
 }
 
-// What the task does from now on, those who acquired what it released so far do not know of.
+// Later events of the task are unknown to those that acquired its earlier releases.
 inline void Detector::next_epoch(Context& context) { ++context.clock.epochs[context.index]; }
 
 void Detector::release(const void* at) {
@@ -172,7 +171,7 @@ void Detector::atomic_load(const void* at, int order) {
   join(acquires(order) ? current_->clock : current_->acquirable, point, clocks_);
 }
 
-// A store begins a release sequence of its own: who sees its value knows nothing of earlier ones.
+// A store starts a new release sequence: acquiring its value gives no knowledge of earlier ones.
 void Detector::atomic_store(const void* at, int order) {
   VectorClock& point = sync_point(at);
   if (!releases(order)) return assign(point, current_->released, clocks_);

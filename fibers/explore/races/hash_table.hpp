@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map from addresses, or other words that are not 0, to small values; open addressing, in memory of its own. Nothing
-// ever iterates over it: no order of hashes can reach a result.
+// A map from addresses, or other non-zero words, to small values; open addressing, with its own memory. It is never
+// iterated over, so hash order cannot affect a result.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace waitpoint::races {
 template <class Value>
 class HashTable {
  public:
-  /// Null where there is none.
+  /// Null if there is none.
   Value* find(std::uint64_t key) {
     if (size_ == 0) return nullptr;
     Entry& entry = slot(key);
     return entry.key == key ? &entry.value : nullptr;
   }
-  /// What `key` has, a zero value at first. Valid until the next call.
+  /// The value of `key`, initially zero. Valid until the next call.
   Value& operator[](std::uint64_t key) {
     if (2 * size_ >= room_) grow();
     Entry& entry = slot(key);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A race with its addresses in words that outlive the process: modules, offsets, names of symbols.
+// A race whose addresses are expressed by modules, offsets and symbols, valid beyond the process.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace waitpoint::races {
 
 struct LocatedRace {
   FoundRace found;
-  std::string memory;  ///< of Race
+  std::string memory;  ///< as in Race
   sync::CodePlaces first_calls, second_calls;
 };
 
-/// Of a race in this process.
+/// Converts a race of this process.
 LocatedRace located(const FoundRace& race);
 
 }  // namespace waitpoint::races

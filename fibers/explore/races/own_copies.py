@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes the library waitpoint-races: own_copies.py NM LD OBJCOPY AR OUTPUT ARCHIVE...
 
-Of an inline function, a program keeps one copy for all: of one that the library uses too, it may be the user's, which
-is compiled with -fsanitize=thread. Then the library's own steps would count as accesses of the task that takes them, and
-would be torn apart by switches. So all of the library becomes one object, whose copies of inline functions are its own,
-and whose use of memcpy is not told of.
+A program has one copy of each inline function. If the library uses it too, that copy may be the user's, compiled with
+-fsanitize=thread: the library's own accesses would count as the running task's, and switches could interrupt them. So
+the library is linked into one object with private copies of inline functions and uninstrumented calls of memcpy.
 """
 
 import pathlib
@@ -21,9 +20,9 @@ def main():
         )
         run(ld, "-r", "--force-group-allocation", "-o", whole, "--whole-archive", *archives)
         symbols = [line.split() for line in run(nm, "--defined-only", whole).splitlines()]
-        # Weak functions; what is weak in C is meant to be replaced.
+        # Weak functions of C++; weak C functions are meant to be replaced.
         inline.write_text("".join(f"{name}\n" for _, kind, name in symbols if kind == "W" and name.startswith("_Z")))
-        # What inline functions keep stays one for all: the user's copies come with others, ours must give way.
+        # The statics of inline functions stay unique: the user's copies have others beside them, so ours must yield.
         unique.write_text("".join(f"{name}\n" for _, kind, name in symbols if kind == "u"))
         copies = [f"--redefine-sym={name}=__real_{name}" for name in ("memcpy", "memmove", "memset")]
         run(objcopy, f"--localize-symbols={inline}", f"--weaken-symbols={unique}", *copies, whole, own)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// What g++ and clang++ call before plain accesses to memory and around functions, under -fsanitize=thread: their
-// runtime's interface (tsan_interface.h), as far as accesses go.
+// The functions that g++ and clang++ call before plain accesses to memory and around functions under -fsanitize=thread:
+// the access part of the runtime's interface (tsan_interface.h).
 #include <cstddef>
 #include <cstdint>
 
@@ -15,7 +14,7 @@ namespace kind = waitpoint::races::kind;
 
 Operation operation_of(std::uint8_t kind) { return (kind & kind::write) != 0 ? Operation::store : Operation::load; }
 
-// Of a size that is a power of two; `address` need not be aligned.
+// The size is a power of two; `address` need not be aligned.
 inline void access(const volatile void* at, std::uint32_t size, std::uint8_t kind, const void* place) {
   Detector& detector = Detector::the();
   if (__builtin_expect(!detector.watching(), 0)) return detector.unwatched(1);
@@ -80,7 +79,7 @@ void __tsan_func_exit() {
   if (detector.has_current()) detector.current().calls.leave();
 }
 
-// Constructors write the same pointer again and again on their way.
+// Constructors repeatedly write the same pointer.
 void __tsan_vptr_update(void** at, void* value) {
   if (*at != value) access(at, 8, kind::write, WAITPOINT_PLACE);
 }
@@ -89,8 +88,8 @@ void __tsan_vptr_read(void** at) { access(at, 8, kind::read, WAITPOINT_PLACE); }
 void __tsan_read_range(const void* at, std::size_t size) { access_range(at, size, kind::read, WAITPOINT_PLACE); }
 void __tsan_write_range(void* at, std::size_t size) { access_range(at, size, kind::write, WAITPOINT_PLACE); }
 
-// Later compilers call the first of each pair, g++ 12 and clang++ 14 the function itself, which the linker is told to
-// send here (--wrap).
+// Later compilers call the first of each pair; g++ 12 and clang++ 14 call the function itself, which the linker
+// redirects here (--wrap).
 #define WAITPOINT_COPY(NAME) void* NAME(void* to, const void* from, std::size_t size)
 #define WAITPOINT_TELL_COPY                              \
   access_range(from, size, kind::read, WAITPOINT_PLACE); \

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// What the race runtime takes over from the C and C++ libraries: memory that changes its owner without a trace in
-// instrumented code, and the locks of local statics.
+// The functions of the C and C++ libraries that the race runtime replaces: memory management, where memory changes its
+// owner outside instrumented code, and the locks of local statics.
 #include <malloc.h>
 #include <sched.h>
 
@@ -12,12 +11,12 @@
 #include "fibers/explore/races/detector.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
-// Of glibc: whether libstdc++ may count references without atomics.
+// In glibc: allows libstdc++ to count references without atomics.
 extern "C" char __libc_single_threaded;
 
 extern "C" {
 
-// glibc's own, behind the names that a program may define.
+// glibc's own functions, behind the names that a program may define.
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
@@ -34,13 +33,13 @@ namespace {
 
 using waitpoint::races::Detector;
 
-// Who used the memory before has nothing to do with who gets it now.
+// Accesses by the memory's previous owner must not race with the new one's.
 void* given(void* memory) {
   if (memory != nullptr && Detector::the().has_current()) Detector::the().forget(memory, malloc_usable_size(memory));
   return memory;
 }
 
-// The first byte of a guard says that the static is there; the second is free for us: that it is being made.
+// The first byte of a guard marks the static as constructed; the second is free for use: construction in progress.
 char* made(std::uint64_t* guard) { return reinterpret_cast<char*>(guard); }
 char* under_way(std::uint64_t* guard) { return reinterpret_cast<char*>(guard) + 1; }
 
@@ -74,7 +73,7 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
 }
 void free(void* memory) { __libc_free(memory); }
 
-// A task that finds another one at making the static lets that one go on, as often as it takes.
+// While another task constructs the static, this one yields to it.
 int __cxa_guard_acquire(std::uint64_t* guard) {
   for (;;) {
     if (__atomic_load_n(made(guard), __ATOMIC_ACQUIRE) != 0) {

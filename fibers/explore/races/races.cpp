@@ -20,10 +20,10 @@ Access access_of(const Side& side, std::vector<std::string> calls) {
           side.access.size, std::move(calls)};
 }
 
-// What a person takes for one race: a variable and two lines. `++n` is a read and a write.
+// The identity of a race in reports: a variable and two lines. `++n` is a read and a write.
 using Told = std::tuple<std::uint64_t, std::string, std::string>;
 
-// Where an access stands, whatever its function is called; its very place where no line is known.
+// The source line of an access, independent of the function; its address if no line is known.
 std::string line_of(const Side& side, const std::vector<std::string>& calls) {
   const std::size_t line = calls.empty() ? std::string::npos : calls.front().rfind(" at ");
   return line != std::string::npos ? calls.front().substr(line) : std::to_string(side.access.place);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data races of simulated threads: two accesses to the same memory, one of them a write, that nothing orders.
+// Data races of simulated threads: two unordered accesses to the same memory, one of them a write.
 //
-// Found in code that is compiled with -fsanitize=thread and linked, without that flag, with waitpoint-races in place of
-// waitpoint: a runtime of our own behind what the compiler inserts (g++ and clang++). In all other programs there is
-// nothing to be found, and nothing is paid.
+// They are found in code compiled with -fsanitize=thread and linked, without that flag, with waitpoint-races in place
+// of waitpoint: a runtime of the library behind the compilers' instrumentation (g++ and clang++). Other programs find
+// nothing, and pay nothing.
 //
-// Races are found by what happens before what in one schedule (vector clocks), so they are found in schedules in which
-// they did no harm; what another order of locks would show takes another schedule. Accesses to memory that tasks share,
-// and write while they do, are switch points there, beside the primitives.
+// Detection is by happens-before in one schedule (vector clocks), so a race is found even if it had no effect; races
+// under another lock order need another schedule. Accesses to memory that tasks share and write concurrently are switch
+// points, like the primitives.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct LocatedRace;
 /// One side of a race.
 struct Access {
   std::string task;
-  std::optional<std::uint32_t> number;  ///< the task's, in the order in which they were made; none outside of tasks
-  std::uint64_t event = 0;              ///< how many events its task had executed
+  std::optional<std::uint32_t> number;  ///< the task's number in order of creation; none outside tasks
+  std::uint64_t event = 0;              ///< number of events that its task had executed
   bool writes = false;
   bool atomic = false;
   std::size_t size = 0;            ///< bytes; 63 is "63 or more"
@@ -35,32 +35,32 @@ struct Access {
 struct Race {
   Access first;  ///< in the order of the run
   Access second;
-  const void* address = nullptr;  ///< the lowest byte of both
-  std::string memory;             ///< where that is: "global", "the stack of task NAME"; empty where it is not known
+  const void* address = nullptr;  ///< the lowest byte common to both
+  std::string memory;             ///< its location: "global", "the stack of task NAME"; empty if unknown
 };
 
 std::ostream& operator<<(std::ostream& out, const Race& race);
 
-/// Whether the program was linked with the runtime.
+/// True if the program is linked with the runtime.
 bool present();
 
-/// Forgets the accesses and races of earlier runs. Each Simulation begins so when none other is there; for who uses one
-/// for several runs.
+/// Forgets the accesses and races of earlier runs. Each Simulation does this if there is no other; for those that use
+/// one for several runs.
 void begin_run();
 
-/// Whether the run found a race; costs nothing.
+/// True if the run found a race; costs nothing.
 bool any_found();
 
-/// The races of the run, for each variable each pair of source lines once, of at most 64 pairs of accesses. Looks for
-/// names and source lines: for reports.
+/// The races of the run: each pair of source lines once per variable, of at most 64 pairs of accesses. Looks up names
+/// and source lines: for reports.
 std::vector<Race> found();
 
-/// The same of races in a process that may be gone.
+/// The same, for races of a process that may have ended.
 std::vector<Race> in_words(std::span<const LocatedRace> races);
 
-/// Whether runs from now on learn which code accesses what tasks share; such code is a switch point in later runs also
-/// where its task is the first to touch the memory. A run that is to be repeated elsewhere must have learned the same:
-/// learn in a first run in the default order, and no more.
+/// Controls whether later runs learn the code that accesses shared memory; such code is then a switch point also at its
+/// task's first access to the memory. A run can only be repeated with the same learned code: learn in a first run in
+/// the default order, and never after.
 void learn(bool on);
 void forget_learned();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the library knows of the race runtime: a few functions by pointer, of a program that is linked with it. Plain
-// records; races.hpp is what users and strategies read.
+// The library's interface to the race runtime: function pointers, set in a program that is linked with it. Plain
+// records; races.hpp is for users and strategies.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 namespace waitpoint::races {
 
 inline constexpr std::size_t calls_shown = 32;
-/// Races that are kept of one run; each pair of places counts once.
+/// The greatest number of races stored per run; each pair of places counts once.
 inline constexpr std::size_t races_kept = 64;
 
 /// One side of a race, with its calls, innermost first.
 struct Side {
   MemoryAccess access;
   char task[kernel::name_size];
-  std::uint32_t record;  ///< of the tasks of the run in the order of their making, counted from 1; 0: outside of them
+  std::uint32_t record;  ///< number of the run's tasks in order of creation, counted from 1; 0: outside tasks
   void* calls[calls_shown];
   std::size_t call_count;
 };
@@ -27,14 +27,14 @@ struct Side {
 struct FoundRace {
   Side first;  ///< in the order of this run
   Side second;
-  std::uint64_t address;             ///< the lowest that both touch
-  char stack_of[kernel::name_size];  ///< the task on whose stack that is; empty: on none
+  std::uint64_t address;             ///< the lowest common byte
+  char stack_of[kernel::name_size];  ///< the task whose stack contains it; empty: none
 };
 
-/// Who is told at once, from within a run, as its process may end at any time.
+/// Callbacks for immediate notification from within a run, as its process may end at any time.
 struct Listener {
   void (*found)(const FoundRace& race);
-  void (*learned)(std::uint64_t place);  ///< of code that accesses what tasks share
+  void (*learned)(std::uint64_t place);  ///< a new place of code that accesses shared memory
 };
 
 struct Runtime {
@@ -42,11 +42,11 @@ struct Runtime {
   std::size_t (*found)(const FoundRace*& races);
   void (*learn)(bool);
   void (*forget_learned)();
-  void (*know)(std::uint64_t place);       ///< as if it had been learned
-  void (*tell)(const Listener& listener);  ///< from now on; it must outlive the runs
+  void (*know)(std::uint64_t place);       ///< adds a place, as if learned
+  void (*tell)(const Listener& listener);  ///< sets the listener; it must outlive the runs
 };
 
 }  // namespace waitpoint::races
 
-/// Null where the program is not linked with waitpoint-races.
+/// Null if the program is not linked with waitpoint-races.
 extern "C" __attribute__((weak)) const waitpoint::races::Runtime* waitpoint_races_runtime();

@@ -38,7 +38,7 @@ void Shadow::forget(const void* low, std::size_t size) {
     if (found == nullptr || (*found)->run != run_) continue;
     const std::uint64_t from = number == first / words_per_page ? first % words_per_page : 0;
     const std::uint64_t to = number == last / words_per_page ? last % words_per_page : words_per_page - 1;
-    // Of the groups from the first to the last, those with cells.
+    // The groups with cells in the range.
     std::uint64_t groups = (*found)->groups >> from / words_per_group << from / words_per_group;
     groups = groups << (63 - to / words_per_group) >> (63 - to / words_per_group);
     for (; groups != 0; groups &= groups - 1) {
@@ -48,7 +48,7 @@ void Shadow::forget(const void* low, std::size_t size) {
   }
 }
 
-// The words of one page, whose first word that is, from one up to another.
+// Forgets the words `from` up to `to` of a page, whose first word is `begin`.
 void Shadow::forget(const Page& page, std::uint64_t begin, std::uint64_t from, std::uint64_t to) {
   for (std::uint64_t word = from; word <= to; ++word) {
     const std::uint32_t index = page.cells[word];

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is remembered of memory: for each aligned word of 8 bytes that a task touched in this run, a cell with the
-// recent accesses that a later one may race with.
+// Shadow memory: for each aligned word of 8 bytes accessed by a task in this run, a cell with the recent accesses that
+// later ones may race with.
 //
-//   page of addresses (16 KiB)       cells, in the order of first touch
+//   page of addresses (16 KiB)       cells, in the order of first access
 //   +----------------------+         +--------------------------------+
-//   | index of each word's |-------->| word, who touched it, accesses
-//   | cell                 |         | ...
+//   | index of each word's |-------->| word, its first task, accesses |
+//   | cell                 |         | ...                            |
 //   +----------------------+         +--------------------------------+
 //
-// An index counts only if it is of a cell in use that names the word (Briggs and Torczon's sparse sets): so a run
-// begins by forgetting how many cells were in use, whatever it touched.
+// An index is valid only if its cell is in use and names the word (Briggs and Torczon's sparse sets): so a run starts
+// by resetting the number of cells in use, however many words were accessed.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +22,13 @@
 
 namespace waitpoint::races {
 
-/// How memory is accessed; a set.
+/// The kind of an access; a set.
 namespace kind {
 inline constexpr std::uint8_t read = 0, write = 1, atomic = 2;
 }
 
-/// What an access touches of a word, one bit a byte, and what lets it race: that it writes, that it is plain. One with
-/// all bits of another races with whatever that races with, if both are known to who accesses.
+/// The bytes of a word that an access covers, one bit each, and two flags for conflicts: write, plain. An access whose
+/// footprint contains an earlier one's replaces it, if both happen before the current access.
 using Footprint = std::uint16_t;
 namespace footprint {
 inline constexpr Footprint bytes = 0xFF, write = 1 << 8, plain = 1 << 9;
@@ -38,18 +38,18 @@ constexpr Footprint of(std::uint32_t bytes_touched, std::uint8_t kind) {
                                 ((kind & kind::atomic) == 0 ? plain : 0));
 }
 constexpr bool covers(Footprint one, Footprint other) { return (other & ~one) == 0; }
-/// Whether two race if nothing orders them.
+/// True if two unordered accesses race.
 constexpr bool conflict(Footprint one, Footprint other) {
   return (one & other & bytes) != 0 && ((one | other) & write) != 0 && ((one | other) & plain) != 0;
 }
 }  // namespace footprint
 
-/// One access, as far as it touches one word.
+/// The part of an access within one word.
 struct MemoryAccess {
-  std::uint64_t place;  ///< the address after the call that told of it
+  std::uint64_t place;  ///< return address of the runtime's call
   Epoch epoch;
   std::uint32_t calls;           ///< its call path
-  std::uint32_t event;           ///< the last event of its task before it
+  std::uint32_t event;           ///< the last event of its task before the access
   std::uint16_t task;            ///< index into vector clocks
   std::uint16_t footprint : 10;  ///< a Footprint
   std::uint16_t size : 6;        ///< in bytes, of the whole access; 63 is "or more"
@@ -64,13 +64,13 @@ inline constexpr int more_max = 3;
 
 struct alignas(64) Cell {
   std::uint64_t word;      ///< address / 8; 0: forgotten
-  kernel::Object* object;  ///< what the kernel knows it as; null before its first switch point
-  std::uint32_t more;      ///< index of the room for accesses beside `latest`; no_more until it is needed
-  std::uint16_t owner;     ///< the task that touched it first
+  kernel::Object* object;  ///< the kernel's object for it; null before its first switch point
+  std::uint32_t more;      ///< index of the accesses older than `latest`; no_more until needed
+  std::uint16_t owner;     ///< the task with the first access
   std::uint8_t more_count;
   bool touched;
-  bool several;  ///< touched by others too
-  bool written;  ///< while several touch it, or as an atomic, or in a race: its order may matter
+  bool several;  ///< accessed by other tasks, too
+  bool written;  ///< written while shared, accessed atomically, or part of a race: its order may matter
   MemoryAccess latest;
 };
 
@@ -94,32 +94,32 @@ class Shadow {
     const std::uint32_t index = page->cells[word % words_per_page];
     return __builtin_expect(index < cells_.size() && cells_[index].word == word, 1) ? &cells_[index] : nullptr;
   }
-  /// An untouched one for a word that has none.
+  /// A fresh cell for a word without one.
   Cell& new_cell(std::uint64_t word);
-  /// The word's cell, an untouched one if it has none. Valid until the next call.
+  /// The word's cell, a fresh one if it has none. Valid until the next call.
   Cell& cell_of(std::uint64_t word) {
     Cell* const cell = find(word);
     return __builtin_expect(cell != nullptr, 1) ? *cell : new_cell(word);
   }
   std::uint32_t index_of(const Cell& cell) { return static_cast<std::uint32_t>(&cell - &cells_[0]); }
-  /// The word's cell, which had that index, or another if it was forgotten since.
+  /// The word's cell, by a former index; another if it was forgotten since.
   Cell& cell_again(std::uint32_t index, std::uint64_t word) {
     return __builtin_expect(cells_[index].word == word, 1) ? cells_[index] : cell_of(word);
   }
-  /// What the cell is to the kernel, in this run.
+  /// The kernel's object for the cell, in this run.
   kernel::Object& object(Cell& cell) {
     if (cell.object == nullptr)
       cell.object = new (objects_.take(sizeof(kernel::Object))) kernel::Object(kernel::memory_kind);
     return *cell.object;
   }
-  /// The accesses beside the cell's latest, the later ones first: more_count of them.
+  /// The accesses older than the cell's latest, in reverse order: more_count of them.
   MemoryAccess* more(Cell& cell) {
     if (cell.more == no_more) cell.more = more_.add();
     return more_[cell.more].access;
   }
-  /// Nothing is known of this memory any more: others will use it.
+  /// Drops everything about this memory: it gets a new owner.
   void forget(const void* low, std::size_t size);
-  /// Nothing is known of any memory.
+  /// Drops everything about all memory.
   void reset() {
     ++run_;
     cells_.reset();
@@ -131,16 +131,16 @@ class Shadow {
   static constexpr std::uint64_t words_per_page = 2048;
   static constexpr std::uint64_t words_per_group = words_per_page / 64;
   struct Page {
-    std::uint64_t run;     // in which it was last touched
+    std::uint64_t run;     // of its last access
     std::uint64_t groups;  // a bit for each group of words with a cell in that run
     std::uint32_t cells[words_per_page];
   };
 
-  // Of so many pages at most, what the table would say is kept at hand.
+  // A cache of the table's entries for a few pages.
   static constexpr std::uint64_t recent_pages = 16;
   static std::uint64_t place_of(std::uint64_t number) { return number * 0x9E3779B97F4A7C15u >> 60; }
   struct RecentPage {
-    std::uint64_t key;  // its number and one; 0: none
+    std::uint64_t key;  // page number plus one; 0: none
     Page* page;
   };
 

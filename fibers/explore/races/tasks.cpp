@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// What the kernel tells of its tasks and of what happens before what, in the words that ThreadSanitizer has for it
-// (switch/sanitizer.hpp), and what it asks of this runtime alone.
+// The kernel's notifications of tasks and happens-before edges, by ThreadSanitizer's interface (switch/sanitizer.hpp),
+// and its calls to this runtime alone.
 #include "fibers/explore/races/detector.hpp"
 
 namespace {
@@ -52,7 +51,7 @@ void __tsan_release(void* address) {
   if (Detector::the().has_current()) Detector::the().release(address);
 }
 
-// Runs may overlap (windows of several simulations); what is known is forgotten only between them.
+// Runs may overlap (several simulations in turn); the state is only reset between them.
 void waitpoint_races_open_run() {
   if (open_runs++ == 0) Detector::the().begin_run();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vector clocks: what of every task's past a task, or a synchronisation point, knows of. What is beyond a clock's size
-// it knows nothing of. (Flanagan and Freund, FastTrack, PLDI 2009.)
+// Vector clocks: for each task, the epoch up to which its past is known to a task or synchronisation point. Entries
+// beyond a clock's size are 0. (Flanagan and Freund, FastTrack, PLDI 2009.)
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace waitpoint::races {
 
-using Epoch = std::uint32_t;  ///< of one task: grows whenever others may learn of what it did so far
+using Epoch = std::uint32_t;  ///< of one task: incremented at each release
 
 struct VectorClock {
   Epoch* epochs = nullptr;
@@ -20,8 +20,8 @@ struct VectorClock {
   Epoch of(std::uint32_t task) const { return task < size ? epochs[task] : 0; }
 };
 
-// Clocks have room for a multiple of so many epochs, and read as 0 behind their size up to the next multiple: what goes
-// through them takes as many at a time.
+// Clocks have room for a multiple of `stride` epochs, and are zero-filled from their size to the next multiple, so that
+// loops process a stride at a time.
 inline constexpr std::uint32_t stride = 4;
 using Stride [[gnu::vector_size(16), gnu::may_alias]] = Epoch;
 inline Stride& stride_at(const VectorClock& clock, std::uint32_t at) {
@@ -45,7 +45,7 @@ inline void extend(VectorClock& clock, std::uint32_t size, Arena& arena) {
   if (__builtin_expect(size > clock.size, 0)) grow(clock, size, arena);
 }
 
-/// `clock` knows what `other` knows, too.
+/// `clock` becomes the element-wise maximum of both.
 inline void join(VectorClock& clock, const VectorClock& other, Arena& arena) {
   extend(clock, other.size, arena);
   for (std::uint32_t i = 0; i < other.size; i += stride) {
@@ -54,7 +54,7 @@ inline void join(VectorClock& clock, const VectorClock& other, Arena& arena) {
   }
 }
 
-/// Each knows what the other knows.
+/// Both become the element-wise maximum of both.
 inline void meet(VectorClock& one, VectorClock& other, Arena& arena) {
   extend(one, other.size, arena);
   extend(other, one.size, arena);
@@ -64,7 +64,7 @@ inline void meet(VectorClock& one, VectorClock& other, Arena& arena) {
   }
 }
 
-/// `clock` knows what `other` knows, and nothing else.
+/// `clock` becomes a copy of `other`.
 inline void assign(VectorClock& clock, const VectorClock& other, Arena& arena) {
   clock.size = 0;
   extend(clock, other.size, arena);

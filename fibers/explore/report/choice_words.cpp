@@ -6,7 +6,7 @@
 namespace waitpoint::exploration {
 namespace {
 
-// Waiters that stand in the kernel's own list have names.
+// Waiters in the kernel's own list have names.
 std::string wakes(const Task& task, std::uint32_t chosen, std::uint32_t count) {
   std::uint32_t listed = 0;
   const Task* found = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tasks and what they choose, in words: who was woken, which wait ended for nothing, how long a computation took.
+// Text for tasks and their choices: the woken waiter, a spurious wake-up, the cost of a computation.
 #pragma once
 
 #include <string>
@@ -8,25 +8,24 @@
 
 namespace waitpoint::exploration {
 
-/// "consumer#2 of r1": tasks of one name are told apart by their numbers. The robot is left out where there are none.
+/// "consumer#2 of r1": the number distinguishes tasks of one name. Without robots, the robot is omitted.
 std::string title_of(const Task& task);
 /// "consumer#2, about to lock mutex #1".
 std::string about_to(const Task& task);
 
-/// What `task` does by an alternative of `count`, other than one between tasks: "wakes thread#3", "goes on for
-/// nothing".
+/// The effect of an alternative other than one between tasks: "wakes thread#3", "wakes up spuriously".
 std::string in_words(Choice choice, const Task& task, std::uint32_t alternative, std::uint32_t count);
 
-/// Stands between the kernel and an explorer for one run, and says of one decision what was chosen, and what another
-/// alternative would have been.
+/// Sits between the kernel and an explorer for one run, and describes one decision: the choice, and the alternative to
+/// it.
 class ChoiceWords final : public kernel::Decisions {
  public:
-  /// Of decision `number`, which is not one between tasks, against its alternative `instead`.
+  /// For decision `number`, which is not one between tasks, and its alternative `instead`.
   ChoiceWords(Explorer& explorer, std::size_t number, std::uint32_t instead)
       : explorer_(explorer), number_(number), instead_(instead) {}
 
   /// "at 0.010000000 s: thread#1 (notify_one condition variable #2) wakes thread#3; it passes if it wakes thread#4".
-  /// Empty as long as the run has not come to it.
+  /// Empty until the run has reached the decision.
   std::string text() const { return text_.empty() ? "" : text_ + "; it passes if it " + other_; }
   /// The same without the alternative.
   const std::string& chosen() const { return text_; }

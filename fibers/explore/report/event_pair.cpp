@@ -16,8 +16,8 @@ bool is_same(const DoneEvent& a, const DoneEvent& b) { return a.event == b.event
 bool is_unlock(Operation operation) { return operation == Operation::unlock || operation == Operation::unlock_shared; }
 bool is_lock(Operation operation) { return operation == Operation::lock || operation == Operation::lock_shared; }
 
-// Of two tasks. That somebody waits for a thread's end changes nothing for that one; and who locks comes to the same
-// whether the lock is given up just before or just after: what matters is who locks next.
+// For events of two tasks. Joining a thread does not affect it; and a lock operation has the same result just before
+// and just after an unlock: only the order of lock operations matters.
 bool depend(const DoneEvent& a, const DoneEvent& b) {
   if (a.object == 0 || a.object != b.object || a.event.task == b.event.task) return false;
   if (only_looks(a.operation) && only_looks(b.operation)) return false;
@@ -40,13 +40,13 @@ std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, s
   std::size_t parting = 0;
   while (parting < common && is_same(fails[parting], passes[parting])) ++parting;
   const Places in_failing = places_of(fails), in_passing = places_of(passes);
-  std::map<std::uint64_t, std::vector<std::size_t>> at_object;  // where it passes
+  std::map<std::uint64_t, std::vector<std::size_t>> at_object;  // in the passing run
   for (std::size_t i = parting; i < passes.size(); ++i) at_object[passes[i].object].push_back(i);
   for (std::size_t first = parting; first < fails.size(); ++first) {
     const auto again = in_passing.find(fails[first].event);
     if (again == in_passing.end() || !is_same(passes[again->second], fails[first])) continue;
     const DoneEvent& later = passes[again->second];
-    std::optional<std::size_t> found;  // in the passing run; of those that come where it fails too, the first there
+    std::optional<std::size_t> found;  // in the passing run: the candidate that comes first in the failing one
     std::size_t found_place = fails.size();
     for (const std::size_t before : at_object[later.object]) {
       if (before >= again->second) break;

@@ -25,7 +25,7 @@ std::string milliseconds(Duration duration) {
 
 }  // namespace
 
-// Called behind the explorer: what it chose is its last decision.
+// Called after the explorer, whose last decision is then the current one.
 template <class Words>
 void Narrator::tell(const Words& words) {
   const std::vector<Decision>& decisions = explorer_.schedule().decisions;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands between the kernel and an explorer, and says in words what was chosen where it was not the usual: when,
-// between which tasks, how long a computation took.
+// Sits between the kernel and an explorer, and describes the choices that differ from the default: the time, the tasks,
+// the cost of a computation.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace waitpoint::exploration {
 
-/// A choice in words.
+/// A choice as text.
 struct Told {
   Time time;
-  std::uint64_t event;  ///< how many were executed before
+  std::uint64_t event;  ///< number of events before it
   std::string words;
 };
 
@@ -22,7 +22,7 @@ class Narrator final : public kernel::Decisions {
  public:
   Narrator(kernel::Scheduler& scheduler, Explorer& explorer) : scheduler_(scheduler), explorer_(explorer) {}
 
-  /// Also decision `number`, usual or not.
+  /// Also describes decision `number`, default or not.
   void ask_for(std::size_t number) { asked_ = number; }
 
   const std::vector<Told>& switches() const { return switches_; }

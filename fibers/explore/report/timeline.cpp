@@ -16,8 +16,8 @@ std::string quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-constexpr std::size_t repeated_max = 8;   // lines that are looked for again together
-constexpr std::size_t repeats_shown = 3;  // as many lines may stand there again
+constexpr std::size_t repeated_max = 8;   // longest sequence of lines checked for repetition
+constexpr std::size_t repeats_shown = 3;  // repetitions up to this number are printed in full
 
 std::string line_of(const Timeline& timeline, const TimelineEvent& event, std::size_t width) {
   const std::string& task = timeline.tasks[event.task];
@@ -26,14 +26,14 @@ std::string line_of(const Timeline& timeline, const TimelineEvent& event, std::s
   return event.object.empty() ? line : line + " " + event.object;
 }
 
-// How often the `count` lines from `from` on stand there again, behind themselves.
+// The number of further repetitions of the `count` lines from `from` on.
 std::size_t repeats(const std::vector<std::string>& lines, std::size_t from, std::size_t count) {
   std::size_t again = from + count;
   while (again < lines.size() && lines[again] == lines[again - count]) ++again;
   return (again - from - count) / count;
 }
 
-// `count` lines once, and how often they come again.
+// `count` lines once, followed by the number of repetitions.
 std::vector<std::string> with_repeats_told(const std::vector<std::string>& lines, std::size_t count) {
   std::vector<std::string> told;
   for (std::size_t i = 0; i < lines.size();) {
@@ -50,7 +50,7 @@ std::vector<std::string> with_repeats_told(const std::vector<std::string>& lines
   return told;
 }
 
-// As tasks poll in turns, each some times: from within, so that what is repeated is counted as it stands there.
+// Collapses the polling loops of tasks, innermost first, so that repetitions within repetitions are counted.
 std::vector<std::string> with_repeats_told(std::vector<std::string> lines) {
   for (std::size_t count = 1; count <= repeated_max; ++count) {
     std::vector<std::string> told = with_repeats_told(lines, count);
@@ -60,17 +60,17 @@ std::vector<std::string> with_repeats_told(std::vector<std::string> lines) {
   return lines;
 }
 
-// Microseconds, which is the format's unit; three digits behind the point are its nanoseconds.
+// The format's unit, microseconds, with three decimals for nanoseconds.
 std::string microseconds(std::int64_t ns) {
   const std::string digits = std::to_string(ns % 1000);
   return std::to_string(ns / 1000) + "." + std::string(3 - digits.size(), '0') + digits;
 }
 
-// What the task does behind an event, until its `next` one or, without one, to the end of the run.
+// The task's state after an event, until its `next` one or, without one, the end of the run.
 std::string state_after(const TimelineEvent& event, const TimelineEvent* next) {
   if (event.operation == kernel::Operation::end) return "";
   if (!event.waits_for.empty()) return "waiting for " + event.waits_for;
-  if (next == nullptr || next->time == event.time) return "";  // ready, or the end came
+  if (next == nullptr || next->time == event.time) return "";  // ready, or the run ended
   return next->operation == kernel::Operation::sleep ? "sleeping" : "computing";
 }
 

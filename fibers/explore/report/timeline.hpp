@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each task did in one schedule, event by event: as text, and as a trace for the viewers of Chrome and Perfetto,
-// with a track for each task in virtual time, and arrows from who woke to who was woken.
+// The events of each task in one schedule: as text, and as a trace for the viewers of Chrome and Perfetto, with a track
+// per task in virtual time, and arrows from the waking task to the woken one.
 //
 //   a#1   [lock mutex #1][ computing .............. ][unlock mutex #1][ sleeping ......]
 //   b#2        [lock mutex #1][ waiting for mutex #1 ][resume mutex #1]
@@ -21,22 +21,22 @@ struct TimelineEvent {
   std::uint32_t task;  ///< index of Timeline::tasks
   kernel::Operation operation;
   std::string object;     ///< "mutex #1 "left""; empty without one
-  std::string waits_for;  ///< for what its task waited from then on; empty if it did not
+  std::string waits_for;  ///< the object that its task waited for afterwards; empty if none
   std::int64_t woken_by;  ///< index of the event that woke the task; -1 for none
-  bool is_switch;         ///< it came in place of another task's that could have gone on
+  bool is_switch;         ///< it preempted a task that could have continued
 };
 
 struct Timeline {
-  std::vector<std::string> tasks;  ///< their titles, in the order of their first events
+  std::vector<std::string> tasks;  ///< task titles, in the order of their first events
   std::vector<TimelineEvent> events;
 };
 
-/// The last events, one a line: the time, the task in its column, what it does; with an asterisk where it came in
-/// another's place. What is repeated stands there once, with how often. At most `lines_max` lines.
+/// The last events, one a line: the time, the task in its column, its operation; with an asterisk at a switch. Cycles
+/// are printed once, with a count. At most `lines_max` lines.
 std::string to_text(const Timeline& timeline, std::size_t lines_max);
 
-/// In the JSON of Chrome's trace format. Where virtual time stands still, events follow each other by a nanosecond, and
-/// have that length. Up to its next event, or to the end, a task then waits, sleeps or, where time passes, computes.
+/// Chrome's trace format (JSON). At one instant, events are spaced a nanosecond apart, with that length. From there to
+/// its next event, or the end, a task is shown waiting, sleeping or, if time passes, computing.
 void write_trace(std::ostream& out, const Timeline& timeline);
 
 }  // namespace waitpoint::exploration

@@ -19,7 +19,7 @@ std::uint32_t TimelineRecorder::number_of(const Task& task) {
   return known->second;
 }
 
-// Whether the event now executing was chosen in place of another: asked once for each.
+// True if the event now executing was chosen over the default: call it once per event.
 bool TimelineRecorder::is_switch(const Explorer& explorer) {
   const std::vector<Decision>& decisions = explorer.schedule().decisions;
   const bool is_new = decisions.size() > decisions_;
@@ -27,8 +27,8 @@ bool TimelineRecorder::is_switch(const Explorer& explorer) {
   return is_new && decisions.back().is_switch() && decisions.back().choice == Choice::task;
 }
 
-// Behind its event a task is left when it waits, or when its next one is due: which of them, shows when another's
-// comes. Where none came in between, its next event says that it had waited.
+// After its event a task either waits, or is ready for the next: another task's event shows which. If none intervened,
+// its next event shows that it had waited.
 void TimelineRecorder::note_wait(const kernel::EventRecord& record) {
   if (last_ == nullptr) return;
   TimelineEvent& last = timeline_.events.back();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes down what each task does in a run.
+// Records the events of each task in a run.
 #pragma once
 
 #include <map>
@@ -24,10 +24,10 @@ class TimelineRecorder : public kernel::Watch {
   Timeline& timeline_;
   const Explorer* explorer_;
   Time from_;
-  std::map<std::uint64_t, std::uint32_t> numbers_;      // of tasks, by id
-  std::map<std::uint64_t, std::int64_t> last_release_;  // the last event at an object that may have woken another
+  std::map<std::uint64_t, std::uint32_t> numbers_;      // by task id
+  std::map<std::uint64_t, std::int64_t> last_release_;  // by object id: the last event that may have woken another task
   std::size_t decisions_ = 0;
-  const Task* last_ = nullptr;  // whose event was the last taken down
+  const Task* last_ = nullptr;  // the task of the last recorded event
 };
 
 }  // namespace waitpoint::exploration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// continuation: the default order up to some decision, then any: whether a run could still have come to something else
+// continuation: the default order up to some decision, then random: tests if a run could still have had another result
 // from there.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace waitpoint::exploration {
 
 class Continuation final : public Strategy {
  public:
-  /// Random from decision `from` on of what `explorer`, which must outlive it, writes down.
+  /// Random from decision `from` on of the schedule recorded by `explorer`, which must outlive it.
   Continuation(const Explorer& explorer, std::size_t from) : explorer_(explorer), from_(from) {}
 
   void begin(std::uint64_t number, const Draws& draws, const Profile& profile) override {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// By which strategy one run goes on where nothing is played: the default order, one that draws the schedule, or the
-// default order up to some decision and then any.
+// The strategy of one run after the played part: the default order, a drawing strategy, or the default order up to some
+// decision and then random.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,11 @@ namespace waitpoint::exploration {
 struct Course {
   std::string strategy = {};  ///< empty: the default order
   std::uint64_t seed = 0;
-  std::uint64_t number = 0;  ///< of the schedule, or of the random continuation
-  std::optional<std::size_t> at_random_from =
-      {};  ///< without a strategy: behind this decision any alternative is taken
+  std::uint64_t number = 0;                        ///< of the schedule, or of the random continuation
+  std::optional<std::size_t> at_random_from = {};  ///< without a strategy: after this decision the choices are random
 };
 
-/// Its strategy, begun. `explorer` is the run's, and must outlive it, as must the profile.
+/// Its strategy, begun. `explorer`, the run's, and `profile` must outlive it.
 std::unique_ptr<Strategy> begin_course(const Course& course, const Explorer& explorer, const Profile& profile);
 
 }  // namespace waitpoint::exploration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The events of a run from some decision on, so that two runs that were one up to there can be compared.
+// The events of a run after some decision, for comparing two runs that are the same up to there.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ namespace waitpoint::exploration {
 struct DoneEvent {
   EventOf event;
   kernel::Operation operation;
-  std::uint64_t object;  ///< its identity, which is of use within one run; 0: none
+  std::uint64_t object;  ///< its identity, valid within one run; 0: none
 };
 
-/// Writes them down, as a scheduler's watch.
+/// Records events, as a scheduler's watch.
 class EventLog final : public kernel::Watch {
  public:
-  /// Those that come behind decision `from` of what `explorer` writes down; at most events_max.
+  /// Records the events after decision `from` of `explorer`; at most events_max.
   EventLog(std::vector<DoneEvent>& events, const Explorer& explorer, std::size_t from)
       : events_(events), explorer_(explorer), from_(from) {
     event = &EventLog::add;
@@ -32,7 +32,7 @@ class EventLog final : public kernel::Watch {
     EventLog& self = static_cast<EventLog&>(watch);
     if (self.explorer_.schedule().decisions.size() <= self.from_ || self.events_.size() == events_max) return;
     EventOf which = event_of(*record.task);
-    --which.sequence;  // it counts this one already
+    --which.sequence;  // includes this one already
     self.events_.push_back({which, record.operation, record.object != nullptr ? record.object->identity : 0});
   }
 

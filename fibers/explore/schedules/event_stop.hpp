@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands between the kernel and an explorer for one run, and stops it before a given event of a task.
+// Sits between the kernel and an explorer for one run, and stops it before a given event of a task.
 #pragma once
 
 #include "fibers/explore/schedules/explorer.hpp"
@@ -11,7 +11,7 @@ class EventStop final : public kernel::Decisions {
   EventStop(kernel::Scheduler& scheduler, Explorer& explorer, EventOf event)
       : scheduler_(scheduler), explorer_(explorer), event_(event) {}
 
-  /// The task that is about to execute the event; null as long as the run has not come to it.
+  /// The task about to execute the event; null until the run has reached it.
   Task* stopped_before() const { return stopped_before_; }
 
   std::uint32_t next(Task* const* ready, std::uint32_t count) override {

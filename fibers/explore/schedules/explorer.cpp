@@ -12,7 +12,7 @@ using kernel::Operation;
 
 constexpr std::uint8_t looks_max = 6;
 
-// So often all that are ready may spin before time goes on.
+// The number of turns given while all ready tasks spin, before time advances.
 constexpr std::uint32_t idle_turns_max = 20;
 
 template <class... Operations>
@@ -20,7 +20,7 @@ constexpr std::uint64_t set_of(Operations... operations) {
   return (... | (std::uint64_t{1} << static_cast<unsigned>(operations)));
 }
 
-// What changes nothing for others, and what one does again and again who waits for them.
+// Operations without an effect on others, as tasks repeat them when they poll.
 constexpr std::uint64_t looks =
     set_of(Operation::load, Operation::try_lock, Operation::try_lock_shared, Operation::try_acquire,
            Operation::try_wait, Operation::compare_exchange, Operation::exchange, Operation::stop_requested,
@@ -48,7 +48,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   parted_ = was_cut_ = false;
 }
 
-// The number of the alternative that is to be taken at this decision; `count` if that is open.
+// The alternative that `deviations` prescribes for this decision; `count` if there is none.
 std::uint32_t Explorer::of_deviations(std::uint32_t count) {
   const std::size_t at = schedule_.decisions.size();
   while (deviated_ < played_.deviations.size() && played_.deviations[deviated_].decision < at) ++deviated_;
@@ -74,12 +74,12 @@ void Explorer::begin_instant(Time now) {
   instant_ = now;
   step_of_instant_ = 0;
   ++instants_;
-  last_ = nullptr;  // its time has moved on like the others': it has no claim to go on
+  last_ = nullptr;  // its time has advanced like the others': it has no priority to continue
   if (spinning_ != 0) stop_spinning();
   idle_turns_ = 0;
 }
 
-// Where the task that was the last to go on stands, mostly behind the others; as many as there are if it does not.
+// The position of the last running task, usually the last one; the size if it is not offered.
 inline std::uint32_t Explorer::place_of_last(std::span<Task* const> offered) const {
   std::size_t place = offered.size();
   while (place > 0 && offered[place - 1] != last_) --place;
@@ -106,7 +106,7 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
   return chosen;
 }
 
-// Something is played, or some tasks spin.
+// Called if a schedule is played, or some tasks spin.
 std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) {
   if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_turns_max && scheduler_.is_due_later())
     return later;
@@ -141,14 +141,14 @@ std::uint32_t Explorer::stop(std::span<Task* const> ready, std::uint32_t usual) 
   return usual;
 }
 
-// The run ends here: whatever is returned is not entered.
+// The run ends here: the returned task is not entered.
 std::uint32_t Explorer::give_up(Task& task) {
   was_cut_ = true;
   scheduler_.stop_between_events(kernel::StopCause::requested, task);
   return 0;
 }
 
-// What is played here; as many as there are ready if that is open.
+// The played choice; the number of ready tasks if there is none.
 std::uint32_t Explorer::choose(std::span<Task* const> ready, std::uint32_t usual) {
   const auto count = static_cast<std::uint32_t>(ready.size());
   if (const Decision* decision = of_prefix(Choice::task, count)) return decision->chosen;
@@ -160,7 +160,7 @@ std::uint32_t Explorer::choose(std::span<Task* const> ready, std::uint32_t usual
   return count;
 }
 
-// Those of `count` that are not offered, after leave_spinning_out().
+// The tasks among `count` that are not offered, after leave_spinning_out().
 std::uint64_t Explorer::spinning_among(std::uint32_t count) const {
   std::uint64_t left = count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
   for (const std::uint32_t place : places_)
@@ -179,7 +179,7 @@ bool Explorer::polls_only(std::span<Task* const> ready) const {
   return true;
 }
 
-// The strategy, and the default order, do not see those that spin as long as there are others.
+// Hides spinning tasks from the strategy, and from the default order, while there are others.
 std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready) {
   offered_.clear();
   places_.clear();
@@ -189,7 +189,7 @@ std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready
   };
   for (std::uint32_t i = 0; i < ready.size(); ++i)
     if (ready[i]->number >= habits_.size() || !habits_[ready[i]->number].spins) add(i);
-  if (offered_.empty()) {  // all of them spin: one of the others has its turn
+  if (offered_.empty()) {  // all of them spin: another one gets a turn
     stop_spinning();
     for (std::uint32_t i = 0; i < ready.size(); ++i)
       if (ready[i] != last_) add(i);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands between the kernel and a strategy: it writes down what is chosen, lets spinning tasks wait for the
-// others, ends schedules that do not end, and plays what was chosen before.
+// The explorer sits between the kernel and a strategy: it records the choices, delays spinning tasks, ends schedules
+// that make no progress, and plays back recorded choices.
 //
-// A task that looks at the same one or two objects again and again, at one instant and without changing anything (load,
-// try_lock, yield, sleeping for no time), waits for others to do something; while any of them can, it is not offered to
-// the strategy. So loops that wait for a flag end, whatever the strategy prefers. Where all do so again and again and
-// something is due later, they go on then: loops take time, if little.
+// A task that polls the same one or two objects repeatedly, at one instant and without changing anything (load,
+// try_lock, yield, sleeping for no time), waits for others; while any of them can run, it is not offered to the
+// strategy. So polling loops end under every strategy. If all tasks spin and an event is due later, time advances to
+// it: loops take time, if little.
 #pragma once
 
 #include <cstdint>
@@ -18,50 +18,50 @@
 
 namespace waitpoint::exploration {
 
-/// A computation of uncertain cost takes one of so many equally spaced values and one more; the greatest is the usual.
+/// A computation of uncertain cost takes one of computing_steps + 1 equally spaced values; the greatest is the default.
 inline constexpr std::uint32_t computing_steps = 64;
 
-/// What is to be played before, or in place of, a strategy.
+/// A recorded schedule, played before, or instead of, a strategy.
 struct Played {
-  /// The first decisions, as long as the run has the alternatives that they had.
+  /// The first decisions, while the run has the same alternatives.
   std::span<const Decision> prefix = {};
-  /// Behind them: wherever one of these fits, it is made.
+  /// After them: switches, each made wherever it fits.
   std::span<const Switch> switches = {};
-  /// At decisions of these numbers, ascending, these alternatives.
+  /// Alternatives at decisions of these numbers, ascending.
   std::span<const Deviation> deviations = {};
-  /// At this decision the run is stopped.
+  /// The run is stopped at this decision.
   std::size_t stop_at = ~std::size_t{0};
 };
 
-/// What an exhaustive strategy never tried, as none could.
+/// The alternatives that exhaustive strategies omit.
 struct LeftOut {
-  bool turns = false;     ///< of tasks that spin, while others could go on
-  bool costs = false;     ///< of computations, between the values that were offered
-  bool spurious = false;  ///< waits that end for nothing
+  bool turns = false;     ///< turns of spinning tasks, while others could continue
+  bool costs = false;     ///< costs of computations between the offered values
+  bool spurious = false;  ///< spurious wake-ups
 };
 
 class Explorer final : public kernel::Decisions {
  public:
-  /// Schedules of `scheduler` end for lack of progress after `steps_max` switch points at one instant.
+  /// Schedules of `scheduler` end with no progress after `steps_max` switch points at one instant.
   Explorer(kernel::Scheduler& scheduler, std::uint32_t steps_max) : scheduler_(scheduler), steps_max_(steps_max) {}
 
-  /// The next schedule is `strategy`'s, which was begun for it, but for what is played.
+  /// Starts the next schedule: first `played`, then `strategy`, which must have begun this schedule.
   void begin(Strategy& strategy, const Played& played = {});
 
-  /// What was chosen in this schedule so far.
+  /// The choices of this schedule so far.
   const Schedule& schedule() const { return schedule_; }
   /// Switch points so far.
   std::uint32_t steps() const { return step_; }
-  /// The decision at which the run had other alternatives than the prefix, if there was one.
+  /// True if the run diverged from the prefix: a decision had other alternatives.
   bool parted() const { return parted_; }
-  /// The strategy had it end where nothing new could follow.
+  /// True if the strategy abandoned it, since nothing new could follow.
   bool was_cut() const { return was_cut_; }
-  /// In all schedules so far.
+  /// Accumulated over all schedules so far.
   const LeftOut& left_out() const { return left_out_; }
-  /// The tasks between which the run was stopped to choose.
+  /// The candidates of the decision at which the run was stopped.
   std::span<Task* const> stopped_before() const { return stopped_before_; }
 
-  /// What alternative number `chosen` of a computation costs.
+  /// The cost of alternative `chosen` of a computation.
   static Duration cost(Duration least, Duration greatest, std::uint32_t chosen);
 
   std::uint32_t next(Task* const* ready, std::uint32_t count) override;
@@ -69,10 +69,10 @@ class Explorer final : public kernel::Decisions {
   Duration computing(const Task& task, Duration least, Duration greatest) override;
 
  private:
-  // What a task did lately, by Task::number.
+  // A task's recent accesses, by Task::number.
   struct alignas(32) Habit {
     kernel::Object* at[2] = {};
-    std::uint32_t instant = 0;  // of which the rest is
+    std::uint32_t instant = 0;  // the instant to which the other members apply
     std::uint8_t looks = 0;
     bool spins = false;
   };
@@ -99,20 +99,20 @@ class Explorer final : public kernel::Decisions {
   Strategy* strategy_ = nullptr;
   Played played_;
   bool plays_ = false;
-  std::vector<Switch> switches_;  // of what is played, in order: a long run looks for many
+  std::vector<Switch> switches_;  // those to play, in order: indexed, since a long run searches them often
   Schedule schedule_;
   std::vector<Habit> habits_;
-  std::vector<Task*> offered_;  // of the ready, those that do not spin; and where they stand
+  std::vector<Task*> offered_;  // the ready tasks that do not spin, and their indices
   std::vector<std::uint32_t> places_;
   std::vector<Task*> stopped_before_;
   const Task* last_ = nullptr;
   std::uint32_t spinning_ = 0;
-  std::uint32_t idle_turns_ = 0;  // given since anybody did something, while all spun
+  std::uint32_t idle_turns_ = 0;  // turns given since the last effect, while all tasks spin
   std::uint32_t step_ = 0;
   std::uint32_t step_of_instant_ = 0;
   Time instant_;
   std::uint32_t instants_ = 0;
-  std::size_t deviated_ = 0;  // how many of what is played are past
+  std::size_t deviated_ = 0;  // number of deviations played already
   bool parted_ = false;
   bool was_cut_ = false;
   LeftOut left_out_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Delta debugging: what can be left out of a list is, by halves, quarters and so on down to single elements (Zeller,
-// Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 2002).
+// Delta debugging: removes elements of a list by halves, quarters and so on down to single ones (Zeller, Hildebrandt,
+// "Simplifying and isolating failure-inducing input", IEEE TSE 2002).
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace waitpoint::exploration {
 
-/// `all()` is the list as it stands. `is_enough(all, others, from, size)` says whether it was replaced by a shorter
-/// one: by `others`, which are all but the `size` elements `from` there on, or something made of them. Until nothing
-/// more can be left out.
+/// `all()` is the current list. `is_enough(all, others, from, size)` returns true if it has replaced the list by a
+/// shorter one: `others`, which lacks the `size` elements at `from`, or one derived from it. Runs until nothing more
+/// can be removed.
 template <class All, class IsEnough>
 void leave_out(const All& all, const IsEnough& is_enough) {
   for (std::size_t parts = 2;;) {

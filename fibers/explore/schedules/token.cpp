@@ -20,7 +20,7 @@ constexpr char before_trail = '-';
   throw BadInput("replay", "expected " + expected + " in the token '" + text + "'");
 }
 
-// The part before `end`, which is taken off with it; all if there is none.
+// Splits off the part before `end`, and `end`; everything if there is none.
 std::string_view take(std::string_view& rest, char end) {
   const std::size_t at = rest.find(end);
   const std::string_view part = rest.substr(0, at);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes the trail of a run, as its scheduler's watch.
+// Records the trail of a run, as its scheduler's watch.
 #pragma once
 
 #include "fibers/explore/schedules/trail.hpp"
@@ -10,7 +10,7 @@ namespace waitpoint::exploration {
 
 class TrailRecorder final : public kernel::Watch {
  public:
-  /// `trail` has its spacing, and no mark; both must outlive the recorder.
+  /// `trail` must have a spacing and no marks; both must outlive the recorder.
   TrailRecorder(Trail& trail, const Simulation& simulation) : trail_(trail), simulation_(simulation) {
     event = &TrailRecorder::add;
   }
@@ -25,7 +25,7 @@ class TrailRecorder final : public kernel::Watch {
 
   Trail& trail_;
   const Simulation& simulation_;
-  std::uint64_t seen_ = 0;  // events of the run, with this one
+  std::uint64_t seen_ = 0;  // events of the run, including this one
 };
 
 }  // namespace waitpoint::exploration

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Choices from a fuzzer's input: a byte each, modulo the alternatives; the default order when they are used up. So
-// every input is a schedule, and an input that was cut shorter is a simpler one.
+// Choices from a fuzzer's input: a byte each, modulo the alternatives; then the default order. So every input is a
+// schedule, and a truncated input a simpler one.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ class Bytes final : public Strategy {
   void begin(std::uint64_t, const Draws&, const Profile&) override { used_ = 0; }
   std::uint32_t next(const SwitchPoint& at) override {
     if (at.ready.size() == 1) return 0;
-    // Zero is the usual: what a fuzzer fills up with changes little.
+    // Zero is the default choice, so a fuzzer's zero padding changes little.
     return used_ == input_.size() ? usual(at) : (usual(at) + take(at.ready.size())) % at.ready.size();
   }
   std::uint32_t among(Choice, const Task&, std::uint32_t count) override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which events may come to something else in the other order: those at one object, unless both only look at it.
+// Dependent events, i.e. those whose order may change the result: at the same object, unless both only read it.
 #pragma once
 
 #include "fibers/kernel/task.hpp"
@@ -10,7 +10,7 @@ inline bool only_looks(kernel::Operation operation) {
   return operation == kernel::Operation::load || operation == kernel::Operation::stop_requested;
 }
 
-/// A wait for a condition gives its lock up, of which the kernel sees nothing: it may be any.
+/// A condition wait releases its lock, which the kernel does not see: it may be any lock.
 inline bool releases_unseen(kernel::Operation operation) { return operation == kernel::Operation::wait; }
 inline bool is_of_lock(kernel::Operation operation) {
   switch (operation) {
@@ -25,7 +25,7 @@ inline bool is_of_lock(kernel::Operation operation) {
   }
 }
 
-/// Of what the two tasks are about to do.
+/// Compares the pending operations of two tasks.
 inline bool are_dependent(const kernel::Task& a, const kernel::Task& b) {
   return a.at != nullptr && a.at == b.at && !(only_looks(a.operation) && only_looks(b.operation));
 }

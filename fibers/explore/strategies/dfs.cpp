@@ -11,10 +11,10 @@ void Dfs::begin(std::uint64_t, const Draws&, const Profile&) {
   preempted_ = 0;
 }
 
-// The alternative on the path, or the first one of a level that is new.
+// The alternative on the path, or the first one of a new level.
 std::uint32_t Dfs::descend(std::uint32_t count) {
   if (depth_ == path_.size()) path_.push_back({count, 0});
-  // A body that leaks state may have other alternatives now: this level is begun anew.
+  // A body that leaks state may have different alternatives: this level restarts.
   Level& level = path_[depth_++];
   if (level.count != count) {
     path_.resize(depth_);
@@ -23,7 +23,7 @@ std::uint32_t Dfs::descend(std::uint32_t count) {
   return path_[depth_ - 1].tried;
 }
 
-// The usual one first, then the others in their order.
+// The default one first, then the others in order.
 std::uint32_t Dfs::next(const SwitchPoint& at) {
   const std::uint32_t first = usual(at);
   const bool may_switch = !at.may_go_on || preempted_ < preemptions_;
@@ -35,7 +35,7 @@ std::uint32_t Dfs::next(const SwitchPoint& at) {
 }
 
 std::uint32_t Dfs::among(Choice choice, const Task&, std::uint32_t count) {
-  if (choice == Choice::spurious) return 0;  // it could end for nothing for ever
+  if (choice == Choice::spurious) return 0;  // spurious wake-ups could be endless
   if (choice == Choice::computing) return descend(2) == 0 ? 0 : count - 1;
   return descend(count);
 }

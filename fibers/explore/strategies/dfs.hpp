@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exhaustive search, depth first: after each schedule the last choice that has an alternative left takes it. Bounded,
-// it tries all schedules with at most so many preemptions, that is switches away from a task that could go on
-// (Musuvathi, Qadeer, "Iterative context bounding", PLDI 2007): most bugs need two or three.
+// Exhaustive depth-first search: after each schedule the last choice with an untried alternative takes it. The bounded
+// variant tries all schedules with at most a given number of preemptions, i.e. switches away from a task that could
+// continue (Musuvathi, Qadeer, "Iterative context bounding", PLDI 2007): most bugs need two or three.
 //
-// Of what a computation may cost, it tries the two ends.
+// Of the cost of a computation it tries the two ends.
 #pragma once
 
 #include "fibers/explore/strategies/strategy.hpp"

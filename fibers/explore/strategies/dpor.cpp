@@ -20,7 +20,7 @@ Dpor::Event Dpor::event_of(const Task& task) {
 }
 
 bool Dpor::are_dependent(const Event& a, const Event& b) {
-  // Who yields is not offered until another has done something: what comes before and what behind it matters.
+  // A yielding task is not offered until another has acted: the order of events around a yield matters.
   if (a.operation == kernel::Operation::yield || b.operation == kernel::Operation::yield) return true;
   if (releases_unseen(a.operation) && is_of_lock(b.operation)) return true;
   if (releases_unseen(b.operation) && is_of_lock(a.operation)) return true;
@@ -43,7 +43,7 @@ void Dpor::begin(std::uint64_t, const Draws&, const Profile&) {
   last_of_task_.clear();
 }
 
-// In a state that is new, the first task that does not sleep; false where all do: what follows was seen already.
+// In a new state, the first task that is not asleep; false if all are: the rest has been explored already.
 bool Dpor::choose(State& state, const State* before) {
   if (before != nullptr)
     for (const Event& event : before->asleep)
@@ -57,7 +57,7 @@ bool Dpor::choose(State& state, const State* before) {
   return false;
 }
 
-// Where another order of `state`'s event and an earlier one is to be tried, which it races with.
+// Adds backtracking points for the earlier events that race with `state`'s.
 void Dpor::find_races(const State& state) {
   const Clock before = [&] {
     const auto last = last_of_task_.find(state.done.task);
@@ -114,7 +114,7 @@ std::uint32_t Dpor::next(const SwitchPoint& at) {
     ++depth_;
     return i;
   }
-  return cut;  // the body leaks state: it is another one now
+  return cut;  // the body leaks state: the state differs now
 }
 
 std::uint32_t Dpor::among(Choice choice, const Task&, std::uint32_t count) {

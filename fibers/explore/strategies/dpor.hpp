@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exhaustive search that leaves out what comes to the same: dynamic partial order reduction with sleep sets (Flanagan,
-// Godefroid, POPL 2005; Godefroid, LNCS 1032). Two events commute unless they are dependent, see dependence.hpp; only
-// where two dependent ones of a schedule were not ordered by others is the other order tried.
+// Exhaustive search without equivalent schedules: dynamic partial order reduction with sleep sets (Flanagan, Godefroid,
+// POPL 2005; Godefroid, LNCS 1032). Two events commute unless they are dependent, see dependence.hpp; the reverse order
+// is tried only for dependent events that are not ordered by others.
 //
 //   ... | state: ready, tried, to try, asleep |--event of one task--> | state | ...
 //
-// Times are as they are: sleeps and timeouts order events of different instants. Choices that are not between tasks are
-// tried in all their ways, but that no wait ends for nothing.
+// Times are kept: sleeps and timeouts order events of different instants. Choices that are not between tasks are tried
+// exhaustively, except spurious wake-ups.
 #pragma once
 
 #include <map>
@@ -25,7 +25,7 @@ class Dpor final : public Strategy {
   bool is_exhaustive() const override { return true; }
 
  private:
-  // What a task is about to do.
+  // The pending event of a task.
   struct Event {
     std::uint64_t task = 0;
     kernel::Operation operation = kernel::Operation::start;
@@ -33,7 +33,7 @@ class Dpor final : public Strategy {
   };
   static bool are_dependent(const Event& a, const Event& b);
 
-  // By task, how many of its events come before: a vector clock.
+  // By task, the number of its events that happen before: a vector clock.
   using Clock = std::map<std::uint64_t, std::uint32_t>;
   static void join(Clock& into, const Clock& other);
 
@@ -42,8 +42,8 @@ class Dpor final : public Strategy {
     std::vector<std::uint64_t> to_try;
     std::vector<std::uint64_t> tried;
     std::vector<Event> asleep;
-    Event done;            // the event that leads on
-    std::uint32_t number;  // of it, among its task's
+    Event done;            // the event executed in this state
+    std::uint32_t number;  // its number among its task's events
     Clock clock;           // after it
     std::uint32_t count = 0, chosen = 0;
   };
@@ -56,7 +56,7 @@ class Dpor final : public Strategy {
 
   std::vector<State> path_;
   std::size_t depth_ = 0;
-  std::map<std::uint64_t, std::size_t> last_of_task_;  // the state in which each task did its last event
+  std::map<std::uint64_t, std::size_t> last_of_task_;  // the state of each task's last event
 };
 
 }  // namespace waitpoint::exploration

@@ -4,7 +4,7 @@
 namespace waitpoint::exploration {
 
 std::uint32_t Drawn::among(Choice choice, const Task&, std::uint32_t count) {
-  constexpr std::uint64_t rarity = 12;  // of what happens once in so many times
+  constexpr std::uint64_t rarity = 12;  // rare alternatives have a chance of 1 / rarity
   switch (choice) {
     case Choice::spurious:
     case Choice::loss: return draws_.below(rarity) == 0;

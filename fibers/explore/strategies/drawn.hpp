@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What strategies share that draw their choices: all but which task goes on.
+// The common part of drawing strategies: all choices except the next task.
 #pragma once
 
 #include "fibers/explore/strategies/strategy.hpp"
@@ -12,12 +12,12 @@ class Drawn : public Strategy {
     draws_ = draws;
     start(profile);
   }
-  /// Any waiter; now and then something that rarely happens; of what a computation may cost, the ends as often as all
-  /// between them: bugs of timing are at the ends.
+  /// Any waiter; now and then a rare alternative; of a computation's costs, the ends as often as all values between:
+  /// timing bugs are at the ends.
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
 
  protected:
-  /// The schedule begins; the draws are its own already.
+  /// Called at the start of a schedule, after its draws are set.
   virtual void start(const Profile&) {}
 
   std::uint32_t draw(std::size_t bound) { return static_cast<std::uint32_t>(draws_.below(bound)); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The random numbers of one schedule: a stream of its own for each (seed, strategy, number of the schedule), so that
-// any schedule of a campaign can be drawn again without those before it.
+// The random numbers of one schedule: a stream of its own per (seed, strategy, number of the schedule), so that any
+// schedule of a campaign can be drawn without those before it.
 #pragma once
 
 #include <cstdint>

@@ -30,8 +30,8 @@ Made make_portfolio() {
 struct Known {
   std::string_view name;
   const char* parameter;  // its letter; null for a strategy without one
-  std::uint32_t usual;    // where it is not given
-  std::uint32_t least;    // that may be given
+  std::uint32_t usual;    // default value
+  std::uint32_t least;    // least value
   Made (*make)(std::uint32_t parameter);
 };
 

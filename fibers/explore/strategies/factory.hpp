@@ -11,13 +11,13 @@ namespace waitpoint::exploration {
 
 enum class Kinds {
   all,
-  drawing,  ///< those that draw a schedule without the ones before it: no exhaustive ones
+  drawing,  ///< those that can draw a schedule without its predecessors: not the exhaustive ones
 };
 
-/// The strategy of that name: "random", "pct:3". Throws BadInput, which names those there are of `named`.
+/// The strategy of that name: "random", "pct:3". Throws BadInput, which lists the strategies of kind `named`.
 std::unique_ptr<Strategy> make_strategy(const std::string& name, Kinds named = Kinds::all);
 
-/// Of all strategies, with their parameters, as --help shows them.
+/// The names of all strategies, with their parameters, as --help shows them.
 std::string strategy_names(Kinds kinds = Kinds::all);
 
 }  // namespace waitpoint::exploration

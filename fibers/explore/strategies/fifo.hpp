@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The default order: a task goes on as long as it can, then the one that has been ready longest; nothing rare happens.
+// The default order: a task continues as long as it can, then the one that has been ready longest; rare alternatives
+// are never chosen.
 #pragma once
 
 #include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
 
-/// What the default order chooses at a switch point.
+/// The default choice at a switch point.
 inline std::uint32_t usual(const SwitchPoint& at) {
   if (at.may_go_on)
     for (std::uint32_t i = 0; i < at.ready.size(); ++i)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCT: random priorities that change at a few random steps (Burckhardt, Kothari, Musuvathi, Nagarakatti, "A randomized
-// scheduler with probabilistic guarantees of finding bugs", ASPLOS 2010). The ready task of the highest priority goes
-// on; at each of depth - 1 steps, drawn beforehand, the one that would go on falls below all others. A bug that needs
-// `depth` orderings among n tasks and k steps is found with a chance of 1 / (n k^(depth-1)) at least.
+// scheduler with probabilistic guarantees of finding bugs", ASPLOS 2010). The ready task of the highest priority runs;
+// at each of depth - 1 steps, drawn beforehand, the task that would run drops below all others. A bug that needs
+// `depth` orderings among n tasks and k steps is found with a probability of at least 1 / (n k^(depth-1)).
 #pragma once
 
 #include "fibers/explore/strategies/drawn.hpp"
@@ -20,8 +20,8 @@ class Pct final : public Drawn {
 
   std::uint32_t depth_;
   std::vector<std::uint32_t> changes_;     // steps, ascending
-  std::size_t changed_ = 0;                // of them are past
-  std::vector<std::uint64_t> priorities_;  // by Task::number; those that fell are below depth_
+  std::size_t changed_ = 0;                // number of changes made
+  std::vector<std::uint64_t> priorities_;  // by Task::number; below depth_ after a drop
 };
 
 }  // namespace waitpoint::exploration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several strategies in turn, a schedule each: no single one finds what all others find.
+// Several strategies in turn, one schedule each: no single one finds all bugs.
 #pragma once
 
 #include <memory>

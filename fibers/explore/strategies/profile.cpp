@@ -42,7 +42,7 @@ void Profiling::count(kernel::Watch& self, const kernel::EventRecord& record) {
   Profile::TaskEvents* known = profile.find(task.id);
   if (known == nullptr) known = &profile.tasks.emplace_back(Profile::TaskEvents{task.id, task.maker, 0, {}});
   ++known->events;
-  // That somebody waits for a thread's end does not make its end an object that is worth an order of its own.
+  // Joins do not make a thread's end an object worth reordering.
   const bool meets = record.object != nullptr && record.operation != kernel::Operation::join;
   known->objects.push_back(meets ? record.object->identity : 0);
 }

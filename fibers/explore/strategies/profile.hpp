@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the first schedule of a campaign, which is first in first out, showed of the body: how long it is, how many
-// events each of its tasks has, and at which objects. Strategies that need to know beforehand take it as an estimate.
+// Measurements of a campaign's first schedule, which is in the default order: its length, and the events of each task
+// with their objects. Strategies use them as estimates.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@ struct Profile {
     std::uint64_t task;    ///< its id: the same in every schedule
     std::uint64_t parent;  ///< 0 for the first task
     std::uint32_t events = 0;
-    std::vector<std::uint64_t> objects;  ///< of each event, 0 without one: their identities, in their order
+    std::vector<std::uint64_t> objects;  ///< identity of each event's object, in order; 0: none
   };
 
   std::uint32_t steps = 0;  ///< switch points
   std::vector<TaskEvents> tasks;
   std::vector<std::uint64_t> shared;  ///< identities of objects that more than one task used
-  std::vector<std::uint64_t> code;    ///< of another process: addresses where code accesses memory that tasks share
+  std::vector<std::uint64_t> code;    ///< of another process: code addresses that access shared memory
 
-  /// With the events of all tasks: the run had so many switch points.
+  /// Completes the profile; the run had `switch_points`.
   void finish(std::uint32_t switch_points);
-  /// Null for a task that the first schedule did not have.
+  /// Null for a task not in the first schedule.
   const TaskEvents* find(std::uint64_t task) const {
     for (const TaskEvents& known : tasks)
       if (known.task == task) return &known;
@@ -35,7 +35,7 @@ struct Profile {
   TaskEvents* find(std::uint64_t task) { return const_cast<TaskEvents*>(std::as_const(*this).find(task)); }
 };
 
-/// Counts the events of one run, as its scheduler's watch. When it is over the profile is to be finished.
+/// Records the events of one run, as its scheduler's watch. Afterwards the profile must be finished.
 class Profiling : public kernel::Watch {
  public:
   explicit Profiling(Profile& profile);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random walk: at each switch point any of the ready tasks, all alike. Nothing beats its throughput; orders in which
-// one task has to wait long are rare.
+// Random walk: at each switch point a ready task, uniformly. Nothing beats its throughput, but orders in which one task
+// waits long are rare.
 #pragma once
 
 #include "fibers/explore/strategies/drawn.hpp"

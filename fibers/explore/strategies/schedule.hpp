@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A schedule as the choices that were made: they are what a run repeats by, what is cut shorter to explain it, and what
-// is stored.
+// A schedule as a sequence of choices: it is replayed, minimised and stored in this form.
 //
-// Only what was a choice stands in it: two alternatives or more. The usual one is what the default order would have
-// done: the running task goes on, else the one that has been ready longest, of those that do not spin; the first
-// waiter; the longest computation. What differs from that, the switches, says by tasks and their events where it was
-// made: so it keeps its meaning when others are left out, or the code around it is edited.
+// Only real choices are in it: those with two or more alternatives. The default one is that of the default order: the
+// running task continues, else the one that has been ready longest, of those that do not spin; the first waiter; the
+// longest computation. The deviations from it, the switches, are identified by tasks and their events: so they remain
+// valid when others are left out, or the code around them is edited.
 #pragma once
 
 #include <compare>
@@ -25,7 +24,8 @@ struct EventOf {
 
 inline EventOf event_of(const kernel::Task& task) { return {task.id, task.sequence}; }
 
-/// In place of `usual`, the next event of some task, comes `instead`; or what `usual` chooses is number `instead.task`.
+/// Instead of `usual`, the next event of some task, event `instead` executes; in other choices, the task of `usual`
+/// takes alternative `instead.task`.
 struct Switch {
   kernel::Choice choice = kernel::Choice::task;
   EventOf usual;
@@ -36,16 +36,16 @@ struct Switch {
 struct Decision {
   std::uint32_t count;   ///< alternatives, at least two
   std::uint32_t chosen;  ///< below count
-  std::uint32_t usual;   ///< what the default order would have chosen
+  std::uint32_t usual;   ///< the default choice
   kernel::Choice choice = kernel::Choice::task;
-  bool may_go_on = false;      ///< the usual one is the task whose event was executed last: another preempts it
-  std::uint64_t spinning = 0;  ///< of the first 64 alternatives: tasks that spin, whose turn it is not
+  bool may_go_on = false;      ///< the default one is the task of the last event: choosing another preempts it
+  std::uint64_t spinning = 0;  ///< spinning tasks among the first 64 alternatives, not offered
 
   bool is_switch() const { return chosen != usual; }
   bool spins(std::uint32_t alternative) const { return alternative < 64 && (spinning >> alternative & 1) != 0; }
 };
 
-/// At which decision of a schedule, counted from 0, which alternative.
+/// The number of a decision in a schedule, counted from 0, and its alternative.
 struct Deviation {
   std::uint32_t decision;
   std::uint32_t chosen;
@@ -54,9 +54,9 @@ struct Deviation {
 
 struct Schedule {
   std::vector<Decision> decisions;
-  std::vector<Switch> switches;  ///< of those decisions that are switches, in their order
+  std::vector<Switch> switches;  ///< the decisions that are switches, in order
 
-  /// The switches by their numbers: shorter, and only of use in a program that is not edited.
+  /// The switches by decision numbers: shorter, but only valid in the unedited program.
   std::vector<Deviation> deviations() const {
     std::vector<Deviation> found;
     for (std::size_t i = 0; i < decisions.size(); ++i)

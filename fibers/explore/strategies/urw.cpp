@@ -13,7 +13,7 @@ void Urw::start(const Profile& profile) {
   object_ = selective_ && !profile.shared.empty() ? profile.shared[draw(profile.shared.size())] : 0;
 }
 
-// What counts of the events of `task` and of all that descend from it.
+// The relevant events of `task` and of all its descendants.
 std::uint64_t Urw::expected(const Profile::TaskEvents& task) const {
   std::uint64_t count = object_ == 0
                             ? task.events
@@ -23,7 +23,7 @@ std::uint64_t Urw::expected(const Profile::TaskEvents& task) const {
   return count;
 }
 
-// A task that is seen for the first time: what it is to do is its maker's no longer.
+// The first sight of a task: its events are subtracted from its maker's.
 void Urw::meet(const Task& task) {
   if (ids_.size() <= task.number) {
     remaining_.resize(task.number + 1, 0);
@@ -52,7 +52,7 @@ std::uint32_t Urw::weighted(const SwitchPoint& at) {
   return chosen;
 }
 
-// Anybody but those who would come to the object out of turn.
+// Any task, except those that would reach the object out of turn.
 std::uint32_t Urw::selected(const SwitchPoint& at) {
   const bool waits = std::find(at.ready.begin(), at.ready.end(), intended_) == at.ready.end();
   if (intended_ == nullptr || waits) intended_ = at.ready[weighted(at)];

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // URW and SURW (Zhao, Wolff, Mathur, Roychoudhury, "Selectively uniform concurrency testing", ASPLOS 2025):
-// interleavings are drawn uniformly. A task goes on with a chance in proportion to the events that it and the tasks it
-// is yet to make still have, as the profile counts them; a random walk finds the middle of the space of orders, and
-// hardly its edges.
+// interleavings are drawn uniformly. A task's chance is proportional to the remaining events of it and of the tasks it
+// has yet to create, by the profile; a random walk samples the middle of the space of orders, and hardly its edges.
 //
-// The selective one is uniform over the events at one object alone, drawn for each schedule: who is next there is
-// decided beforehand, and others wait before theirs.
+// The selective variant is uniform over the events at one object, drawn for each schedule: the next task there is
+// chosen beforehand, and others wait before their event at it.
 #pragma once
 
 #include "fibers/explore/strategies/drawn.hpp"
@@ -28,11 +27,12 @@ class Urw final : public Drawn {
 
   bool selective_;
   const Profile* profile_ = nullptr;
-  std::uint64_t object_ = 0;              // at whose events it is selective
-  std::vector<std::uint64_t> remaining_;  // by Task::number: events that count, its own and of those to be made
+  std::uint64_t object_ = 0;              // the object of the selective variant
+  std::vector<std::uint64_t> remaining_;  // by Task::number: remaining relevant events, of the task and its future
+                                          // descendants
   std::vector<std::uint64_t> ids_;        // by Task::number
-  const Task* intended_ = nullptr;        // who is next at the object
-  std::vector<std::uint32_t> free_;       // which of the ready may go on
+  const Task* intended_ = nullptr;        // the next task at the object
+  std::vector<std::uint32_t> free_;       // indices of the ready tasks that may run
 };
 
 }  // namespace waitpoint::exploration
