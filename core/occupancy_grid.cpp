@@ -8,8 +8,8 @@ namespace waitpoint {
 OccupancyGrid::OccupancyGrid(int width, int height, double resolution_m, const Pose& origin, Cell fill)
     : width_(width), height_(height), resolution_m_(resolution_m), origin_(origin) {
   WAITPOINT_CHECK(width > 0 && height > 0 && std::int64_t{width} * height <= cells_max,
-                  "a grid of no or too many cells");
-  WAITPOINT_CHECK(resolution_m > 0, "cells without size");
+                  "a grid without cells, or with too many");
+  WAITPOINT_CHECK(resolution_m > 0, "the size of a cell is not positive");
   cells_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill);
 }
 

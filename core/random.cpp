@@ -50,7 +50,7 @@ double RandomStream::uniform(std::uint64_t tick, std::uint64_t index) const {
 }
 
 std::uint64_t RandomStream::below(std::uint64_t bound, std::uint64_t tick, std::uint64_t index) const {
-  WAITPOINT_CHECK(bound > 0, "there is no integer below zero to draw");
+  WAITPOINT_CHECK(bound > 0, "the bound of a random integer must be positive");
   const auto b = block(tick, index);
   return static_cast<std::uint64_t>(static_cast<unsigned __int128>(word(b[0], b[1])) * bound >> 64);
 }

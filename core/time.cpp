@@ -45,7 +45,7 @@ Duration Period::tick(std::int64_t k) const {
 }
 
 std::int64_t Period::first_tick_at_or_after(Duration d) const {
-  WAITPOINT_CHECK(d >= Duration(), "ticks are counted from the start of the run");
+  WAITPOINT_CHECK(d >= Duration(), "a tick before the start of the run");
   const __int128 estimate = static_cast<__int128>(d.ns()) * ticks_ / span_.ns();
   std::int64_t k = static_cast<std::int64_t>(estimate);
   while (k > 0 && tick(k - 1) >= d) --k;

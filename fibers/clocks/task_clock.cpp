@@ -60,7 +60,7 @@ void compute_as_declared(LocalClock& clock, Task& task, Duration least, Duration
 
 TaskClock::TaskClock(const ClockOptions& given) : options(given) {
   WAITPOINT_CHECK(options.scale_millionths >= 0, "a local clock is scaled by a negative factor");
-  WAITPOINT_CHECK(options.least >= Duration() && options.block_cost >= Duration(), "computing takes no negative time");
+  WAITPOINT_CHECK(options.least >= Duration() && options.block_cost >= Duration(), "a computing time is negative");
   WAITPOINT_CHECK(options.least <= options.greatest, "the ends of an interval of computing times are swapped");
   if (options.kind == ClockKind::fixed || options.kind == ClockKind::interval) {
     compute = compute_as_declared;

@@ -60,7 +60,7 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   outcome.failure = simulation_.trouble();
   outcome.was_cut = explorer_.was_cut();
   if (!outcome.was_cut && outcome.failure.empty() && outcome.end == RunEnd::time_reached)
-    outcome.failure = "it had not ended at " + to_string(until_) + " s";
+    outcome.failure = "not finished at " + to_string(until_) + " s of virtual time";
   if (heeds_races_ && outcome.failure.empty() && races::any_found()) outcome.failure = describe_races(places_);
   outcome.digest = simulation_.digest().value();
   outcome.end_time = simulation_.global_time();

@@ -102,13 +102,13 @@ std::string Campaign::difference_to_the_first() {
   const Timeline after = take_timeline(body_, {});
   for (std::size_t i = 0; i < before.events.size() || i < after.events.size(); ++i) {
     const auto text = [&](const Timeline& timeline) {
-      if (i >= timeline.events.size()) return std::string("nothing more");
+      if (i >= timeline.events.size()) return std::string("the end");
       const TimelineEvent& event = timeline.events[i];
       return timeline.tasks[event.task] + " " + name(event.operation) + " " + event.object;
     };
     if (text(before) != text(after))
       return "the body leaks state from one schedule into the next: in the default order, event " + std::to_string(i) +
-             " is first '" + text(before) + "' and then '" + text(after) + "'";
+             " was '" + text(before) + "' at first and is '" + text(after) + "' now";
   }
   return "";
 }
@@ -147,7 +147,8 @@ void Campaign::search() {
   if (body_.run(usual).digest != usual_digest_) {
     report_.text = difference_to_the_first();
     if (report_.text.empty())
-      report_.text = "the body leaks state from one schedule into the next: the default schedule is another one now";
+      report_.text =
+          "the body leaks state from one schedule into the next: the default schedule differs from its first run";
   }
 }
 
@@ -155,12 +156,12 @@ void Campaign::say_scope(const Strategy& strategy) {
   const LeftOut& left_out = body_.explorer().left_out();
   std::string but;
   const auto add = [&](bool is_left_out, const char* what) {
-    if (is_left_out) but += (but.empty() ? ", but for " : " and ") + std::string(what);
+    if (is_left_out) but += (but.empty() ? ", except " : " and ") + std::string(what);
   };
-  add(left_out.turns, "turns of tasks that spin");
-  add(left_out.costs, "computing costs between the least and the greatest");
-  add(left_out.spurious, "waits that end for nothing");
-  report_.scope = "all there are" + strategy.scope() + but;
+  add(left_out.turns, "turns of spinning tasks");
+  add(left_out.costs, "computing costs between the bounds");
+  add(left_out.spurious, "spurious wake-ups");
+  report_.scope = "all schedules" + strategy.scope() + but;
   report_.complete = strategy.scope().empty() && !left_out.turns && !left_out.costs;
 }
 
@@ -184,8 +185,8 @@ void Campaign::tell_leak(const Found& found) {
   report_.schedule = found.failure.schedule;
   report_.text =
       found.which + " failed: " + with_places(body_, found.failure).outcome.failure +
-      "\nin a process that has run nothing before, the same schedule is another run: the body leaks state from "
-      "one schedule into the next, or reads what is not simulated, a clock or random numbers. No line repeats it";
+      "\nnot reproducible: in a fresh process the same schedule gives another run. The body leaks state from one "
+      "schedule into the next, or reads a clock or random numbers that are not simulated; there is no replay line";
 }
 
 void Campaign::tell(const Found& found) {
@@ -204,7 +205,7 @@ void Campaign::tell(const Found& found) {
   text = found.which + " failed: " + least.outcome.failure + "\n";
   if (least.schedule.switches.empty() && !found.is_default && usual_digest_ != 0)
     text +=
-        "the default order, which passed at first, fails now: the body leaks state from one schedule into the next\n";
+        "the default order, which passed at first, now fails: the body leaks state from one schedule into the next\n";
   text += explain(body_, least, {runs_to_explain});
   if (const std::string file = trace_file(); !file.empty()) {
     std::ofstream out(file);
@@ -213,7 +214,7 @@ void Campaign::tell(const Found& found) {
   }
   supervisor_.pause();
   if (!is_shortest && !found.token.strategy.empty() && least.schedule.switches != found.failure.schedule.switches)
-    text += "a line is too short for these switches: the next one repeats the run as it was found, with " +
+    text += "too many switches for one line: the replay line repeats the run as it was found, with " +
             std::to_string(found.failure.schedule.switches.size()) + "\n";
   text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_line(checks_);
 }
@@ -243,22 +244,21 @@ std::string Campaign::difference_to(const Token& token, const Outcome& outcome) 
   for (const Deviation& deviation : token.deviations) {
     const std::string which = "choice " + std::to_string(deviation.decision);
     if (deviation.decision >= decisions.size())
-      return which + " was never come to: it left the record before its end, behind event " +
-             std::to_string(outcome.events) + ", at " + to_string(outcome.end_time) + " s";
+      return which + " was not reached: the run diverged and ended after event " + std::to_string(outcome.events) +
+             ", at " + to_string(outcome.end_time) + " s";
     // Without that alternative, the explorer takes the last or the usual one.
     if (deviation.chosen >= decisions[deviation.decision].count)
-      return which + " has only " + std::to_string(decisions[deviation.decision].count) +
-             " alternatives, none of the number " + std::to_string(deviation.chosen) + ": it left the record at " +
-             event_at(token, deviation.decision);
+      return which + " has only " + std::to_string(decisions[deviation.decision].count) + " alternatives, not number " +
+             std::to_string(deviation.chosen) + ": the run diverged at " + event_at(token, deviation.decision);
   }
-  if (token.digest == 0) return outcome.passed() ? "that one ended its process, this one passed" : "";
+  if (token.digest == 0) return outcome.passed() ? "the recorded run ended its process, this one passed" : "";
   if (token.digest == token_digest(outcome.digest)) return "";
   const std::string digests = "it had " + std::to_string(outcome.events) + " events, and its digest begins with " +
                               digest_text(token_digest(outcome.digest)) + ", the token's with " +
                               digest_text(token.digest);
   if (token.trail.marks.empty()) return digests;
   const Schedule schedule = body_.explorer().schedule();
-  return digests + ": it left the record " + parting(token.trail, take_trail(body_, schedule, token.trail.log_spacing));
+  return digests + ": the run diverged " + parting(token.trail, take_trail(body_, schedule, token.trail.log_spacing));
 }
 
 ExploreReport Campaign::replay(const Token& token) {
@@ -271,7 +271,7 @@ ExploreReport Campaign::replay(const Token& token) {
   const Failure failure{body_.explorer().schedule(), outcome};
   std::string difference = difference_to(token, outcome);
   if (!difference.empty()) {
-    difference = "this is not the run of the token: " + difference + "; the program or the test is another one";
+    difference = "the token belongs to another run: " + difference + "; the program or the test has changed";
     if (asks_for_replay()) throw BadInput(options_.replay, difference);
   }
   if (!outcome.passed()) tell({failure, token, "the replayed schedule", false});

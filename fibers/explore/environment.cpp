@@ -58,7 +58,7 @@ bool came_to_replay = false;
 void check_replayed() {
   if (came_to_replay || variable(replay_name).empty()) return;
   refuse(std::string(replay_name) + ": expected a token of this program, found '" + variable(replay_name) +
-         "': no test that was run has such a call");
+         "': no test that ran makes such a call");
 }
 
 // Quoted for a shell where necessary.
@@ -80,7 +80,7 @@ ExploreOptions with_environment(ExploreOptions options) {
   if (const std::string strategy = variable(strategy_name); !strategy.empty()) options.strategy = strategy;
   take(seed_name, options.seed, Zero::allowed, "a whole number from 0 to 2^64 - 1");
   take(iterations_name, options.iterations, Zero::refused, "a positive whole number");
-  take(time_limit_name, options.time_limit_s, Zero::refused, "a positive number of seconds, or no such variable");
+  take(time_limit_name, options.time_limit_s, Zero::refused, "a positive number of seconds, or the variable unset");
   take(schedule_limit_name, options.schedule_limit_s, Zero::allowed, "a whole number of seconds, 0 for none");
   check_can_be_written(trace_name);
   if (const std::string replay = variable(replay_name); !replay.empty()) {

@@ -89,11 +89,11 @@ std::string describe_pair(Body& body, const Failure& failure, const Crossing& cr
 
 const char* description(Choice choice) {
   switch (choice) {
-    case Choice::task: return "which task goes on";
-    case Choice::waiter: return "who is woken";
-    case Choice::spurious: return "whether a wait ends for nothing";
-    case Choice::loss: return "whether a datagram is lost";
-    case Choice::computing: return "how long a computation takes";
+    case Choice::task: return "the next task";
+    case Choice::waiter: return "the waiter to wake";
+    case Choice::spurious: return "a spurious wake-up";
+    case Choice::loss: return "the loss of a datagram";
+    case Choice::computing: return "the cost of a computation";
   }
   return "";
 }
@@ -105,7 +105,7 @@ std::string describe_last_crossing(Body& body, const Failure& failure, Effort ef
   const Decision& decision = failure.schedule.decisions[crossing->decision];
   const bool is_usual = failure.schedule.switches.empty();
   std::string text = "the last choice from which it could still have passed" +
-                     std::string(is_usual ? ", in another than the default order" : "") + ": number " +
+                     std::string(is_usual ? " by deviating from the default order" : "") + ": number " +
                      std::to_string(crossing->decision) + ", " + description(decision.choice);
   if (decision.choice != Choice::task) {
     ChoiceWords words(body.explorer(), crossing->decision, crossing->instead);
@@ -119,7 +119,8 @@ std::string describe_last_crossing(Body& body, const Failure& failure, Effort ef
     if (ready.empty()) return;
     text += ", at " + to_string(body.simulation().global_time()) + " s";
     if (crossing->reversed && crossing->reversed->indirection == 0) return;  // these are the pair
-    text += "\n  here " + about_to(*ready[decision.chosen]) + "; it passes with " + about_to(*ready[crossing->instead]);
+    text += "\n  it fails with " + about_to(*ready[decision.chosen]) + ", and passes with " +
+            about_to(*ready[crossing->instead]);
   });
   return text + describe_pair(body, failure, *crossing);
 }
@@ -158,7 +159,7 @@ std::string explain(Body& body, const Failure& failure, Effort effort) {
                                      : std::to_string(switches) + " switches away from the default order fail\n";
   text += describe_other_switches(body, failure.schedule);
   return text + describe_last_crossing(body, failure, effort) +
-         "what the tasks did (*: in place of one that could have gone on):\n" +
+         "events of the tasks (*: switch away from the default order):\n" +
          to_text(take_timeline(body, failure.schedule), events_shown);
 }
 

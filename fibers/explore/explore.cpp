@@ -44,7 +44,7 @@ ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<voi
 
 ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<void()> body,
                            const ExploreOptions& asked) {
-  WAITPOINT_CHECK(kernel::running == nullptr, "schedules are explored from within a run");
+  WAITPOINT_CHECK(kernel::running == nullptr, "explore() is called from within a simulated run");
   try {
     return explore_call(checks, std::move(body), exploration::with_environment(asked));
   } catch (const BadInput& input) {

@@ -8,7 +8,7 @@ namespace waitpoint {
 std::ostream& operator<<(std::ostream& out, const ExploreReport& report) {
   if (!report.passed) return out << report.text;
   out << "passed " << report.schedules << " schedules, " << report.distinct << " distinct";
-  if (!report.scope.empty()) out << ", which are " << report.scope;
+  if (!report.scope.empty()) out << ": " << report.scope;
   if (report.leaked_bytes > 0) out << "; each leaves " << report.leaked_bytes << " bytes on the heap";
   return out;
 }

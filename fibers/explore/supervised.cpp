@@ -74,13 +74,13 @@ class Watchman {
     ticks_ = *ticks;
     ++seconds_;
     if (idle_s_ >= idle_s_max)
-      end(" has waited for " + std::to_string(idle_s_) +
-          " s for something that is not simulated, a real lock or input: the process is ended");
+      end(" was blocked for " + std::to_string(idle_s_) +
+          " s by something that is not simulated, such as a real lock or input: process terminated");
     else if (supervision_.limit_s != 0 && seconds_ >= supervision_.limit_s)
-      end(" has gone on for " + std::to_string(seconds_) + " s, the most that one may: the process is ended");
+      end(" exceeded the limit of " + std::to_string(seconds_) + " s: process terminated");
     else if (seconds_ == long_s && idle_s_ == 0)
-      tell(which() + " has gone on for " + std::to_string(long_s) +
-           " s; where a task loops without any simulated primitive, it will for ever");
+      tell(which() + " has run for " + std::to_string(long_s) +
+           " s; a task that loops without a simulated primitive never ends");
   }
 
   bool is_default() const { return supervised_.doing == Doing::default_schedule; }
@@ -91,7 +91,7 @@ class Watchman {
   std::string within() const {
     if (supervised_.doing != Doing::minimizing) return "within " + which();
     return "while the failure of " + which() +
-           " was cut down, by a run of it with fewer switches. It had failed: " + supervised_.failure;
+           " was being minimised, in a run with fewer switches. The failure: " + supervised_.failure;
   }
 
   void tell(const std::string& words) const {

@@ -43,7 +43,7 @@ void Link::stop() {
 
 double Link::distance_m() const {
   const double distance_m = distance_ == nullptr ? 0 : distance_(from_.name, to_);
-  WAITPOINT_CHECK(distance_m >= 0, "the distance between two robots is not a number from zero");
+  WAITPOINT_CHECK(distance_m >= 0, "the distance between two robots is negative or not a number");
   return distance_m;
 }
 
@@ -71,7 +71,7 @@ bool Link::is_lost() const {
 }
 
 void Link::begin_sending() {
-  WAITPOINT_CHECK(!stopped_, "something is sent on a network that is gone");
+  WAITPOINT_CHECK(!stopped_, "a message is sent on a network that was destroyed");
   ++statistics.sent;
 }
 
@@ -123,12 +123,13 @@ void Link::transmit_in_order(std::size_t bytes, double distance_m, Arrival arriv
 
 void Link::check_room() const {
   WAITPOINT_CHECK(flights_.size() - landed_.size() + waiting_.size() <= in_flight_max_,
-                  "more messages are under way between two robots than NetworkLimits::in_flight_max");
+                  "more messages in transit between two robots than NetworkLimits::in_flight_max");
 }
 
 void Link::launch(Time arrives, Arrival arrival) {
   check_room();
-  WAITPOINT_CHECK(arrives - scheduler_.global_time() >= scheduler_.lookahead(), "a message arrives too soon");
+  WAITPOINT_CHECK(arrives - scheduler_.global_time() >= scheduler_.lookahead(),
+                  "a message arrives within the lookahead");
   Flight& flight = landed_.empty() ? flights_.emplace_back() : *landed_.back();
   if (!landed_.empty()) landed_.pop_back();
   flight.link = this;

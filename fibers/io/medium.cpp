@@ -14,8 +14,8 @@ void expect(bool condition, const char* message) {
 
 void check(const Medium& medium) {
   expect(medium.latency_least > Duration(),
-         "expected a positive latency: what one robot does must not reach another at the same instant");
-  expect(medium.latency_most >= medium.latency_least, "expected the least latency before the greatest");
+         "expected a positive latency: no robot may affect another at the same instant");
+  expect(medium.latency_most >= medium.latency_least, "expected a least latency of at most the greatest");
   expect(medium.latency_most <= Duration(std::chrono::hours(24)), "expected a latency of at most a day");
   expect(medium.latency_per_metre >= Duration() && medium.latency_per_metre <= Duration(std::chrono::seconds(1)),
          "expected a latency per metre from 0 to 1 s");

@@ -51,7 +51,7 @@ Channel* Node::find(Protocol protocol, const std::string& port) const {
 }
 
 bool Node::bind(Protocol protocol, const std::string& port, Channel& channel) {
-  WAITPOINT_CHECK(!port.empty() && port.find(':') == std::string::npos, "a name to bind is empty or has a colon in it");
+  WAITPOINT_CHECK(!port.empty() && port.find(':') == std::string::npos, "a name to bind is empty or contains a colon");
   return ports_.try_emplace({protocol, port}, &channel).second;
 }
 
@@ -71,7 +71,8 @@ Network::~Network() {
   // Outside tasks the run that uses the sockets may not be unwound yet, and tasks that cannot be unwound leave some
   // open.
   if (kernel::running == nullptr || scheduler_.unwinding()) return;
-  for (const auto& [name, node] : nodes_) WAITPOINT_CHECK(node->sockets() == 0, "a network goes before its sockets");
+  for (const auto& [name, node] : nodes_)
+    WAITPOINT_CHECK(node->sockets() == 0, "a network is destroyed before its sockets");
 }
 
 void Network::begin_declaring(const Medium& medium) {

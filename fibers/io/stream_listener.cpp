@@ -5,7 +5,7 @@ namespace waitpoint::io {
 
 Listener::Listener(Network& network, const ListenOptions& options)
     : Channel("stream listener", ""), node_(network.own_node()), options_(options) {
-  WAITPOINT_CHECK(options.backlog > 0, "a listener's backlog holds nothing");
+  WAITPOINT_CHECK(options.backlog > 0, "the backlog of a listener must be at least 1");
   node_->take_socket();
 }
 

@@ -55,7 +55,7 @@ std::string describe_wait(const Task& task) {
     text += " of " + describe(*object.owner);
   else if (const std::string holders = describe_holders(object); !holders.empty())
     text += ", " + holders;
-  if (const Task* writer = writer_before(task); writer != nullptr) text += ", behind " + describe(*writer);
+  if (const Task* writer = writer_before(task); writer != nullptr) text += ", queued behind " + describe(*writer);
   return text;
 }
 
@@ -83,11 +83,11 @@ std::string describe_deadlock(kernel::Scheduler& scheduler, Places places) {
   if (scheduler.culprit() != nullptr && waiting.size() == 1)
     text += "a task waits for itself";
   else if (waiting.size() == 1)
-    text += "a task waits, and nothing is left that could wake it";
+    text += "a task is blocked, and no event can wake it";
   else if (scheduler.culprit() != nullptr)
     text += counted(waiting.size(), "task") + " wait for each other";
   else
-    text += counted(waiting.size(), "task") + " wait, and nothing is left that could wake them";
+    text += counted(waiting.size(), "task") + " are blocked, and no event can wake them";
   return text + describe_each(scheduler, waiting, places, describe_wait);
 }
 
@@ -95,7 +95,7 @@ std::string describe_spinning(kernel::Scheduler& scheduler, Places places) {
   const std::string text =
       "no progress: virtual time stands still at " + to_string(scheduler.global_time()) + " s while ";
   if (const Task* culprit = scheduler.culprit(); (culprit->attention & kernel::attention::timer) != 0)
-    return text + "timers fire again and again, the last one " + describe(*culprit->at) + " of " + culprit->robot->name;
+    return text + "timers fire without end, the last one " + describe(*culprit->at) + " of " + culprit->robot->name;
   std::vector<Task*> spinning;
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
     if (task->state != kernel::TaskState::blocked && task->local_time == scheduler.global_time())

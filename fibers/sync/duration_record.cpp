@@ -74,7 +74,7 @@ DurationRecord parse_duration_record(const std::string& file, std::string_view t
   };
   if (next_line() != first_line) throw bad("expected a record of durations, '" + std::string(first_line) + "'");
   std::string_view run = next_line();
-  if (take_until(run, ' ') != "run" || run.empty()) throw bad("expected 'run' and what the record belongs to");
+  if (take_until(run, ' ') != "run" || run.empty()) throw bad("expected 'run' and the run of the record");
   record.run = run;
   for (;;) {
     std::string_view line = next_line();
@@ -118,7 +118,7 @@ DurationReplay::DurationReplay(Simulation& simulation, const DurationRecord& rec
 Duration DurationReplay::next(const kernel::Task& task) {
   std::string wrong;
   if (next_ == record_.entries.size()) {
-    wrong = "ends early: the run goes on after its " + std::to_string(next_) + " durations";
+    wrong = "ends early: the run continues after its " + std::to_string(next_) + " durations";
   } else if (const auto& entry = record_.entries[next_]; record_.tasks[entry.task].id != task.id) {
     wrong = "belongs to another run: its duration " + std::to_string(next_ + 1) + " is of task '" +
             record_.tasks[entry.task].name + "', but the next is of '" + task.robot->name + "." + task.name + "'";

@@ -37,7 +37,7 @@ TaskSignals& signals_of(ThreadState& state) {
 
 ThreadState& running_thread() {
   ThreadState* state = thread_of(running_task());
-  WAITPOINT_CHECK(state != nullptr, "a task that is no thread has no signals");
+  WAITPOINT_CHECK(state != nullptr, "a task that is not a thread has no signals");
   return *state;
 }
 
@@ -93,7 +93,7 @@ void deliver_signals(kernel::Task& task) {
 }  // namespace sync
 
 signal_sent send_signal(const thread& to, int signal) {
-  WAITPOINT_CHECK(to.state_ != nullptr, "a signal is sent to no thread");
+  WAITPOINT_CHECK(to.state_ != nullptr, "a signal is sent through an empty thread handle");
   WAITPOINT_CHECK(signal >= 1 && signal <= signals_max, "no signal has this number");
   if (!sync::before_releasing(kernel::Operation::signal, to.state_->ended)) return signal_sent::task_ended;
   return sync::post(*to.state_, signal);

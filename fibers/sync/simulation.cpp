@@ -160,7 +160,7 @@ std::ostream& operator<<(std::ostream& out, const Report& report) {
         << to_string(report.digest);
   else
     out << report.text;
-  for (const std::string& task : report.abandoned) out << "\nnot unwound, what it owns leaks: task " << task;
+  for (const std::string& task : report.abandoned) out << "\nnot unwound, its objects leak: task " << task;
   return out;
 }
 

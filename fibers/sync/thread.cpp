@@ -55,10 +55,10 @@ void run_thread(void* argument) {
   const bool all_made = scheduler.tasks() >= scheduler.most_tasks();
   throw std::system_error(
       std::make_error_code(std::errc::resource_unavailable_try_again),
-      std::string("thread ") + options.name + " of " + robot.name + " cannot be made: " +
-          (all_made ? "the run has " + std::to_string(scheduler.tasks()) + " tasks, the most it may have at once"
-                    : "of the stacks of " + std::to_string(kernel::bytes(options.stack) / 1024) +
-                          " KiB none is left, all the address space that there is for them is in use"));
+      std::string("thread ") + options.name + " of " + robot.name + " cannot be created: " +
+          (all_made ? "the run has " + std::to_string(scheduler.tasks()) + " tasks, the most allowed at once"
+                    : "no stack of " + std::to_string(kernel::bytes(options.stack) / 1024) +
+                          " KiB is left, their address space is used up"));
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ ThreadState* thread_of(const kernel::Task& task) {
 
 LocalValues& values_of_running_task() {
   ThreadState* thread = thread_of(running_task());
-  WAITPOINT_CHECK(thread != nullptr, "a task that is no thread has no values of its own");
+  WAITPOINT_CHECK(thread != nullptr, "a task that is not a thread has no thread-local values");
   return thread->locals;
 }
 

@@ -21,7 +21,7 @@ class timer {
  public:
   explicit timer(std::function<void()> callback, const char* label = "")
       : object_("timer", label), callback_(std::move(callback)), event_(&timer::fire, this) {
-    WAITPOINT_CHECK(callback_ != nullptr, "a timer has nothing to call");
+    WAITPOINT_CHECK(callback_ != nullptr, "a timer without a callback");
   }
   /// Stops it. Destruction by its own callback is a bug.
   ~timer();

@@ -28,12 +28,12 @@ class Exploring(ExecCase):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertRegex(done.stdout, r"schedule \d+ of strategy portfolio, seed 1, failed at \S+ s: exit status 1\n"
                                       r"  an update was lost\n1 switch away from the default order fails")
-        self.assertIn("thread 2#2 of lost_update (start) goes first, in place of", done.stdout)
+        self.assertIn("thread 2#2 of lost_update (start) goes first instead of", done.stdout)
         self.assertIn("the last choice from which it could still have passed: number ", done.stdout)
         self.assertRegex(done.stdout, r"the two events whose order matters:\n"
-                                      r"  goes first here: +at 0\.0+ s: thread 2#2 of lost_update, about to lock mutex #\d+ "
+                                      r"  first in the failing run: +at 0\.0+ s: thread 2#2 of lost_update, about to lock mutex #\d+ "
                                       r"\"mutex\"\n      at pay_in[^\n]*\n"
-                                      r"  goes first where it passes: +at 0\.0+ s: thread 1#1 of lost_update, about to lock "
+                                      r"  first in a passing run: +at 0\.0+ s: thread 1#1 of lost_update, about to lock "
                                       r"mutex #\d+ \"mutex\"\n      at pay_in[^\n]*\n")
         self.assertEqual(explore("--", program).stdout.splitlines()[1:], done.stdout.splitlines()[1:])
 

@@ -25,7 +25,7 @@ class LatePom(Installed):
         self.assertIn("expected at most 0.06 m", found.stdout)
         self.assertRegex(found.stdout, r"(?m)^1 switch away from the default order fails")
         self.assertRegex(found.stdout, r"could still have passed: number \d+, at [\d.]+ s: ")
-        here, passing = re.search(r"goes first here: +([^$]*?)\n  goes first where it passes: +([^$]*?)\n\S",
+        here, passing = re.search(r"first in the failing run: +([^$]*?)\n  first in a passing run: +([^$]*?)\n\S",
                                   found.stdout).groups()
         reads, gives = (here, passing) if "pom.fusing" in here else (passing, here)
         self.assertRegex(reads, r"s: pom\.fusing#\d+ of rackham, about to lock mutex #\d+ \"poster\"\n")
@@ -222,7 +222,7 @@ class LostLetter(Installed):
                                      env={**os.environ, "WAITPOINT_REPLAY": f"wx1.7.{other}"})
             self.assertEqual((refused.returncode, refused.stderr),
                              (2, f"waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.7.{other}': "
-                                 "no test that was run has such a call\n"))
+                                 "no test that ran makes such a call\n"))
             self.assertNotIn("PASSED", refused.stdout)
 
     def test_a_process_that_dies_says_how_to_repeat_it(self):

@@ -92,7 +92,7 @@ TEST_F(DurationsTest, ARecordThatDoesNotFitIsOneLineAndStatus2) {
   refused(run({"--replay-durations", path("a"), "--seed", "2"}), path("a") + ":2: the record of durations is of run");
   refused(run({"--replay-durations", path("a"), "--order", "seeded"}), "is of run");
   refused(run({"--replay-durations", path("a")}, "proportional"), "is of run");
-  refused(run({"--replay-durations", path("a")}, "cpu", "4"), "ends early: the run goes on after its");
+  refused(run({"--replay-durations", path("a")}, "cpu", "4"), "ends early: the run continues after its");
   refused(run({"--replay-durations", path("nothing")}), "cannot be read");
   refused(run({"--replay-durations", path("a"), "--record-durations", path("b")}), "cannot be used together");
   std::string cut = text("a");

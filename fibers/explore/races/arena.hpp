@@ -17,7 +17,7 @@ namespace waitpoint::races {
 
 inline void* map_memory(std::size_t bytes) {
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  WAITPOINT_CHECK(memory != MAP_FAILED, "no memory is left for the records of memory accesses");
+  WAITPOINT_CHECK(memory != MAP_FAILED, "out of memory for the records of memory accesses");
   return memory;
 }
 
@@ -79,7 +79,7 @@ class Table {
     const std::uint32_t room = room_ == 0 ? 1024 : 2 * room_;
     void* grown = room_ == 0 ? map_memory(room * sizeof(T))
                              : mremap(records_, room_ * sizeof(T), room * sizeof(T), MREMAP_MAYMOVE);
-    WAITPOINT_CHECK(grown != MAP_FAILED, "no memory is left for the records of memory accesses");
+    WAITPOINT_CHECK(grown != MAP_FAILED, "out of memory for the records of memory accesses");
     records_ = static_cast<T*>(grown);
     room_ = room;
   }

@@ -67,8 +67,7 @@ void Detector::take_index(Context& context, const Context& maker) {
     break;
   }
   if (index == indices_) ++indices_;
-  WAITPOINT_CHECK(index < indices_max,
-                  "more than 65 535 tasks whose ends nobody waited for, in a run that looks for races");
+  WAITPOINT_CHECK(index < indices_max, "more than 65 535 unjoined tasks in a run with race detection");
   context.index = static_cast<std::uint16_t>(index);
   context.record = record;
   context.accessed = 0;

@@ -33,7 +33,7 @@ std::string about_to(const Task& task) {
 std::string in_words(Choice choice, const Task& task, std::uint32_t chosen, std::uint32_t count) {
   switch (choice) {
     case Choice::waiter: return wakes(task, chosen, count);
-    case Choice::spurious: return chosen != 0 ? "goes on for nothing" : "waits";
+    case Choice::spurious: return chosen != 0 ? "wakes up spuriously" : "waits";
     case Choice::loss: return chosen != 0 ? "loses the datagram" : "delivers the datagram";
     default: return "takes alternative " + std::to_string(chosen) + " of " + std::to_string(count);
   }

@@ -74,12 +74,12 @@ std::string with_calls(const std::string& event, const std::vector<std::string>&
 }
 
 std::string pair_in_words(const std::string& failing, const std::string& passing) {
-  return "the two events whose order matters:\n  goes first here:             " + failing +
-         "  goes first where it passes:  " + passing;
+  return "the two events whose order matters:\n  first in the failing run:  " + failing +
+         "  first in a passing run:    " + passing;
 }
 
 std::string no_pair_in_words() {
-  return "no two events at one object are in another order where it passes: what matters is when, or what was chosen\n";
+  return "no two events at one object are reordered in the passing run: timing or another choice matters\n";
 }
 
 }  // namespace waitpoint::exploration

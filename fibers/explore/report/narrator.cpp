@@ -43,8 +43,8 @@ std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
   if (count > 1 && chosen < count)
     tell([&](const Decision& decision) {
       const std::string one = in_brackets(*ready[decision.chosen]);
-      if (decision.is_switch()) return one + " goes first, in place of " + in_brackets(*ready[decision.usual]);
-      return one + " goes first, as usual, of " + counted(count, "task");
+      if (decision.is_switch()) return one + " goes first instead of " + in_brackets(*ready[decision.usual]);
+      return one + " goes first, the default of " + counted(count, "task");
     });
   return chosen;
 }
@@ -61,14 +61,14 @@ Duration Narrator::computing(const Task& task, Duration least, Duration greatest
   const Duration chosen = explorer_.computing(task, least, greatest);
   tell([&](const Decision& decision) {
     return title_of(task) + " computes " + milliseconds(chosen) +
-           (decision.is_switch() ? " in place of " + milliseconds(greatest) : ", as usual");
+           (decision.is_switch() ? " instead of " + milliseconds(greatest) : ", the default");
   });
   return chosen;
 }
 
 std::string to_text(const std::vector<Told>& switches, std::size_t lines_max) {
   const std::size_t from = switches.size() - std::min(switches.size(), lines_max);
-  std::string text = from > 0 ? "  ... " + std::to_string(from) + " before\n" : "";
+  std::string text = from > 0 ? "  ... " + std::to_string(from) + " earlier\n" : "";
   for (std::size_t i = from; i < switches.size(); ++i)
     text += "  " + to_string(switches[i].time) + " s  " + switches[i].words + "\n";
   return text;

@@ -44,7 +44,7 @@ class Narrator final : public kernel::Decisions {
   std::vector<Told> switches_;
 };
 
-/// "12.340000000 s  segloc.slam of rackham computes 33 ms in place of 95 ms": one a line, indented; the last
+/// "12.340000000 s  segloc.slam of rackham computes 33 ms instead of 95 ms": one a line, indented; the last
 /// `lines_max` of them.
 std::string to_text(const std::vector<Told>& switches, std::size_t lines_max);
 

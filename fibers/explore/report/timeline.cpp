@@ -43,8 +43,8 @@ std::vector<std::string> with_repeats_told(const std::vector<std::string>& lines
       continue;
     }
     for (std::size_t k = 0; k < count; ++k) told.push_back(lines[i + k]);
-    told.push_back("      ... the same" + (count == 1 ? std::string() : " " + std::to_string(count) + " lines") + " " +
-                   std::to_string(more) + (more == 1 ? " time more" : " times more"));
+    told.push_back("      ... " + (count == 1 ? std::string("repeated") : std::to_string(count) + " lines repeated") +
+                   " " + std::to_string(more) + (more == 1 ? " time" : " times"));
     i += count * (more + 1);
   }
   return told;
@@ -83,7 +83,7 @@ std::string to_text(const Timeline& timeline, std::size_t lines_max) {
   for (const TimelineEvent& event : timeline.events) lines.push_back(line_of(timeline, event, width));
   lines = with_repeats_told(std::move(lines));
   const std::size_t from = lines.size() - std::min(lines.size(), lines_max);
-  std::string text = from > 0 ? "  ... " + std::to_string(from) + " lines before\n" : "";
+  std::string text = from > 0 ? "  ... " + std::to_string(from) + " earlier lines\n" : "";
   for (std::size_t i = from; i < lines.size(); ++i) text += lines[i] + "\n";
   return text;
 }

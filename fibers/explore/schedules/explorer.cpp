@@ -235,7 +235,7 @@ std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t cou
       if (is_played({choice, event_of(task), {i, 0}})) chosen = i;
   }
   if (chosen == count) chosen = strategy_->among(choice, task, count);
-  WAITPOINT_CHECK(chosen < count, "a strategy chooses what there is not");
+  WAITPOINT_CHECK(chosen < count, "a strategy chose an alternative that does not exist");
   schedule_.decisions.push_back({count, chosen, 0, choice});
   if (chosen != 0) schedule_.switches.push_back({choice, event_of(task), {chosen, 0}});
   return chosen;

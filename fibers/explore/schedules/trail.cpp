@@ -24,7 +24,7 @@ std::string parting(const Trail& record, const Trail& run) {
   const auto same = static_cast<std::uint64_t>(left - record.marks.begin()) * record.spacing();
   if (left == record.marks.end() || met == run.marks.end())
     return same == 0 ? "before its event " + std::to_string(record.spacing())
-                     : "behind its event " + std::to_string(same);
+                     : "after its event " + std::to_string(same);
   if (record.spacing() == 1) return "at its event " + std::to_string(same + 1);
   return "at one of its events " + std::to_string(same + 1) + " to " + std::to_string(same + record.spacing());
 }

@@ -49,7 +49,7 @@ TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
     }
     waiter.join();
   });
-  EXPECT_TRUE(contains(woken.text, "waiter#1, about to wait condition variable #2, goes on for nothing")) << woken;
+  EXPECT_TRUE(contains(woken.text, "waiter#1, about to wait condition variable #2, wakes up spuriously")) << woken;
 }
 
 TEST(Explore, WhatIsChosenBesideTasks) {

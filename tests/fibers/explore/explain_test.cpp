@@ -43,8 +43,8 @@ TEST(Explain, NamesTheTwoEventsAtOneObjectWhoseOrderMatters) {
   for (const char* strategy : {"portfolio", "random", "dfs"}) {
     const ExploreReport report = explore_reader_and_writer(strategy);
     ASSERT_FALSE(report.passed);
-    const std::string here = told_under(report.text, "goes first here:");
-    const std::string there = told_under(report.text, "goes first where it passes:");
+    const std::string here = told_under(report.text, "first in the failing run:");
+    const std::string there = told_under(report.text, "first in a passing run:");
     EXPECT_TRUE(contains(here, "  reader#3, about to load atomic #")) << report;
     EXPECT_TRUE(contains(there, "  writer#2, about to store atomic #")) << report;
     // Both have a call stack, since both were running when they reached the object.
@@ -75,8 +75,8 @@ TEST(Explain, OfLocksNamesWhoLocksNext) {
     check(balance == 2, "an update was lost");
   });
   ASSERT_FALSE(report.passed);
-  EXPECT_TRUE(contains(told_under(report.text, "goes first here:"), "about to lock mutex")) << report;
-  EXPECT_TRUE(contains(told_under(report.text, "goes first where it passes:"), "about to lock mutex")) << report;
+  EXPECT_TRUE(contains(told_under(report.text, "first in the failing run:"), "about to lock mutex")) << report;
+  EXPECT_TRUE(contains(told_under(report.text, "first in a passing run:"), "about to lock mutex")) << report;
 }
 
 TEST(Explain, SaysWhereItIsNoOrderOfTwoEvents) {
@@ -85,8 +85,8 @@ TEST(Explain, SaysWhereItIsNoOrderOfTwoEvents) {
     check(now() >= Time() + 2ms, "too early");
   });
   ASSERT_FALSE(report.passed);
-  EXPECT_TRUE(contains(report.text, "no two events at one object are in another order where it passes")) << report;
-  EXPECT_EQ(told_under(report.text, "goes first here:"), "") << report;
+  EXPECT_TRUE(contains(report.text, "no two events at one object are reordered in the passing run")) << report;
+  EXPECT_EQ(told_under(report.text, "first in the failing run:"), "") << report;
 }
 
 }  // namespace

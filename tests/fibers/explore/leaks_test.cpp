@@ -27,7 +27,7 @@ bool the_heap_is_counted() {
 TEST(Explore, ABodyThatFailsInTheDefaultOrderOnlyLaterIsSaidToLeak) {
   int runs = 0;
   const ExploreReport report = explore([&] { check(++runs < 200, "too many"); });
-  EXPECT_TRUE(contains(report.text, "the same schedule is another run: the body leaks state")) << report;
+  EXPECT_TRUE(contains(report.text, "the same schedule gives another run. The body leaks state")) << report;
 }
 
 // The default order does not reach the state, so only a fresh process shows the leak.
@@ -41,7 +41,7 @@ TEST(Explore, ABodyThatLeaksStateWhereOnlyOtherOrdersComeIsSaidToLeak) {
   });
   EXPECT_FALSE(report.passed);
   EXPECT_TRUE(contains(report.text, "too often late")) << report;
-  EXPECT_TRUE(contains(report.text, "the same schedule is another run: the body leaks state")) << report;
+  EXPECT_TRUE(contains(report.text, "the same schedule gives another run. The body leaks state")) << report;
   EXPECT_FALSE(contains(report.text, "WAITPOINT_REPLAY")) << report;
 }
 
@@ -58,7 +58,7 @@ TEST(Explore, ABodyThatMakesSomethingOnceInARareOrderIsSaidToLeak) {
     }
     other.join();
   });
-  EXPECT_TRUE(contains(report.text, "the same schedule is another run: the body leaks state")) << report;
+  EXPECT_TRUE(contains(report.text, "the same schedule gives another run. The body leaks state")) << report;
 }
 
 TEST(Explore, ABodyThatLeaksStateIsNamedWithTheFirstDifference) {

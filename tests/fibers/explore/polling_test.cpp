@@ -54,14 +54,14 @@ TEST(Polling, ExhaustiveStrategiesSayWhatTheyNeverTried) {
   const ExploreReport spun = explore(look_often, {.strategy = "dpor", .iterations = 1'000'000});
   EXPECT_TRUE(spun.passed) << spun;
   EXPECT_FALSE(spun.complete);
-  EXPECT_EQ(spun.scope, "all there are, but for turns of tasks that spin");
+  EXPECT_EQ(spun.scope, "all schedules, except turns of spinning tasks");
   const auto compute_something = [] {
     thread other([] { compute(1ms, 3ms); });
     other.join();
   };
   const ExploreReport timed = explore(compute_something, {.strategy = "dfs"});
   EXPECT_FALSE(timed.complete);
-  EXPECT_EQ(timed.scope, "all there are, but for computing costs between the least and the greatest");
+  EXPECT_EQ(timed.scope, "all schedules, except computing costs between the bounds");
   const auto take_in_turn = [] {
     mutex m;
     thread other([&] { const std::lock_guard guard(m); });
@@ -70,7 +70,7 @@ TEST(Polling, ExhaustiveStrategiesSayWhatTheyNeverTried) {
   };
   const ExploreReport bounded = explore(take_in_turn, {.strategy = "bounded:2"});
   EXPECT_FALSE(bounded.complete);
-  EXPECT_EQ(bounded.scope, "all there are with at most 2 preemptions");
+  EXPECT_EQ(bounded.scope, "all schedules with at most 2 preemptions");
   EXPECT_TRUE(explore(take_in_turn, {.strategy = "dfs"}).complete);
 }
 
@@ -78,7 +78,7 @@ TEST(Polling, WhatDoesNotEndIsToldInSeconds) {
   const ExploreReport sleeping = explore([] {
     for (;;) this_thread::sleep_for(100ms);
   });
-  EXPECT_NE(sleeping.text.find("had not ended at 3600.000000000 s"), std::string::npos) << sleeping;
+  EXPECT_NE(sleeping.text.find("not finished at 3600.000000000 s"), std::string::npos) << sleeping;
   const ExploreReport spinning = explore([] {
     atomic<bool> mine{false}, yours{false};
     thread other([&] {

@@ -42,12 +42,12 @@ TEST(Explore, ATokenOfAnotherProgramIsKnownAsSuch) {
   std::string token = found.replay;
   token[4] = '2';
   const ExploreReport other = explore(lose_a_wake_up, {.replay = token});
-  EXPECT_TRUE(contains(other.text, "this is not the run of the token")) << other;
+  EXPECT_TRUE(contains(other.text, "the token belongs to another run")) << other;
   // Choices that do not exist in the run, and a number too large for any loop.
   for (const char* unfit : {"wx1.3.00000000.=9999-1", "wx1.4.00000000.=0-99"})
-    EXPECT_TRUE(contains(explore(lose_a_wake_up, {.replay = unfit}).text, "this is not the run of the token")) << unfit;
+    EXPECT_TRUE(contains(explore(lose_a_wake_up, {.replay = unfit}).text, "the token belongs to another run")) << unfit;
   const ExploreReport greatest = explore([] {}, {.replay = "wx1.5.00000000.random.1.18446744073709551615"});
-  EXPECT_TRUE(contains(greatest.text, "that one ended its process, this one passed")) << greatest;
+  EXPECT_TRUE(contains(greatest.text, "the recorded run ended its process, this one passed")) << greatest;
 }
 
 TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
@@ -115,8 +115,8 @@ TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusT
   };
   EXPECT_EXIT(
       replay_of_another_call(), status_two,
-      "^waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.9.00000000.=': no test that was run "
-      "has such a call\n$");
+      "^waitpoint: WAITPOINT_REPLAY: expected a token of this program, found 'wx1.9.00000000.=': no test that ran "
+      "makes such a call\n$");
 }
 
 // A wrong or outdated token in a test's code fails that test; other tests continue.
@@ -125,7 +125,7 @@ TEST(Explore, OptionsInCodeThatAreWrongAreTheTestsOwnFailure) {
   EXPECT_THROW(explore([] {}, {.replay = "wx1.nonsense"}), BadInput);
   const ExploreReport report = explore([] {}, {.replay = "wx1.3.00000001.="});
   EXPECT_FALSE(report.passed);
-  EXPECT_TRUE(report.text.starts_with("this is not the run of the token: it had ")) << report;
+  EXPECT_TRUE(report.text.starts_with("the token belongs to another run: it had ")) << report;
   EXPECT_FALSE(contains(report.text, "\n")) << report;
   EXPECT_THROW(explore([] {}, {.iterations = 0}), BadInput);
   EXPECT_THROW(explore([] {}, {.time_limit_s = -1}), BadInput);
@@ -137,13 +137,16 @@ TEST(ExploreDeathTest, ATokenThatDoesNotFitEndsTheProgramAndSaysWhereTheRunLeftI
     explore(lose_a_wake_up);
   };
   const auto status_two = ::testing::ExitedWithCode(2);
-  EXPECT_EXIT(replay("wx1.1.00000000.=99-1"), status_two,
-              "^waitpoint: wx1.*: this is not the run of the token: choice 99 was never come to: it left the record "
-              "before its end, behind event [0-9]+, at 0.000000000 s; the program or the test is another one\n$");
+  EXPECT_EXIT(
+      replay("wx1.1.00000000.=99-1"), status_two,
+      "^waitpoint: wx1.*: the token belongs to another run: choice 99 was not reached: the run diverged and ended "
+      "after event [0-9]+, at 0.000000000 s; the program or the test has changed\n$");
   EXPECT_EXIT(replay("wx1.1.00000000.=1-7"), status_two,
-              "choice 1 has only 2 alternatives, none of the number 7: it left the record at event [0-9]+, at 0.0");
-  EXPECT_EXIT(replay("wx1.1.00000000.="), status_two,
-              "this is not the run of the token: that one ended its process, this one passed; the program or the test");
+              "choice 1 has only 2 alternatives, not number 7: the run diverged at event [0-9]+, at 0.0");
+  EXPECT_EXIT(
+      replay("wx1.1.00000000.="), status_two,
+      "the token belongs to another run: the recorded run ended its process, this one passed; the program or the "
+      "test has changed");
   EXPECT_EXIT(replay("wx1.1.00000001.="), status_two,
               "it had [0-9]+ events, and its digest begins with [0-9a-f]{8}, the token's with 00000001; ");
 }
@@ -170,11 +173,11 @@ TEST(Explore, ATokenOfAnotherRunSaysAtWhichEventsThisOneLeavesIt) {
     ++token.call;  // the number of the call in this test
     return explore([round] { fail_having_differed_at(round); }, {.replay = to_text(token)}).text;
   };
-  EXPECT_FALSE(contains(replay_with(never), "is not the run")) << to_text(token);
+  EXPECT_FALSE(contains(replay_with(never), "belongs to another run")) << to_text(token);
   // Some eighty events, with a mark after each sixteenth; round 3 begins with event 10, round 20 with event 44.
   const std::string early = replay_with(3), late = replay_with(20);
-  EXPECT_TRUE(contains(early, ": it left the record at one of its events 1 to 16;")) << early;
-  EXPECT_TRUE(contains(late, ": it left the record at one of its events 33 to 48;")) << late;
+  EXPECT_TRUE(contains(early, ": the run diverged at one of its events 1 to 16;")) << early;
+  EXPECT_TRUE(contains(late, ": the run diverged at one of its events 33 to 48;")) << late;
 }
 
 }  // namespace

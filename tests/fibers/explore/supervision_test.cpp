@@ -46,8 +46,8 @@ TEST(Explore, AScheduleThatGoesOnForLongIsToldAndAtItsLimitEndedWithItsToken) {
     std::exit(0);
   };
   EXPECT_EXIT(compute_for_ever(), ended,
-              "the default schedule has gone on for 10 s;.*\nreplay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n"
-              "waitpoint: the default schedule has gone on for 12 s, the most that one may: the process is ended\n"
+              "the default schedule has run for 10 s;.*\nreplay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n"
+              "waitpoint: the default schedule exceeded the limit of 12 s: process terminated\n"
               "replay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n$");
 }
 
@@ -61,7 +61,7 @@ TEST(Explore, AReplayThatDoesNotEndIsEndedWithItsToken) {
     std::exit(0);
   };
   EXPECT_EXIT(compute_for_ever(), ended,
-              "^waitpoint: the replayed schedule has gone on for 2 s, the most that one may: the process is ended\n"
+              "^waitpoint: the replayed schedule exceeded the limit of 2 s: process terminated\n"
               "replay: WAITPOINT_REPLAY=wx1.1.01234567.=3-1 .*\n$");
 }
 
@@ -82,8 +82,8 @@ TEST(Explore, AScheduleThatWaitsForWhatIsNotSimulatedIsEndedWithItsToken) {
   };
   EXPECT_EXIT(
       lock_a_real_lock_twice(), ended,
-      "^waitpoint: schedule [0-9]+ has waited for 10 s for something that is not simulated, a real lock or input: the "
-      "process is ended\nreplay: WAITPOINT_REPLAY=wx1.1.0+.portfolio.1.[0-9]+ .*\n$");
+      "^waitpoint: schedule [0-9]+ was blocked for 10 s by something that is not simulated, such as a real lock or "
+      "input: process terminated\nreplay: WAITPOINT_REPLAY=wx1.1.0+.portfolio.1.[0-9]+ .*\n$");
 }
 
 }  // namespace

@@ -81,8 +81,7 @@ TEST(Timeline, ALivelockIsToldInFewLines) {
     }
   });
   ASSERT_TRUE(contains(report.text, "no progress")) << report;
-  EXPECT_TRUE(std::regex_search(report.text, std::regex("\\.\\.\\. the same \\d+ lines \\d{2,} times more\n")))
-      << report;
+  EXPECT_TRUE(std::regex_search(report.text, std::regex("\\.\\.\\. \\d+ lines repeated \\d{2,} times\n"))) << report;
 }
 
 TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
@@ -99,8 +98,8 @@ TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
   add(Operation::end, "");
   EXPECT_EQ(to_text(timeline, 40),
             "  0.000000000   a#1  start\n  0.000000000   a#1  load atomic #1\n  0.000000000   a#1  load atomic #2\n"
-            "      ... the same 2 lines 19 times more\n  0.000000000   a#1  end\n");
-  EXPECT_EQ(to_text(timeline, 1), "  ... 4 lines before\n  0.000000000   a#1  end\n");
+            "      ... 2 lines repeated 19 times\n  0.000000000   a#1  end\n");
+  EXPECT_EQ(to_text(timeline, 1), "  ... 4 earlier lines\n  0.000000000   a#1  end\n");
 }
 
 TEST(Timeline, WhatIsRepeatedWithinWhatIsRepeatedStandsThereOnceToo) {
@@ -117,9 +116,9 @@ TEST(Timeline, WhatIsRepeatedWithinWhatIsRepeatedStandsThereOnceToo) {
     add(1, Operation::yield, 1);
   }
   EXPECT_EQ(to_text(timeline, 40),
-            "  0.000000000   a#1  load\n      ... the same 5 times more\n  0.000000000   b#2  load\n"
-            "      ... the same 3 lines 5 times more\n  0.000000000   b#2  yield\n"
-            "      ... the same 5 lines 4 times more\n");
+            "  0.000000000   a#1  load\n      ... repeated 5 times\n  0.000000000   b#2  load\n"
+            "      ... 3 lines repeated 5 times\n  0.000000000   b#2  yield\n"
+            "      ... 5 lines repeated 4 times\n");
 }
 
 }  // namespace

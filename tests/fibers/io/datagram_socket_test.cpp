@@ -189,13 +189,13 @@ TEST(DatagramSocketDeathTest, MisuseIsABug) {
                  Network network;
                  (void)datagram_socket(network).bind("a:b");
                }),
-               "a name to bind is empty or has a colon in it");
+               "a name to bind is empty or contains a colon");
   EXPECT_DEATH(simulate([] {
                  auto network = std::make_unique<Network>();
                  datagram_socket s(*network);
                  network.reset();
                }),
-               "a network goes before its sockets");
+               "a network is destroyed before its sockets");
   EXPECT_DEATH(simulate([] {
                  Network network;
                  std::vector<datagram_socket> sockets;

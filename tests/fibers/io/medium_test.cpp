@@ -282,9 +282,9 @@ TEST(Medium, OneThatMakesNoSenseIsBadInput) {
   };
   EXPECT_EQ(message({}), "taken");
   EXPECT_EQ(message({.latency_least = 0ms}),
-            "medium: expected a positive latency: what one robot does must not reach another at the same instant");
+            "medium: expected a positive latency: no robot may affect another at the same instant");
   EXPECT_EQ(message({.latency_least = 3ms, .latency_most = 2ms}),
-            "medium: expected the least latency before the greatest");
+            "medium: expected a least latency of at most the greatest");
   EXPECT_EQ(message({.latency_per_metre = -1ms}), "medium: expected a latency per metre from 0 to 1 s");
   EXPECT_EQ(message({.range_m = 0}), "medium: expected a positive range");
   EXPECT_EQ(message({.loss = 1.5}), "medium: expected a loss from 0 to 1");
@@ -318,7 +318,7 @@ TEST(MediumDeathTest, MessagesUnderWayAreBounded) {
         Fleet fleet({"ada", "bob"}, two_ms, {}, {.in_flight_max = 100});
         send_datagrams(fleet, 1000, Duration(1us));
       },
-      "more messages are under way between two robots than NetworkLimits::in_flight_max");
+      "more messages in transit between two robots than NetworkLimits::in_flight_max");
 }
 
 }  // namespace

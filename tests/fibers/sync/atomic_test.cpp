@@ -277,12 +277,12 @@ TEST(Atomic, OneThatARunLeavesBehindBeginsWithWhatItHadOutside) {
 }
 
 TEST(AtomicDeathTest, OrdersThatTheStandardForbids) {
-  EXPECT_DEATH((void)atomic<int>().load(memory_order_release), "load is asked to release");
-  EXPECT_DEATH(atomic<int>().store(1, memory_order_acquire), "store is asked to acquire");
-  EXPECT_DEATH(atomic<int>().wait(1, memory_order_acq_rel), "load is asked to release");
+  EXPECT_DEATH((void)atomic<int>().load(memory_order_release), "load with a release order");
+  EXPECT_DEATH(atomic<int>().store(1, memory_order_acquire), "store with an acquire order");
+  EXPECT_DEATH(atomic<int>().wait(1, memory_order_acq_rel), "load with a release order");
   int expected = 0;
   EXPECT_DEATH(atomic<int>().compare_exchange_weak(expected, 1, memory_order_seq_cst, memory_order_release),
-               "asked to release where it fails");
+               "a release order for its failure");
 }
 
 TEST(AtomicDeathTest, WaitingOutsideAnyTask) {

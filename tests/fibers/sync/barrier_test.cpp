@@ -161,7 +161,7 @@ TEST(Barrier, WhatAnotherRunLeftIsForgotten) {
 }
 
 TEST(BarrierDeathTest, MisuseHasAName) {
-  const char* message = "more arrive at a barrier than it expects: barrier #1";
+  const char* message = "more arrivals at a barrier than it expects: barrier #1";
   EXPECT_DEATH(simulate([] { (void)barrier(2).arrive(3); }), message);
   EXPECT_DEATH(simulate([] { (void)barrier(2).arrive(0); }), message);
   EXPECT_DEATH(simulate([] { (void)barrier(2).arrive(-1); }), message);
@@ -192,7 +192,7 @@ TEST(BarrierDeathTest, MisuseHasAName) {
                  b.arrive_and_wait();
                  b.wait(std::move(token));
                }),
-               "a task waits for a phase of a barrier that is long over: barrier #1");
+               "a task waits for an outdated phase of a barrier: barrier #1");
   EXPECT_DEATH(simulate([] {
                  auto gone = std::make_unique<barrier<>>(2);
                  thread waiter([&] { gone->arrive_and_wait(); });

@@ -36,7 +36,7 @@ TEST(Bounds, OneThreadTooManyIsASystemErrorThatNamesIt) {
       [] {
         for (int i = 1; i < 100; ++i) thread([] { this_thread::sleep_for(1ms); }).detach();
         const std::string text = refusal([] { thread({.name = "last"}, [] {}).detach(); });
-        EXPECT_EQ(text.find("thread last of environment cannot be made: the run has 100 tasks, the most it may have"),
+        EXPECT_EQ(text.find("thread last of environment cannot be created: the run has 100 tasks, the most allowed"),
                   0u)
             << text;
         // Ended tasks free their places.
@@ -111,8 +111,7 @@ TEST_F(AddressSpaceDeathTest, StacksThatAreUsedUpAreToldByTheirSize) {
                 for (;;)
                   simulation.spawn(simulation.environment(), {.name = "t", .stack = kernel::StackSize::large}, [] {});
               }),
-              testing::ExitedWithCode(3),
-              "thread t of environment cannot be made: of the stacks of 256 KiB none is left");
+              testing::ExitedWithCode(3), "thread t of environment cannot be created: no stack of 256 KiB is left");
 }
 
 TEST_F(AddressSpaceDeathTest, AFewHundredMegabytesAreEnoughForAFewTasks) {

@@ -191,7 +191,7 @@ TEST(Deadlock, AConditionNobodySignals) {
   });
   EXPECT_EQ(report.end, RunEnd::deadlock);
   EXPECT_EQ(report.end_time, Time() + Duration(3ms));
-  EXPECT_TRUE(contains(report.text, "a task waits, and nothing is left that could wake it")) << report;
+  EXPECT_TRUE(contains(report.text, "a task is blocked, and no event can wake it")) << report;
   EXPECT_TRUE(contains(report.text, "task main of environment waits (wait) for condition variable")) << report;
   EXPECT_TRUE(contains(report.text, "\"goal reached\"")) << report;
   EXPECT_TRUE(!source_lines_can_be_had() || contains(report.text, place(line))) << report;

@@ -97,7 +97,7 @@ TEST(DurationRecord, OneOfAnotherRunIsANamedError) {
   EXPECT_NE(error_of_replay(record, 19).find("belongs to another run"), std::string::npos);
   DurationRecord cut = record;
   cut.entries.pop_back();
-  EXPECT_NE(error_of_replay(cut, 20).find("ends early: the run goes on after its " +
+  EXPECT_NE(error_of_replay(cut, 20).find("ends early: the run continues after its " +
                                           std::to_string(cut.entries.size()) + " durations, at "),
             std::string::npos)
       << error_of_replay(cut, 20);
@@ -122,7 +122,7 @@ TEST(DurationRecord, ATextThatIsNoneIsRefusedWithItsLine) {
   EXPECT_EQ(error(good, ""), "f:1: the record of durations ends early: expected its last line, 'end' and a number");
   EXPECT_EQ(error(good, "something\n"), "f:1: expected a record of durations, 'waitpoint durations 1'");
   EXPECT_EQ(error("durations 1", "durations 2"), "f:1: expected a record of durations, 'waitpoint durations 1'");
-  EXPECT_EQ(error("run racing\n", "ran\n"), "f:2: expected 'run' and what the record belongs to");
+  EXPECT_EQ(error("run racing\n", "ran\n"), "f:2: expected 'run' and the run of the record");
   EXPECT_EQ(error("end 3\n", ""),
             "f:8: the record of durations ends early: expected its last line, 'end' and a number");
   EXPECT_EQ(error("1 0\nend 3\n", "1 "), "f:7: expected a task and its duration, found '1 '");

@@ -78,7 +78,7 @@ TEST(NoProgress, ATimerThatStartsItselfAgainAtOnceIsNamed) {
     sleep_for(2ms);
   });
   EXPECT_EQ(report.end, RunEnd::no_progress);
-  EXPECT_TRUE(contains(report.text, "timers fire again and again, the last one timer #1 \"restless\" of environment"))
+  EXPECT_TRUE(contains(report.text, "timers fire without end, the last one timer #1 \"restless\" of environment"))
       << report;
 }
 

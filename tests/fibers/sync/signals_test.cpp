@@ -251,7 +251,7 @@ TEST(SignalsDeathTest, Misuse) {
   EXPECT_DEATH(simulate([] { raise_signal(1); }), "has no handler for it");
   EXPECT_DEATH(simulate([] { raise_signal(0); }), "no signal has this number");
   EXPECT_DEATH(simulate([] { handle_signal(65, [](int) {}); }), "no signal has this number");
-  EXPECT_DEATH(simulate([] { send_signal(thread(), 1); }), "a signal is sent to no thread");
+  EXPECT_DEATH(simulate([] { send_signal(thread(), 1); }), "a signal is sent through an empty thread handle");
   EXPECT_DEATH(raise_signal(1), "outside a simulated task");
 }
 
