@@ -30,7 +30,7 @@ inline constexpr std::chrono::sys_days default_start_date{std::chrono::year(2000
 struct SimulationOptions {
   kernel::Order order = kernel::Order::fifo;
   std::uint64_t seed = 0;
-  std::string replay;  ///< the line that repeats this run, for reports
+  std::string replay;  ///< the replay line, for reports
   /// The date of system_clock at virtual time 0: a declared constant, never the machine's date.
   std::chrono::sys_time<std::chrono::nanoseconds> start_date = default_start_date;
   unsigned hardware_concurrency = 4;  ///< the number reported to threads; each has a processor of its own nevertheless

@@ -91,7 +91,7 @@ TEST(Zoo, ATokenRepeatsTheFailure) {
     Campaign campaign(nullptr, specimen.buggy, options, 1);
     const ExploreReport report = campaign.replay({1, digest, "portfolio", seeds[0], found->schedules - 1, {}});
     EXPECT_FALSE(report.passed) << specimen.name;
-    EXPECT_EQ(report.text.find("not the run of the token"), std::string::npos) << specimen.name << ": " << report.text;
+    EXPECT_EQ(report.text.find("belongs to another run"), std::string::npos) << specimen.name << ": " << report.text;
     const std::string& failure = found->failure.outcome.failure;
     EXPECT_NE(report.text.find(failure.substr(0, failure.find('\n'))), std::string::npos) << specimen.name;
   }

@@ -23,7 +23,7 @@ struct TimelineEvent {
   std::string object;     ///< "mutex #1 "left""; empty without one
   std::string waits_for;  ///< the object that its task waited for afterwards; empty if none
   std::int64_t woken_by;  ///< index of the event that woke the task; -1 for none
-  bool is_switch;         ///< it preempted a task that could have continued
+  bool is_switch;         ///< it was chosen over the default order's event
 };
 
 struct Timeline {
