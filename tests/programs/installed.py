@@ -39,6 +39,9 @@ class Installed(unittest.TestCase):
         Installed.folder = pathlib.Path(folder.name)
         run("meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", cls.folder / "root")
         Installed.prefix = next((cls.folder / "root").rglob("include/waitpoint")).parents[1]
+        # In the place of ldconfig.
+        Installed.libraries = next(Installed.prefix.rglob("libwaitpoint.so")).parent
+        os.environ["LD_LIBRARY_PATH"] = str(Installed.libraries)
 
     def compile(self, name, *more, program=None, compiler=None):
         """Compiles NAME/NAME.cpp with the given flags, in a folder outside the tree; returns the program."""

@@ -32,6 +32,41 @@ class Headers(Installed):
             cwd=source.parent)
 
 
+class Libraries(Installed):
+    """The shared libraries, as they are installed."""
+
+    def shared(self):
+        return sorted(path for path in self.libraries.glob("libwaitpoint*.so*") if not path.is_symlink())
+
+    def test_export_names_of_waitpoint_alone(self):
+        self.assertTrue(self.shared())
+        for library in self.shared():
+            names = {line.split()[-1] for line in run("nm", "--dynamic", "--defined-only", library).splitlines()}
+            self.assertTrue(names)
+            foreign = [name for name in names if "9waitpoint" not in name and not name.startswith(("waitpoint_", "__sanitizer_cov_"))]
+            self.assertEqual(foreign, [], library.name)
+
+    def test_have_their_debugging_information_in_files_beside_them(self):
+        for library in self.shared():
+            self.assertNotIn(".debug_line", run("readelf", "--section-headers", "--wide", library))
+            beside = library.parent / ".debug" / f"{library.name}.debug"
+            self.assertIn(".debug_line", run("readelf", "--section-headers", "--wide", beside))
+        threads = (self.libraries / "libwaitpoint.so").resolve()
+        symbols = run("nm", "--dynamic", "--demangle", threads).splitlines()
+        simulate = next(line.split()[0] for line in symbols if " T waitpoint::simulate(" in line)
+        self.assertIn("simulation.cpp", run("addr2line", "-e", threads, simulate))
+
+    def test_keep_a_users_program_small(self):
+        program = self.compile("blinker", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
+        self.assertLess(program.stat().st_size, 30e6)
+        stripped = self.folder / "blinker-stripped"
+        run("strip", program, "-o", stripped)
+        self.assertLess(stripped.stat().st_size, 5e6)
+
+    def test_no_test_is_installed_with_them(self):
+        self.assertEqual([path for path in self.prefix.rglob("*test*") if path.is_file()], [])
+
+
 class Blinker(Installed):
     """A user's own modules, in a robot without other modules, base and goals."""
 

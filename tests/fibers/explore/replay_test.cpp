@@ -174,8 +174,7 @@ TEST(Explore, ATokenOfAnotherRunSaysAtWhichEventsThisOneLeavesIt) {
     return explore([round] { fail_having_differed_at(round); }, {.replay = to_text(token)}).text;
   };
   EXPECT_FALSE(contains(replay_with(never), "belongs to another run")) << to_text(token);
-  // Some eighty events, with a mark behind each sixteenth of them; round 3 begins with event 10, round 20 with
-  // event 44.
+  // Some eighty events, with a mark after each sixteenth; round 3 begins with event 10, round 20 with event 44.
   const std::string early = replay_with(3), late = replay_with(20);
   EXPECT_TRUE(contains(early, ": the run diverged at one of its events 1 to 16;")) << early;
   EXPECT_TRUE(contains(late, ": the run diverged at one of its events 33 to 48;")) << late;
