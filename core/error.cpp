@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/one_line.hpp"
+#include "core/printable_line.hpp"
 
 namespace waitpoint {
 
 BadInput::BadInput(const std::string& file, int line, const std::string& message)
-    : std::runtime_error(one_line(file + ":" + (line > 0 ? std::to_string(line) + ": " : " ") + message)),
+    : std::runtime_error(printable_line(file + ":" + (line > 0 ? std::to_string(line) + ": " : " ") + message)),
       file_(file),
       line_(line) {}
 

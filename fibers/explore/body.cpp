@@ -26,7 +26,7 @@ std::string describe_races(sync::Places places) {
 
 }  // namespace
 
-Body::Body(std::function<void()> function, ForeignChecks* checks, Time until, std::uint32_t steps_max)
+Body::Body(std::function<void()> function, ExternalChecks* checks, Time until, std::uint32_t steps_max)
     : function_(std::move(function)),
       checks_(checks),
       until_(until),
@@ -61,7 +61,7 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   outcome.was_cut = explorer_.was_cut();
   if (!outcome.was_cut && outcome.failure.empty() && outcome.end == RunEnd::time_reached)
     outcome.failure = "not finished at " + to_string(until_) + " s of virtual time";
-  if (heeds_races_ && outcome.failure.empty() && races::any_found()) outcome.failure = describe_races(places_);
+  if (fails_on_races_ && outcome.failure.empty() && races::any_found()) outcome.failure = describe_races(places_);
   outcome.digest = simulation_.digest().value();
   outcome.end_time = simulation_.global_time();
   outcome.events = simulation_.scheduler().events();

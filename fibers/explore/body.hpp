@@ -12,9 +12,9 @@
 namespace waitpoint::exploration {
 
 /// An external source of failures, beside the kernel's checks: a test framework's expectations.
-class ForeignChecks {
+class ExternalChecks {
  public:
-  virtual ~ForeignChecks() = default;
+  virtual ~ExternalChecks() = default;
   /// Called at the start of a run.
   virtual void begin() = 0;
   /// Called at the end of the run: the failures since begin(), as text; empty if none.
@@ -26,7 +26,7 @@ class ForeignChecks {
 
 /// Called by a test framework after the last test, before it prints the result. If the run of WAITPOINT_REPLAY was
 /// never reached, the program ends here, with a line and status 2.
-void tests_are_over();
+void on_tests_finished();
 
 /// The result of a schedule.
 struct Outcome {
@@ -45,7 +45,7 @@ class Body {
  public:
   /// `checks` may be null. The limits of a schedule are `until` in virtual time, and `steps_max` switch points at one
   /// instant.
-  Body(std::function<void()> function, ForeignChecks* checks, Time until, std::uint32_t steps_max);
+  Body(std::function<void()> function, ExternalChecks* checks, Time until, std::uint32_t steps_max);
 
   /// Runs it from the beginning: first `played`, then `strategy`, which must have begun this schedule.
   Outcome run(Strategy& strategy, const Played& played = {});
@@ -56,7 +56,7 @@ class Body {
   void run_watched_by(kernel::Decisions& decisions, const Schedule& schedule);
 
   /// Data races no longer count as failures.
-  void ignore_races() { heeds_races_ = false; }
+  void ignore_races() { fails_on_races_ = false; }
   /// Controls the source locations in failures, off by default: looking them up takes a second.
   void tell(sync::Places places);
 
@@ -68,13 +68,13 @@ class Body {
   void start(Strategy& strategy, const Played& played);
 
   std::function<void()> function_;
-  ForeignChecks* checks_;
+  ExternalChecks* checks_;
   Time until_;
   Simulation simulation_;
   kernel::FaultReports reports_;  // installed once, not per schedule
   Explorer explorer_;
   sync::Places places_ = sync::Places::left_out;
-  bool heeds_races_ = true;
+  bool fails_on_races_ = true;
   bool used_ = false;
 };
 

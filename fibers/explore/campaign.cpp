@@ -36,7 +36,8 @@ Token first_token(const ExploreOptions& options, std::uint32_t call) {
 
 }  // namespace
 
-Campaign::Campaign(ForeignChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call)
+Campaign::Campaign(ExternalChecks* checks, std::function<void()> body, const ExploreOptions& options,
+                   std::uint32_t call)
     : checks_(checks),
       options_(options),
       call_(call),
@@ -138,7 +139,7 @@ void Campaign::search() {
     supervisor_.begin(number);
     if (fails(*strategy, number)) return;
     if (!strategy->end()) {
-      say_scope(*strategy);
+      set_scope(*strategy);
       break;
     }
   }
@@ -152,7 +153,7 @@ void Campaign::search() {
   }
 }
 
-void Campaign::say_scope(const Strategy& strategy) {
+void Campaign::set_scope(const Strategy& strategy) {
   const LeftOut& left_out = body_.explorer().left_out();
   std::string but;
   const auto add = [&](bool is_left_out, const char* what) {
@@ -175,12 +176,12 @@ std::string Campaign::replay_by(const Token& token, const Failure& failure) {
 
 // True if a fresh process gets the same result by the failure's schedule. There is none under a debugger: then true is
 // assumed.
-bool Campaign::is_of_its_schedule(const Failure& failure) {
+bool Campaign::is_reproducible(const Failure& failure) {
   const std::optional<std::uint64_t> fresh = supervisor_.outcome_when_fresh(token_of(failure));
   return !fresh || *fresh == number_of(failure.outcome);
 }
 
-void Campaign::tell_leak(const Found& found) {
+void Campaign::report_irreproducible(const Found& found) {
   supervisor_.pause();
   report_.schedule = found.failure.schedule;
   report_.text =
@@ -190,13 +191,13 @@ void Campaign::tell_leak(const Found& found) {
 }
 
 void Campaign::tell(const Found& found) {
-  if (!found.is_default && !is_of_its_schedule(found.failure)) return tell_leak(found);
+  if (!found.is_default && !is_reproducible(found.failure)) return report_irreproducible(found);
   Failure least = found.failure;
   supervisor_.begin_minimizing(found.token.number, found.failure.outcome.failure);
   if (options_.minimize) least = minimize(body_, found.failure, {runs_to_minimize});
   least = with_places(body_, least);
   // The runs in between may have leaked state, too.
-  if (!found.is_default && !is_of_its_schedule(least)) return tell_leak(found);
+  if (!found.is_default && !is_reproducible(least)) return report_irreproducible(found);
   report_.replay = replay_by(token_of(least), least);
   const bool is_shortest = report_.replay.size() <= token_length_max;
   if (!is_shortest) report_.replay = replay_by(found.token, found.failure);
@@ -272,7 +273,7 @@ ExploreReport Campaign::replay(const Token& token) {
   std::string difference = difference_to(token, outcome);
   if (!difference.empty()) {
     difference = "the token belongs to another run: " + difference + "; the program or the test has changed";
-    if (asks_for_replay()) throw BadInput(options_.replay, difference);
+    if (has_replay_variable()) throw BadInput(options_.replay, difference);
   }
   if (!outcome.passed()) tell({failure, token, "the replayed schedule", false});
   report_.text = difference + (difference.empty() || outcome.passed() ? "" : "\n") + report_.text;

@@ -18,7 +18,7 @@ namespace waitpoint::exploration {
 class Campaign {
  public:
   /// `call` numbers the campaigns of one test.
-  Campaign(ForeignChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call);
+  Campaign(ExternalChecks* checks, std::function<void()> body, const ExploreOptions& options, std::uint32_t call);
 
   ExploreReport run();
   /// Runs only the schedule of `token`, which is that of the options.
@@ -37,17 +37,17 @@ class Campaign {
   void look_for_leaks();
   bool fails(Strategy& strategy, std::uint64_t number);
   std::string difference_to_the_first();
-  void say_scope(const Strategy& strategy);
+  void set_scope(const Strategy& strategy);
   void tell(const Found& found);
-  void tell_leak(const Found& found);
+  void report_irreproducible(const Found& found);
   Outcome play(const Token& token);
   std::string difference_to(const Token& token, const Outcome& outcome);
   std::string event_at(const Token& token, std::uint32_t decision);
   Token token_of(const Failure& failure) const;
-  bool is_of_its_schedule(const Failure& failure);
+  bool is_reproducible(const Failure& failure);
   std::string replay_by(const Token& token, const Failure& failure);
 
-  ForeignChecks* checks_;
+  ExternalChecks* checks_;
   ExploreOptions options_;
   std::uint32_t call_;
   Body body_;

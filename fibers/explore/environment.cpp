@@ -72,9 +72,9 @@ std::string as_word(const std::string& word) {
 
 }  // namespace
 
-void tests_are_over() { check_replayed(); }
+void on_tests_finished() { check_replayed(); }
 
-void replay_was_come_to() { came_to_replay = true; }
+void mark_replay_reached() { came_to_replay = true; }
 
 ExploreOptions with_environment(ExploreOptions options) {
   if (const std::string strategy = variable(strategy_name); !strategy.empty()) options.strategy = strategy;
@@ -98,9 +98,9 @@ void refuse_environment(const BadInput& input) {
 
 std::string trace_file() { return variable(trace_name); }
 
-bool asks_for_replay() { return !variable(replay_name).empty(); }
+bool has_replay_variable() { return !variable(replay_name).empty(); }
 
-std::string command_line(const ForeignChecks* checks) {
+std::string command_line(const ExternalChecks* checks) {
   const std::string name = checks != nullptr ? checks->name() : "";
   const std::string own = name.empty() ? "" : checks->option_for(name);
   const std::string own_key = own.substr(0, own.find('='));

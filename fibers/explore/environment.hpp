@@ -17,16 +17,16 @@ ExploreOptions with_environment(ExploreOptions options);
 void refuse_environment(const BadInput& input);
 
 /// True if WAITPOINT_REPLAY is set: the token is then the user's, not the test's own.
-bool asks_for_replay();
+bool has_replay_variable();
 
 /// Call this before replaying the run of WAITPOINT_REPLAY. A program that ends without such a call reports it and exits
 /// with status 2.
-void replay_was_come_to();
+void mark_replay_reached();
 
 /// The file for a trace of the failure; empty if none is requested.
 std::string trace_file();
 
 /// The command that reruns this program with its arguments, restricted to the running test.
-std::string command_line(const ForeignChecks* checks);
+std::string command_line(const ExternalChecks* checks);
 
 }  // namespace waitpoint::exploration

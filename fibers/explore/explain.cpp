@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "fibers/explore/body_watch.hpp"
-#include "fibers/explore/report/choice_words.hpp"
-#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/report/choice_text.hpp"
+#include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/sync/object_names.hpp"
@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t others_shown = 4;
 constexpr std::size_t events_shown = 40;
 
-struct Crossing {
+struct CriticalChoice {
   std::size_t decision;
   std::uint32_t instead;              // the alternative that passes
   std::vector<Decision> passing;      // all decisions of that run
@@ -26,16 +26,16 @@ struct Crossing {
 
 // Ranks the passing alternatives of one decision by how well they explain the failure: best is the one that passes by
 // reversing the two events between which is chosen, then one of them.
-bool is_plainer(const Crossing& a, const Crossing& b) {
+bool explains_better(const CriticalChoice& a, const CriticalChoice& b) {
   if (!a.reversed || !b.reversed) return a.reversed && !b.reversed;
   return a.reversed->indirection < b.reversed->indirection;
 }
 
 // Searches backwards from the end: a different choice, followed by the default order, that passes.
-std::optional<Crossing> last_crossing(Body& body, const Failure& failure, Effort effort) {
+std::optional<CriticalChoice> find_last_critical_choice(Body& body, const Failure& failure, Effort effort) {
   const std::vector<Decision>& decisions = failure.schedule.decisions;
   Fifo rest;
-  std::optional<Crossing> best;
+  std::optional<CriticalChoice> best;
   for (std::size_t i = decisions.size(); i-- > 0 && !best;) {
     std::vector<Decision> changed(decisions.begin(), decisions.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     // The absence of a spurious wake-up explains nothing.
@@ -47,9 +47,9 @@ std::optional<Crossing> last_crossing(Body& body, const Failure& failure, Effort
       const bool passed = body.run(rest, {.prefix = changed}).passed();
       effort.spend(body);
       if (!passed) continue;
-      Crossing crossing{i, other, body.explorer().schedule().decisions, {}};
+      CriticalChoice crossing{i, other, body.explorer().schedule().decisions, {}};
       crossing.reversed = pair_in_other_order(take_events(body, decisions, i), take_events(body, crossing.passing, i));
-      if (!best || is_plainer(crossing, *best)) best = std::move(crossing);
+      if (!best || explains_better(crossing, *best)) best = std::move(crossing);
     }
   }
   return best;
@@ -78,7 +78,7 @@ ToldEvent tell_event(Body& body, std::span<const Decision> decisions, const Even
 }
 
 // The two events in reversed order, or a statement that there are none.
-std::string describe_pair(Body& body, const Failure& failure, const Crossing& crossing) {
+std::string describe_pair(Body& body, const Failure& failure, const CriticalChoice& crossing) {
   if (!crossing.reversed) return "\n" + no_pair_in_words();
   const ToldEvent pair[] = {tell_event(body, failure.schedule.decisions, crossing.reversed->failing),
                             tell_event(body, crossing.passing, crossing.reversed->passing)};
@@ -100,7 +100,7 @@ const char* description(Choice choice) {
 
 // As lines; empty if there is none.
 std::string describe_last_crossing(Body& body, const Failure& failure, Effort effort) {
-  const std::optional<Crossing> crossing = last_crossing(body, failure, effort);
+  const std::optional<CriticalChoice> crossing = find_last_critical_choice(body, failure, effort);
   if (!crossing) return "";
   const Decision& decision = failure.schedule.decisions[crossing->decision];
   const bool is_usual = failure.schedule.switches.empty();

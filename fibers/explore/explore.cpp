@@ -25,7 +25,7 @@ void check_can_be_meant(const ExploreOptions& options) {
     throw BadInput("time_limit_s", "expected seconds, or 0 for none, found " + std::to_string(options.time_limit_s));
 }
 
-ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<void()> body, ExploreOptions options) {
+ExploreReport explore_call(exploration::ExternalChecks* checks, std::function<void()> body, ExploreOptions options) {
   const std::uint32_t call = count_call(checks != nullptr ? checks->name() : "");
   check_can_be_meant(options);  // before the first run
   if (options.replay.empty()) return exploration::Campaign(checks, std::move(body), options, call).run();
@@ -33,7 +33,7 @@ ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<voi
   if (token.call == 0)
     throw BadInput("replay", "expected a test's token, found a scenario's: '" + options.replay + "'");
   if (token.call == call) {
-    exploration::replay_was_come_to();
+    exploration::mark_replay_reached();
     return exploration::Campaign(checks, std::move(body), options, call).replay(token);
   }
   options.iterations = 0;  // the token is for a later call: this one runs nothing
@@ -42,7 +42,7 @@ ExploreReport explore_call(exploration::ForeignChecks* checks, std::function<voi
 
 }  // namespace
 
-ExploreReport explore_with(exploration::ForeignChecks* checks, std::function<void()> body,
+ExploreReport explore_with(exploration::ExternalChecks* checks, std::function<void()> body,
                            const ExploreOptions& asked) {
   WAITPOINT_CHECK(kernel::running == nullptr, "explore() is called from within a simulated run");
   try {

@@ -15,7 +15,7 @@
 
 namespace waitpoint::exploration {
 
-class GoogleTestChecks final : public ForeignChecks {
+class GoogleTestChecks final : public ExternalChecks {
  public:
   void begin() override {
     ++runs_;
@@ -51,9 +51,9 @@ class GoogleTestChecks final : public ForeignChecks {
   // Runs before the printer of results, whose last line would otherwise claim that all tests passed.
   class Ends final : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
-      if (testing::UnitTest::GetInstance()->test_to_run_count() == 1) tests_are_over();
+      if (testing::UnitTest::GetInstance()->test_to_run_count() == 1) on_tests_finished();
     }
-    void OnTestIterationEnd(const testing::UnitTest&, int) override { tests_are_over(); }
+    void OnTestIterationEnd(const testing::UnitTest&, int) override { on_tests_finished(); }
   };
 
   // Forwards the skip to the test itself.

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t long_s = 10;
 constexpr int second_ms = 1000, patience_ms = 2000, fresh_ms_max = 10'000;
 // An exit status that no body is likely to use.
-constexpr int came_to_its_end = 87;
+constexpr int finished_status = 87;
 
 class Watchman {
  public:
@@ -27,14 +27,14 @@ class Watchman {
 
   void run() {
     while (!is_over(second_ms)) look();
-    if (!supervised_.done && supervised_.doing != Doing::nothing) tell("the process ended " + within());
+    if (!supervised_.done && supervised_.doing != Stage::nothing) tell("the process ended " + within());
   }
 
  private:
   bool is_over(int timeout_ms) {
     pollfd end{pipe_, POLLIN, 0};
     if (poll(&end, 1, timeout_ms) == 0) return false;
-    char word = it_is_done;
+    char word = done_message;
     if (read(pipe_, &word, 1) != 1 || word != asks_for_fresh) return true;
     std::string token;
     while (read(pipe_, &word, 1) == 1 && word != '\n') token += word;
@@ -49,7 +49,7 @@ class Watchman {
       const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
       for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, descriptor);
       supervised_.fresh_outcome = supervision_.run(read_token(token));
-      _exit(came_to_its_end);
+      _exit(finished_status);
     }
     int status = 0;
     for (int waited_ms = 0; child > 0 && waitpid(child, &status, WNOHANG) == 0; ++waited_ms) {
@@ -57,15 +57,15 @@ class Watchman {
       usleep(1000);
     }
     // Stored last: the next request may follow at once.
-    const bool is_known = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == came_to_its_end;
+    const bool is_known = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == finished_status;
     supervised_.fresh = is_known ? Fresh::known : Fresh::unknown;
   }
 
   // Once a second.
   void look() {
     const std::optional<std::uint64_t> ticks = ticks_of(supervision_.explored);
-    const Doing doing = supervised_.doing;
-    const bool is_one = doing == Doing::default_schedule || doing == Doing::schedule || doing == Doing::replay;
+    const Stage doing = supervised_.doing;
+    const bool is_one = doing == Stage::default_schedule || doing == Stage::schedule || doing == Stage::replay;
     const bool is_another = supervised_.turn != turn_ || !is_one;
     if (is_another) seconds_ = idle_s_ = 0;
     turn_ = supervised_.turn;
@@ -83,20 +83,20 @@ class Watchman {
            " s; a task that loops without a simulated primitive never ends");
   }
 
-  bool is_default() const { return supervised_.doing == Doing::default_schedule; }
+  bool is_default() const { return supervised_.doing == Stage::default_schedule; }
   std::string which() const {
-    if (supervised_.doing == Doing::replay) return "the replayed schedule";
+    if (supervised_.doing == Stage::replay) return "the replayed schedule";
     return is_default() ? "the default schedule" : "schedule " + std::to_string(supervised_.number);
   }
   std::string within() const {
-    if (supervised_.doing != Doing::minimizing) return "within " + which();
+    if (supervised_.doing != Stage::minimizing) return "within " + which();
     return "while the failure of " + which() +
            " was being minimised, in a run with fewer switches. The failure: " + supervised_.failure;
   }
 
   void tell(const std::string& words) const {
     Token token = supervision_.token;
-    if (supervised_.doing != Doing::replay) token.number = supervised_.number;
+    if (supervised_.doing != Stage::replay) token.number = supervised_.number;
     if (is_default()) token = {.call = token.call, .strategy = {}, .deviations = {}};
     const std::string text =
         "waitpoint: " + words + "\n" + supervision_.replay + to_text(token) + supervision_.after + "\n";

@@ -14,19 +14,19 @@
 
 namespace waitpoint::exploration {
 
-enum class Doing : std::uint8_t { nothing, default_schedule, schedule, replay, minimizing };
+enum class Stage : std::uint8_t { nothing, default_schedule, schedule, replay, minimizing };
 
 /// The state of a requested run in a fresh process, one that has not run the body before.
 enum class Fresh : std::uint8_t { not_asked, asked, known, unknown };
 
 /// Messages of the explored process in the pipe: a normal end; a request to run a token, which follows up to the end of
 /// the line, in a fresh process.
-inline constexpr char it_is_done = '\0', asks_for_fresh = 'F';
+inline constexpr char done_message = '\0', asks_for_fresh = 'F';
 
 struct Supervised {
   std::atomic<std::uint64_t> number;  ///< of the schedule
   std::atomic<std::uint64_t> turn;    ///< incremented at the start of each run
-  std::atomic<Doing> doing;
+  std::atomic<Stage> doing;
   std::atomic<bool> done;
   std::atomic<Fresh> fresh;                  ///< the state of the last requested fresh run
   std::atomic<std::uint64_t> fresh_outcome;  ///< its result

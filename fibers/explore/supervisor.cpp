@@ -63,7 +63,7 @@ Supervisor::Supervisor(Supervision supervision) {
 
 // A test program that exits within a schedule has not passed, whatever exit status the body gives.
 void Supervisor::refuse_exit() {
-  if (latest_ == nullptr || latest_->shared_ == nullptr || latest_->shared_->doing == Doing::nothing) return;
+  if (latest_ == nullptr || latest_->shared_ == nullptr || latest_->shared_->doing == Stage::nothing) return;
   if (latest_->explored_ != getpid()) return;  // a process that the body forked
   std::fflush(nullptr);
   _exit(1);
@@ -74,7 +74,7 @@ Supervisor::~Supervisor() {
   if (shared_ != nullptr) shared_->done = true;
   // The pipe's end of file is not enough: processes forked by a debugger or the body may keep it open.
   if (pipe_ >= 0) {
-    (void)!write(pipe_, &it_is_done, 1);
+    (void)!write(pipe_, &done_message, 1);
     close(pipe_);
   }
   if (process_ > 0) {
@@ -84,27 +84,27 @@ Supervisor::~Supervisor() {
   if (shared_ != nullptr) munmap(shared_, sizeof(Supervised));
 }
 
-void Supervisor::begin(Doing doing) {
+void Supervisor::begin(Stage doing) {
   if (shared_ == nullptr) return;
   shared_->turn.store(shared_->turn.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   shared_->doing.store(doing, std::memory_order_relaxed);
 }
 
-void Supervisor::begin_default() { begin(Doing::default_schedule); }
+void Supervisor::begin_default() { begin(Stage::default_schedule); }
 
-void Supervisor::begin_replay() { begin(Doing::replay); }
+void Supervisor::begin_replay() { begin(Stage::replay); }
 
 void Supervisor::begin(std::uint64_t number) {
   if (shared_ == nullptr) return;
   shared_->number.store(number, std::memory_order_relaxed);
-  begin(Doing::schedule);
+  begin(Stage::schedule);
 }
 
 void Supervisor::begin_minimizing(std::uint64_t number, const std::string& failure) {
   if (shared_ == nullptr) return;
   shared_->number.store(number, std::memory_order_relaxed);
   std::snprintf(shared_->failure, sizeof shared_->failure, "%s", failure.c_str());
-  begin(Doing::minimizing);
+  begin(Stage::minimizing);
 }
 
 std::optional<std::uint64_t> Supervisor::outcome_when_fresh(const Token& token) {
@@ -122,7 +122,7 @@ std::optional<std::uint64_t> Supervisor::outcome_when_fresh(const Token& token) 
 }
 
 void Supervisor::pause() {
-  if (shared_ != nullptr) shared_->doing.store(Doing::nothing, std::memory_order_relaxed);
+  if (shared_ != nullptr) shared_->doing.store(Stage::nothing, std::memory_order_relaxed);
 }
 
 }  // namespace waitpoint::exploration

@@ -46,7 +46,7 @@ class Supervisor {
   void pause();
 
  private:
-  void begin(Doing doing);
+  void begin(Stage doing);
   static void refuse_exit();
   static Supervisor* latest_;  // for the exit() handler, which has no argument
 

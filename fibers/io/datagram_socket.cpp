@@ -13,7 +13,7 @@ DatagramCore::DatagramCore(Network& network, const DatagramOptions& options)
   node_->take_socket();
 }
 
-DatagramCore::~DatagramCore() { node_->give_socket(); }
+DatagramCore::~DatagramCore() { node_->release_socket(); }
 
 Status DatagramCore::bind(const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;

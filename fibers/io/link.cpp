@@ -11,7 +11,7 @@ namespace {
 enum Draw : std::uint64_t { of_latency, of_loss };
 
 // The exploration strategy that also decides about the media's latencies and losses; else null.
-kernel::Decisions* who_decides(kernel::Scheduler& scheduler) {
+kernel::Decisions* deciding_strategy(kernel::Scheduler& scheduler) {
   return kernel::running != nullptr ? scheduler.chooser().decisions() : nullptr;
 }
 
@@ -37,7 +37,7 @@ void Link::stop() {
     if (flight.in_list()) scheduler_.cancel(flight);
   // Their arrivals may own sockets.
   flights_.clear();
-  landed_.clear();
+  free_flights_.clear();
   waiting_.clear();
 }
 
@@ -57,7 +57,7 @@ Time Link::put_on_air(std::size_t bytes, double distance_m) {
 Duration Link::latency() const {
   const Duration spread = medium_->latency_most - medium_->latency_least;
   if (spread == Duration()) return medium_->latency_least;
-  if (kernel::Decisions* decisions = who_decides(scheduler_))
+  if (kernel::Decisions* decisions = deciding_strategy(scheduler_))
     return decisions->computing(*kernel::running, medium_->latency_least, medium_->latency_most);
   const std::uint64_t drawn_ns = random_.below(static_cast<std::uint64_t>(spread.ns()) + 1, number_, Draw::of_latency);
   return medium_->latency_least + Duration::from_ns(static_cast<std::int64_t>(drawn_ns));
@@ -65,7 +65,7 @@ Duration Link::latency() const {
 
 bool Link::is_lost() const {
   if (medium_->loss == 0) return false;
-  if (kernel::Decisions* decisions = who_decides(scheduler_))
+  if (kernel::Decisions* decisions = deciding_strategy(scheduler_))
     return decisions->among(kernel::Choice::loss, *kernel::running, 2) != 0;
   return random_.uniform(number_, Draw::of_loss) < medium_->loss;
 }
@@ -122,7 +122,7 @@ void Link::transmit_in_order(std::size_t bytes, double distance_m, Arrival arriv
 }
 
 void Link::check_room() const {
-  WAITPOINT_CHECK(flights_.size() - landed_.size() + waiting_.size() <= in_flight_max_,
+  WAITPOINT_CHECK(flights_.size() - free_flights_.size() + waiting_.size() <= in_flight_max_,
                   "more messages in transit between two robots than NetworkLimits::in_flight_max");
 }
 
@@ -130,8 +130,8 @@ void Link::launch(Time arrives, Arrival arrival) {
   check_room();
   WAITPOINT_CHECK(arrives - scheduler_.global_time() >= scheduler_.lookahead(),
                   "a message arrives within the lookahead");
-  Flight& flight = landed_.empty() ? flights_.emplace_back() : *landed_.back();
-  if (!landed_.empty()) landed_.pop_back();
+  Flight& flight = free_flights_.empty() ? flights_.emplace_back() : *free_flights_.back();
+  if (!free_flights_.empty()) free_flights_.pop_back();
   flight.link = this;
   flight.fire = land;
   flight.arrival = std::move(arrival);
@@ -141,7 +141,7 @@ void Link::launch(Time arrives, Arrival arrival) {
 void Link::land(kernel::EventNode& node) {
   auto& flight = static_cast<Flight&>(node);
   const Arrival arrival = std::exchange(flight.arrival, nullptr);
-  flight.link->landed_.push_back(&flight);
+  flight.link->free_flights_.push_back(&flight);
   arrival();
 }
 

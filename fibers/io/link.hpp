@@ -51,7 +51,7 @@ class Link {
   void stop();
 
   /// True between robots: messages in transit then occupy room that the receiver cannot free at once.
-  bool crosses() const { return medium_.has_value(); }
+  bool is_between_robots() const { return medium_.has_value(); }
   const std::string& to() const { return to_; }
   LinkStatistics statistics;
 
@@ -93,7 +93,7 @@ class Link {
   std::deque<Waiting> waiting_;
   RangeCheck range_check_;
   std::deque<Flight> flights_;
-  std::vector<Flight*> landed_;  // unused entries of flights_
+  std::vector<Flight*> free_flights_;  // unused entries of flights_
 };
 
 }  // namespace waitpoint::io

@@ -21,7 +21,7 @@
 
 #include "fibers/io/letter.hpp"
 #include "fibers/io/network.hpp"
-#include "fibers/sync/unseen.hpp"
+#include "fibers/sync/ignored_accesses.hpp"
 
 namespace waitpoint::io {
 
@@ -76,14 +76,14 @@ class mailbox : public Channel {
 
   std::size_t capacity() const { return capacity_; }
   Events ready() const override {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     return when(!letters_.empty() || closed_, Events::readable) |
            when(letters_.size() < capacity_ || closed_, Events::writable) | when(closed_, Events::closed);
   }
 
   /// A letter from a mailbox_sender.
   void arrive(const T& letter, Receipt receipt) {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     letters_.push_back({letter, std::move(receipt)});
     wake_one_for_arrival(receiving_);
   }
@@ -94,7 +94,7 @@ class mailbox : public Channel {
     Receipt receipt;  // none for the own robot's letters
   };
   void refresh() override {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     letters_.clear();
     closed_ = false;
     node_ = nullptr;
@@ -126,11 +126,11 @@ template <class Letter>
 Status mailbox<T>::send(Letter&& letter, const Deadline& deadline) {
   if (!begin(kernel::Operation::send, sending_)) return Status::closed;
   const Status status = wait(sending_, deadline, [&] {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     return closed_ || letters_.size() < capacity_;
   });
   if (status != Status::ok) return status;
-  const sync::Unseen unseen;
+  const sync::IgnoredAccesses ignored_accesses;
   if (closed_) return Status::peer_closed;
   letters_.push_back({T(std::forward<Letter>(letter)), nullptr});
   if constexpr (Sendable<T>) record_sent("mailbox", hash_of(letters_.back().letter));
@@ -142,11 +142,11 @@ template <class T>
 Result<T> mailbox<T>::receive(const Deadline& deadline) {
   if (!begin(kernel::Operation::receive, receiving_)) return Status::closed;
   const Status status = wait(receiving_, deadline, [&] {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     return closed_ || !letters_.empty();
   });
   if (status != Status::ok) return status;
-  const sync::Unseen unseen;
+  const sync::IgnoredAccesses ignored_accesses;
   if (letters_.empty()) return Status::end_of_file;
   Entry entry = std::move(letters_.front());
   letters_.pop_front();
@@ -158,7 +158,7 @@ Result<T> mailbox<T>::receive(const Deadline& deadline) {
 
 template <class T>
 void mailbox<T>::shut(bool tell) {
-  const sync::Unseen unseen;
+  const sync::IgnoredAccesses ignored_accesses;
   if (node_ != nullptr) node_->release(Protocol::mailbox, port_);
   node_ = nullptr;
   if (std::exchange(closed_, true) || !tell) return;

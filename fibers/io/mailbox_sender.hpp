@@ -13,7 +13,7 @@ namespace waitpoint::io {
 class SenderCore : public Channel, public std::enable_shared_from_this<SenderCore> {
  public:
   SenderCore(Network& network, const Address& address, std::size_t window);
-  ~SenderCore() override { node_->give_socket(); }
+  ~SenderCore() override { node_->release_socket(); }
 
   /// Waits for room in the window.
   Status begin_letter(const Deadline& deadline);

@@ -33,7 +33,7 @@ Link* Node::link_to(const std::string& robot) {
     const Medium* declared = network_.medium(robot_.name, to);
     if (declared == nullptr || network_.node(to) == nullptr) return nullptr;
     medium = *declared;
-    network_.crossed_ = true;
+    network_.has_traffic_ = true;
   }
   return &links_
               .try_emplace(to, network_.scheduler_, robot_, to, medium, network_.distance_,
@@ -76,7 +76,7 @@ Network::~Network() {
 }
 
 void Network::begin_declaring(const Medium& medium) {
-  WAITPOINT_CHECK(!crossed_, "a medium is declared after robots have sent to each other");
+  WAITPOINT_CHECK(!has_traffic_, "a medium is declared after robots have sent to each other");
   check(medium);
   scheduler_.declare_latency(medium.latency_least);
 }

@@ -67,7 +67,7 @@ class Node {
   void release(Protocol protocol, const std::string& port) { ports_.erase({protocol, port}); }
   /// Counts one more socket; beyond NetworkLimits::sockets_max is a bug.
   void take_socket();
-  void give_socket() { --sockets_; }
+  void release_socket() { --sockets_; }
   std::size_t sockets() const { return sockets_; }
   bool has_room() const;
 
@@ -111,7 +111,7 @@ class Network {
   kernel::Scheduler& scheduler_;
   NetworkLimits limits_;
   Distance distance_;
-  bool crossed_ = false;  // messages were sent between robots
+  bool has_traffic_ = false;  // messages were sent between robots
   std::optional<Medium> between_all_;
   std::map<std::pair<std::string, std::string>, Medium> between_;  // robots' names in order
   std::map<std::string, std::shared_ptr<Node>> nodes_;

@@ -11,7 +11,7 @@ Status Stream::connect(Node& target, const std::string& port, const Deadline& de
                           &question = link_] {
     auto* const listener = static_cast<Listener*>(target.find(Protocol::stream, port));
     Link& back = *target.link_to(own);
-    const std::shared_ptr<Stream> server = listener != nullptr ? listener->take_in(back) : nullptr;
+    const std::shared_ptr<Stream> server = listener != nullptr ? listener->accept_request(back) : nullptr;
     if (server != nullptr) {
       server->answer(client, credit, question);
     } else {

@@ -9,7 +9,7 @@ Listener::Listener(Network& network, const ListenOptions& options)
   node_->take_socket();
 }
 
-Listener::~Listener() { node_->give_socket(); }
+Listener::~Listener() { node_->release_socket(); }
 
 Status Listener::listen(const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
@@ -20,7 +20,7 @@ Status Listener::listen(const std::string& port) {
   return Status::ok;
 }
 
-std::shared_ptr<Stream> Listener::take_in(Link& back) {
+std::shared_ptr<Stream> Listener::accept_request(Link& back) {
   if (backlog_.size() == options_.backlog || !node_->has_room()) return nullptr;
   backlog_.push_back(std::make_shared<Stream>(node_, back, options_.stream, node_->name() + ":" + port_));
   wake_one_for_arrival(receiving_);

@@ -25,7 +25,7 @@ class Listener : public Channel {
   Result<std::shared_ptr<Stream>> accept(const Deadline& deadline);
   void close();
   /// The server's end for a connection requested over the link with the reverse link `back`; null if it is refused.
-  std::shared_ptr<Stream> take_in(Link& back);
+  std::shared_ptr<Stream> accept_request(Link& back);
   Events ready() const override;
 
  private:

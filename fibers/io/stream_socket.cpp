@@ -10,7 +10,7 @@ Stream::Stream(std::shared_ptr<Node> node, Link& link, const StreamOptions& opti
   node_->take_socket();
 }
 
-Stream::~Stream() { node_->give_socket(); }
+Stream::~Stream() { node_->release_socket(); }
 
 // Sends a message that acts on the peer, if it still exists at the arrival.
 template <class Message>
@@ -81,7 +81,7 @@ Result<std::size_t> Stream::write(std::span<const std::byte> data, const Deadlin
     if (status == Status::ok && (closed_ || peer_gone_)) status = closed_ ? Status::closed : Status::peer_closed;
     if (status != Status::ok) break;
     const std::size_t count = std::min({data.size() - written, credit_, segment_bytes_max});
-    const std::size_t charge = link_.crosses() ? std::min(std::max(count, least_charge), credit_) : count;
+    const std::size_t charge = link_.is_between_robots() ? std::min(std::max(count, least_charge), credit_) : count;
     const auto part = data.subspan(written, count);
     credit_ -= charge;
     written += count;

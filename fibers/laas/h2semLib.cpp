@@ -58,9 +58,9 @@ BOOL h2semTake(H2SEM_ID sem, int timeout) {
   int error = S_h2semLib_NOT_A_SEM;
   if (found != nullptr && timeout < WAIT_FOREVER) error = EINVAL;
   if (found != nullptr && timeout >= WAIT_FOREVER) {
-    const Taken taken = found->take(timeout == 0 ? WAIT_FOREVER : timeout);
-    if (taken == Taken::taken) return TRUE;
-    if (taken == Taken::timed_out) error = S_h2semLib_TIMEOUT;
+    const TakeResult taken = found->take(timeout == 0 ? WAIT_FOREVER : timeout);
+    if (taken == TakeResult::taken) return TRUE;
+    if (taken == TakeResult::timed_out) error = S_h2semLib_TIMEOUT;
   }
   fail(error);
   return FALSE;

@@ -9,7 +9,7 @@
 
 namespace waitpoint::laas {
 
-struct H2TIMER : TickItem {
+struct H2TIMER : TickAction {
   enum class Status : std::uint8_t { stopped, wait_delay, running };
 
   bool allocated() const { return fired.has_value() && fired->kind() != Semaphore::Kind::none; }
@@ -76,7 +76,7 @@ bool wait(H2TIMER& timer) {
   // Listed before blocking, since other tasks run then.
   if (timer.status != H2TIMER::Status::stopped && !Ticks::listed(timer))
     timer.ticks->list(timer, timer.next, timer.rank);
-  return timer.fired->wait(Time::max()) == Taken::taken;
+  return timer.fired->wait(Time::max()) == TakeResult::taken;
 }
 
 }  // namespace

@@ -65,9 +65,9 @@ STATUS semGive(SEM_ID semId) {
 STATUS semTake(SEM_ID semId, int timeout) {
   if (!is_semaphore(semId)) return fail(S_semLib_NOT_A_SEM);
   if (timeout < WAIT_FOREVER) return fail(EINVAL);
-  const Taken taken = semId->take(timeout);
-  if (taken == Taken::taken) return OK;
-  return fail(taken == Taken::timed_out ? S_semLib_TIMEOUT : S_semLib_NOT_A_SEM);
+  const TakeResult taken = semId->take(timeout);
+  if (taken == TakeResult::taken) return OK;
+  return fail(taken == TakeResult::timed_out ? S_semLib_TIMEOUT : S_semLib_NOT_A_SEM);
 }
 
 STATUS semFlush(SEM_ID semId) {

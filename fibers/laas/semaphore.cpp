@@ -24,28 +24,28 @@ void Semaphore::destroy() {
   robot_.scheduler->wake_all(object_);
 }
 
-Taken Semaphore::take(int ticks) {
+TakeResult Semaphore::take(int ticks) {
   const std::uint32_t generation = generation_;
   if (!sync::before_blocking(ticks == NO_WAIT ? Operation::try_acquire : Operation::acquire, object_))
-    return Taken::timed_out;
-  if (generation != generation_) return Taken::deleted;
+    return TakeResult::timed_out;
+  if (generation != generation_) return TakeResult::deleted;
   if (kind_ == Kind::mutex && object_.owner == nullptr) {
     object_.owner = kernel::running;
-    return Taken::taken;
+    return TakeResult::taken;
   }
   if (kind_ == Kind::count && count > 0) {
     --count;
-    return Taken::taken;
+    return TakeResult::taken;
   }
-  if (ticks == NO_WAIT) return Taken::timed_out;
+  if (ticks == NO_WAIT) return TakeResult::timed_out;
   return wait(sync::state_of<Ticks>(robot_).deadline(ticks));
 }
 
-Taken Semaphore::wait(Time deadline) {
+TakeResult Semaphore::wait(Time deadline) {
   const std::uint32_t generation = generation_;
   const bool woken = sync::block(object_, deadline);
-  if (generation != generation_) return Taken::deleted;
-  return woken ? Taken::taken : Taken::timed_out;
+  if (generation != generation_) return TakeResult::deleted;
+  return woken ? TakeResult::taken : TakeResult::timed_out;
 }
 
 int Semaphore::give() {

@@ -13,7 +13,7 @@
 
 namespace waitpoint::laas {
 
-enum class Taken : std::uint8_t {
+enum class TakeResult : std::uint8_t {
   taken,
   timed_out,
   deleted,  ///< while the caller waited
@@ -27,12 +27,12 @@ class Semaphore {
 
   /// Makes an unused one a semaphore of `kind` with `count` units (a mutex: free).
   void create(Kind kind, int count);
-  /// Makes it unused; waiting tasks return Taken::deleted.
+  /// Makes it unused; waiting tasks return TakeResult::deleted.
   void destroy();
   Kind kind() const { return kind_; }
 
   /// Takes a unit, or the mutex, within a time-out in ticks from the call: see Ticks::deadline.
-  Taken take(int ticks);
+  TakeResult take(int ticks);
   /// Releases one. OK, or an errno: EPERM for a mutex not held by the caller, EOVERFLOW for a count overflow.
   int give();
   /// Wakes all waiting tasks; the count is unchanged.
@@ -43,7 +43,7 @@ class Semaphore {
   // --- without a waitpoint: the caller has passed one ---
 
   /// Blocks the caller until a unit is handed to it, or the deadline.
-  Taken wait(Time deadline);
+  TakeResult wait(Time deadline);
   /// Hands a unit to a waiting task, or adds it to the count.
   void hand_over();
   bool has_waiters() const { return kind_ != Kind::none && object_.first_waiter != nullptr; }

@@ -30,7 +30,7 @@ Time Ticks::deadline(int ticks) const {
   return time_of(now() + ticks + 1);
 }
 
-void Ticks::list(TickItem& item, std::int64_t due, std::uint64_t rank) {
+void Ticks::list(TickAction& item, std::int64_t due, std::uint64_t rank) {
   if (item.listed_) items_.erase(&item);
   item.due_ = due;
   item.rank_ = rank;
@@ -39,7 +39,7 @@ void Ticks::list(TickItem& item, std::int64_t due, std::uint64_t rank) {
   schedule();
 }
 
-void Ticks::unlist(TickItem& item) {
+void Ticks::unlist(TickAction& item) {
   if (!item.listed_) return;
   items_.erase(&item);
   item.listed_ = false;
@@ -59,7 +59,7 @@ void Ticks::fire(void* self_address) {
   Ticks& self = *static_cast<Ticks*>(self_address);
   self.firing_ = true;
   while (!self.items_.empty() && (*self.items_.begin())->due_ <= self.scheduled_) {
-    TickItem& item = **self.items_.begin();
+    TickAction& item = **self.items_.begin();
     self.items_.erase(self.items_.begin());
     item.listed_ = false;
     item.at_tick();

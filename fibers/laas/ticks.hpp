@@ -18,9 +18,9 @@
 namespace waitpoint::laas {
 
 /// An action at a tick.
-class TickItem {
+class TickAction {
  public:
-  virtual ~TickItem() = default;
+  virtual ~TickAction() = default;
 
  private:
   friend class Ticks;
@@ -51,9 +51,9 @@ class Ticks : public sync::RobotState {
   Time deadline(int ticks) const;
 
   /// Schedules `item` at tick `due`, which must be in the future; replaces its earlier schedule.
-  void list(TickItem& item, std::int64_t due, std::uint64_t rank);
-  void unlist(TickItem& item);
-  static bool listed(const TickItem& item) { return item.listed_; }
+  void list(TickAction& item, std::int64_t due, std::uint64_t rank);
+  void unlist(TickAction& item);
+  static bool listed(const TickAction& item) { return item.listed_; }
 
   /// The object of operations on the clock, which conflict.
   kernel::Object& object() { return object_; }
@@ -62,7 +62,7 @@ class Ticks : public sync::RobotState {
 
  private:
   struct Before {
-    bool operator()(const TickItem* a, const TickItem* b) const {
+    bool operator()(const TickAction* a, const TickAction* b) const {
       return a->due_ != b->due_ ? a->due_ < b->due_ : a->rank_ < b->rank_;
     }
   };
@@ -71,7 +71,7 @@ class Ticks : public sync::RobotState {
 
   kernel::Object object_{"tick"};
   sync::TimerEvent event_;
-  std::set<TickItem*, Before> items_;  // no two have the same tick and the same rank
+  std::set<TickAction*, Before> items_;  // no two have the same tick and the same rank
   std::optional<Period> period_;
   Time start_;
   int rate_ = 0;

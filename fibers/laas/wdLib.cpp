@@ -10,7 +10,7 @@
 
 namespace waitpoint::laas {
 
-struct wdog : TickItem {
+struct wdog : TickAction {
   explicit wdog(Ticks& of) : ticks(of) {}
   void at_tick() override {
     // A copy: the routine may restart its watchdog with another one.

@@ -19,8 +19,8 @@
 #include <type_traits>
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/ignored_accesses.hpp"
 #include "fibers/sync/object.hpp"
-#include "fibers/sync/unseen.hpp"
 
 namespace waitpoint {
 
@@ -190,7 +190,7 @@ class atomic {
   void notify_one() {
     if (kernel::running == nullptr) return;
     before_changing(kernel::Operation::notify_one);
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     kernel::running->scheduler->wake_one(object_);
   }
   void notify_all() {
@@ -201,7 +201,7 @@ class atomic {
 
  private:
   void refresh() const {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     if (kernel::running->scheduler->enter(object_)) value_ = initial_;
   }
   void before_looking(kernel::Operation operation) const {
@@ -215,12 +215,12 @@ class atomic {
     sync::before_releasing(operation, object_);
   }
   T get() const {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     return value_;
   }
   // Returns the previous value.
   T put(T value) {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     const T before = value_;
     value_ = value;
     if (kernel::running == nullptr) initial_ = value;

@@ -10,7 +10,7 @@
 #include "core/time.hpp"
 #include "fibers/kernel/local_clock.hpp"
 #include "fibers/kernel/scheduler.hpp"
-#include "fibers/sync/unseen.hpp"
+#include "fibers/sync/ignored_accesses.hpp"
 
 namespace waitpoint::sync {
 
@@ -65,7 +65,7 @@ inline kernel::Task* wake_one(kernel::Object& object) {
 /// The same in the caller's frame, see departure.hpp.
 [[gnu::always_inline]] inline bool block_here(kernel::Object& object, Time deadline) {
   {
-    const Unseen unseen;
+    const IgnoredAccesses ignored_accesses;
     ++object.users;
   }
   const kernel::Wake wake = kernel::running->scheduler->block(object, deadline);
@@ -74,7 +74,7 @@ inline kernel::Task* wake_one(kernel::Object& object) {
     unwind();
     return false;
   }
-  const Unseen unseen;
+  const IgnoredAccesses ignored_accesses;
   --object.users;
   return wake == kernel::Wake::woken;
 }

@@ -19,7 +19,7 @@ class condition_variable {
  public:
   constexpr condition_variable() = default;
   explicit constexpr condition_variable(const char* label) : object_("condition variable", label) {}
-  ~condition_variable() { sync::let_notified_leave(object_); }
+  ~condition_variable() { sync::drain_woken_waiters(object_); }
   condition_variable(const condition_variable&) = delete;
   condition_variable& operator=(const condition_variable&) = delete;
 

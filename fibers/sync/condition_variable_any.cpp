@@ -21,7 +21,7 @@ void condition_variable_any::notify_all() {
 }
 
 void condition_variable_any::notify(Waiter& waiter) {
-  strike_off(waiter);
+  remove_waiter(waiter);
   waiter.notified = true;
   if (waiter.blocked) kernel::running->scheduler->wake(*waiter.task);
 }
@@ -36,7 +36,7 @@ bool condition_variable_any::enlist(Waiter& waiter) {
   return true;
 }
 
-void condition_variable_any::strike_off(Waiter& waiter) {
+void condition_variable_any::remove_waiter(Waiter& waiter) {
   Waiter* before = nullptr;
   for (Waiter* at = first_; at != &waiter; at = at->next) before = at;
   (before == nullptr ? first_ : before->next) = waiter.next;
@@ -47,7 +47,7 @@ void condition_variable_any::leave(Waiter& waiter) {
   if (waiter.stop != nullptr) waiter.stop->waiter = nullptr;
   // After the end of the run, the list may be gone.
   if (kernel::running->scheduler->unwinding()) return;
-  if (!waiter.notified) strike_off(waiter);
+  if (!waiter.notified) remove_waiter(waiter);
   --object_.users;
 }
 

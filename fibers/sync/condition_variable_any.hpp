@@ -9,9 +9,9 @@
 #include <condition_variable>
 
 #include "fibers/sync/clock.hpp"
+#include "fibers/sync/ignored_accesses.hpp"
 #include "fibers/sync/misuse.hpp"
 #include "fibers/sync/stop_token.hpp"
-#include "fibers/sync/unseen.hpp"
 
 namespace waitpoint {
 
@@ -21,7 +21,7 @@ class condition_variable_any {
  public:
   constexpr condition_variable_any() = default;
   explicit constexpr condition_variable_any(const char* label) : object_("condition variable", label) {}
-  ~condition_variable_any() { sync::let_notified_leave(object_); }
+  ~condition_variable_any() { sync::drain_woken_waiters(object_); }
   condition_variable_any(const condition_variable_any&) = delete;
   condition_variable_any& operator=(const condition_variable_any&) = delete;
 
@@ -84,11 +84,11 @@ class condition_variable_any {
   // Links the waits of one call to a stop request.
   struct Stop {
     bool is_asked() const {
-      const sync::Unseen unseen;
+      const sync::IgnoredAccesses ignored_accesses;
       return requested;
     }
     void operator()() {
-      const sync::Unseen unseen;
+      const sync::IgnoredAccesses ignored_accesses;
       requested = true;
       if (waiter != nullptr && !waiter->notified) condition.notify(*waiter);
     }
@@ -140,13 +140,13 @@ class condition_variable_any {
 
   // `users` counts the waiters in the list or woken from it. If it is 0, as in a new run, the list is empty.
   bool has_users() const {
-    const sync::Unseen unseen;
+    const sync::IgnoredAccesses ignored_accesses;
     return object_.users != 0;
   }
   bool enlist(Waiter& waiter);
   bool sleep(Waiter& waiter, Time deadline);
   void leave(Waiter& waiter);
-  void strike_off(Waiter& waiter);
+  void remove_waiter(Waiter& waiter);
   void notify(Waiter& waiter);
   void notify_a_waiter();
 

@@ -21,7 +21,7 @@ void check_destroyed(const kernel::Object& object) {
   WAITPOINT_CHECK(object.users == 0, about(object, "destroyed while tasks wait for it"));
 }
 
-void let_notified_leave(const kernel::Object& object) {
+void drain_woken_waiters(const kernel::Object& object) {
   if (kernel::running == nullptr) return;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   while (scheduler.has_entered(object) && object.users != 0 && object.first_waiter == nullptr)

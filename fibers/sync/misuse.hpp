@@ -14,7 +14,7 @@ const char* about(const kernel::Object& object, const char* message);
 
 /// For the destructors of objects that may be destroyed once no task waits: gives woken tasks that have not run since a
 /// turn to leave.
-void let_notified_leave(const kernel::Object& object);
+void drain_woken_waiters(const kernel::Object& object);
 
 /// Called at the end of a thread: holding a lock then is a bug.
 void check_holds_nothing(const kernel::Task& task);

@@ -19,7 +19,7 @@
 #include <utility>
 
 #include "fibers/sync/clock.hpp"
-#include "fibers/sync/unseen.hpp"
+#include "fibers/sync/ignored_accesses.hpp"
 
 namespace waitpoint {
 
@@ -81,7 +81,7 @@ class ResultState : public SharedState {
   template <class... Value>
   void set(Ready when, Value&&... value) {
     if (!claim()) return;
-    const Unseen unseen;
+    const IgnoredAccesses ignored_accesses;
     if constexpr (std::is_reference_v<T>)
       value_.emplace(&value...);
     else

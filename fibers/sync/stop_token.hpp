@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "fibers/sync/blocking.hpp"
-#include "fibers/sync/unseen.hpp"
+#include "fibers/sync/ignored_accesses.hpp"
 
 namespace waitpoint {
 namespace sync {
@@ -46,16 +46,16 @@ class StopState {
 
   /// Counts the sources.
   void add_source() {
-    const Unseen unseen;
+    const IgnoredAccesses ignored_accesses;
     ++sources_;
   }
   void remove_source() {
-    const Unseen unseen;
+    const IgnoredAccesses ignored_accesses;
     --sources_;
   }
   /// True if a stop was requested or a source remains. No waitpoint.
   bool possible() const {
-    const Unseen unseen;
+    const IgnoredAccesses ignored_accesses;
     return sources_ > 0 || requested_;
   }
 

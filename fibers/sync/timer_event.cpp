@@ -61,7 +61,7 @@ void TimerEvent::fire(kernel::EventNode& node) {
   RunTimers& run = timers.run;
   --run.pending;
   run.barren = scheduler.pending_events() == run.pending ? run.barren + 1 : 0;
-  if (run.barren > barren_max) return;
+  if (run.barren > idle_firings_max) return;
 
   run.firings = run.instant == self.due_ ? run.firings + 1 : 0;
   run.instant = self.due_;

@@ -6,8 +6,8 @@
 // a blocking call is a bug. Releasing and waking calls are allowed, and are not waitpoints then.
 //
 // Timers do not keep a run alive. While the event list holds only timers, only a timer can wake a task; after
-// `barren_max` consecutive firings without a wake-up the timers are dropped, and the run is reported as a deadlock.
-// Timers that fire without end at one instant end the run with no progress.
+// `idle_firings_max` consecutive firings without a wake-up the timers are dropped, and the run is reported as a
+// deadlock. Timers that fire without end at one instant end the run with no progress.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace waitpoint::sync {
 
 /// The greatest number of consecutive firings while no task can continue without them.
-inline constexpr std::uint32_t barren_max = 1'000'000;
+inline constexpr std::uint32_t idle_firings_max = 1'000'000;
 /// The greatest number of firings at one instant: above the number of possible timers, so some restarted at once.
 inline constexpr std::uint32_t firings_max = 2 * kernel::events_max;
 

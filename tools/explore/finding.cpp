@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "core/error.hpp"
-#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/report/reordered_events.hpp"
 
 namespace waitpoint::tools {
 namespace {

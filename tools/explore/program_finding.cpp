@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/posix/exec/exploration.hpp"
 #include "fibers/posix/exec/race_log.hpp"
 #include "tools/command/signal_words.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/report/reordered_events.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Of a failing run and the last choice from which it could still have passed: the two events whose order matters, with
-// the call stacks of both (fibers/explore/report/event_pair.hpp).
+// the call stacks of both (fibers/explore/report/reordered_events.hpp).
 #pragma once
 
 #include <string>

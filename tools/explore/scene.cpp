@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "fibers/explore/report/choice_words.hpp"
-#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/report/choice_text.hpp"
+#include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/report/timeline_recorder.hpp"
 #include "fibers/explore/schedules/course.hpp"
 #include "fibers/explore/schedules/event_stop.hpp"

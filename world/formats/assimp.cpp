@@ -6,7 +6,7 @@
 #include <assimp/Importer.hpp>
 
 #include "core/error.hpp"
-#include "core/one_line.hpp"
+#include "core/printable_line.hpp"
 #include "world/formats/mesh_builder.hpp"
 #include "world/formats/mesh_file.hpp"
 
@@ -26,7 +26,7 @@ TriangleMesh read_mesh_by_assimp(const std::string& contents, const std::string&
       contents.data(), contents.size(), aiProcess_Triangulate | aiProcess_PreTransformVertices | aiProcess_SortByPType,
       ending.c_str());
   if (scene == nullptr)
-    throw BadInput(file, one_line("expected a mesh, Assimp says: " + std::string(importer.GetErrorString())));
+    throw BadInput(file, printable_line("expected a mesh, Assimp says: " + std::string(importer.GetErrorString())));
   MeshBuilder builder(file, left_out);
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& part = *scene->mMeshes[m];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/formats/left_out.hpp"
 
-#include "core/one_line.hpp"
+#include "core/printable_line.hpp"
 
 namespace waitpoint::world {
 
@@ -22,12 +22,12 @@ std::vector<std::string> LeftOut::warnings() const {
   std::vector<std::string> lines;
   for (const Kind& kind : kinds_) {
     std::string line =
-        one_line(kind.file + ":" + std::to_string(kind.line) + ": " + kind.what + " " + kind.consequence);
+        printable_line(kind.file + ":" + std::to_string(kind.line) + ": " + kind.what + " " + kind.consequence);
     if (kind.count > 1) line += " (" + std::to_string(kind.count) + " times)";
     lines.push_back(line);
   }
   if (beyond_ > 0)
-    lines.push_back(one_line(kinds_.front().file) + ": " + std::to_string(beyond_) + " more things are left out");
+    lines.push_back(printable_line(kinds_.front().file) + ": " + std::to_string(beyond_) + " more things are left out");
   return lines;
 }
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "core/number_text.hpp"
-#include "fibers/explore/report/choice_words.hpp"
+#include "fibers/explore/report/choice_text.hpp"
 #include "fibers/sync/object_names.hpp"
 
 namespace waitpoint::exploration {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/report/timeline_recorder.hpp"
 
-#include "fibers/explore/report/choice_words.hpp"
+#include "fibers/explore/report/choice_text.hpp"
 #include "fibers/sync/object_names.hpp"
 
 namespace waitpoint::exploration {

@@ -86,7 +86,7 @@ inline std::uint32_t Explorer::place_of_last(std::span<Task* const> offered) con
   return static_cast<std::uint32_t>(place > 0 ? place - 1 : offered.size());
 }
 
-inline void Explorer::write_down(Task* const* ready, const Decision& decision) {
+inline void Explorer::record_choice(Task* const* ready, const Decision& decision) {
   schedule_.decisions.push_back(decision);
   if (decision.is_switch())
     schedule_.switches.push_back({Choice::task, event_of(*ready[decision.usual]), event_of(*ready[decision.chosen])});
@@ -97,10 +97,10 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
   if (__builtin_expect(plays_ || spinning_ != 0, 0)) return next_with_care(ready, count);
   if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
   const std::uint32_t last = place_of_last({ready, count});
-  const bool may_go_on = last != count;
-  const std::uint32_t chosen = strategy_->next({{ready, count}, last_, may_go_on, step_});
-  if (__builtin_expect(chosen == Strategy::cut, 0)) return give_up(*ready[0]);
-  if (count > 1) write_down(ready, {count, chosen, may_go_on ? last : 0, Choice::task, may_go_on, 0});
+  const bool can_continue = last != count;
+  const std::uint32_t chosen = strategy_->next({{ready, count}, last_, can_continue, step_});
+  if (__builtin_expect(chosen == Strategy::cut, 0)) return abandon_schedule(*ready[0]);
+  if (count > 1) record_choice(ready, {count, chosen, can_continue ? last : 0, Choice::task, can_continue, 0});
   note(*ready[chosen]);
   ++step_;
   return chosen;
@@ -115,8 +115,8 @@ std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) 
   const bool some_spin = spinning_ != 0 && chooses;
   const std::span<Task* const> offered = some_spin ? leave_spinning_out({ready, count}) : std::span(ready, count);
   const std::uint32_t last = place_of_last(offered);
-  const bool may_go_on = last != offered.size();
-  const std::uint32_t usual = may_go_on ? last : 0;
+  const bool can_continue = last != offered.size();
+  const std::uint32_t usual = can_continue ? last : 0;
   const std::uint32_t usual_place = some_spin ? places_[usual] : usual;
   std::uint32_t chosen = count;
   if (plays_ && chooses) {
@@ -124,12 +124,13 @@ std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) 
     chosen = choose({ready, count}, usual_place);
   }
   if (chosen == count) {
-    chosen = strategy_->next({offered, last_, may_go_on, step_});
+    chosen = strategy_->next({offered, last_, can_continue, step_});
     if (some_spin && chosen != Strategy::cut) chosen = places_[chosen];
   }
-  if (chosen == Strategy::cut) return give_up(*ready[0]);
+  if (chosen == Strategy::cut) return abandon_schedule(*ready[0]);
   if (chooses)
-    write_down(ready, {count, chosen, usual_place, Choice::task, may_go_on, some_spin ? spinning_among(count) : 0});
+    record_choice(ready,
+                  {count, chosen, usual_place, Choice::task, can_continue, some_spin ? spinning_among(count) : 0});
   note(*ready[chosen]);
   ++step_;
   return chosen;
@@ -142,7 +143,7 @@ std::uint32_t Explorer::stop(std::span<Task* const> ready, std::uint32_t usual) 
 }
 
 // The run ends here: the returned task is not entered.
-std::uint32_t Explorer::give_up(Task& task) {
+std::uint32_t Explorer::abandon_schedule(Task& task) {
   was_cut_ = true;
   scheduler_.stop_between_events(kernel::StopCause::requested, task);
   return 0;
@@ -169,7 +170,7 @@ std::uint64_t Explorer::spinning_among(std::uint32_t count) const {
 }
 
 void Explorer::stop_spinning() {
-  for (Habit& habit : habits_) habit.spins = false;
+  for (RecentAccesses& habit : habits_) habit.spins = false;
   spinning_ = 0;
 }
 
@@ -200,7 +201,7 @@ std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready
 
 inline void Explorer::note(const Task& task) {
   if (__builtin_expect(task.number >= habits_.size(), 0)) habits_.resize(task.number + 1);
-  Habit& habit = habits_[task.number];
+  RecentAccesses& habit = habits_[task.number];
   if (habit.instant != instants_) habit = {.at = {}, .instant = instants_};
   if (is_look(task.operation)) {
     note_look(task, habit);
@@ -214,7 +215,7 @@ inline void Explorer::note(const Task& task) {
   last_ = &task;
 }
 
-void Explorer::note_look(const Task& task, Habit& habit) {
+void Explorer::note_look(const Task& task, RecentAccesses& habit) {
   const bool is_another = task.at != habit.at[0] && task.at != habit.at[1];
   if (task.operation != Operation::yield) {
     habit.looks = is_another ? 0 : static_cast<std::uint8_t>(habit.looks + 1);

@@ -70,7 +70,7 @@ class Explorer final : public kernel::Decisions {
 
  private:
   // A task's recent accesses, by Task::number.
-  struct alignas(32) Habit {
+  struct alignas(32) RecentAccesses {
     kernel::Object* at[2] = {};
     std::uint32_t instant = 0;  // the instant to which the other members apply
     std::uint8_t looks = 0;
@@ -79,16 +79,16 @@ class Explorer final : public kernel::Decisions {
 
   [[gnu::noinline]] void begin_instant(Time now);
   std::uint32_t place_of_last(std::span<Task* const> offered) const;
-  void write_down(Task* const* ready, const Decision& decision);
+  void record_choice(Task* const* ready, const Decision& decision);
   [[gnu::noinline]] std::uint32_t next_with_care(Task* const* ready, std::uint32_t count);
   std::uint32_t choose(std::span<Task* const> ready, std::uint32_t usual);
   std::uint32_t stop(std::span<Task* const> ready, std::uint32_t usual);
-  std::uint32_t give_up(Task& task);
+  std::uint32_t abandon_schedule(Task& task);
   bool polls_only(std::span<Task* const> ready) const;
   std::span<Task* const> leave_spinning_out(std::span<Task* const> ready);
   std::uint64_t spinning_among(std::uint32_t count) const;
   void note(const Task& task);
-  void note_look(const Task& task, Habit& habit);
+  void note_look(const Task& task, RecentAccesses& habit);
   std::uint32_t of_deviations(std::uint32_t count);
   const Decision* of_prefix(Choice choice, std::uint32_t count);
   bool is_played(const Switch& change) const;
@@ -101,7 +101,7 @@ class Explorer final : public kernel::Decisions {
   bool plays_ = false;
   std::vector<Switch> switches_;  // those to play, in order: indexed, since a long run searches them often
   Schedule schedule_;
-  std::vector<Habit> habits_;
+  std::vector<RecentAccesses> habits_;
   std::vector<Task*> offered_;  // the ready tasks that do not spin, and their indices
   std::vector<std::uint32_t> places_;
   std::vector<Task*> stopped_before_;

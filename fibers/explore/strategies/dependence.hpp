@@ -6,7 +6,7 @@
 
 namespace waitpoint::exploration {
 
-inline bool only_looks(kernel::Operation operation) {
+inline bool is_read_only(kernel::Operation operation) {
   return operation == kernel::Operation::load || operation == kernel::Operation::stop_requested;
 }
 
@@ -27,7 +27,7 @@ inline bool is_of_lock(kernel::Operation operation) {
 
 /// Compares the pending operations of two tasks.
 inline bool are_dependent(const kernel::Task& a, const kernel::Task& b) {
-  return a.at != nullptr && a.at == b.at && !(only_looks(a.operation) && only_looks(b.operation));
+  return a.at != nullptr && a.at == b.at && !(is_read_only(a.operation) && is_read_only(b.operation));
 }
 
 }  // namespace waitpoint::exploration

@@ -26,11 +26,11 @@ std::uint32_t Dfs::descend(std::uint32_t count) {
 // The default one first, then the others in order.
 std::uint32_t Dfs::next(const SwitchPoint& at) {
   const std::uint32_t first = usual(at);
-  const bool may_switch = !at.may_go_on || preempted_ < preemptions_;
+  const bool may_switch = !at.can_continue || preempted_ < preemptions_;
   if (at.ready.size() == 1 || !may_switch) return first;
   const std::uint32_t tried = descend(static_cast<std::uint32_t>(at.ready.size()));
   if (tried == 0) return first;
-  preempted_ += at.may_go_on;
+  preempted_ += at.can_continue;
   return tried <= first ? tried - 1 : tried;
 }
 

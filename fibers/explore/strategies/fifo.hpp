@@ -9,7 +9,7 @@ namespace waitpoint::exploration {
 
 /// The default choice at a switch point.
 inline std::uint32_t usual(const SwitchPoint& at) {
-  if (at.may_go_on)
+  if (at.can_continue)
     for (std::uint32_t i = 0; i < at.ready.size(); ++i)
       if (at.ready[i] == at.last) return i;
   return 0;

@@ -38,7 +38,7 @@ struct Decision {
   std::uint32_t chosen;  ///< below count
   std::uint32_t usual;   ///< the default choice
   kernel::Choice choice = kernel::Choice::task;
-  bool may_go_on = false;      ///< the default one is the task of the last event: choosing another preempts it
+  bool can_continue = false;   ///< the default one is the task of the last event: choosing another preempts it
   std::uint64_t spinning = 0;  ///< spinning tasks among the first 64 alternatives, not offered
 
   bool is_switch() const { return chosen != usual; }

@@ -24,7 +24,7 @@ using kernel::Task;
 struct SwitchPoint {
   std::span<Task* const> ready;  ///< at least one, in the order in which they became ready
   const Task* last;              ///< the task of the last event; null at the first of an instant
-  bool may_go_on;                ///< `last` is ready and does not spin
+  bool can_continue;             ///< `last` is ready and does not spin
   std::uint32_t step;            ///< number of earlier switch points
 };
 

@@ -3,8 +3,8 @@
 
 #include <dlfcn.h>
 
-#include "fibers/explore/report/choice_words.hpp"
-#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/report/choice_text.hpp"
+#include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/course.hpp"
 
 namespace waitpoint::posix {

@@ -111,7 +111,7 @@ TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusT
   const auto replay_of_another_call = [] {
     setenv("WAITPOINT_REPLAY", "wx1.9.00000000.=", 1);
     explore([] {});
-    exploration::tests_are_over();
+    exploration::on_tests_finished();
   };
   EXPECT_EXIT(
       replay_of_another_call(), status_two,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the library waitpoint-races: own_copies.py NM LD OBJCOPY AR OUTPUT ARCHIVE...
+"""Makes the library waitpoint-races: privatise_inline_functions.py NM LD OBJCOPY AR OUTPUT ARCHIVE...
 
 A program has one copy of each inline function. If the library uses it too, that copy may be the user's, compiled with
 -fsanitize=thread: the library's own accesses would count as the running task's, and switches could interrupt them. So

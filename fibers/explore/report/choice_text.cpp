@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/explore/report/choice_words.hpp"
+#include "fibers/explore/report/choice_text.hpp"
 
 #include "fibers/sync/object_names.hpp"
 

@@ -23,17 +23,17 @@ namespace waitpoint::sync {
 
 /// In its scope, ThreadSanitizer and explore/races ignore the running task's accesses to memory. Empty without
 /// -fsanitize=thread.
-class Unseen {
+class IgnoredAccesses {
  public:
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
-  Unseen() { __tsan_ignore_thread_begin(); }
-  ~Unseen() { __tsan_ignore_thread_end(); }
+  IgnoredAccesses() { __tsan_ignore_thread_begin(); }
+  ~IgnoredAccesses() { __tsan_ignore_thread_end(); }
 #else
-  Unseen() {}
-  ~Unseen() {}
+  IgnoredAccesses() {}
+  ~IgnoredAccesses() {}
 #endif
-  Unseen(const Unseen&) = delete;
-  Unseen& operator=(const Unseen&) = delete;
+  IgnoredAccesses(const IgnoredAccesses&) = delete;
+  IgnoredAccesses& operator=(const IgnoredAccesses&) = delete;
 };
 
 }  // namespace waitpoint::sync

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/explore/report/event_pair.hpp"
+#include "fibers/explore/report/reordered_events.hpp"
 
 #include <algorithm>
 #include <map>
@@ -20,7 +20,7 @@ bool is_lock(Operation operation) { return operation == Operation::lock || opera
 // and just after an unlock: only the order of lock operations matters.
 bool depend(const DoneEvent& a, const DoneEvent& b) {
   if (a.object == 0 || a.object != b.object || a.event.task == b.event.task) return false;
-  if (only_looks(a.operation) && only_looks(b.operation)) return false;
+  if (is_read_only(a.operation) && is_read_only(b.operation)) return false;
   if (a.operation == Operation::join || b.operation == Operation::join) return false;
   return !(is_lock(a.operation) && is_unlock(b.operation)) && !(is_unlock(a.operation) && is_lock(b.operation));
 }

@@ -8,6 +8,6 @@
 namespace waitpoint {
 
 /// The text with each ASCII control character replaced by '?': no line breaks, no terminal escape sequences.
-std::string one_line(std::string_view text);
+std::string printable_line(std::string_view text);
 
 }  // namespace waitpoint
