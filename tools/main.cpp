@@ -36,7 +36,7 @@ int check(const tools::CheckOptions& options, std::span<const genom::ModuleType>
 }  // namespace
 
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
-  // The first of a name counts.
+  // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
   try {
@@ -52,7 +52,7 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
   } catch (const BadInput& error) {
     std::fflush(stdout);
     std::fprintf(stderr, "waitpoint: %s\n", error.what());
-    // Every other status may be that of the program.
+    // Every other status may be the program's own.
     const bool is_exec = argc > 1 && std::string_view(argv[1]) == "exec";
     return is_exec ? tools::exec_failed : 2;
   } catch (const std::exception& error) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole of the `waitpoint` program as one call, for programs with modules of their own:
+// The whole `waitpoint` program as one call, for programs with modules of their own:
 //
 //   int main(int argc, char** argv) {
 //     return waitpoint::main(argc, argv, {waitpoint::genom::module_type<Blinker>("blinker")});
 //   }
 //
-// Linked with waitpoint-robots it simulates; with waitpoint-robots-native, and WAITPOINT_REAL_THREADS defined, the same
-// program runs its modules on the threads of the system: `run` with --set, --seed and --until.
+// Linked with waitpoint-robots it simulates; linked with waitpoint-robots-native, with WAITPOINT_REAL_THREADS defined,
+// the same program runs its modules on system threads: `run` with --set, --seed and --until.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@
 
 namespace waitpoint {
 
-/// Does what the arguments say, with the modules of the paper and those of `own`, which scenarios may use by their
-/// names; one of `own` takes the place of the paper's of that name. Returns the exit status.
+/// Executes the command line. Scenarios may use the paper's modules and those of `own` by name; a module of `own`
+/// replaces the paper's module of the same name. Returns the exit status.
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own = {});
 
 }  // namespace waitpoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// waitpoint::main() of the build on real threads: the same scenarios and modules, at the wall clock's speed.
+// waitpoint::main() of the build on system threads: the same scenarios and modules, at the wall clock's speed.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -53,15 +53,16 @@ int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
 }
 
 int read_and_run(int argc, const char* const* argv, std::span<const genom::ModuleType> types) {
-  CLI::App app("Runs the software of robots on the threads of the system, against a simulated world.", "waitpoint");
+  CLI::App app("Runs robots' software on system threads, against a simulated world.", "waitpoint");
   Arguments arguments;
   CLI::App* command = app.add_subcommand("run", "Runs a scenario at the wall clock's speed.");
   command->add_option("SCENARIO", arguments.scenario, "the scenario file")->required()->type_name(" ");
-  command->add_option("--seed", arguments.seed, "seed of the world's noise (default: 1)")->type_name("N");
-  command->add_option("--until", arguments.until_s, "end after so many seconds (default: the scenario's until_s)")
+  command->add_option("--seed", arguments.seed, "seed of the world's noise, from 0 to 2^64 - 1 (default: 1)")
+      ->type_name("N");
+  command->add_option("--until", arguments.until_s, "end after S seconds (default: the scenario's until_s)")
       ->type_name("S")
       ->check(CLI::Range(0.001, 1e9));
-  command->add_option("--set", arguments.assignments, "set a value of the scenario, as often as needed")
+  command->add_option("--set", arguments.assignments, "override a value of the scenario; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   app.require_subcommand(1, 1);
@@ -79,7 +80,7 @@ int read_and_run(int argc, const char* const* argv, std::span<const genom::Modul
 }  // namespace
 
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
-  // The first of a name counts.
+  // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
   try {

@@ -11,12 +11,13 @@
 namespace waitpoint::tools {
 namespace {
 
-/// None of the words is looked at but the one that says what is to be run: they are gdb's and the program's.
+/// Only the first word after "--" is interpreted; all others belong to gdb or to the program.
 DebugOptions debug_options(const std::vector<std::string>& words, const std::vector<std::string>& commands) {
   DebugOptions options;
   const auto dashes = std::find(words.begin(), words.end(), "--");
   if (dashes == words.end() || dashes + 1 == words.end())
-    throw BadInput("gdb", "expected what to run: waitpoint gdb -- run SCENARIO ..., or waitpoint gdb -- PROGRAM ...");
+    throw BadInput("gdb",
+                   "expected a command to run: waitpoint gdb -- run SCENARIO ..., or waitpoint gdb -- PROGRAM ...");
   options.gdb_options.assign(words.begin(), dashes);
   options.words.assign(dashes + 1, words.end());
   options.own = std::find(commands.begin(), commands.end(), options.words.front()) != commands.end();
@@ -34,25 +35,25 @@ DebugOptions debug_options(const std::vector<std::string>& words, const std::vec
 Options read_options(int argc, const char* const* argv, const std::string& version) {
   CommandLine line("waitpoint",
                    "Simulates robots whose software runs as simulated threads: one seed, one run, bit for bit.");
-  line.version(version, "print version, compiler, flags and the fingerprint of the math");
+  line.version(version, "print version, compiler, flags and the fingerprint of the exact math");
   RunArguments run(line);
-  Command check = line.add_command("check", "Reads a scenario and tells what is wrong with it, without running it.");
+  Command check = line.add_command("check", "Validates a scenario without running it.");
   ScenarioArguments checked;
   checked.add_file(check);
   checked.add_set(check);
   line.add_command("gdb",
-                   "Starts gdb with commands that see the simulated threads (docs/gdb.md):\n"
+                   "Starts gdb with commands for simulated threads (docs/gdb.md):\n"
                    "  waitpoint gdb [OPTIONS OF GDB] -- run SCENARIO ...\n"
                    "  waitpoint gdb [OPTIONS OF GDB] -- PROGRAM ...");
   ExploreArguments explore(line);
   ExecArguments exec(line);
   line.footer(
-      "waitpoint COMMAND --help tells more. Exit status: 0 as the scenario expects, 1 an expectation failed or a\n"
-      "deadlock was found, 2 bad input, 130 stopped by a signal.");
+      "See waitpoint COMMAND --help. Exit status: 0 success, 1 a failed expectation of the scenario or a deadlock,\n"
+      "2 bad input, 130 stopped by a signal.");
   const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
   if (argc > 1 && std::string_view(argv[1]) == "gdb") {
     if (words.empty() || (words[0] != "--help" && words[0] != "-h")) return debug_options(words, line.commands());
-    argc = 3;  // the rest is not ours
+    argc = 3;  // the program's own
   }
   std::vector<std::string> program;
   const auto dashes = std::find(words.begin(), words.end(), "--");
@@ -60,14 +61,14 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
       argc > 1 && std::string_view(argv[1]) == "explore" && std::find(words.begin(), dashes, "--exec") != dashes;
   if (is_explored || (argc > 1 && std::string_view(argv[1]) == "exec")) {
     if (dashes != words.end()) program.assign(dashes + 1, words.end());
-    argc = 2 + static_cast<int>(dashes - words.begin());  // the rest is not ours
+    argc = 2 + static_cast<int>(dashes - words.begin());  // the program's own
   }
   if (const std::optional<std::string> text = line.parse(argc, argv)) return ShownText{*text};
   if (run.parsed()) return run.options();
   if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
   if (check.parsed()) return CheckOptions{checked.file, checked.assignments};
-  throw BadInput("command line", "expected a command, run, check, explore or exec; waitpoint --help tells more");
+  throw BadInput("command line", "expected a command, run, check, explore or exec; see waitpoint --help");
 }
 
 }  // namespace waitpoint::tools

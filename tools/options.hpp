@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command line of `waitpoint` asks for, as values. Nothing is opened or run here.
+// The options of `waitpoint` as values. Opens and runs nothing.
 #pragma once
 
 #include <filesystem>
@@ -20,15 +20,15 @@ struct CheckOptions {
   std::vector<std::string> assignments;
 };
 
-/// `--help`, `--version`: to be printed, and that is all.
+/// `--help`, `--version`: text to print before exiting.
 struct ShownText {
   std::string text;
 };
 
 using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, ShownText>;
 
-/// Reads the arguments, and WAITPOINT_SEED where --seed is not given. Throws BadInput, one clear line, for what it does
-/// not understand. `version` is the text of --version.
+/// Reads the arguments, and WAITPOINT_SEED unless --seed is given. Throws BadInput, one line, for invalid arguments.
+/// `version` is the text of --version.
 Options read_options(int argc, const char* const* argv, const std::string& version);
 
 }  // namespace waitpoint::tools

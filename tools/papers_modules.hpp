@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The modules that come with waitpoint, by the names that scenarios use.
+// The modules shipped with waitpoint, under the names that scenarios use.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace waitpoint::tools {
 
-/// The paper's five: ndd, pom, rflex, segloc, sick.
+/// The five modules of the paper: ndd, pom, rflex, segloc, sick.
 std::vector<genom::ModuleType> papers_modules();
-/// Those, and wander.
+/// The paper's modules and wander.
 std::vector<genom::ModuleType> shipped_modules();
 
 }  // namespace waitpoint::tools

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes this build: when two digests differ, what --version prints is the first thing to compare.
+// The identity of this build: when two digests differ, compare the outputs of --version first.
 #pragma once
 
 #include <string>
 
 namespace waitpoint::tools {
 
-/// Lines of version, compiler, flags (WAITPOINT_VERSION and WAITPOINT_FLAGS, set by the build) and the fingerprint of
-/// the exact math. Without a newline at the end.
+/// Version, compiler, flags (WAITPOINT_VERSION and WAITPOINT_FLAGS, set by the build) and the fingerprint of the exact
+/// math, one per line. No trailing newline.
 std::string version_text();
 
 }  // namespace waitpoint::tools

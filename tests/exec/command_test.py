@@ -34,7 +34,7 @@ class Ends(ExecCase):
             status, _, text = self.end(way)
             self.assertEqual(status, expected, way)
             self.assertGreaterEqual(Summary(text).seconds, 2, "not known up to its last event")
-            self.assertIn(f"it was ended by signal {-expected}", text)
+            self.assertIn(f"terminated by signal {-expected}", text)
             self.assertRegex(text, r"replay: waitpoint exec --seed 1 -- \S+ends ")
 
     def test_by_a_signal_that_is_sent_to_waitpoint_alone(self):
@@ -147,7 +147,7 @@ class Seeds(ExecCase):
         done = subprocess.run([str(WAITPOINT), "exec", "--seeds", "1..200", "--", str(program)], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("an update was lost", done.stderr)
-        seed = re.search(r"seed (\d+) failed, after \d+ that did not: exit status 1", done.stderr)[1]
+        seed = re.search(r"seed (\d+) failed, after \d+ that passed: exit status 1", done.stderr)[1]
         self.assertIn(f"replay: waitpoint exec --seed {seed} -- {program}", done.stderr)
         self.assertEqual(execute(seed, program)[0], 1)
 
@@ -169,8 +169,8 @@ class Refusals(ExecCase):
 
     def test_say_what_is_wrong(self):
         self.assertIn("there is no program 'nosuch'", self.refused("--", "nosuch"))
-        self.assertIn("expected what to run", self.refused())
-        self.assertIn("expected what to run", self.refused("--"))
+        self.assertIn("expected a program", self.refused())
+        self.assertIn("expected a program", self.refused("--"))
         self.assertIn("--seed: expected a whole number from 0 to 2^64 - 1, found 'x'", self.refused("--seed", "x", "--", "true"))
         self.assertIn("--seeds: expected FIRST..LAST, found '5..1'", self.refused("--seeds", "5..1", "--", "true"))
         for clock in ("best", "fixed", "fixed:-1", "interval:5", "interval:5..1", "cpu:2", "cpu:x-1"):

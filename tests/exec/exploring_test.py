@@ -73,8 +73,8 @@ class Exploring(ExecCase):
 
     def test_tells_how_a_run_ended_and_what_its_threads_did_last(self):
         program = self.compile("ends.c", "-rdynamic")
-        for way, expected in (("exit", "exit status 3"), ("_exit", "exit status 4"), ("crash", "ended by signal 11"),
-                              ("abort", "ended by signal 6"), ("kill", "ended by signal 9"), ("deadlock", "deadlock"),
+        for way, expected in (("exit", "exit status 3"), ("_exit", "exit status 4"), ("crash", "terminated by signal 11"),
+                              ("abort", "terminated by signal 6"), ("kill", "terminated by signal 9"), ("deadlock", "deadlock"),
                               ("cycle", "deadlock")):
             done = explore("--", program, way)
             self.assertEqual(done.returncode, 1, way)
@@ -120,15 +120,15 @@ class Exhaustive(ExecCase):
         without_one = {status + "5"} | passed
         found, line = self.outcomes("--strategy", "bounded:1")
         self.assertLess(without_one, found)
-        self.assertTrue(line.endswith("; these are all there are with at most 1 preemption"), line)
+        self.assertTrue(line.endswith("; exhaustive with at most 1 preemption"), line)
         found, line = self.outcomes("--strategy", "bounded:3")
         self.assertEqual({status + str(order) for order in range(1, 6)} | passed, found)
-        self.assertTrue(line.endswith("; these are all there are with at most 3 preemptions"), line)
+        self.assertTrue(line.endswith("; exhaustive with at most 3 preemptions"), line)
 
     def test_that_is_cut_off_says_nothing_of_all(self):
         done = explore("--iterations", "10", "--strategy", "dfs", "--", self.compile("lost_update.c"), "locked")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertNotIn("all there are", done.stdout)
+        self.assertNotIn("exhaustive", done.stdout)
 
     def test_what_it_finds_is_replayed(self):
         program = self.compile("lost_update.c")
@@ -145,7 +145,7 @@ class Exhaustive(ExecCase):
         for words, line in (
             (("--strategy", "dpor"), "--strategy: expected dfs, bounded:K or a strategy that draws its schedules, found 'dpor'"),
             (("--strategy", "dfs", "--jobs", "2"),
-             "--jobs: cannot be used together with dfs, whose schedules follow from each other"),
+             "--jobs: cannot be used together with dfs, which derives each schedule from the one before"),
         ):
             done = explore(*words, "--", self.compile("lost_update.c"))
             self.assertEqual((done.returncode, done.stderr), (2, f"waitpoint: {line}\n"))
@@ -177,8 +177,8 @@ class Conditions(ExecCase):
     def test_bad_input(self):
         done = explore("--clock", "cpu", "--", self.compile("options.c"))
         self.assertEqual((done.returncode, done.stderr),
-                         (2, "waitpoint: --clock: expected fixed:US, interval:US..US or counted[:NS], as what is measured "
-                             "does not repeat, found 'cpu'\n"))
+                         (2, "waitpoint: --clock: expected fixed:US, interval:US..US or counted[:NS], as measured clocks "
+                             "are not repeatable, found 'cpu'\n"))
 
 
 class CountedTime(ExecCase):
@@ -278,15 +278,15 @@ class Refusals(ExecCase):
         return done.stderr
 
     def test_say_what_is_wrong(self):
-        self.assertIn("expected what to run: waitpoint explore --exec", self.refused())
+        self.assertIn("expected a program: waitpoint explore --exec", self.refused())
         self.assertIn("there is no program 'nosuch'", self.refused("--", "nosuch"))
         self.assertIn("--from: cannot be used together with --exec", self.refused("--from", "1", "--", "true"))
         self.assertIn("--set: cannot be used", self.refused("--set", "world.step_ms=5", "--", "true"))
         self.assertIn("--property: cannot be used", self.refused("--property", "collisions=0", "--", "true"))
         self.assertIn("no --exec with the scenario 'office.yaml'", self.refused("office.yaml", "--", "true"))
-        self.assertIn(f"'{self.folder}' is no file that can be executed", self.refused("--", self.folder))
+        self.assertIn(f"'{self.folder}' is not an executable file", self.refused("--", self.folder))
         early = self.compile("early.c")
-        self.assertIn("did not come to its main(): it was ended by signal 6 (Aborted)", self.refused("--", early))
+        self.assertIn("did not reach main(): terminated by signal 6 (Aborted)", self.refused("--", early))
         self.assertIn("unknown strategy 'best'", self.refused("--strategy", "best", "--", "true"))
 
     def test_of_records_of_something_else(self):

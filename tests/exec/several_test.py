@@ -222,7 +222,7 @@ class Ends(unittest.TestCase):
     def test_a_crash_ends_all_and_is_told_of(self):
         run = execute(several([f"other={INSTANCE}", "other"], [f"one={INSTANCE}", "one", "crash"]))
         self.assertEqual(run.returncode, -11)
-        self.assertIn("ended by signal 11 (Segmentation fault), in one\n", run.stderr)
+        self.assertIn("terminated by signal 11 (Segmentation fault), in one\n", run.stderr)
         self.assertIn("waitpoint: replay: waitpoint exec --seed 1 -- ", run.stderr)
 
     def test_a_deadlock_ends_all_and_names_the_program(self):

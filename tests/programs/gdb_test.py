@@ -146,7 +146,7 @@ class Looking(unittest.TestCase):
         for text, expected in zip(told[6:], ["there is no fiber '77'", "there is no fiber 'nobody'",
                                              "no task waits for, uses or holds an object 'nothing'", "expected: blocked-on",
                                              "there is no fiber 'nobody'", "expected: next-event [N]",
-                                             "it is 0.001000000 s already", "expected: fiber apply", "there is no event",
+                                             "it is 0.001000000 s already", "expected: fiber apply", "there is no previous event",
                                              "there is no fiber 'app'"]):
             self.assertIn(expected, text)
 
@@ -283,7 +283,7 @@ class Office(unittest.TestCase):
         self.assertEqual(status("--", "./nothing"), (2, "waitpoint: gdb: there is no program './nothing'\n"))
         for words in ([], ["--"], ["run", "x.yaml"]):
             self.assertEqual(status(*words)[0], 2)
-            self.assertIn("expected what to run", status(*words)[1])
+            self.assertIn("expected a command to run", status(*words)[1])
 
 
 def may_debug():

@@ -99,12 +99,12 @@ class Unrepeatable(Installed):
         """Found by one of the runs, at the event after the value was written to the poster."""
         status, output = self.check(source)
         self.assertEqual(status, 1, output)
-        told = re.fullmatch(r"""unrepeatable, seed 1: not the same run: (?P<run>.*) parts from the first
+        told = re.fullmatch(r"""unrepeatable, seed 1: not the same run: (?P<run>.*) differs from the first
   event             (?P<number>\d+)
   was               (?P<was>[0-9.]+ s, robot gambler, task unrepeatable\.main: \w+.*), digest (?P<digest>[0-9a-f]{16})
   is                (?P<is>.*), digest (?P<other>[0-9a-f]{16})
-  differs in        the values that the robot gave since its event before
-  event before      [0-9.]+ s, robot gambler, task unrepeatable\.main: .*
+  differs in        values recorded by the robot since its previous event
+  previous event    [0-9.]+ s, robot gambler, task unrepeatable\.main: .*
 (?P<threads>(?:  OS thread         .*
 )*)  replay            waitpoint run .*unrepeatable.yaml --seed 1 --set 'robots.0.modules.unrepeatable.source=\w+' --check
 """, output)
@@ -165,21 +165,21 @@ class Unrepeatable(Installed):
         """The process ended or was terminated in the first period: the report names the event that is missing."""
         status, output = self.check(source, **surroundings)
         self.assertEqual(status, 1, output)
-        self.assertRegex(output, r"not the same run: the run in a perturbed process parts from the first\n"
+        self.assertRegex(output, r"not the same run: the run in a perturbed process differs from the first\n"
                                  r"  event             \d+\n  was               0\.\d+ s, robot gambler, task .*\n"
-                                 rf"  is                no event: {how}\n  differs in        whether there is such an event\n"
-                                 r"  event before      0\.\d+ s, robot gambler, task unrepeatable\.main: ")
+                                 rf"  is                no event: {how}\n  differs in        the presence of the event\n"
+                                 r"  previous event    0\.\d+ s, robot gambler, task unrepeatable\.main: ")
 
     def test_a_perturbed_process_that_dies_is_told_with_the_event_it_did_not_come_to(self):
-        self.assert_cut_off(r"the process was ended by signal 4 \(Illegal instruction\)", "crash")
+        self.assert_cut_off(r"the process was terminated by signal 4 \(Illegal instruction\)", "crash")
 
     def test_a_perturbed_process_is_not_waited_for_without_end(self):
-        self.assert_cut_off("the process had not ended after 2 s and was stopped", "endless_loop", WAITPOINT_TIME_LIMIT="2")
+        self.assert_cut_off("the process exceeded 2 s and was stopped", "endless_loop", WAITPOINT_TIME_LIMIT="2")
 
     def test_a_run_that_fails_in_one_process_only_is_told(self):
         status, output = self.check("exception")
         self.assertEqual(status, 1, output)
-        self.assertRegex(output, r"not the same run: the run in a perturbed process parts from the first\n  event +\d+\n"
+        self.assertRegex(output, r"not the same run: the run in a perturbed process differs from the first\n  event +\d+\n"
                                  r"  was  +0\.1\d+ s, robot gambler, .*\n  is   +0\.1\d+ s, robot gambler, ")
 
     def test_where_addresses_are_not_at_random_they_are_in_the_perturbed_process(self):

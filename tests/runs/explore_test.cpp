@@ -131,7 +131,7 @@ TEST_F(ExploreScenario, AnExceptionIsFoundMinimisedExplainedAndReplayed) {
   ASSERT_FALSE(found_ones.empty() || left.empty()) << told.output;
   EXPECT_LE(2 * std::stoi(left), std::stoi(found_ones)) << told.output;
   EXPECT_NE(told.output.find("could still have passed: number "), std::string::npos) << told.output;
-  EXPECT_NE(told.output.find("what the tasks did last"), std::string::npos);
+  EXPECT_NE(told.output.find("last events of the tasks"), std::string::npos);
   EXPECT_NE(folder_.read("trace.json").find("traceEvents"), std::string::npos);
   const std::string token = found(told.output, "--replay (wx1\\S+)");
   EXPECT_LE(token.size(), 80u);
@@ -236,7 +236,7 @@ TEST_F(ExploreScenario, ARecordOfAnotherRunIsTold) {
   const Told left = explore(again);
   EXPECT_EQ(left.status, 2);
   EXPECT_NE(left.errors.find("line 6: event 1234567 of task "), std::string::npos) << left.errors;
-  EXPECT_NE(left.errors.find("; no switch of the record was come to before"), std::string::npos) << left.errors;
+  EXPECT_NE(left.errors.find("; no switch of the record was reached before"), std::string::npos) << left.errors;
   again.seed = 2;
   again.seed_is_asked = true;
   const Told contradicted = explore(again);

@@ -79,7 +79,7 @@ TEST(Process, a_self_check_without_a_place_for_its_log_is_bad_input) {
   const Outcome outcome = outcome_of(command);
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.output, "");
-  EXPECT_NE(outcome.errors.find("--check: no temporary file can be had in '/proc/self'"), std::string::npos)
+  EXPECT_NE(outcome.errors.find("--check: cannot create a temporary file in '/proc/self'"), std::string::npos)
       << outcome.errors;
 }
 

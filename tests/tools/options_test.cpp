@@ -107,7 +107,7 @@ TEST_F(CommandLine, what_is_to_be_run_in_gdb_is_left_as_it_is) {
   EXPECT_FALSE(of_program.own);
   for (const std::vector<const char*>& wrong :
        {std::vector<const char*>{"gdb"}, {"gdb", "--"}, {"gdb", "run", "a.yaml"}})
-    EXPECT_NE(message(wrong).find("gdb: expected what to run"), std::string::npos);
+    EXPECT_NE(message(wrong).find("gdb: expected a command to run"), std::string::npos);
   EXPECT_NE(std::get<ShownText>(read({"gdb", "--help"})).text.find("-- PROGRAM"), std::string::npos);
 }
 
@@ -123,11 +123,11 @@ TEST_F(CommandLine, help_and_version_are_texts) {
 }
 
 TEST_F(CommandLine, what_is_not_understood_is_one_clear_line) {
-  EXPECT_EQ(message({}), "command line: expected a command, run, check, explore or exec; waitpoint --help tells more");
+  EXPECT_EQ(message({}), "command line: expected a command, run, check, explore or exec; see waitpoint --help");
   EXPECT_EQ(message({"rnu", "a"}), "command line: unknown command 'rnu', did you mean 'run'?");
   EXPECT_EQ(message({"run"}), "command line: SCENARIO is required");
   EXPECT_EQ(message({"run", "a", "--sede", "4"}), "command line: unknown option '--sede', did you mean '--seed'?");
-  EXPECT_EQ(message({"run", "a", "b"}), "command line: unknown argument 'b'; --help lists what there is");
+  EXPECT_EQ(message({"run", "a", "b"}), "command line: unknown argument 'b'; --help lists them all");
   EXPECT_EQ(message({"run", "a", "--seed", "-1"}), "--seed: expected a whole number from 0 to 2^64 - 1, found '-1'");
   EXPECT_EQ(message({"run", "a", "--until", "0"}), "--until: expected a positive number of seconds, found '0'");
   EXPECT_EQ(message({"run", "a", "--until", "5s"}), "--until: expected a positive number of seconds, found '5s'");

@@ -16,8 +16,8 @@ std::string what_differs(const LoggedEvent& expected, const LoggedEvent& found) 
   note("task", expected.task != found.task);
   note("operation", expected.operation != found.operation);
   note("object", expected.object != found.object);
-  // The digest of an event that differs anyway says nothing more.
-  return fields.empty() ? "the values that the robot gave since its event before" : fields;
+  // The digest of an event that differs anyway adds nothing.
+  return fields.empty() ? "values recorded by the robot since its previous event" : fields;
 }
 
 std::string shown(const std::optional<LoggedEvent>& event, const std::string& end) {
@@ -43,10 +43,10 @@ std::string to_text(const Difference& difference) {
   line("was", shown(expected, expected_end));
   line("is", shown(found, found_end));
   line("differs in", expected && found           ? what_differs(*expected, *found)
-                     : expected || found         ? "whether there is such an event"
-                     : expected_end == found_end ? "the values given after the last event"
-                                                 : "how the run ends");
-  line("event before", before ? to_string(*before) : "none");
+                     : expected || found         ? "the presence of the event"
+                     : expected_end == found_end ? "values recorded after the last event"
+                                                 : "the end of the run");
+  line("previous event", before ? to_string(*before) : "none");
   return text;
 }
 

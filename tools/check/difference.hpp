@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where two runs part: the first event that one has and the other has not.
+// The first difference of two runs.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace waitpoint::tools {
 
-/// One event of a run, by names.
+/// One event of a run, with names instead of numbers.
 struct LoggedEvent {
   Time time;
-  std::string robot, task, operation, object;  ///< the object is empty where there is none
-  std::uint64_t digest = 0;                    ///< of the robot, up to and with this event
+  std::string robot, task, operation, object;  ///< the object may be empty
+  std::uint64_t digest = 0;                    ///< of the robot, including this event
   friend bool operator==(const LoggedEvent&, const LoggedEvent&) = default;
 };
 
@@ -22,13 +22,14 @@ struct LoggedEvent {
 std::string to_string(const LoggedEvent& event);
 
 struct Difference {
-  std::uint64_t number = 0;                    ///< of the event among all of the run, from 1
+  std::uint64_t number = 0;                    ///< of the event in the run, from 1
   std::optional<LoggedEvent> expected, found;  ///< of the first run, and of this one; absent: it had no further event
-  std::string expected_end, found_end;         ///< how a run without further event ended
+  std::string expected_end, found_end;         ///< the end of a run without a further event
   std::optional<LoggedEvent> before;           ///< the last event of the same robot, equal in both
 };
 
-/// In some lines, each indented by two spaces: the event, what it was in both runs, what differs, what came before.
+/// Several lines, indented by two spaces: the event's number, the event in both runs, the differing fields, the
+/// previous event.
 std::string to_text(const Difference& difference);
 
 }  // namespace waitpoint::tools

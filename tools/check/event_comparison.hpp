@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run compared with a logged one while it goes on: every event's time, robot, task, operation and object, and the
-// digest of its robot so far. The run pauses at the first event that differs.
+// Compares a run with a logged one as it proceeds: every event's time, robot, task, operation and object, and its
+// robot's digest so far. Pauses the run at the first difference.
 #pragma once
 
 #include <exception>
@@ -11,15 +11,14 @@ namespace waitpoint::tools {
 
 class EventComparison : private kernel::Watch {
  public:
-  /// With the log of that file, from its start; the descriptor stays the caller's. `started`, if any, is called by each
-  /// task at its first event, on its stack.
+  /// Reads the log of that file from its start; borrows the descriptor. Each task calls `started`, if given, at its
+  /// first event, on its own stack.
   explicit EventComparison(int log, void (*started)(const kernel::Task&) = nullptr);
   void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
 
-  /// Whether the runs have parted; what follows is not compared.
+  /// True if the runs have differed; later events are not compared.
   bool parted() const { return difference_.has_value(); }
-  /// After the run, of which nothing is compared any more: where it parted from the logged one, or nothing. A digest or
-  /// an end that differs after equal events is a difference too.
+  /// After the run: the first difference, or nothing. A digest or an end that differs after equal events counts, too.
   std::optional<Difference> finish(const Digest& digest, const std::string& end);
 
  private:
@@ -32,10 +31,10 @@ class EventComparison : private kernel::Watch {
   EventNames names_;
   std::optional<LogEntry> latest_;
   std::optional<Difference> difference_;
-  std::exception_ptr failure_;  // of the log; nothing may be thrown through the kernel
+  std::exception_ptr failure_;  // of the log; exceptions must not pass through the kernel
 };
 
-/// Where a run parted that came to an end of its own, by a signal or by force, after `equal` events.
+/// The difference for a run that was cut off by its own end, a signal or force after `equal` events.
 Difference cut_off(int log, std::uint64_t equal, const std::string& end);
 
 }  // namespace waitpoint::tools

@@ -17,7 +17,7 @@ namespace waitpoint::tools {
 namespace {
 
 constexpr std::size_t buffer_size = 1 << 16;
-// Names may have spaces in them.
+// Names may contain spaces.
 constexpr char separator = '\n';
 
 [[noreturn]] void refuse(const std::string& what, int error) {
@@ -30,7 +30,7 @@ int temporary_file() {
   if (ignored) folder = "/tmp";
   std::string name = (folder / "waitpoint-check-XXXXXX").string();
   const int file = mkostemp(name.data(), O_CLOEXEC);
-  if (file < 0) refuse("no temporary file can be had in '" + folder.string() + "'", errno);
+  if (file < 0) refuse("cannot create a temporary file in '" + folder.string() + "'", errno);
   unlink(name.c_str());
   return file;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small numbers for what events name: task and object, in the order in which a run first has them together. As long as
-// two runs are equal, so are their numbers.
+// Small numbers for the names in events, of tasks and objects, in order of their first occurrence as a pair. Equal runs
+// have equal numbers.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace waitpoint::tools {
 
-/// Robot, task and object of an event; the object is empty where there is none.
+/// Robot, task and object of an event; the object may be empty.
 struct EventName {
   std::string robot, task, object;
   friend bool operator==(const EventName&, const EventName&) = default;
@@ -47,7 +47,7 @@ class EventNames {
   struct Hash {
     std::size_t operator()(const Key& key) const { return Digest::mix(key.task + Digest::mix(key.object)); }
   };
-  std::unordered_map<Key, std::uint32_t, Hash> numbers_;  // looked up only, never walked through
+  std::unordered_map<Key, std::uint32_t, Hash> numbers_;  // lookups only; never iterated
 };
 
 }  // namespace waitpoint::tools

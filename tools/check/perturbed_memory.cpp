@@ -16,7 +16,7 @@ constexpr unsigned char fill = 0xB7;
 
 std::uint64_t address(const void* at) { return reinterpret_cast<std::uint64_t>(at); }
 
-// Of something in each part of the address space that a program lies in.
+// The address of an object in each part of a program's address space.
 SharedPage surroundings() {
   const std::unique_ptr<char> on_heap(new char);
   SharedPage page;
@@ -27,11 +27,11 @@ SharedPage surroundings() {
   return page;
 }
 
-// What the caller calls next reuses nothing that is zero.
+// The caller's next calls find no zeroed stack memory.
 __attribute__((noinline)) void fill_below() {
   unsigned char below[256 << 10];
   std::memset(below, fill, sizeof below);
-  asm volatile("" : : "r"(below) : "memory");  // not to be left out as unused
+  asm volatile("" : : "r"(below) : "memory");  // prevents removal as unused
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ void with_perturbed_stack(void (*run)(void*), void* argument) {
   run(argument);
 }
 
-// Its own frame stays as it is, and what it calls: nothing. A sanitizer need not know.
+// Leaves its own frame and its callees alone: it calls nothing. Sanitizers are disabled.
 #if defined(__clang__)
 __attribute__((noinline, no_sanitize("address", "thread", "undefined")))
 #else

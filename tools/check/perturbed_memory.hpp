@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of a perturbed process: where it is not what the C library and the kernel make it, and what they did make
-// of it.
+// The parts of a perturbed process's memory that neither the C library nor the kernel perturb, and the check that the
+// others are perturbed.
 //
-// Its heap is the preloaded object's (surroundings/heap.cpp), its addresses are the kernel's choice. Left to do here
-// are the stacks: main's, which is filled and moved, and each task's, which is filled when the task starts.
+// The heap is perturbed by the preloaded library (surroundings/heap.cpp), addresses by the kernel. Stacks remain:
+// main's, which is filled and moved, and each task's, which is filled when the task starts.
 #pragma once
 
 #include "fibers/kernel/task.hpp"
@@ -11,16 +11,16 @@
 
 namespace waitpoint::tools {
 
-/// Calls `run` on a stack that is filled and lies elsewhere.
+/// Calls `run` on a filled stack at another address.
 void with_perturbed_stack(void (*run)(void*), void* argument);
 
-/// From the running task, on its stack: fills what it is going to use of it, 16 KiB at most.
+/// Called by the running task on its stack: fills the unused part, 16 KiB at most.
 void fill_stack(const kernel::Task& task);
 
-/// Notes in the log what a perturbed process is to find otherwise: clock and addresses.
+/// Records clock and addresses in the log, for the perturbed process to compare.
 void note_surroundings(SharedPage& page);
 
-/// In the perturbed process: notes whether it does.
+/// In the perturbed process: records if they differ.
 void compare_surroundings(SharedPage& page);
 
 }  // namespace waitpoint::tools

@@ -37,25 +37,24 @@ std::vector<std::string> command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> words;
   for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
-  if (words.empty()) fail("the command line cannot be read");
+  if (words.empty()) fail("cannot read the command line");
   return words;
 }
 
-/// A file in memory that the new process finds by its descriptor.
+/// A memory file that the new process opens by its descriptor.
 int surroundings() {
   const int file = memfd_create("waitpoint-surroundings", 0);
-  if (file < 0) fail("no file in memory can be had");
+  if (file < 0) fail("cannot create a memory file");
   const std::span<const unsigned char> bytes = surroundings_file();
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t written = write(file, bytes.data() + done, bytes.size() - done);
-    if (written <= 0) fail("no file in memory can be written");
+    if (written <= 0) fail("cannot write a memory file");
     done += static_cast<std::size_t>(written);
   }
   return file;
 }
 
-/// What LD_PRELOAD is to be: the object of that descriptor first, but behind a sanitizer's runtime, which must be the
-/// first of all.
+/// The LD_PRELOAD with the object of that descriptor in front, but after a sanitizer's runtime, which must come first.
 std::string preloaded(int object) {
   std::string files;
   for (const char* entry : {"__asan_init", "__tsan_init"}) {
@@ -89,7 +88,7 @@ std::vector<std::string> other_environment(const PerturbedFiles& files, int prel
       other("TERM", "dumb", "vt100"),
       other("COLUMNS", "61", "163"),
       other("LINES", "17", "71"),
-      "A_VARIABLE_MORE=" + std::string(3331, 'x'),  // moves the stack too
+      "A_VARIABLE_MORE=" + std::string(3331, 'x'),  // moves the stack, too
   };
   const std::vector<std::string> changed = variables;
   for (char** at = environ; *at != nullptr; ++at) {
@@ -110,7 +109,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   return result;
 }
 
-// In the new process, which has one thread and ends with the one that made it.
+// In the new process, which has one thread and is killed with its parent.
 [[noreturn]] void become(const PerturbedFiles& files, char* const* words, char* const* variables) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   fcntl(files.log, F_SETFD, 0);
@@ -121,7 +120,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   _exit(127);
 }
 
-/// Stops a process in good order if it heeds that, and in the end by force.
+/// Stops a process by a signal first and by force later.
 class Stopping {
  public:
   explicit Stopping(pid_t id) : id_(id) {}
@@ -144,8 +143,7 @@ class Stopping {
 }  // namespace
 
 void check_perturbed_process_possible() {
-  if (access(program_file, X_OK) != 0)
-    fail("a perturbed process is this program started from /proc, which cannot be read");
+  if (access(program_file, X_OK) != 0) fail("a perturbed process needs /proc, which cannot be read");
 }
 
 ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bool (*interrupted)()) {
@@ -156,7 +154,7 @@ ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bo
   const std::vector<char*> arguments = pointers(words), variables = pointers(environment);
   std::fflush(nullptr);
   const pid_t id = fork();
-  if (id < 0) fail("no process can be had");
+  if (id < 0) fail("cannot create a process");
   if (id == 0) become(files, arguments.data(), variables.data());
   close(preload);
   const Clock::time_point due =
@@ -167,15 +165,15 @@ ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bo
   for (;;) {
     const pid_t ended = waitpid(id, &status, WNOHANG);
     if (ended == id) break;
-    if (ended < 0 && errno != EINTR) fail("the process cannot be waited for");
+    if (ended < 0 && errno != EINTR) fail("cannot wait for the process");
     if (interrupted()) stopping.ask();
     late = late || Clock::now() > due;
     if (late) stopping.force();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   if (WIFEXITED(status)) return {WEXITSTATUS(status), ""};
-  if (late) return {std::nullopt, fmt::format("had not ended after {:.0f} s and was stopped", limit_s)};
-  return {std::nullopt, fmt::format("was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
+  if (late) return {std::nullopt, fmt::format("exceeded {:.0f} s and was stopped", limit_s)};
+  return {std::nullopt, fmt::format("was terminated by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
 }
 
 std::optional<PerturbedFiles> files_of_perturbed_process() {
@@ -186,7 +184,7 @@ std::optional<PerturbedFiles> files_of_perturbed_process() {
   std::int64_t log = -1, durations = -1;
   if (comma == std::string_view::npos || !parse_number(all.substr(0, comma), log) ||
       !parse_number(all.substr(comma + 1), durations) || log < 0)
-    throw BadInput(files_variable, "is set by a self-check for its perturbed process, and by nobody else");
+    throw BadInput(files_variable, "is reserved for the perturbed process of a self-check");
   return PerturbedFiles{static_cast<int>(log), static_cast<int>(durations)};
 }
 

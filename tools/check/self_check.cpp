@@ -30,7 +30,7 @@ constexpr Duration window = std::chrono::milliseconds(100);
 constexpr int status_interrupted = 130;
 constexpr const char* durations_name = "durations of the first run";
 
-/// What a run came to, or how far it had come when it parted from the first.
+/// The result of a run, complete or up to its first difference.
 struct Carried {
   Digest digest;
   std::string end;
@@ -50,7 +50,7 @@ std::string text_of(RunEnd end) {
 
 void line(const char* name, const std::string& text) { fmt::print("  {:<18}{}\n", name, text); }
 
-/// Wall time that the perturbed process may take: a heap in disorder is slower, and the machine may be loaded.
+/// Wall clock limit of the perturbed process; generous, as its shuffled heap is slower and the machine may be loaded.
 double limit_s(double run_s) {
   const char* const given = std::getenv("WAITPOINT_TIME_LIMIT");
   double limit = 0;
@@ -60,12 +60,12 @@ double limit_s(double run_s) {
   return limit;
 }
 
-/// The descriptor of a file in memory; -1 for an empty text.
+/// The descriptor of a memory file; -1 for an empty text.
 int file_of(const std::string& text) {
   if (text.empty()) return -1;
   const int file = memfd_create("waitpoint-durations", MFD_CLOEXEC);
   const bool written = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (!written) throw BadInput("--check", "the durations of the first run find no place in memory");
+  if (!written) throw BadInput("--check", "cannot keep the durations of the first run in memory");
   return file;
 }
 
@@ -118,7 +118,7 @@ Carried SelfCheck::carry_out(bridge::Experiment& experiment, const EventComparis
     run.end = text_of(end);
   } catch (const std::exception& error) {
     const bool is_first = comparison == nullptr;
-    if (is_first && dynamic_cast<const BadInput*>(&error) != nullptr) throw;  // as a run without a check says it
+    if (is_first && dynamic_cast<const BadInput*>(&error) != nullptr) throw;  // as in a run without a check
     run.end = std::string("it failed: ") + error.what();
   }
   run.digest = experiment.simulation().digest();
@@ -150,10 +150,10 @@ Carried SelfCheck::compared(EventComparison& comparison) {
 
 int SelfCheck::tell(const std::optional<Difference>& difference, const std::string& run) const {
   if (!difference) return 0;
-  fmt::print("{}, seed {}: not the same run: {} parts from the first\n{}", scenario_.name, options_.seed, run,
+  fmt::print("{}, seed {}: not the same run: {} differs from the first\n{}", scenario_.name, options_.seed, run,
              to_text(*difference));
   for (const std::string& thread : threads_.found())
-    line("OS thread", thread + " came with the run: nothing makes it repeat");
+    line("OS thread", thread + " was started during the run and is not repeatable");
   line("replay", replay_ + " --check");
   std::fflush(stdout);
   return 1;
@@ -168,8 +168,8 @@ void SelfCheck::tell_same(const Carried& run, const SharedPage& seen) const {
   if (!durations_.entries.empty())
     line("durations", fmt::format("{} of the first run replayed in the others", durations_.entries.size()));
   for (const std::string& thread : threads_.found())
-    line("OS thread", thread + " came with the run: nothing makes it repeat");
-  if (!seen.moved) line("not perturbed", "addresses: the kernel laid them out as in this process");
+    line("OS thread", thread + " was started during the run and is not repeatable");
+  if (!seen.moved) line("not perturbed", "addresses: the kernel's layout equals this process's");
   if (!seen.surrounded) line("not perturbed", "clocks, directories, heap: LD_PRELOAD has no effect on this program");
 }
 
@@ -203,7 +203,7 @@ int SelfCheck::all() {
       run_perturbed_process({log.file(), durations}, limit_s(std::max(one.wall_s, two.wall_s)), interrupted_);
   if (durations >= 0) close(durations);
   if (interrupted_()) return status_interrupted;
-  if (end.status == 1 || end.status == status_interrupted) return *end.status;  // it has told why
+  if (end.status == 1 || end.status == status_interrupted) return *end.status;  // already reported
   if (end.status == 0) {
     tell_same(one, *shared.operator->());
     return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shared object of surroundings.cpp, as bytes: so that a program needs no file beside it to check itself.
+// The preloaded object of surroundings/ as bytes: a program can check itself without further files.
 #pragma once
 
 #include <span>

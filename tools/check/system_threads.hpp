@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The threads of the operating system that a run brought into this process: a simulation has none but its own.
+// System threads that a run started in this process: a simulation itself starts none.
 #pragma once
 
 #include <map>
@@ -11,11 +11,11 @@ namespace waitpoint::tools {
 
 class SystemThreads {
  public:
-  /// Those that are there now are none of the run's.
+  /// Existing threads are not the run's.
   SystemThreads();
-  /// Notes those that came; one that came and went between two looks is not seen.
+  /// Records new threads; one that starts and ends between two calls is missed.
   void look();
-  /// Their names in quotes, each once.
+  /// Their names in quotes, without duplicates.
   std::vector<std::string> found() const;
 
  private:

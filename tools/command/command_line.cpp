@@ -17,7 +17,7 @@ std::vector<std::string> commands_of(const CLI::App& app) {
   return names;
 }
 
-/// What CLI11 did not understand, in one line with the nearest known name.
+/// One line for a word that CLI11 rejected, with the nearest known name.
 BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
   const std::string where = "command line";
@@ -32,11 +32,10 @@ BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
   const std::string word = extra.front().substr(0, extra.front().find('='));
   const std::string hint = did_you_mean(word, known);
   const std::string kind = word.starts_with('-') ? "option" : command == &app ? "command" : "argument";
-  return BadInput(where,
-                  "unknown " + kind + " '" + word + "'" + (hint.empty() ? "; --help lists what there is" : hint));
+  return BadInput(where, "unknown " + kind + " '" + word + "'" + (hint.empty() ? "; --help lists them all" : hint));
 }
 
-// Mostly an unset variable of a script: the default is not meant.
+// Usually an unset variable of a script, where the default is not intended.
 void refuse_empty_words(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& word : option->results())

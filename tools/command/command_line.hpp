@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line of a program with commands: "waitpoint COMMAND [OPTIONS] ARGUMENT".
 //
-// Every value is kept as the text that was given; option_values.hpp reads numbers. CLI11's templates are costly to
-// compile and are instantiated here only.
+// Values are kept as text; option_values.hpp parses numbers. Only command_line.cpp instantiates CLI11's templates,
+// which are costly to compile.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ class App;
 
 namespace waitpoint::tools {
 
-/// One command. The variables given to it receive the values in CommandLine::parse(), and must not move before that.
-/// Descriptions are shown by --help as they are, with their line breaks.
+/// One command. CommandLine::parse() stores values in the variables passed here; they must not move before it. --help
+/// prints descriptions verbatim, with their line breaks.
 class Command {
  public:
   explicit Command(CLI::App& app) : app_(&app) {}
@@ -25,16 +25,16 @@ class Command {
   enum class Presence { required, optional };
   /// The positional argument.
   void argument(const char* name, std::string& value, const char* description, Presence presence);
-  /// "NAME VALUE"; --help shows `type` in the place of the value.
+  /// "NAME VALUE"; --help shows `type` for the value.
   void option(const char* name, std::string& value, const char* type, const std::string& description);
   /// An option that may be given several times, with one value each.
   void repeated(const char* name, std::vector<std::string>& values, const char* type, const std::string& description);
   /// An option without a value.
   void flag(const char* name, bool& value, const std::string& description);
-  /// The last lines of its --help.
+  /// The last lines of the command's --help.
   void footer(const std::string& text);
 
-  /// Whether it is the command of the command line; known after CommandLine::parse().
+  /// True if this command was given; valid after CommandLine::parse().
   bool parsed() const;
 
  private:
@@ -47,15 +47,15 @@ class CommandLine {
   ~CommandLine();
 
   Command add_command(const char* name, const char* description);
-  /// The names of all commands, in the order in which they were added.
+  /// Names of all commands, in the order of addition.
   std::vector<std::string> commands() const;
   /// Adds --version with this text.
   void version(const std::string& text, const char* description);
-  /// The last lines of the program's own --help. To be called after the commands are added: they would inherit it.
+  /// The last lines of the program's own --help. Call it after adding the commands, which would inherit it.
   void footer(const std::string& text);
 
-  /// Reads the arguments. Returns the text to be shown if they ask for --help or --version. Throws BadInput, one clear
-  /// line, for an unknown word, a missing one, or an empty value.
+  /// Parses the arguments. Returns the text to show for --help or --version. Throws BadInput, one line, for an unknown
+  /// or missing word or an empty value.
   std::optional<std::string> parse(int argc, const char* const* argv);
 
  private:

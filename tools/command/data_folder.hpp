@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the files that the library needs beside itself are installed. The build writes the source.
+// Installation folders of the library's data files. The build generates the source.
 #pragma once
 
 namespace waitpoint::tools {
 
 /// An absolute path: PREFIX/share/waitpoint.
 extern const char* const data_folder;
-/// Of libraries that are loaded by name: PREFIX/lib.../waitpoint.
+/// For libraries loaded by name: PREFIX/lib.../waitpoint.
 extern const char* const library_folder;
 
 }  // namespace waitpoint::tools

@@ -9,7 +9,7 @@
 namespace waitpoint::tools {
 namespace {
 
-/// The file of that name, links followed as far as they exist. Empty for everything but regular files.
+/// The file of that name, with existing links followed. Empty unless it is, or would be, a regular file.
 std::filesystem::path meant_by(const std::string& name) {
   std::error_code error;
   if (std::filesystem::exists(name, error) && !std::filesystem::is_regular_file(name, error)) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options of one command that name files: no two of them may name the same one.
+// Options of one command that name files: the files must be distinct.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@ namespace waitpoint::tools {
 
 struct NamedFile {
   const char* option;
-  std::string name;  ///< empty where the option was not given
+  std::string name;  ///< empty if the option was not given
   enum class Use { written, read } use = Use::written;
 };
 
-/// A file takes its name when it is complete: of two with one name the first would be lost, and so would be an input.
-/// Throws BadInput, which names both options. Links are followed; /dev/null and pipes may be written more than once.
+/// Files are renamed into place when complete: with a shared name the first output, or an input, would be lost. Throws
+/// BadInput, naming both options. Links are followed; /dev/null and pipes may be shared.
 void check_distinct(const std::vector<NamedFile>& files);
 
 }  // namespace waitpoint::tools

@@ -11,7 +11,7 @@ std::filesystem::path find_part(const std::string& name) {
   const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
   for (const std::filesystem::path& place : {folder / ".." / name, installed})
     if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
-  throw BadInput("programs", "what they are run with is not installed: expected " + installed.string());
+  throw BadInput("programs", "the library they need is not installed: expected " + installed.string());
 }
 
 }  // namespace waitpoint::tools

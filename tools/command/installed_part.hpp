@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Libraries and programs that are found by their names, beside this one.
+// Libraries and programs that are located by name, relative to this program.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace waitpoint::tools {
 
-/// The part of this name: built with this program, or installed with it. BadInput where there is none.
+/// The part of this name from the build folder or the installation. BadInput if it is missing.
 std::filesystem::path find_part(const std::string& name);
 
 }  // namespace waitpoint::tools

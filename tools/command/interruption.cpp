@@ -7,7 +7,7 @@
 namespace waitpoint::tools {
 namespace {
 
-/// Below this, a second signal is the first one's echo: timeout(1) sends one to the process and one to its group.
+/// A second signal within this time is an echo of the first: timeout(1) sends one to the process and one to its group.
 constexpr double echo_s = 0.2;
 
 volatile std::sig_atomic_t noted = 0;
@@ -25,7 +25,7 @@ void note(int signal) {
     noted = signal;
   } else if (seconds_since(noted_at) > echo_s) {
     std::signal(signal, SIG_DFL);
-    std::raise(signal);  // once the handler has returned
+    std::raise(signal);  // delivered when the handler has returned
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the commands' options have in common: how their values are read, and refused.
+// Parsing and validation of option values shared by the commands.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@ namespace waitpoint::tools {
 [[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& found);
 
 struct SeedRange {
-  std::uint64_t first = 1, last = 1;  ///< both run
+  std::uint64_t first = 1, last = 1;  ///< inclusive
 };
 
-/// A whole number below 2^64. BadInput for all else.
+/// A whole number below 2^64; else BadInput.
 std::uint64_t seed_of(const std::string& where, const std::string& text);
-/// FIRST..LAST, with FIRST <= LAST. BadInput for all else.
+/// FIRST..LAST, with FIRST <= LAST; else BadInput.
 SeedRange seed_range_of(const std::string& where, const std::string& text);
 
-/// From 1 ns to 10^9 s; nothing where `text` is empty. BadInput for all else.
+/// From 1 ns to 10^9 s; nothing if `text` is empty; else BadInput.
 std::optional<Duration> positive_seconds(const std::string& where, const std::string& text);
 
 }  // namespace waitpoint::tools

@@ -18,7 +18,7 @@
 namespace waitpoint::tools {
 namespace {
 
-/// Says in the new process that it is one.
+/// Set in the restarted process, to prevent an endless loop of restarts.
 constexpr char tried_variable[] = "WAITPOINT_PROGRAM_LAYER";
 
 std::vector<std::string> command_line() {
@@ -39,7 +39,7 @@ void begin_with_program_layer(const bridge::Scenario& scenario) {
   setenv(tried_variable, "1", 1);
   const char* const others = std::getenv("LD_PRELOAD");
   setenv("LD_PRELOAD", (others != nullptr ? library.string() + ":" + others : library.string()).c_str(), 1);
-  // Programs may order and hash by addresses: equal runs have equal ones.
+  // Programs may order and hash by addresses: equal runs need equal addresses.
   const int persona = personality(0xFFFFFFFF);
   if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
   std::vector<std::string> words = command_line();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words of a command as a shell reads them back.
+// Shell quoting of command words.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace waitpoint::tools {
 
-/// The word as it is, or in quotation marks where a shell would make something else of it.
+/// The word, in quotation marks if a shell would not read it back unchanged.
 std::string quoted(const std::string& word);
 
-/// All of them, each with a space in front.
+/// All words, each with a leading space.
 std::string quoted(const std::vector<std::string>& words);
 
 }  // namespace waitpoint::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ended a process, in words.
+// The description of a signal that ended a process.
 #pragma once
 
 #include <cstring>

@@ -35,16 +35,16 @@ void print_summary(const posix::Record& record, const std::string& program) {
       to_string(record.digest()).c_str());
 }
 
-// What came of a run, if it failed.
+// The report of a failed run.
 void print_failure(const ExecOptions& options, const posix::Record& record, int signal, std::uint64_t seed) {
   const std::string name = program_of_last_turn(record);
   if (signal != 0)
-    std::fprintf(stderr, "waitpoint: it was ended by %s%s\n", signal_in_words(signal).c_str(),
+    std::fprintf(stderr, "waitpoint: terminated by %s%s\n", signal_in_words(signal).c_str(),
                  name.empty() ? "" : (", in " + name).c_str());
   std::fprintf(stderr, "waitpoint: replay: %s\n", replay_line(options, seed).c_str());
 }
 
-// What a program writes, kept until it is known whether it is to be shown.
+// A program's output, kept until it is shown or dropped.
 class Output {
  public:
   Output() : descriptor_(memfd_create("waitpoint-output", MFD_CLOEXEC)) {}
@@ -78,14 +78,14 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     output.forget();
     const RunMemory memory(settings_of(options, seed), files.programs);
     const ProgramRun run(files, memory, output.descriptor());
-    // From the terminal, mostly: it is not the program that fails.
+    // Usually from the terminal: not a failure of the program.
     if (run.signal() == SIGINT || run.signal() == SIGTERM) end_by(run.signal());
     ++runs;
     if (memory.record().began) digests.insert(memory.record().digest().value());
     if (run.exit_status() != 0) {
       if (terminal) std::fprintf(stderr, "\r%40s\r", "");
       output.show();
-      std::fprintf(stderr, "waitpoint: seed %llu failed, after %llu that did not: exit status %d\n",
+      std::fprintf(stderr, "waitpoint: seed %llu failed, after %llu that passed: exit status %d\n",
                    static_cast<unsigned long long>(seed), static_cast<unsigned long long>(runs - 1),
                    run.signal() != 0 ? 128 + run.signal() : run.exit_status());
       print_failure(options, memory.record(), run.signal(), seed);
@@ -129,14 +129,14 @@ int exec(const ExecOptions& options) {
   if (memory.record().began) {
     std::fputs(races_of(memory.record()).c_str(), stderr);
     if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());
-    // Of any other status, only the program's users know whether it is a failure.
+    // Any other status is a failure only to the program's users.
     if (failed || (!options.quiet && run.exit_status() != 0))
       print_failure(options, memory.record(), run.signal(), options.seed);
     if (!files.programs.is_one_program() && (!options.quiet || run.exit_status() != 0))
       std::fprintf(stderr, "waitpoint: %s\n", ends_of_programs(memory.record()).c_str());
   }
   if (!memory.record().began && run.signal() != 0)
-    std::fprintf(stderr, "waitpoint: it was ended by %s, before its main()\n", signal_in_words(run.signal()).c_str());
+    std::fprintf(stderr, "waitpoint: terminated by %s before main()\n", signal_in_words(run.signal()).c_str());
   if (trace) write_trace_of(memory.record(), *trace);
   if (run.signal() != 0) end_by(run.signal());
   return run.exit_status();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program with simulated threads, and who watches over it.
+// Runs a program with simulated threads, and supervises it.
 //
-// The program is a process of its own, into which the library of fibers/posix is preloaded; this one waits, and says at
-// the end what came of it, however it ended: what is to be known is in memory that both share.
+// The program is a separate process with the library of fibers/posix preloaded; this one waits for it and reports its
+// result, however it ended, from shared memory.
 #pragma once
 
 #include "fibers/posix/program/record.hpp"
@@ -10,11 +10,11 @@
 
 namespace waitpoint::tools {
 
-/// Runs the program and returns its exit status. Where a signal ended it, this process ends by the same one. BadInput
-/// where it cannot be run: there is no such program, or it is linked statically.
+/// Runs the program and returns its exit status. If a signal ended the program, this process ends by the same one.
+/// BadInput for a program that cannot be run: missing or linked statically.
 int exec(const ExecOptions& options);
 
-/// What a run with this seed is to do.
+/// The settings of a run with this seed.
 posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed);
 
 }  // namespace waitpoint::tools

@@ -9,30 +9,29 @@ namespace waitpoint::tools {
 
 ExecArguments::ExecArguments(CommandLine& line)
     : command_(line.add_command("exec",
-                                "Runs a program with its threads as simulated ones, in virtual time (docs/exec.md):\n"
+                                "Runs a program with simulated threads in virtual time (docs/exec.md):\n"
                                 "  waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS...]")) {
-  command_.option("--seed", seed_, "N",
-                  "from which the schedule and random numbers follow (default:\n$WAITPOINT_SEED, or 1)");
+  command_.option("--seed", seed_, "N", "seed of the schedule and of random numbers (default: $WAITPOINT_SEED, or 1)");
   command_.option("--seeds", seeds_, "A..B",
-                  "run each seed from A to B, until one ends with another status than 0; what the\n"
-                  "program writes is shown of that one");
+                  "run each seed from A to B until one has a nonzero exit status, and show only its\n"
+                  "output");
   command_.option("--strategy", strategy_, "S",
-                  "random, the default: threads that could go on at one instant do so in an\n"
-                  "order of the seed's; fifo: a thread goes on until it waits");
+                  "order of threads that are ready at the same instant: random, by the seed, or\n"
+                  "fifo: a thread runs until it blocks (default: random)");
   command_.option("--trace", trace_, "FILE.json",
-                  "write what each thread did, up to the end or the crash, for the viewers of\n"
+                  "write the actions of each thread, up to the end or the crash, as a trace for\n"
                   "Chrome and Perfetto");
   conditions_.add_to(command_);
-  command_.flag("--quiet", quiet_, "no line about the run at its end, unless it failed");
+  command_.flag("--quiet", quiet_, "print no summary line, unless the run failed");
   command_.footer(
       "Several programs in one process, built as shared objects: exec -- a.so ARGUMENTS :: NAME=b.so ARGUMENTS\n"
-      "The exit status is the program's own; 124 if its threads wait for each other for ever, 125 if it\n"
-      "cannot be run; with --seeds 1 if a seed failed. Data races (programs compiled with -fsanitize=thread) are\n"
-      "told and change no status: waitpoint explore --exec takes them for failures.");
+      "Exit status: the program's own; 124: deadlock; 125: the program cannot be run; with --seeds 1: a seed failed.\n"
+      "Data races (of programs compiled with -fsanitize=thread) are reported and do not affect the status; waitpoint\n"
+      "explore --exec counts them as failures.");
 }
 
 ExecOptions ExecArguments::options(const std::vector<std::string>& words) const {
-  if (words.empty()) throw BadInput("exec", "expected what to run: waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");
+  if (words.empty()) throw BadInput("exec", "expected a program: waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");
   ExecOptions options;
   options.words = words;
   options.quiet = quiet_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of `waitpoint exec [OPTIONS] -- PROGRAM ARGUMENTS...`. None of the words behind the dashes is looked at.
+// The options of `waitpoint exec [OPTIONS] -- PROGRAM ARGUMENTS...`. Words after the dashes are not interpreted.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,22 @@ namespace waitpoint::tools {
 struct ExecOptions {
   std::uint64_t seed = 1;
   kernel::Order order = kernel::Order::seeded;
-  std::optional<SeedRange> seeds;  ///< instead of `seed`: a run for each, to the first that fails
+  std::optional<SeedRange> seeds;  ///< instead of `seed`: a run of each, up to the first failure
   ProgramConditions conditions;
-  std::optional<std::filesystem::path> trace;  ///< to write
+  std::optional<std::filesystem::path> trace;  ///< output file
   bool quiet = false;
-  std::vector<std::string> words;  ///< the program and its arguments: at least one
+  std::vector<std::string> words;  ///< the program and its arguments; not empty
 };
 
-/// The arguments as they are written.
+/// The arguments as text.
 class ExecArguments {
  public:
   /// Adds the command with its options.
   explicit ExecArguments(CommandLine& line);
 
-  /// Whether the command line has it.
+  /// True if the command line has this command.
   bool parsed() const { return command_.parsed(); }
-  /// What they say, for a program of these words; BadInput where they cannot be meant.
+  /// The parsed options, for a program of these words; BadInput for invalid values and combinations.
   ExecOptions options(const std::vector<std::string>& words) const;
 
  private:

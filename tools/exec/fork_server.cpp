@@ -20,7 +20,7 @@ namespace {
 
 [[noreturn]] void fail(const char* what) { throw BadInput("exec", std::string(what) + ": " + std::strerror(errno)); }
 
-// Whether a whole answer came.
+// True if a complete answer arrived.
 template <class Answer>
 bool receive(int socket, Answer& answer) {
   ssize_t size = 0;
@@ -30,8 +30,8 @@ bool receive(int socket, Answer& answer) {
 }
 
 std::string how_it_ended(int status) {
-  if (WIFSIGNALED(status)) return "it was ended by " + signal_in_words(WTERMSIG(status));
-  return "it ended with exit status " + std::to_string(WEXITSTATUS(status));
+  if (WIFSIGNALED(status)) return "terminated by " + signal_in_words(WTERMSIG(status));
+  return "exit status " + std::to_string(WEXITSTATUS(status));
 }
 
 void ask(int socket, const int (&descriptors)[posix::run_descriptors]) {
@@ -48,16 +48,16 @@ void ask(int socket, const int (&descriptors)[posix::run_descriptors]) {
   head->cmsg_type = SCM_RIGHTS;
   head->cmsg_len = CMSG_LEN(sizeof descriptors);
   std::memcpy(CMSG_DATA(head), descriptors, sizeof descriptors);
-  (void)sendmsg(socket, &message, MSG_NOSIGNAL);  // that nobody listens is noticed when no answer comes
+  (void)sendmsg(socket, &message, MSG_NOSIGNAL);  // a missing receiver is noticed when no answer arrives
 }
 
 }  // namespace
 
 ForkServer::ForkServer(const ProgramFiles& files, posix::Settings settings) {
   int ends[2];
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket can be had");
-  settings.server = fcntl(ends[1], F_DUPFD, least_descriptor);  // it stays open in the program
-  if (settings.server < 0) fail("no descriptor can be had");
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("cannot create a socket");
+  settings.server = fcntl(ends[1], F_DUPFD, least_descriptor);  // stays open in the program
+  if (settings.server < 0) fail("cannot duplicate a descriptor");
   const RunMemory memory(settings, files.programs);
   process_ = start_program(files, memory);
   close(ends[1]);
@@ -68,7 +68,7 @@ ForkServer::ForkServer(const ProgramFiles& files, posix::Settings settings) {
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
-  throw BadInput("exec", files.program.string() + " did not come to its main(): " + how_it_ended(status));
+  throw BadInput("exec", files.program.string() + " did not reach main(): " + how_it_ended(status));
 }
 
 ForkServer::~ForkServer() {
@@ -79,13 +79,13 @@ ForkServer::~ForkServer() {
 
 ServedRun::ServedRun(const ForkServer& server, const RunMemory& memory, int input, int output) {
   int ends[2];
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket can be had");
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("cannot create a socket");
   answers_ = ends[0];
   ask(server.socket_, {memory.descriptor(), input, output, ends[1]});
   close(ends[1]);
   posix::RunStarted started{};
-  if (!receive(answers_, started)) throw BadInput("exec", "the program is not there any more");
-  if (started.process < 0) throw BadInput("exec", "no process can be made");
+  if (!receive(answers_, started)) throw BadInput("exec", "the program has ended");
+  if (started.process < 0) throw BadInput("exec", "cannot create a process");
   process_ = started.process;
 }
 
@@ -94,7 +94,7 @@ ServedRun::~ServedRun() { close(answers_); }
 std::optional<int> ServedRun::wait(int timeout_ms) {
   pollfd one{answers_, POLLIN, 0};
   if (poll(&one, 1, timeout_ms) <= 0) return std::nullopt;
-  posix::RunEnded ended{SIGKILL};  // with its server
+  posix::RunEnded ended{SIGKILL};  // the server is gone
   (void)receive(answers_, ended);
   return ended.status;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program that is loaded once, and run as often as one likes by fork, from where it is about to enter its main().
+// Loads a program once, and runs it any number of times by forks from just before main().
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@ namespace waitpoint::tools {
 
 class ForkServer {
  public:
-  /// Starts the program and lets it stand there; what it writes before goes where this process writes. BadInput if it
-  /// does not come as far.
+  /// Starts the program and stops it before main(); until then, its output goes to this process's. BadInput if it does
+  /// not reach main().
   ForkServer(const ProgramFiles& files, posix::Settings settings);
-  /// Runs that are left are ended.
+  /// Kills the remaining runs.
   ~ForkServer();
   ForkServer(const ForkServer&) = delete;
   ForkServer& operator=(const ForkServer&) = delete;
@@ -24,17 +24,17 @@ class ForkServer {
   pid_t process_;
 };
 
-/// A run; it may be asked for in a process that was forked from that of the server's object. It is ended with it.
+/// A run; it may be requested by a fork of the process that owns the server object. Killed with this object.
 class ServedRun {
  public:
-  /// As `memory` says, with descriptors that its input comes from and its output goes to.
+  /// Runs with the settings in `memory`, with descriptors for its input and output.
   ServedRun(const ForkServer& server, const RunMemory& memory, int input, int output);
   ~ServedRun();
   ServedRun(const ServedRun&) = delete;
   ServedRun& operator=(const ServedRun&) = delete;
 
   pid_t process() const { return process_; }
-  /// Waits for its end, `timeout_ms` at most: as waitpid() gives it.
+  /// Waits for its end, for at most `timeout_ms`; the status is as from waitpid().
   std::optional<int> wait(int timeout_ms);
 
  private:

@@ -35,7 +35,7 @@ bool parse_block_cost(std::string_view text, Duration& cost) {
   return true;
 }
 
-// "x0.5", or nothing.
+// Parses "x0.5", or the empty text.
 bool parse_scale(std::string_view text, ClockOptions& clock) {
   double scale = 1;
   if (!text.empty() && (text[0] != 'x' || !parse_number(text.substr(1), scale))) return false;
@@ -97,21 +97,20 @@ std::string ProgramConditions::words() const {
 
 void ConditionArguments::add_to(Command& command) {
   command.option("--clock", clock_, "CLOCK",
-                 "what a thread's code costs from one call to the next: fixed:US, interval:US..US\n"
-                 "(chosen by the seed), counted[:NS] (a nanosecond, or so many, for each basic block of\n"
-                 "a program compiled with -fsanitize-coverage=trace-pc), or as measured, which does not repeat: cpu, "
-                 "proportional,\n"
-                 "with :xFACTOR of that (default: nothing)");
+                 "cost of a thread's code between two calls: fixed:US, interval:US..US (drawn by the\n"
+                 "seed), counted[:NS] (NS nanoseconds, 1 by default, for each basic block of a program\n"
+                 "compiled with -fsanitize-coverage=trace-pc), or measured, hence not repeatable: cpu[:xFACTOR],\n"
+                 "proportional[:xFACTOR] (default: no cost)");
   command.option("--children", children_, "KIND",
-                 "programs that it starts (exec, posix_spawn, system, popen): native, the default, or\n"
-                 "simulated, each on its own; those that it forks are simulated in any case");
-  command.flag("--isolate", isolate_, "what would leave this machine fails (EACCES)");
+                 "mode of programs that it starts (exec, posix_spawn, system, popen): native, or\n"
+                 "simulated, each on its own; forked children are always simulated (default: native)");
+  command.flag("--isolate", isolate_, "make calls fail that would leave this machine (EACCES)");
   command.flag("--trap-rdtsc", trap_rdtsc_,
-               "the processor's counter shows virtual time, a nanosecond a tick, where the\n"
-               "program reads it by an instruction (some microseconds each)");
+               "show virtual time in the time-stamp counter, one nanosecond per tick, by trapping the\n"
+               "instructions that read it (some microseconds each)");
   command.flag("--trap-libc", trap_library_,
-               "what the C library waits for within itself (its own locks, a FILE* on a pipe) is\n"
-               "simulated too, by traps of its system calls (some microseconds each)");
+               "simulate the C library's internal waits (its own locks, a FILE* on a pipe), too, by\n"
+               "trapping its system calls (some microseconds each)");
 }
 
 ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
@@ -126,7 +125,7 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   const bool is_measured = conditions.clock && (conditions.clock->kind == kernel::ClockKind::cpu ||
                                                 conditions.clock->kind == kernel::ClockKind::proportional);
   if (is_measured && is_repeated)
-    refuse("--clock", "fixed:US, interval:US..US or counted[:NS], as what is measured does not repeat", clock_);
+    refuse("--clock", "fixed:US, interval:US..US or counted[:NS], as measured clocks are not repeatable", clock_);
   return conditions;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a program meets beside its schedule: what its computing costs, and what is kept from it.
+// The environment of a program besides its schedule: the cost of computing, and restrictions.
 #pragma once
 
 #include <optional>
@@ -13,27 +13,27 @@
 namespace waitpoint::tools {
 
 struct ProgramConditions {
-  std::optional<kernel::ClockOptions> clock;  ///< what computing costs; without one nothing
-  std::string clock_text;                     ///< as it was written
-  bool isolate = false;                       ///< what would leave the machine fails
-  bool trap_rdtsc = false;                    ///< the processor's counter shows virtual time
-  bool trap_library = false;                  ///< what the C library waits for within itself is simulated
-  bool children = false;                      ///< programs that it starts are simulated too
+  std::optional<kernel::ClockOptions> clock;  ///< cost of computing; default: none
+  std::string clock_text;                     ///< as given
+  bool isolate = false;                       ///< calls that would leave the machine fail
+  bool trap_rdtsc = false;                    ///< the time-stamp counter shows virtual time
+  bool trap_library = false;                  ///< the C library's internal waits are simulated
+  bool children = false;                      ///< programs that it starts are simulated, too
 
   void apply_to(posix::Settings& settings) const;
-  /// BadInput for programs that they cannot be had for: these files.
+  /// BadInput if the conditions are impossible for a program with one of these files.
   void check(const std::vector<std::string>& programs) const;
-  /// As options, each with a blank before it.
+  /// As options, each with a leading space.
   std::string words() const;
 };
 
-/// The options as they are written.
+/// The options as text.
 class ConditionArguments {
  public:
   void add_to(Command& command);
-  /// BadInput where they cannot be meant. `is_repeated`: what does not repeat cannot.
+  /// BadInput for invalid values. `is_repeated`: clocks that are not repeatable are invalid, too.
   ProgramConditions conditions(bool is_repeated) const;
-  /// The first of them that was given; empty without any.
+  /// The first of these options that was given; empty if none was.
   std::string first_given() const;
 
  private:

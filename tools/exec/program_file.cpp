@@ -39,7 +39,7 @@ bool is_x86_64(const Elf64_Ehdr& header) {
   return header.e_ident[EI_CLASS] == ELFCLASS64 && header.e_machine == EM_X86_64;
 }
 
-// A program with an interpreter is loaded by the dynamic linker, which preloads.
+// The dynamic linker, which preloads, is the program's interpreter.
 std::string trouble_of_elf(std::ifstream& file) {
   Elf64_Ehdr header;
   if (!read(file, 0, header) || !is_x86_64(header)) return "is not a program for x86-64";
@@ -56,7 +56,7 @@ std::string trouble_of_script(std::ifstream& file) {
   return cannot_be_simulated(interpreter);
 }
 
-// What the dynamic linker reads of it: none of what is no ELF file, or is cut off.
+// The fields that the dynamic linker reads; empty for files that are not ELF or are truncated.
 struct Dynamic {
   std::vector<Elf64_Phdr> parts;
   std::vector<Elf64_Dyn> entries;
@@ -82,11 +82,11 @@ Dynamic dynamic_of(std::ifstream& file) {
   return dynamic;
 }
 
-// The names of the libraries that it loads.
+// The names of its needed libraries.
 std::vector<std::string> libraries_of(std::ifstream& file) {
   const Dynamic dynamic = dynamic_of(file);
   std::uint64_t names = dynamic.value(DT_STRTAB);
-  // Where that address is in the file.
+  // The file offset of that address.
   for (const Elf64_Phdr& part : dynamic.parts)
     if (part.p_type == PT_LOAD && names >= part.p_vaddr && names < part.p_vaddr + part.p_filesz) {
       names = names - part.p_vaddr + part.p_offset;
@@ -115,7 +115,7 @@ std::filesystem::path find_program(const std::string& name) {
   return "";
 }
 
-// A static program that the system places where it likes has no interpreter either, but says what it is.
+// A static position-independent program has no interpreter either, but has a flag that says so.
 bool is_shared_object(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   Elf64_Ehdr header;
@@ -127,9 +127,9 @@ bool is_shared_object(const std::filesystem::path& path) {
 std::string cannot_be_simulated(const std::filesystem::path& program) {
   struct stat of {};
   if (stat(program.c_str(), &of) == 0 && (of.st_mode & (S_ISUID | S_ISGID)) != 0)
-    return "changes its user or group: the system preloads nothing into it";
+    return "changes its user or group, which disables preloading";
   if (getuid() != 0 && getxattr(program.c_str(), "security.capability", nullptr, 0) > 0)
-    return "has capabilities that its user has not: the system preloads nothing into it";
+    return "has capabilities that its user lacks, which disables preloading";
   std::ifstream file(program, std::ios::binary);
   char magic[4] = {};
   if (!file.read(magic, sizeof magic)) return "cannot be read";
@@ -138,7 +138,7 @@ std::string cannot_be_simulated(const std::filesystem::path& program) {
   return "is neither a program nor a script";
 }
 
-// As a name that the dynamic linker is to find: the file has more of them, in tables that may be left out.
+// Looks in the dynamic symbol table; other symbol tables may be stripped.
 bool counts_blocks(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   Elf64_Ehdr header;

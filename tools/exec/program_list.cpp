@@ -15,14 +15,14 @@ namespace {
 
 constexpr char separator[] = "::";
 constexpr char host_name[] = "waitpoint-host";
-constexpr std::size_t letters_max = 32;     // the kernel keeps names in place, and those of threads begin with them
-constexpr std::size_t told_apart_max = 20;  // programs whose exit statuses are told one by one
+constexpr std::size_t letters_max = 32;     // the kernel stores names inline, and uses them as prefixes of thread names
+constexpr std::size_t told_apart_max = 20;  // limit of programs whose exit statuses are listed one by one
 
 bool fits_names(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
-// "NAME=FILE": how many letters the name has; 0 where the word is a file alone.
+// "NAME=FILE": the length of the name; 0 for a word that is only a file.
 std::size_t name_letters(const std::string& word) {
   const std::size_t end = word.find('=');
   const bool is_name = end != std::string::npos && end > 0 && end <= letters_max &&
@@ -78,7 +78,7 @@ void ProgramList::read_several(const std::vector<std::string>& words) {
   title_ = size() == 1 ? programs_.front().name : std::to_string(size()) + " programs";
 }
 
-// Of equal programs with equal arguments it does not matter which is the first.
+// The order of equal programs with equal arguments does not matter.
 void ProgramList::name_apart() {
   std::sort(programs_.begin(), programs_.end(), [](const Program& a, const Program& b) {
     return std::tie(a.name, a.words, a.place) < std::tie(b.name, b.words, b.place);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `waitpoint exec` is to run: a program with its arguments; or several that share one process, each a shared
-// object with a main():
+// The programs of `waitpoint exec`: one with its arguments, or several that share a process, each a shared object with
+// a main():
 //
 //   FILE ARGUMENTS :: NAME=FILE ARGUMENTS :: ...
 //
-// A program's name is that of its file, if none is given; those that would have one name are numbered. Programs are put
-// in the order of their names, so that a run does not depend on the order in which they are written.
+// A program is named after its file by default; equal default names are numbered. Programs are sorted by name, so that
+// a run does not depend on the order in which they are given.
 #pragma once
 
 #include <string>
@@ -17,28 +17,27 @@ namespace waitpoint::tools {
 
 class ProgramList {
  public:
-  /// Of these words, of which there is at least one. BadInput for an empty part between "::", and for names that are
-  /// given twice.
+  /// Parses the words, at least one. BadInput for an empty part between "::" and for duplicate names.
   explicit ProgramList(const std::vector<std::string>& words);
 
-  /// Whether it is one program in a process of its own.
+  /// True for a single program in a process of its own.
   bool is_one_program() const { return programs_.empty(); }
-  /// How many share the process.
+  /// The number of programs that share the process.
   std::uint32_t size() const { return static_cast<std::uint32_t>(programs_.size()); }
-  /// What is to be told of them: the name of one, or how many they are.
+  /// A title for messages: the name of a single program, or the number of programs.
   const std::string& title() const { return title_; }
-  /// The words of the process, the program's name or that of the host first.
+  /// The words of the process, starting with the name of the program or the host.
   const std::vector<std::string>& words() const { return words_; }
-  /// Those that share the process: their files.
+  /// The files of the programs that share the process.
   std::vector<std::string> files() const;
-  /// Tells the process who they are; there is room for all of them.
+  /// Writes their names for the process; there must be room for all.
   void write(posix::Record& record) const;
 
  private:
   struct Program {
     std::string name;
     std::vector<std::string> words;
-    std::uint32_t place = 0;  // among those that were written
+    std::uint32_t place = 0;  // among those given
     bool is_named = false;
   };
   void read_several(const std::vector<std::string>& words);
@@ -49,9 +48,9 @@ class ProgramList {
   std::string title_;
 };
 
-/// How they ended, each with its exit status: one line.
+/// The exit status of each, in one line.
 std::string ends_of_programs(const posix::Record& record);
-/// The one whose turn it was last; empty where there are not several.
+/// The program that ran last; empty for a single one.
 std::string program_of_last_turn(const posix::Record& record);
 
 }  // namespace waitpoint::tools

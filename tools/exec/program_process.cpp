@@ -28,9 +28,9 @@ std::string put_first(const std::string& variable, const std::string& path) {
     dup2(output, STDOUT_FILENO);
     dup2(output, STDERR_FILENO);
   }
-  // Who is not watched over any more is not to run on.
+  // A program without its supervisor must not continue.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Equal runs have equal addresses: programs order and hash by them.
+  // Programs order and hash by addresses: equal runs need equal addresses.
   const int persona = personality(0xFFFFFFFF);
   if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
   static std::vector<std::string> environment = environment_of(files, memory);
@@ -54,7 +54,7 @@ ProgramFiles::ProgramFiles(const std::vector<std::string>& words)
   }
   program = find_program(name);
   if (program.empty() && name.find('/') != std::string::npos && std::filesystem::exists(name))
-    throw BadInput("exec", "'" + name + "' is no file that can be executed");
+    throw BadInput("exec", "'" + name + "' is not an executable file");
   if (program.empty()) throw BadInput("exec", "there is no program '" + name + "'");
   if (const std::string reason = cannot_be_simulated(program); !reason.empty())
     throw BadInput("exec", program.string() + " " + reason);
@@ -74,7 +74,7 @@ std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemo
       put_first("LD_PRELOAD", files.library.string()),
       std::string(posix::record_variable) + "=" + std::to_string(memory.descriptor()),
   };
-  // There an empty library stands in place of the compiler's own runtime.
+  // That folder has an empty library in place of the compiler's own runtime.
   if (files.instrumented) environment.push_back(put_first("LD_LIBRARY_PATH", files.library.parent_path().string()));
   return environment;
 }
@@ -82,7 +82,7 @@ std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemo
 pid_t start_program(const ProgramFiles& files, const RunMemory& memory, int output) {
   std::fflush(nullptr);
   const pid_t process = fork();
-  if (process < 0) throw BadInput("exec", std::string("no process can be made: ") + std::strerror(errno));
+  if (process < 0) throw BadInput("exec", std::string("cannot create a process: ") + std::strerror(errno));
   if (process == 0) become(files, memory, output);
   return process;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program in a process of its own, into which the library of fibers/posix is preloaded.
+// A program in a separate process, with the library of fibers/posix preloaded.
 #pragma once
 
 #include <sys/types.h>
@@ -13,8 +13,7 @@
 
 namespace waitpoint::tools {
 
-/// What can be run, and with what. BadInput where it cannot: there is no such program, it is linked statically, the
-/// library is not installed.
+/// The program's files and the library. BadInput if they are missing, or the program is linked statically.
 struct ProgramFiles {
   explicit ProgramFiles(const std::vector<std::string>& words);
 
@@ -22,18 +21,18 @@ struct ProgramFiles {
   std::vector<std::string> named() const;
 
   ProgramList programs;
-  std::filesystem::path program, library;  ///< the process's
-  bool instrumented = false;               ///< by -fsanitize=thread; a layer with a runtime for that is the library
+  std::filesystem::path program, library;  ///< of the process
+  bool instrumented = false;  ///< with -fsanitize=thread; the library then includes a race detector's runtime
 };
 
-/// What the environment of the process holds beside what is there: "NAME=VALUE". The record's descriptor is inherited.
+/// Additions to the environment of the process: "NAME=VALUE". The record's descriptor is inherited.
 std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemory& memory);
 
-/// Exit status where a program cannot be run.
+/// Exit status if a program cannot be run.
 inline constexpr int exec_failed = 125;
 
-/// Starts the process of the programs. It reads and writes where this process does, but for a
-/// descriptor `output`, if it is none of -1, that takes both of its streams. It ends with this process.
+/// Starts the process of the programs. It shares this process's input and output; if `output` is not -1, it receives
+/// both output streams. Killed with this process.
 pid_t start_program(const ProgramFiles& files, const RunMemory& memory, int output = -1);
 
 }  // namespace waitpoint::tools

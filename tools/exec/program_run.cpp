@@ -21,12 +21,12 @@ constexpr int looks_ms = 1000;
 
 pid_t child = 0;
 void pass_on(int signal) { kill(child, signal); }
-// The terminal's go to the program too; what another process sends goes to this one alone.
+// Signals of the terminal reach the program anyway; only those sent by another process must be forwarded.
 void pass_on_if_sent(int signal, siginfo_t* information, void*) {
   if (information->si_code <= 0) kill(child, signal);
 }
 
-/// Signals are the program's affair: it decides.
+/// Leaves the decision about signals to the program.
 int wait_for_end(Watchdog watchdog) {
   struct sigaction of_terminal {};
   of_terminal.sa_sigaction = pass_on_if_sent;

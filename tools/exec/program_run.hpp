@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of a program from its beginning to its end, and who waits for it meanwhile.
+// A run of a program from start to end.
 #pragma once
 
 #include "tools/exec/program_process.hpp"
@@ -8,22 +8,22 @@ namespace waitpoint::tools {
 
 class ProgramRun {
  public:
-  /// Runs the program to its end, as `memory` says. What it writes goes where this process writes, or to the descriptor
-  /// `output`, if there is one.
+  /// Runs the program to its end, with the settings in `memory`. Its output goes to this process's, or to the
+  /// descriptor `output`.
   ProgramRun(const ProgramFiles& files, const RunMemory& memory, int output = -1);
 
-  /// As waitpid() gives it.
+  /// As from waitpid().
   int status() const { return status_; }
-  /// The exit status; -1 where a signal ended it.
+  /// The exit status; -1 if a signal ended it.
   int exit_status() const;
-  /// The signal that ended it; 0 if none did.
+  /// The signal that ended it; 0 if none.
   int signal() const;
 
  private:
   int status_ = 0;
 };
 
-/// Ends this process by the signal, as a shell sees the program itself.
+/// Ends this process by the signal, so that a shell sees the program's own end.
 [[noreturn]] void end_by(int signal);
 
 }  // namespace waitpoint::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data races of a program's run, in words.
+// A text report of the data races of a program's run.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace waitpoint::tools {
 
-/// Some lines for each: two accesses, and where in the source they are. Nothing where none was found.
+/// Several lines for each: two accesses and their source locations. Empty without races.
 std::string races_of(const posix::Record& record);
 
 }  // namespace waitpoint::tools

@@ -13,7 +13,7 @@
 namespace waitpoint::tools {
 namespace {
 
-[[noreturn]] void no_memory() { throw BadInput("exec", std::string("no memory to share: ") + std::strerror(errno)); }
+[[noreturn]] void no_memory() { throw BadInput("exec", std::string("cannot share memory: ") + std::strerror(errno)); }
 
 }  // namespace
 

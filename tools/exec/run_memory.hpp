@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory that a program's run shares with who started it: what it is to do, and what becomes of it.
+// The memory that a program's run shares with its supervisor: settings and results.
 #pragma once
 
 #include "fibers/posix/program/record.hpp"
@@ -7,10 +7,11 @@
 
 namespace waitpoint::tools {
 
-/// From here on descriptors that a program inherits: those that look at the numbers of theirs find the first ones free.
+/// Inherited descriptors have numbers from here up: programs that depend on descriptor numbers find the lowest ones
+/// free.
 inline constexpr int least_descriptor = 900;
 
-/// There is one at a time in a process, at an address that is the same in the program.
+/// One at a time per process, mapped at the same address in the program.
 class RunMemory {
  public:
   RunMemory(const posix::Settings& settings, const ProgramList& programs);
@@ -19,7 +20,7 @@ class RunMemory {
   RunMemory& operator=(const RunMemory&) = delete;
 
   posix::Record& record() const { return *record_; }
-  /// Of the file that it is.
+  /// Of the file that is mapped.
   int descriptor() const { return descriptor_; }
 
  private:

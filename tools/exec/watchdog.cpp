@@ -13,7 +13,7 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr double patience_s = 10;  // of processor time
+constexpr double patience_s = 10;  // processor time
 
 // proc(5): utime and stime are the 14th and 15th field; the 2nd, in parentheses, may hold anything.
 double processor_s(pid_t process) {
@@ -33,7 +33,7 @@ bool read(pid_t process, const void* from, void* to, std::size_t size) {
   return process_vm_readv(process, &here, 1, &there, 1, 0) == static_cast<ssize_t>(size);
 }
 
-// Of the thread that runs in the program; empty if it cannot be known.
+// The name of the program's running thread; empty if unknown.
 std::string running_thread(const posix::Record& record, pid_t process) {
   const kernel::Task* task = nullptr;
   char name[kernel::name_size] = {};
@@ -57,9 +57,9 @@ std::string Watchdog::look() {
   told_ = true;
   const std::string thread = running_thread(record_, program_);
   return fmt::format(
-      "{} has computed for {:.0f} s, at {} s of virtual time, without a call that is simulated: if it waits for "
+      "{} has computed for {:.0f} s, at {} s of virtual time, without a simulated call: if it spins until "
       "another\n"
-      "           thread in a loop without calls, it waits for ever",
+      "           thread acts, it spins forever",
       thread.empty() ? "a thread" : "thread '" + thread + "'", now_s - since_s_,
       to_string(record_.scheduler.global_time()));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much may be spent on understanding a failure: runs, and seconds of the wall clock.
+// The budget for analysing a failure: a number of runs, and seconds of the wall clock.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ class Budget {
  public:
   Budget(std::uint64_t runs, double seconds) : runs_(runs), end_s_(wall_clock_s() + seconds) {}
 
-  /// One run more; false where it is used up.
+  /// Takes one run; false when the budget is exhausted.
   bool take() {
     if (used_ == runs_ || wall_clock_s() >= end_s_) return false;
     ++used_;

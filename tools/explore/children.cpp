@@ -34,14 +34,14 @@ void write_all(int pipe, const std::string& bytes) {
   }
 }
 
-// In the child: nothing of the parent's is cleaned up.
+// In the child: skips the cleanup of the parent's objects.
 [[noreturn]] void carry_out(const std::function<std::string()>& work, int bytes_pipe, int errors_pipe) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   dup2(nowhere, STDIN_FILENO);
   dup2(nowhere, STDOUT_FILENO);
   dup2(errors_pipe, STDERR_FILENO);
-  // The parent decides when it is enough.
+  // The parent decides when to stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   try {
@@ -58,11 +58,11 @@ void write_all(int pipe, const std::string& bytes) {
 
 void Children::start(std::uint64_t number, const std::function<std::string()>& work) {
   int bytes[2], errors[2];
-  if (pipe2(bytes, O_CLOEXEC) != 0) fail("no pipe can be had");
-  if (pipe2(errors, O_CLOEXEC) != 0) fail("no pipe can be had");
-  std::fflush(nullptr);  // or what is buffered would be written twice
+  if (pipe2(bytes, O_CLOEXEC) != 0) fail("cannot create a pipe");
+  if (pipe2(errors, O_CLOEXEC) != 0) fail("cannot create a pipe");
+  std::fflush(nullptr);  // a child would write buffered output a second time
   const pid_t process = fork();
-  if (process < 0) fail("no process can be had");
+  if (process < 0) fail("cannot create a process");
   if (process == 0) carry_out(work, bytes[1], errors[1]);
   close(bytes[1]);
   close(errors[1]);
@@ -114,7 +114,7 @@ std::optional<Children::Ended> Children::wait(int timeout_ms) {
   return std::nullopt;
 }
 
-// Now and then: there may be hundreds of short ones a second. What is killed is seen to end by the next wait().
+// Called at intervals: there may be hundreds of short children a second. The next wait() returns the killed ones.
 void Children::end_those_beyond_limits() {
   const double now_s = wall_clock_s();
   if (now_s < next_look_s_) return;
@@ -125,11 +125,11 @@ void Children::end_those_beyond_limits() {
     if (!limits_.computes || !ticks || *ticks != running.ticks) running.looked_s = now_s;
     running.ticks = ticks.value_or(running.ticks);
     if (now_s - running.looked_s >= exploration::idle_s_max)
-      running.so_far.killed_for = "it waited for " + std::to_string(exploration::idle_s_max) +
-                                  " s for something that is not simulated, a real lock or input: its process is ended";
+      running.so_far.killed_for = "blocked for " + std::to_string(exploration::idle_s_max) +
+                                  " s outside the simulation (a real lock or input); process killed";
     else if (limits_.wall_s > 0 && now_s - running.started_s >= limits_.wall_s)
-      running.so_far.killed_for = "it went on for " + std::to_string(static_cast<long>(limits_.wall_s)) +
-                                  " s, the most that one may (--schedule-limit): its process is ended";
+      running.so_far.killed_for = "exceeded " + std::to_string(static_cast<long>(limits_.wall_s)) +
+                                  " s of wall clock time (--schedule-limit); process killed";
     if (!running.so_far.killed_for.empty()) kill(running.process, SIGKILL);
   }
 }
@@ -149,7 +149,7 @@ std::string death_of(const Children::Ended& ended) {
     text = "the process was killed by " + signal_in_words(WTERMSIG(ended.status));
   else if (WEXITSTATUS(ended.status) != 0 || ended.bytes.empty())
     text = "the process ended with status " + std::to_string(WEXITSTATUS(ended.status));
-  if (!text.empty() && !ended.errors.empty()) text += ", after saying:\n" + ended.errors;
+  if (!text.empty() && !ended.errors.empty()) text += ", with standard error:\n" + ended.errors;
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }

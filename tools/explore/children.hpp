@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes by fork, each of which does one thing, gives back some bytes, and is gone: what goes wrong in one, a crash
-// included, is that one's alone. They end with this one.
+// Forked processes that each do one job, return some bytes and exit. A failure in one, crashes included, does not
+// affect the others. All are killed with this object.
 #pragma once
 
 #include <sys/types.h>
@@ -16,30 +16,30 @@ namespace waitpoint::tools {
 class Children {
  public:
   struct Limits {
-    double wall_s = 0;     ///< of the wall clock, for each; 0: none
-    bool computes = true;  ///< nothing but computing is expected: one that waits is ended, too
+    double wall_s = 0;     ///< wall clock limit of each; 0: none
+    bool computes = true;  ///< expected only to compute: a blocked child is killed
   };
   struct Ended {
     std::uint64_t number;
-    int status;                   ///< as waitpid() gives it
-    std::string bytes;            ///< that it gave back; nothing if it was killed
-    std::string errors;           ///< the beginning of what it wrote to its standard error
-    std::string killed_for = {};  ///< beyond a limit: which
+    int status;                   ///< as from waitpid()
+    std::string bytes;            ///< the result; empty if it was killed
+    std::string errors;           ///< the beginning of its standard error
+    std::string killed_for = {};  ///< the limit it exceeded, if any
   };
 
   Children() = default;
   explicit Children(const Limits& limits) : limits_(limits) {}
-  /// Kills those that are left.
+  /// Kills the remaining children.
   ~Children() { kill_from(0); }
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
 
-  /// Starts one that carries out `work`, known as `number`. What it prints is not seen.
+  /// Forks a child that runs `work`, known as `number`. Its standard output is discarded.
   void start(std::uint64_t number, const std::function<std::string()>& work);
   std::size_t count() const { return running_.size(); }
-  /// Waits for one to end, `timeout_ms` at most; ends those that are beyond a limit.
+  /// Waits for a child to end, for at most `timeout_ms`; kills those beyond a limit.
   std::optional<Ended> wait(int timeout_ms);
-  /// Kills those of `number` or more.
+  /// Kills children with numbers from `number` up.
   void kill_from(std::uint64_t number);
 
  private:
@@ -47,7 +47,7 @@ class Children {
     pid_t process;
     int bytes_pipe, errors_pipe;
     Ended so_far;
-    double started_s, looked_s;  // by the wall clock: at its beginning, and when its ticks were seen to grow
+    double started_s, looked_s;  // wall clock: at the start, and when its ticks last grew
     std::uint64_t ticks = 0;
   };
   static void drain(int pipe, std::string& to, std::size_t most, bool& at_end);
@@ -55,11 +55,12 @@ class Children {
   void end_those_beyond_limits();
 
   Limits limits_;
-  double next_look_s_ = 0;  // at the limits, by the wall clock
+  double next_look_s_ = 0;  // the next check of limits, by the wall clock
   std::vector<Running> running_;
 };
 
-/// "it was killed by signal 11 (Segmentation fault)" and what it said last; empty for one that ended by itself.
+/// "the process was killed by signal 11 (Segmentation fault)" and the start of its standard error; empty for a normal
+/// exit.
 std::string death_of(const Children::Ended& ended);
 
 }  // namespace waitpoint::tools

@@ -12,10 +12,10 @@ using kernel::Choice;
 
 namespace {
 
-// The usual alternative is tried first, then the others in their order, but those that spin: the next one. None left:
-// the count of them all.
+// Tries the default alternative first, then the others in order, skipping tasks that spin. Returns the count when none
+// is left.
 std::uint32_t next_alternative(const Decision& decision) {
-  if (decision.choice == Choice::spurious) return decision.count;  // it could end for nothing for ever
+  if (decision.choice == Choice::spurious) return decision.count;  // spurious wake-ups could repeat without end
   if (decision.choice == Choice::computing) return decision.is_switch() ? decision.count : decision.count - 1;
   std::uint32_t next = decision.is_switch() ? decision.chosen + 1 : 0;
   while (next < decision.count && (next == decision.usual || decision.spins(next))) ++next;
@@ -54,11 +54,11 @@ std::optional<std::vector<Deviation>> DepthFirst::after(const std::vector<Decisi
 std::string DepthFirst::scope() const {
   std::string but;
   const auto add = [&](bool is_left_out, const char* what) {
-    if (is_left_out) but += (but.empty() ? ", but for " : " and ") + std::string(what);
+    if (is_left_out) but += (but.empty() ? ", except for " : " and ") + std::string(what);
   };
-  add(left_out_turns_, "turns of tasks that spin");
-  add(left_out_costs_, "computing costs between the least and the greatest");
-  add(left_out_spurious_, "waits that end for nothing");
+  add(left_out_turns_, "turns of spinning tasks");
+  add(left_out_costs_, "computing costs between minimum and maximum");
+  add(left_out_spurious_, "spurious wake-ups");
   return scope_ + but;
 }
 

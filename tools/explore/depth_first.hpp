@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All schedules of a target, one after the other: after each the last choice that has an alternative left takes it, and
-// behind that all goes as usual. Nothing is kept from one to the next but what the last one chose, so that each can be
-// a process of its own. The strategies dfs and bounded:K, in the order of these: see fibers/explore/strategies/dfs.hpp.
+// Enumerates all schedules of a target depth first: the next schedule takes the next alternative at the last choice
+// that has one left, and follows the default order after it. Only the last schedule's choices are kept between runs, so
+// that each run can be a process of its own. Implements the strategies dfs and bounded:K in the same order as
+// fibers/explore/strategies/dfs.hpp.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +16,13 @@ namespace waitpoint::tools {
 
 class DepthFirst {
  public:
-  /// By the name of a strategy; nothing for one that does not go so.
+  /// For the name of a strategy; nothing if that is not exhaustive.
   static std::optional<DepthFirst> of(const std::string& strategy);
 
-  /// The schedule behind one that chose so, as its deviations from the default order; nothing if it was the last.
+  /// The successor of the schedule with these decisions, as deviations from the default order; nothing after the last.
   std::optional<std::vector<exploration::Deviation>> after(const std::vector<exploration::Decision>& decisions);
 
-  /// Once all were tried, what they are all of: " with at most 2 preemptions, but for turns of tasks that spin".
+  /// The scope of an exhausted search: " with at most 2 preemptions, except for turns of spinning tasks".
   std::string scope() const;
 
  private:

@@ -30,7 +30,7 @@ class Files {
   }
 
   bool has_results() const { return results_.has_value(); }
-  /// The same head from each shard, so that merged files have it once.
+  /// Every shard writes the same head line, so that merged and sorted files have it once.
   void write_results(const Target& target, const Search& search) {
     if (!results_) return;
     const ExploreOptions& options = target.options();
@@ -60,19 +60,19 @@ void put(const std::string& text) {
 }
 
 void tell(const FailureReport& report, Files& files) {
-  put(report.text);  // whatever becomes of the files
+  put(report.text);  // even if the files cannot be written
   files.write(report);
 }
 
 std::string sum(const Target& target, const Search& search, double seconds) {
-  const std::string scope = search.scope() ? "; these are all there are" + *search.scope() : "";
+  const std::string scope = search.scope() ? "; exhaustive" + *search.scope() : "";
   return fmt::format("{}: {}, {} distinct, {} failed, in {:.1f} s ({:.1f} a second){}{}\n", target.name(),
                      counted(search.schedules(), "schedule"), search.distinct(), search.failures(), seconds,
                      seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
                      search.interrupted() ? "; stopped by a signal" : "", scope);
 }
 
-// What takes longer than this, and so many times what the default order takes, is taken for endless.
+// A schedule counts as endless beyond the fixed limit plus this multiple of the default order's time.
 constexpr double least_limit_s = 60, usual_times_max = 10;
 
 int search(Target& target, Files& files) {

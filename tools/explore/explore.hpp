@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint explore`: a scenario or a program under many schedules, and what is to be told of the first that fails.
+// `waitpoint explore`: runs a scenario or a program under many schedules, and reports the first failure.
 #pragma once
 
 #include <span>

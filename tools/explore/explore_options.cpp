@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t jobs_max = 1024;
 
-/// The option's text, else that of the environment's variable, where there is one; `where` becomes whose it is.
+/// The option's text, else the environment variable's; `where` becomes the name of the source used.
 std::string text_of(const std::string& option, const char* variable, std::string& where) {
   if (!option.empty()) return option;
   const char* const value = std::getenv(variable);
@@ -48,7 +48,7 @@ Shard shard_of(const std::string& text) {
   return shard;
 }
 
-/// The same as an option --set.
+/// The --set assignment for this property.
 std::string assignment_of(const std::string& property) {
   const std::string option = "--property " + property;
   const std::size_t equals = property.find('=');
@@ -79,48 +79,48 @@ std::optional<std::filesystem::path> file(const std::string& name) {
 
 ExploreArguments::ExploreArguments(CommandLine& line)
     : command_(line.add_command("explore",
-                                "Runs a scenario, or a program, under many schedules; tells the first failure.")) {
+                                "Runs a scenario or a program under many schedules and reports the first failure.")) {
   command_.argument("SCENARIO", scenario_, "the scenario file", Command::Presence::optional);
   command_.flag("--exec", is_program_,
-                "instead of a scenario, a program as `waitpoint exec` runs it (docs/exec.md):\n"
+                "explore a program, run as by `waitpoint exec`, instead of a scenario (docs/exec.md):\n"
                 "  waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]\n"
-                "a schedule fails whose exit status is not 0, that a signal ends, or that is stuck");
+                "failures: a nonzero exit status, a signal, a deadlock or a lack of progress");
   command_.option("--strategy", strategy_, "S",
-                  "how schedules are drawn (default: $WAITPOINT_STRATEGY, or portfolio):\n" +
+                  "strategy that draws the schedules (default: $WAITPOINT_STRATEGY, or portfolio):\n" +
                       exploration::strategy_names(exploration::Kinds::drawing) +
-                      "\n(of a program dfs and bounded:K too)");
+                      "\n(for programs also dfs and bounded:K)");
   command_.option(
       "--iterations", iterations_, "N",
-      "schedules, at most (default: $WAITPOINT_ITERATIONS, or 1000, or no end\nwhere there is a time limit)");
+      "maximum number of schedules (default: $WAITPOINT_ITERATIONS, or 1000, or\nunlimited with a time limit)");
   command_.option("--time-limit", time_limit_, "SECONDS",
-                  "no schedule is begun after that (default: $WAITPOINT_TIME_LIMIT)");
+                  "start no schedule after this wall clock time (default: $WAITPOINT_TIME_LIMIT,\nor unlimited)");
   command_.option("--schedule-limit", schedule_limit_, "SECONDS",
-                  "of the wall clock: a schedule that takes longer has failed, 0 for no limit\n"
-                  "(default: $WAITPOINT_SCHEDULE_LIMIT, or a minute and ten times the default order's)");
-  command_.option("--jobs", jobs_, "J", "so many processes at once (default: 1)");
-  command_.option("--seed", seed_, "N", "from which all else follows (default: $WAITPOINT_SEED, or 1)");
+                  "fail a schedule that takes longer, by the wall clock; 0: unlimited (default:\n"
+                  "$WAITPOINT_SCHEDULE_LIMIT, or 60 s plus ten times the default order's time)");
+  command_.option("--jobs", jobs_, "J", "number of processes to run at once (default: 1)");
+  command_.option("--seed", seed_, "N", "seed of all schedules and noise (default: $WAITPOINT_SEED, or 1)");
   command_.repeated("--property", properties_, "KEY=VALUE",
-                    "what is to hold in every run, in place of the scenario's `expect`:\n"
+                    "expectation of every run, overriding the scenario's `expect`; may be repeated:\n"
                     "goals_reached, collisions, position_error_max_m");
-  command_.option("--until", until_, "S",
-                  "runs end at this virtual time, in seconds (default: the scenario's until_s)");
+  command_.option("--until", until_, "S", "end runs at virtual time S, in seconds (default: the scenario's until_s)");
   command_.option("--from", from_, "S",
-                  "up to this virtual time all runs are one, in the default order; they part there");
-  command_.repeated("--set", assignments_, "KEY=VALUE", "set a value of the scenario, as in waitpoint run");
-  command_.option("--shard", shard_, "I/N", "of the schedules, only each N-th, from the I-th on: for several machines");
-  command_.option("--results", results_, "FILE", "try all, and write a line for each: number, digest, outcome");
-  command_.option("--replay", replay_, "TOKEN|FILE", "run this schedule alone (default: $WAITPOINT_REPLAY)");
+                  "share one run in the default order up to virtual time S, in seconds (default: 0)");
+  command_.repeated("--set", assignments_, "KEY=VALUE", "override a value of the scenario, as in waitpoint run");
+  command_.option("--shard", shard_, "I/N",
+                  "run every N-th schedule from the I-th on, to split a search among machines");
+  command_.option("--results", results_, "FILE", "run all schedules, and write number, digest and outcome of each");
+  command_.option("--replay", replay_, "TOKEN|FILE", "run only this schedule (default: $WAITPOINT_REPLAY)");
   command_.option("--schedule", schedule_, "FILE", "write the failing schedule, minimised, for --replay");
   command_.option("--trace", trace_, "FILE.json",
-                  "write the last seconds before the failure for the viewers of Chrome and Perfetto");
+                  "write the last seconds before the failure as a trace for Chrome and Perfetto");
   conditions_.add_to(command_);
-  command_.flag("--no-minimize", keep_all_, "tell the failure as it was found");
+  command_.flag("--no-minimize", keep_all_, "report the failure as found, without minimisation");
   command_.footer(
-      "Exit status: 0 no failure was found, 1 one was, 2 bad input, 130 stopped by a signal, after telling what was\n"
-      "done. docs/exploring-scenarios.md has the rest.");
+      "Exit status: 0 no failure found, 1 failure found, 2 bad input, 130 stopped by a signal, after a report of the\n"
+      "schedules run. See docs/exploring-scenarios.md.");
 }
 
-// A program has no such thing.
+// These options need a scenario.
 void ExploreArguments::check_program() const {
   if (!scenario_.empty())
     throw BadInput("explore",
@@ -132,13 +132,14 @@ void ExploreArguments::check_program() const {
 
 void ExploreArguments::check_exhaustive(const std::string& where, const ExploreOptions& options) const {
   if (!is_program_)
-    refuse(where, "a strategy that draws its schedules: there are too many to try all of them", options.strategy);
+    refuse(where, "a strategy that draws its schedules (a scenario has too many for an exhaustive search)",
+           options.strategy);
   if (!DepthFirst::of(options.strategy))
     refuse(where, "dfs, bounded:K or a strategy that draws its schedules", options.strategy);
   for (const auto& [name, value] : {std::pair<const char*, const std::string&>{"--jobs", jobs_}, {"--shard", shard_}})
     if (!value.empty())
-      throw BadInput(name,
-                     "cannot be used together with " + options.strategy + ", whose schedules follow from each other");
+      throw BadInput(name, "cannot be used together with " + options.strategy +
+                               ", which derives each schedule from the one before");
 }
 
 ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {
@@ -146,13 +147,13 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   if (is_program_) {
     check_program();
     if (words.empty())
-      throw BadInput("explore", "expected what to run: waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");
+      throw BadInput("explore", "expected a program: waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");
     options.program = words;
     options.conditions = conditions_.conditions(true);
   } else if (scenario_.empty()) {
     throw BadInput("explore", "expected a scenario's file, or --exec and a program");
   } else if (const std::string given = conditions_.first_given(); !given.empty()) {
-    throw BadInput(given, "expected --exec and a program: a scenario says such things itself");
+    throw BadInput(given, "expected --exec and a program: for a scenario, its file sets this");
   }
   options.scenario = scenario_;
   options.assignments = assignments_;
@@ -164,7 +165,7 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   const exploration::Kinds kinds = is_program_ ? exploration::Kinds::all : exploration::Kinds::drawing;
   if (exploration::make_strategy(options.strategy, kinds)->is_exhaustive()) check_exhaustive(where, options);
   take("--time-limit", "WAITPOINT_TIME_LIMIT", time_limit_,
-       "a positive number of seconds (where it is not given there is no limit)", std::numeric_limits<double>::min(),
+       "a positive number of seconds (omit the option for no limit)", std::numeric_limits<double>::min(),
        options.time_limit_s);
   double schedule_limit_s = -1;
   take("--schedule-limit", "WAITPOINT_SCHEDULE_LIMIT", schedule_limit_, "a number of seconds, 0 for no limit", 0.0,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `waitpoint explore` is asked for, as values.
+// The options of `waitpoint explore` as values.
 #pragma once
 
 #include <cstdint>
@@ -14,44 +14,44 @@
 
 namespace waitpoint::tools {
 
-/// The part of a campaign that one machine does: every `count`-th schedule, from number `index` - 1 on.
+/// One machine's part of a search: every `count`-th schedule, starting with number `index` - 1.
 struct Shard {
   std::uint64_t index = 1, count = 1;
 };
 
 struct ExploreOptions {
   std::filesystem::path scenario;
-  std::vector<std::string> program;      ///< instead of a scenario: its words
-  std::vector<std::string> assignments;  ///< of --set, then those of --property: "expect.collisions=0"
+  std::vector<std::string> program;      ///< its words; instead of a scenario
+  std::vector<std::string> assignments;  ///< of --set, then of --property: "expect.collisions=0"
   std::vector<std::string> properties;   ///< of --property: "collisions=0"
   std::string strategy = "portfolio";
   std::uint64_t seed = 1;
-  bool seed_is_asked = false;                   ///< and not the default
-  std::uint64_t iterations = 1000;              ///< schedules, at most, of all shards
-  double time_limit_s = 0;                      ///< of the wall clock; 0: none
-  std::optional<double> schedule_limit_s = {};  ///< of one schedule; 0: none; else by what the default order takes
+  bool seed_is_asked = false;                   ///< given explicitly
+  std::uint64_t iterations = 1000;              ///< the maximum number of schedules, over all shards
+  double time_limit_s = 0;                      ///< wall clock; 0: none
+  std::optional<double> schedule_limit_s = {};  ///< of one schedule; 0: none; default: from the default order's time
   std::uint32_t jobs = 1;                       ///< processes at once
-  std::optional<Duration> until;                ///< instead of the scenario's
-  std::optional<Duration> from;                 ///< to where all schedules are one
+  std::optional<Duration> until;                ///< overrides the scenario's
+  std::optional<Duration> from;                 ///< the end of the part that all schedules share
   Shard shard;
-  std::optional<std::filesystem::path> results, trace, schedule;  ///< to write
-  std::string replay;                                             ///< a token or a file's name: that one alone
+  std::optional<std::filesystem::path> results, trace, schedule;  ///< output files
+  std::string replay;  ///< a token or a file's name, to run only that schedule
   bool minimize = true;
   ProgramConditions conditions;  ///< of a program
 
-  /// When a run ends at the latest, of a scenario that says `own`.
+  /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
 };
 
-/// The arguments as they are written, and their place on the command line.
+/// The arguments as text, and their definition.
 class ExploreArguments {
  public:
   /// Adds the command with its options.
   explicit ExploreArguments(CommandLine& line);
 
-  /// Whether the command line has it.
+  /// True if the command line has this command.
   bool parsed() const { return command_.parsed(); }
-  /// What they say, with the words behind `--`; BadInput where they cannot be meant.
+  /// The parsed options, with the words after `--`; BadInput for invalid values and combinations.
   ExploreOptions options(const std::vector<std::string>& words) const;
 
  private:

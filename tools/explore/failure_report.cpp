@@ -23,7 +23,7 @@ constexpr std::uint64_t runs_to_minimize = 2000, runs_to_explain = 200;
 constexpr double seconds_to_minimize = 90, seconds_to_explain = 60;
 constexpr Duration traced = std::chrono::seconds(2);
 
-// Of the run by this plan; nothing where it takes another process's events, or begins in mid-run.
+// The trail of the run by this plan; empty for programs, runs from mid-run and killed runs.
 exploration::Trail trail_of(Target& target, const Plan& plan, const Finding& finding) {
   exploration::Trail trail;
   const ExploreOptions& options = target.options();
@@ -38,7 +38,7 @@ std::string headline(const std::string& which, const Finding& finding) {
   return fmt::format("{} failed at {} s: {}\n", which, to_string(finding.end), finding.words);
 }
 
-/// The failing run once more: switches in words, then what happened last.
+/// Repeats the failing run to describe its switches and its last events.
 void tell_run(Target& target, const Plan& plan, const Finding& least, FailureReport& report) {
   const Time from = Time() + std::max(Duration(), least.end.since_start() - traced);
   const auto told = run_apart(target, plan, {.words = true, .places = true, .events = true, .events_from = from});
@@ -46,7 +46,7 @@ void tell_run(Target& target, const Plan& plan, const Finding& least, FailureRep
   report.text += told->details;
   if (!told->told.empty()) report.text += "switches away from the default order:\n" + told->told;
   if (!told->last_events.empty())
-    report.text += "what the tasks did last (*: in place of one that could have gone on):\n" + told->last_events;
+    report.text += "last events of the tasks (*: of a task that preempted another):\n" + told->last_events;
   report.trace = told->trace;
 }
 
@@ -95,7 +95,7 @@ FailureReport report(Target& target, SearchProgress& progress, const Search::Fai
                failed.finding);
   Token found{0, token_digest(failed.finding.digest), options.strategy, options.seed, failed.number, {}};
   Plan plan{.number = failed.number};
-  if (DepthFirst::of(options.strategy)) {  // which draws nothing
+  if (DepthFirst::of(options.strategy)) {  // these draw nothing
     found = {0, found.digest, "", 0, 0, failed.finding.deviations};
     plan = {.drawn = false, .switches = {}, .deviations = failed.finding.deviations};
   }
@@ -109,7 +109,7 @@ FailureReport report(Target& target, SearchProgress& progress, const Search::Fai
     if (fewer.is_noise()) {
       report.text += target.has_noise() ? "it is the noise, not the order: with the noise of this schedule the default "
                                           "order fails too\n"
-                                        : "now and then the default order fails too\n";
+                                        : "the default order fails too, intermittently\n";
     } else if (fewer.repeats()) {
       const std::size_t count = fewer.least().switches.size();
       report.text += fmt::format("{} {} away from the default order {}, of {} that were found ({})\n", count,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A failure of a target for a person: what failed, in as few switches as can be found, the last choice that mattered,
-// what the tasks did last, and the line that repeats it.
+// The report of a target's failure for people: the failure, minimised to the fewest switches found, the last choice
+// that mattered, the last events of the tasks, and the replay command.
 #pragma once
 
 #include <string>
@@ -11,17 +11,18 @@
 namespace waitpoint::tools {
 
 struct FailureReport {
-  std::string text;         ///< some lines
-  StoredSchedule schedule;  ///< the least that was found
-  std::string trace;        ///< of its last seconds, where the options ask for it
+  std::string text;         ///< several lines
+  StoredSchedule schedule;  ///< the minimised one
+  std::string trace;        ///< of its last seconds, if requested
 };
 
-/// Of what the default order comes to.
+/// The report of a failing default order.
 FailureReport report_default(Target& target, const Finding& finding);
-/// Of what failed in a search. Takes some minutes at most.
+/// The report of a failure found by a search. Takes at most a few minutes.
 FailureReport report(Target& target, SearchProgress& progress, const Search::Failed& failed);
 
-/// The command that runs the target with these options; with `replayed`, a token or a file's name, that schedule of it.
+/// The command that repeats the target's run with these options; with `replayed`, a token or a file's name, that
+/// schedule.
 std::string replay_command(const ExploreOptions& options, const std::string& replayed = "");
 
 }  // namespace waitpoint::tools

@@ -10,13 +10,13 @@ namespace {
 
 using exploration::Switch;
 
-// With other switches the same may come somewhat later.
+// With other switches the same failure may occur somewhat later.
 constexpr Duration longer = std::chrono::seconds(5);
 
-// Of so few switches each is left out with the later ones moved, too.
+// Up to this number of switches, leaving one out is also tried with the later ones shifted.
 constexpr std::size_t few = 40;
 
-// In a run of so few decisions each is tried in all its other ways.
+// In runs of up to this number of decisions, all alternatives of each decision are tried.
 constexpr std::uint64_t few_decisions = 400;
 
 }  // namespace
@@ -43,7 +43,7 @@ std::optional<Finding> FewerSwitches::tried(Plan plan) {
 bool FewerSwitches::fails(std::uint64_t number, const std::vector<Switch>& switches) {
   std::optional<Finding> finding = tried({.number = number, .switches = switches});
   if (!finding || !is_same_failure(least_, *finding)) return false;
-  // A switch that was left out may bring others about that were none before.
+  // Leaving a switch out may cause new ones.
   if (repeats_ && finding->switches.size() > least_.switches.size()) return false;
   number_ = number;
   least_ = std::move(*finding);
@@ -51,7 +51,7 @@ bool FewerSwitches::fails(std::uint64_t number, const std::vector<Switch>& switc
 }
 
 void FewerSwitches::run() {
-  if (least_.kind == Finding::Kind::killed) return;  // what it chose went with it
+  if (least_.kind == Finding::Kind::killed) return;  // its choices died with it
   is_noise_ = fails(number_, {});
   if (!is_noise_) {
     repeats_ = fails(number_, least_.switches);
@@ -62,24 +62,24 @@ void FewerSwitches::run() {
   if (number_ != 0 && !is_noise_) (void)fails(0, least_.switches);
 }
 
-// The default order, but at one decision.
+// Tries the default order with a single deviation, at each decision.
 void FewerSwitches::seek_one() {
   for (std::uint32_t decision = 0; decision < least_.decisions; ++decision)
     for (std::uint32_t chosen = 0;; ++chosen) {
       std::optional<Finding> finding = tried({.number = number_, .deviations = {{decision, chosen}}});
       if (!finding) return;
-      if (finding->parted) break;  // there are no more ways
+      if (finding->parted) break;  // no further alternatives
       if (!is_same_failure(least_, *finding)) continue;
       least_ = std::move(*finding);
       return;
     }
 }
 
-// Without a switch its two tasks may have an event more or less, so that later switches stand at other numbers.
+// Without a switch, its two tasks may have one event more or less, which shifts the numbers of later switches.
 bool FewerSwitches::leave_out_and_move(std::vector<Switch> others, const Switch& gone, std::size_t at) {
   const std::vector<Switch> unmoved = others;
   for (int variant = 0; variant < 9; ++variant) {
-    if (variant == 4) continue;  // neither is moved
+    if (variant == 4) continue;  // no shift
     const std::int64_t usual = variant % 3 - 1, instead = variant / 3 - 1;
     for (std::size_t i = at; i < others.size(); ++i) {
       others[i] = unmoved[i];

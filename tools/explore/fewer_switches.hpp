@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A failing schedule of a target with as few switches away from the default order as a budget finds: what is left is
-// what matters. Switches are left out as long as the rest fails in the same way, with the same noise
-// (fibers/explore/schedules/leave_out.hpp); where several are left of a short run, one at another place may do the work
-// of all; and at last the noise is left out too, if it can be.
+// Minimises the switches away from the default order of a failing schedule, within a budget: the rest is what matters.
+// Switches are left out as long as the rest fails in the same way, with the same noise
+// (fibers/explore/schedules/leave_out.hpp); if several remain in a short run, a single switch elsewhere is tried
+// instead; finally the noise is left out, if possible.
 #pragma once
 
 #include "tools/explore/budget.hpp"
@@ -12,22 +12,22 @@ namespace waitpoint::tools {
 
 class FewerSwitches {
  public:
-  /// Of what failed as `found` with the noise of schedule `number`.
+  /// Minimises the failure `found`, with the noise of schedule `number`.
   FewerSwitches(Target& target, SearchProgress& progress, Budget& budget, std::uint64_t number, const Finding& found);
 
   void run();
 
-  /// The least that fails alike: of these numbers' noise, with these switches.
+  /// The minimal failing run: with this noise and these switches.
   const Finding& least() const { return least_; }
   std::uint64_t number() const { return number_; }
-  /// The default order fails too.
+  /// True if the default order fails too.
   bool is_noise() const { return is_noise_; }
-  /// Whether the schedule repeats by its switches alone; else nothing could be left out.
+  /// True if the schedule repeats by its switches alone; otherwise nothing could be left out.
   bool repeats() const { return repeats_; }
 
  private:
   bool fails(std::uint64_t number, const std::vector<exploration::Switch>& switches);
-  /// What that plan comes to; nothing where the effort is at its end.
+  /// The finding of that plan; nothing once the budget is exhausted.
   std::optional<Finding> tried(Plan plan);
   void leave_out();
   void seek_one();

@@ -72,7 +72,7 @@ void pass_task(Pass& pass, Task& task) {
   pass(task.objects);
 }
 
-// The fields in their order, for both ways.
+// The order of the fields, for both directions.
 template <class Pass, class F>
 void pass_fields(Pass& pass, F& finding) {
   pass(finding.kind);
@@ -98,7 +98,7 @@ void pass_fields(Pass& pass, F& finding) {
 
 constexpr std::size_t events_shown = 30, lines_of_switches_max = 12;
 
-// Numbers out of the way: those in the words differ from schedule to schedule.
+// Ignores numbers: those in the words differ from schedule to schedule.
 std::string without_digits(std::string text) {
   std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
   return text;
@@ -135,7 +135,7 @@ void Finding::tell(const std::string& event, const std::vector<std::string>& cal
 
 bool is_same_failure(const Finding& a, const Finding& b) {
   if (a.passed() || a.kind != b.kind) return false;
-  // A deadlock's tasks, and the places of a lack of progress, differ too.
+  // The tasks of a deadlock, and the places of a lack of progress, may differ.
   if (a.kind == Finding::Kind::deadlock || a.kind == Finding::Kind::no_progress) return true;
   return without_digits(a.headline()) == without_digits(b.headline());
 }

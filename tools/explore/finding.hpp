@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one schedule of a scenario came to. It is made in a process of its own and goes through a pipe: as bytes of one
-// program to the same program.
+// The result of one schedule. Computed in a process of its own and sent through a pipe, from a program to itself, as
+// bytes.
 #pragma once
 
 #include <cstdint>
@@ -21,41 +21,41 @@ struct Finding {
   enum class Kind : std::uint8_t { passed, unmet, deadlock, no_progress, exception, killed };
 
   Kind kind = Kind::passed;
-  std::string words;         ///< of a failure: what happened, its first line in short
-  std::uint64_t digest = 0;  ///< 0: not known, as the process was killed
-  Time end;                  ///< when it was over, or known to have failed
+  std::string words;         ///< the failure; its first line is the headline
+  std::uint64_t digest = 0;  ///< 0: unknown, the process was killed
+  Time end;                  ///< when the run ended, or its failure was certain
   std::uint64_t events = 0;
   std::uint64_t decisions = 0;
-  std::vector<exploration::Switch> switches;       ///< of a failure
-  std::vector<exploration::Deviation> deviations;  ///< the same
-  std::vector<exploration::Decision> choices;      ///< where asked for: all
-  bool parted = false;                             ///< what was played did not fit the run
-  std::string details;                             ///< of a failure, where places are asked for: lines about its kind
-  std::string told;                                ///< where asked for: the switches in words, a decision or an event
-  std::string last_events;                         ///< where asked for, in words
-  std::string trace;                               ///< where asked for
-  std::vector<exploration::DoneEvent> log;         ///< where asked for
-  std::string trail;                               ///< where asked for
-  exploration::Profile profile;                    ///< where asked for
+  std::vector<exploration::Switch> switches;       ///< for failures
+  std::vector<exploration::Deviation> deviations;  ///< the same switches
+  std::vector<exploration::Decision> choices;      ///< if requested: all of them
+  bool parted = false;                             ///< the plan did not fit the run
+  std::string details;                      ///< for failures, if places are requested: lines specific to the kind
+  std::string told;                         ///< if requested: the switches, a decision or an event, in words
+  std::string last_events;                  ///< if requested, in words
+  std::string trace;                        ///< if requested
+  std::vector<exploration::DoneEvent> log;  ///< if requested
+  std::string trail;                        ///< if requested
+  exploration::Profile profile;             ///< if requested
 
   bool passed() const { return kind == Kind::passed; }
-  /// Takes over what was chosen; of a failure, how it repeats.
+  /// Copies the choices, and for a failure its switches.
   void take(const exploration::Explorer& explorer);
-  /// Takes over the decision that was asked for, or with `switches_too` the switches in words.
+  /// Copies the requested decision, or with `switches_too` the switches in words.
   void tell(const exploration::Narrator& narrator, bool decision_asked, bool switches_too);
-  /// Takes over what the tasks did.
+  /// Copies the tasks' events.
   void tell(const exploration::Timeline& timeline, bool trace_too);
-  /// Takes over the event before which the run was to end, with the calls that its task was in.
+  /// Copies the event before which the run was to end, with its task's call stack.
   void tell(const std::string& event, const std::vector<std::string>& calls);
   /// "2 collisions, expected 0".
   std::string headline() const { return words.substr(0, words.find('\n')); }
 };
 
-/// Whether both failed in the same way: in the same words, but for numbers, which differ from schedule to schedule.
+/// True if both failed in the same way: with the same words, ignoring numbers, which differ from schedule to schedule.
 bool is_same_failure(const Finding& a, const Finding& b);
 
 std::string to_bytes(const Finding& finding);
-/// Of what to_bytes() wrote, whole.
+/// Parses the complete output of to_bytes().
 Finding finding_of(std::string_view bytes);
 /// "wp1:0123456789abcdef".
 std::string digest_text(std::uint64_t digest);

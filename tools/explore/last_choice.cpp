@@ -6,9 +6,9 @@
 namespace waitpoint::tools {
 namespace {
 
-// Of each choice that is looked at.
+// Continuations tried for each candidate choice.
 constexpr std::uint64_t continuations = 4;
-// It has passed that long after the time at which the other failed.
+// A run that survives the other's failure by this much counts as passed.
 constexpr Duration longer = std::chrono::seconds(5);
 
 }  // namespace

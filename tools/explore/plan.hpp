@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run out of the many that a scenario can have: from (seed, strategy, number) or, for a schedule that was cut
-// shorter, from the switches away from the default order that are left of it.
+// One of the possible runs of a target: drawn from (seed, strategy, number), or, for a minimised schedule, given by its
+// remaining switches away from the default order.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 namespace waitpoint::tools {
 
 struct Plan {
-  std::uint64_t number = 0;  ///< of the schedule: whose noise it is, and whose draws
-  bool drawn = true;         ///< by the strategy; false: the default order, but for what follows
+  std::uint64_t number = 0;  ///< of the schedule, for its noise and its draws
+  bool drawn = true;         ///< by the strategy; false: the default order with the deviations below
   std::vector<exploration::Switch> switches = {};
   std::vector<exploration::Deviation> deviations = {};
-  std::optional<std::size_t> at_random_from = {};  ///< behind this decision any alternative is taken
-  std::uint64_t attempt = 0;                       ///< which of the random continuations
-  Time until = Time::max();                        ///< it is not followed farther, whatever the options say
+  std::optional<std::size_t> at_random_from = {};  ///< random alternatives after this decision
+  std::uint64_t attempt = 0;                       ///< the number of the random continuation
+  Time until = Time::max();                        ///< upper limit besides that of the options
 };
 
 }  // namespace waitpoint::tools

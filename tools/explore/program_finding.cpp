@@ -18,15 +18,15 @@ namespace {
 
 using posix::Asked;
 
-// What reads clocks or gives way stays at one instant with the others for so many of these.
+// Clock reads and yields that are paid for together: that many of them happen at one instant.
 constexpr std::uint32_t looks_at_once = 64;
 
-/// A copy for the program, in the memory that it shares.
+/// A copy for the program, in shared memory.
 template <class T>
 std::span<const T> copied(posix::Arena& arena, const std::vector<T>& values) {
   if (values.empty()) return {};
   T* const copy = static_cast<T*>(arena.take(values.size() * sizeof(T)));
-  if (copy == nullptr) throw BadInput("exec", "what is known of the program is too much to be told");
+  if (copy == nullptr) throw BadInput("exec", "the program's profile is too large");
   std::uninitialized_copy(values.begin(), values.end(), copy);
   return {copy, values.size()};
 }
@@ -44,15 +44,15 @@ void judge(const RunMemory& memory, int status, Finding& finding) {
   const posix::Ending ending = memory.record().ending;
   finding.kind = Finding::Kind::unmet;
   if (!memory.record().began) {
-    finding.words = "it did not come to its main()";
+    finding.words = "did not reach main()";
   } else if (ending == posix::Ending::deadlock) {
     finding.kind = Finding::Kind::deadlock;
     finding.words = "deadlock";
   } else if (ending == posix::Ending::no_progress) {
     finding.kind = Finding::Kind::no_progress;
-    finding.words = "no progress: its threads look for something again and again";
+    finding.words = "no progress: the threads poll without end";
   } else if (WIFSIGNALED(status)) {
-    finding.words = "ended by " + signal_in_words(WTERMSIG(status));
+    finding.words = "terminated by " + signal_in_words(WTERMSIG(status));
   } else if (WEXITSTATUS(status) != 0) {
     finding.words = "exit status " + std::to_string(WEXITSTATUS(status));
   } else {

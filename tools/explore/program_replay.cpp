@@ -17,7 +17,7 @@
 namespace waitpoint::tools {
 namespace {
 
-/// What a run in the default order shows; the program's output is not seen.
+/// The profile of a run in the default order; the program's output is discarded.
 exploration::Profile look(const ProgramFiles& files, const ExploreOptions& options, const Target::Request& request,
                           const exploration::Profile& known) {
   RunMemory memory(settings_of(options), files.programs);
@@ -28,7 +28,7 @@ exploration::Profile look(const ProgramFiles& files, const ExploreOptions& optio
   return finding_of_run(memory, run.status(), "", request, false).profile;
 }
 
-/// As much of it as the schedule depends on.
+/// The parts of the profile that the schedule depends on.
 exploration::Profile take_profile(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan) {
   exploration::Profile known, profile;
   if (files.instrumented) known.code = look(files, options, {.learn = true}, {}).code;
@@ -52,7 +52,7 @@ int replay_program(const ExploreOptions& asked) {
   ask_for_run(memory, options, record.plan, request, profile);
   const ProgramRun run(files, memory);
   const Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());
-  if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before it came to its main()");
+  if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before main()");
   const posix::Explored& explored = *memory.record().explored;
   check_is_run_of(record, {explored.explorer.schedule(), explored.narrator.switches(), finding}, options.replay);
   if (trace) {

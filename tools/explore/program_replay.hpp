@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --replay: one schedule of a program again, with its input and output as they are without waitpoint.
+// --replay: repeats one schedule of a program, with its input and output connected as without waitpoint.
 #pragma once
 
 #include "tools/explore/explore_options.hpp"
 
 namespace waitpoint::tools {
 
-/// Runs the schedule that options.replay names, and says what it came to and whether it is the same run. Returns the
-/// exit status: 0 if it passes and is the same run, else 1. BadInput for a token or a file of something else.
+/// Runs the schedule that options.replay names; reports its outcome and whether it equals the recorded run. Returns the
+/// exit status: 0 if it passes and is equal, else 1. BadInput for a token or a file of another target.
 int replay_program(const ExploreOptions& options);
 
 }  // namespace waitpoint::tools

@@ -20,7 +20,7 @@ namespace {
 constexpr int look_around_ms = 1000;
 constexpr std::size_t output_shown = 2000;
 
-// What runs read, each from its beginning: our own input, if that is a file, else nothing.
+// Standard input of the runs, each from the beginning: this process's own if it is a regular file, else empty.
 int open_input() {
   struct stat of {};
   const bool is_file = fstat(STDIN_FILENO, &of) == 0 && S_ISREG(of.st_mode);
@@ -31,7 +31,7 @@ int opened_again(int descriptor) {
   return open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), O_RDONLY | O_CLOEXEC);
 }
 
-// The last lines, each indented.
+// The last lines, indented.
 std::string end_of(int output) {
   const off_t size = lseek(output, 0, SEEK_END);
   const off_t from = std::max<off_t>(0, size - static_cast<off_t>(output_shown));
@@ -75,7 +75,7 @@ ProgramTarget::~ProgramTarget() { close(input_); }
 
 void ProgramTarget::prepare() { server_.emplace(files_, settings_of(options_)); }
 
-// The default order shows what it shows with the switch points that all runs have.
+// The default order's profile is taken with the switch points that all runs have.
 Finding ProgramTarget::run(const Plan& plan, const Request& request) {
   if (!request.profile || !files_.instrumented) return run_once(plan, request);
   profile_.code = run_once(plan, {.learn = true}).profile.code;

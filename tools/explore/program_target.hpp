@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program whose threads are simulated, as it comes: it fails by its exit status, a signal or a deadlock.
+// An unmodified program with simulated threads: it fails by its exit status, a signal, a deadlock or a lack of
+// progress.
 //
-// Each run is a process that is forked where the program is about to enter its main(). All have the same random numbers
-// and addresses; only their schedules differ.
+// Each run is a process forked just before the program's main(). All runs have the same random numbers and addresses;
+// only the schedules differ.
 #pragma once
 
 #include "tools/exec/fork_server.hpp"
@@ -12,7 +13,7 @@ namespace waitpoint::tools {
 
 class ProgramTarget final : public Target {
  public:
-  /// BadInput for a program that cannot be run. The options must outlive it.
+  /// BadInput for a program that cannot be simulated. The options must outlive this.
   explicit ProgramTarget(const ExploreOptions& options);
 
   ~ProgramTarget() override;
@@ -37,7 +38,7 @@ class ProgramTarget final : public Target {
   std::optional<ForkServer> server_;
 };
 
-/// Of the program's file, its words and what its runs have in common.
+/// A digest of the program's file, its words and the settings that its runs share.
 std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& options);
 
 }  // namespace waitpoint::tools

@@ -32,7 +32,7 @@ int replay(const ExploreOptions& asked, const bridge::Scenario& scenario, std::s
   const Finding finding = scene.run(record.plan, request);
   check_is_run_of(record, {scene.schedule(), scene.switches(), finding}, options.replay);
   bridge::RunResult result = scene.result();
-  result.seed = options.seed;  // not that of the schedule's noise, which follows from it
+  result.seed = options.seed;  // not the seed of the schedule's noise, which is derived from it
   result.wall_s = wall_clock_s() - start_s;
   result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
   std::fputs(summary_text(result).c_str(), stdout);

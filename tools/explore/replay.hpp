@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --replay: one schedule of a scenario again, in this process, so that a debugger sees it.
+// --replay: repeats one schedule of a scenario in this process, for debuggers.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace waitpoint::tools {
 
-/// Runs the schedule that options.replay names, prints what it came to and whether it is the same run. Returns the exit
-/// status: 0 if it passes and is the same run, else 1. BadInput for a token or a file of something else.
+/// Runs the schedule that options.replay names; prints its outcome and whether it equals the recorded run. Returns the
+/// exit status: 0 if it passes and is equal, else 1. BadInput for a token or a file of another target.
 int replay(const ExploreOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types);
 
 }  // namespace waitpoint::tools

@@ -15,7 +15,7 @@ namespace {
 using exploration::Switch;
 using exploration::Token;
 
-/// The record's seed becomes the options'.
+/// Adopts the record's seed as the options'.
 void take_seed(ExploreOptions& options, std::uint64_t seed) {
   if (options.seed_is_asked && options.seed != seed)
     throw BadInput(
@@ -26,8 +26,9 @@ void take_seed(ExploreOptions& options, std::uint64_t seed) {
 ReplayRecord of_token(ExploreOptions& options) {
   const Token token = exploration::read_token(options.replay);
   if (token.call != 0)
-    throw BadInput("--replay", "the token '" + options.replay +
-                                   "' is of a test that explores; expected one of waitpoint explore, wx1.0...");
+    throw BadInput("--replay",
+                   "the token '" + options.replay +
+                       "' belongs to a test that calls explore(); expected one of waitpoint explore, wx1.0...");
   ReplayRecord record;
   record.digest = std::uint64_t{token.digest} << 32;
   record.digest_bits = token.digest == 0 ? 0 : 32;
@@ -59,7 +60,7 @@ ReplayRecord of_file(ExploreOptions& options, std::uint64_t fingerprint) {
   record.digest_bits = record.digest == 0 ? 0 : 64;
   record.trail = record.stored.trail;
   record.plan = {.number = record.stored.number, .drawn = false, .switches = record.stored.switches};
-  // Of a process that was ended nothing is known but what drew its schedule.
+  // A killed process left nothing but the draw of its schedule.
   if (record.digest == 0 && record.stored.switches.empty()) {
     options.strategy = record.stored.strategy;
     record.plan = {.number = record.stored.number};
@@ -69,33 +70,33 @@ ReplayRecord of_file(ExploreOptions& options, std::uint64_t fingerprint) {
   return record;
 }
 
-/// How far the run was that of the record, which left it at the record's switch number `i`.
+/// How far the run followed the record, which it left at the record's switch number `i`.
 std::string known_before(const Replayed& run, std::size_t i) {
-  if (i == 0 || run.told.size() < i) return "no switch of the record was come to before";
+  if (i == 0 || run.told.size() < i) return "no switch of the record was reached before";
   return fmt::format("the run was the record's up to event {}", run.told[i - 1].event);
 }
 
-/// Where the run left the record, in words; empty if it did not.
+/// Where the run left the record, in words; empty if nowhere.
 std::string parting(const ReplayRecord& record, const Replayed& run) {
   const Finding& finding = run.finding;
-  const std::string where = fmt::format("behind event {} at {} s", finding.events, to_string(finding.end));
+  const std::string where = fmt::format("after event {} at {} s", finding.events, to_string(finding.end));
   std::vector<Switch> met = run.schedule.switches;
   std::sort(met.begin(), met.end());
   for (std::size_t i = 0; i < record.plan.switches.size(); ++i) {
     const Switch& change = record.plan.switches[i];
     if (std::binary_search(met.begin(), met.end(), change)) continue;
-    return fmt::format("line {}: event {} of task {:016x} did not come to a choice that has this switch; {}",
+    return fmt::format("line {}: event {} of task {:016x} did not reach a choice with this switch; {}",
                        line_of_switch(i), change.usual.sequence, change.usual.task, known_before(run, i));
   }
   for (std::size_t i = 0; i < record.plan.deviations.size(); ++i) {
     const auto& [number, chosen] = record.plan.deviations[i];
     if (number >= run.schedule.decisions.size())
-      return fmt::format("choice {} was never come to: the run was over {}", number, where);
+      return fmt::format("choice {} was never reached: the run ended {}", number, where);
     if (const std::uint32_t count = run.schedule.decisions[number].count; chosen >= count)
       return fmt::format("choice {} has only {} alternatives, none of the number {}; {}", number, count, chosen,
                          known_before(run, i));
   }
-  return finding.parted ? "a choice had fewer alternatives than the one taken; the run was over " + where : "";
+  return finding.parted ? "a choice had fewer alternatives than the one taken; the run ended " + where : "";
 }
 
 }  // namespace
@@ -111,7 +112,7 @@ void check_is_run_of(const ReplayRecord& record, const Replayed& run, const std:
   if (is_known ? run.finding.digest >> shift == record.digest >> shift : where.empty() && !run.finding.passed()) return;
   const std::string source = exploration::is_token(name) ? "--replay" : name;
   if (!is_known && where.empty())
-    throw BadInput(source, "this is not the run of the record: that one ended its process, this one passed");
+    throw BadInput(source, "this is not the run of the record: that one crashed or was killed, this one passed");
   std::string digests =
       fmt::format("it had {} events and a digest that begins with {}, the record says {}", run.finding.events,
                   exploration::digest_text(exploration::token_digest(run.finding.digest)),

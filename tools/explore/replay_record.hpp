@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --replay names, a token or a file: the run that is to be repeated, and by what it is known.
+// The record that --replay names, a token or a file: a run to repeat, and its identification.
 #pragma once
 
 #include "fibers/explore/report/narrator.hpp"
@@ -12,25 +12,24 @@ namespace waitpoint::tools {
 
 struct ReplayRecord {
   Plan plan;
-  std::uint64_t digest = 0;  ///< 0: not known
-  int digest_bits = 0;       ///< so many of the upper ones are known
-  exploration::Trail trail;  ///< where it is known
+  std::uint64_t digest = 0;  ///< 0: unknown
+  int digest_bits = 0;       ///< number of known upper bits of the digest
+  exploration::Trail trail;  ///< if known
   StoredSchedule stored;     ///< of a file
 };
 
-/// A run by the plan of a record.
+/// A run by a record's plan.
 struct Replayed {
   const exploration::Schedule& schedule;
   const std::vector<exploration::Told>& told;  ///< its switches
   const Finding& finding;
 };
 
-/// Of options.replay, for the target of this fingerprint; the record's strategy and seed become the options'. BadInput
-/// for a token or a file of something else.
+/// Reads options.replay, for the target with this fingerprint; the record's strategy and seed become the options'.
+/// BadInput for a token or a file of another target.
 ReplayRecord read_replay_record(ExploreOptions& options, std::uint64_t fingerprint);
 
-/// BadInput, which says where it parted, for a run that is another one than that of the record; `name` is what
-/// --replay named.
+/// BadInput, with the first difference, if the run differs from the record's; `name` is the argument of --replay.
 void check_is_run_of(const ReplayRecord& record, const Replayed& run, const std::string& name);
 
 }  // namespace waitpoint::tools

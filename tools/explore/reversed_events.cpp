@@ -11,7 +11,7 @@ namespace {
 using exploration::DoneEvent;
 using exploration::EventPair;
 
-// Alternatives that are tried: of how long a computation takes there are many, much alike.
+// Limit of alternatives tried: the durations of a computation are many and much alike.
 constexpr std::uint32_t alternatives_max = 8;
 
 class Comparison {
@@ -26,7 +26,7 @@ class Comparison {
     fails_ = failing->log;
     for (std::uint32_t other = 0; other < alternatives_max && !is_plainest(); ++other) {
       const std::optional<Finding> tried = log_of(least_.plan_up_to(choice_.decision, other));
-      if (!tried || tried->parted) break;  // there are no more
+      if (!tried || tried->parted) break;  // no further alternatives
       consider(least_.plan_up_to(choice_.decision, other), *tried);
     }
     if (!passes_)
@@ -67,8 +67,8 @@ class Comparison {
   Budget& budget_;
   const LeastFailure& least_;
   const LastChoice& choice_;
-  std::vector<DoneEvent> fails_;  // of the failing run, behind the choice
-  std::optional<Plan> passes_;    // what shows best what mattered
+  std::vector<DoneEvent> fails_;  // of the failing run, after the choice
+  std::optional<Plan> passes_;    // the passing run with the fewest differences
   std::optional<EventPair> pair_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of a failing run and the last choice from which it could still have passed: the two events whose order matters, with
-// the call stacks of both (fibers/explore/report/reordered_events.hpp).
+// The two events whose order matters, for a failing run and the last choice from which it could still have passed, with
+// both call stacks (fibers/explore/report/reordered_events.hpp).
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace waitpoint::tools {
 
-/// In lines. What passes is sought among the alternatives at that choice, each with the default order behind it, which
-/// leaves the fewest differences; else it is what showed that the choice is the last one. Empty where the budget does
-/// not reach.
+/// Text lines. The passing run is the one with the fewest differences among the alternatives at that choice, each
+/// followed by the default order; else the run that showed the choice to be the last one. Empty if the budget is
+/// exhausted.
 std::string reversed_events(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
                             const LastChoice& choice);
 

@@ -19,7 +19,7 @@ namespace {
 
 using exploration::Narrator;
 
-// Between them expectations are looked at that a run cannot meet any more.
+// Interval at which expectations are checked that a run can no longer meet.
 constexpr Duration window = std::chrono::milliseconds(100);
 constexpr std::uint32_t steps_of_an_instant_max = 100'000;
 
@@ -42,14 +42,14 @@ struct Scene::Stage {
     experiment.simulation().scheduler().set_decisions(explorer);
     explorer.begin(*strategy);
   }
-  // While who decides is still there.
+  // Unwinds while the explorer still exists.
   ~Stage() { experiment.unwind(); }
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
   bridge::Experiment experiment;
   std::unique_ptr<exploration::Strategy> strategy = std::make_unique<exploration::Fifo>();
-  Plan plan;  // whose switches the explorer borrows
+  Plan plan;  // the explorer borrows its switches
   exploration::Explorer explorer;
   Narrator narrator;
   std::optional<exploration::EventStop> stop;
@@ -71,7 +71,8 @@ std::uint64_t Scene::noise(std::uint64_t number) const {
 }
 
 void Scene::prepare() {
-  // From the beginning it is made for each run, as the noise is each one's own; but what is wrong is to be told now.
+  // Runs from the beginning make their own stage, each with its own noise; but errors of the scenario must be reported
+  // now.
   stage_ =
       std::make_unique<Stage>(scenario_, types_, bridge::ExperimentOptions{noise(0), kernel::Order::explored, replay_});
   is_left_ = false;

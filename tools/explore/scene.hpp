@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scenario from which runs set out: from its beginning, each with noise of its own, or from a time in mid-run that
-// all have in common.
+// A scenario as the origin of runs: from its beginning, each with its own noise, or from a time in mid-run, up to which
+// all share one run.
 //
 //   --from 40:   0 ===== default order ===== 40 +---- schedule 0 ----
 //                                               +---- schedule 1 ----     each in a process of its own, forked there
 //
-// A scene that stands in mid-run can be left only once in a process; from the beginning, as often as one likes.
+// A scene in mid-run supports one run per process; from the beginning, any number.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ namespace waitpoint::tools {
 
 class Scene final : public Target {
  public:
-  /// BadInput for a scenario that cannot be run. What is given must outlive the scene.
+  /// BadInput for an invalid scenario. The arguments must outlive the scene.
   Scene(const bridge::Scenario& scenario, std::span<const genom::ModuleType> types, const ExploreOptions& options,
         std::string replay);
   ~Scene() override;
@@ -30,7 +30,7 @@ class Scene final : public Target {
   std::uint64_t fingerprint() const override { return scenario_.fingerprint; }
   bool has_noise() const override { return true; }
   const ExploreOptions& options() const override { return options_; }
-  /// Goes to the time from which runs part, if there is one.
+  /// Advances to the time at which runs part, if one is set.
   void prepare() override;
   void set_profile(exploration::Profile profile) override { profile_ = std::move(profile); }
   using Target::run;
@@ -41,7 +41,7 @@ class Scene final : public Target {
   const std::vector<exploration::Told>& switches() const;
   const exploration::Schedule& schedule() const;
 
-  /// The seed of the noise of schedule `number`; that of the first is the scenario's own, as `waitpoint run` has it.
+  /// The seed of schedule `number`'s noise; number 0 has the scenario's own, as in `waitpoint run`.
   std::uint64_t noise(std::uint64_t number) const;
 
  private:
@@ -56,7 +56,7 @@ class Scene final : public Target {
   std::span<const genom::ModuleType> types_;
   const ExploreOptions& options_;
   std::string replay_;
-  bool judged_at_until_;  // whether a run that is cut short must have reached its goals by then
+  bool judged_at_until_;  // a run cut short must have reached its goals by then
   exploration::Profile profile_;
   std::unique_ptr<Stage> stage_;
   bool is_left_ = false;

@@ -30,7 +30,7 @@ class Lines {
   explicit Lines(const std::filesystem::path& file) : name_(file.string()), stream_(file) {
     if (!stream_.is_open()) throw BadInput(name_, std::string("cannot be read: ") + std::strerror(errno));
   }
-  /// The words of the next line; false at the end.
+  /// Splits the next line into words; false at the end.
   bool next() {
     std::string line;
     if (!std::getline(stream_, line)) return false;
@@ -43,7 +43,7 @@ class Lines {
     }
     return true;
   }
-  /// The next line begins with `word` and has `count` words.
+  /// Reads the next line, which must begin with `word` and have `count` words.
   void expect(const std::string& word, std::size_t count, const std::string& form) {
     const bool is_there = next();
     if (!is_there) ++number_;
@@ -117,12 +117,12 @@ StoredSchedule read_schedule(const std::filesystem::path& file) {
   if (!parse_number(lines.words[1], from_s) || !(from_s >= 0 && from_s <= 1e9))
     lines.refuse("'from' and a time in seconds");
   schedule.from = Time() + Duration::from_seconds(from_s);
-  const std::string digest = "'digest', the digest of the run, and its trail where that is known";
+  const std::string digest = "'digest', the digest of the run, and its trail if known";
   if (!lines.next() || lines.words.front() != "digest" || lines.words.size() < 2 || lines.words.size() > 3)
     lines.refuse(digest);
   if (!lines.words[1].starts_with(digest_prefix)) lines.refuse("a digest that begins with wp1:");
   lines.words[1].erase(0, digest_prefix.size());
-  if (lines.words[1].size() != digest_digits) lines.refuse("sixteen digits of a digest behind wp1:");
+  if (lines.words[1].size() != digest_digits) lines.refuse("sixteen digits of a digest after wp1:");
   schedule.digest = lines.number(1, 16, digest);
   if (lines.words.size() == 3 && !exploration::read_trail(lines.words[2], schedule.trail)) lines.refuse(digest);
   while (lines.next()) schedule.switches.push_back(read_switch(lines));

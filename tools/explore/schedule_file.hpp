@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A schedule of a scenario as a file: what is too long for a token.
+// A schedule of a scenario as a file, for schedules too long for a token.
 //
 //   waitpoint schedule 1
-//   scenario 9f3a2c1b00112233                     of all that its files and the options say
-//   drawn portfolio 1 17                          strategy, seed, number: whose noise it is
-//   from 0.000000000                              up to there all was in the default order
-//   digest wp1:0123456789abcdef 4Fx0s             of the run; its trail, where that is known
-//   task 00000000000000aa 12 00000000000000bb 7   in place of event 12 of task aa comes event 7 of task bb
-//   computing 00000000000000aa 13 62              what event 13 of task aa chooses is alternative 62
+//   scenario 9f3a2c1b00112233                     digest of the scenario's files and options
+//   drawn portfolio 1 17                          strategy, seed, number: the source of the noise
+//   from 0.000000000                              end of the shared part in the default order
+//   digest wp1:0123456789abcdef 4Fx0s             of the run; its trail, if known
+//   task 00000000000000aa 12 00000000000000bb 7   event 7 of task bb occurs instead of event 12 of task aa
+//   computing 00000000000000aa 13 62              event 13 of task aa chooses alternative 62
 //
-// From the sixth line on, the switches away from the default order, in any order: by tasks and their events, so that
-// the file keeps its meaning when code around them is edited.
+// From the sixth line on: the switches away from the default order, in any order. They name tasks and their event
+// numbers, so that the file remains valid when the code around them is edited.
 #pragma once
 
 #include <cstdint>
@@ -34,11 +34,11 @@ struct StoredSchedule {
   exploration::Trail trail = {};
 };
 
-/// The line of the file, counted from 1, on which switch number `index` stands.
+/// The line of the file, counted from 1, of switch number `index`.
 inline constexpr int line_of_switch(std::size_t index) { return static_cast<int>(index) + 6; }
 
 std::string to_text(const StoredSchedule& schedule);
-/// BadInput, which names file and line, for what is no such file.
+/// BadInput, with file and line, for an invalid file.
 StoredSchedule read_schedule(const std::filesystem::path& file);
 
 }  // namespace waitpoint::tools

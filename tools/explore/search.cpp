@@ -21,7 +21,7 @@ Finding outcome_of(const Children::Ended& ended) {
   return finding;
 }
 
-// A scenario's run has nothing to wait for; a program's is a process of its own, for which ours waits.
+// A scenario's run never blocks; a program's is a separate process, for which the child waits.
 Children::Limits limits_of(const Target& target) {
   return {.wall_s = target.limit_s(), .computes = target.options().program.empty()};
 }
@@ -47,7 +47,7 @@ std::string result_line(std::uint64_t number, const Finding& finding) {
 bool Search::may_start(bool all) const {
   const ExploreOptions& options = target_.options();
   const std::uint64_t number = options.shard.index - 1 + started_ * options.shard.count;
-  // The default order is one schedule, where nothing but the order differs.
+  // Without noise the default order is a single schedule.
   const bool is_one = options.strategy == "fifo" && !target_.has_noise();
   return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && (all || !first_) &&
          !(options.time_limit_s > 0 && progress_.seconds() >= options.time_limit_s);
@@ -87,7 +87,7 @@ void Search::run_drawn(bool all) {
   children_.kill_from(0);
 }
 
-// One after the other: each follows from the one before it.
+// Sequential: each schedule is derived from the one before.
 void Search::run_depth_first(DepthFirst tree, bool all) {
   std::optional<std::vector<exploration::Deviation>> deviations{std::in_place};
   for (; deviations && may_start(all); ++started_) {

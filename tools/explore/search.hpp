@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Schedule after schedule of a target, several at once, each in a process of its own, until one fails or it is enough.
+// Runs schedules of a target, several at once, each in its own process, until one fails or a limit is reached.
 //
-// Numbers are dealt out in their order. When one fails, those below it are waited for and those above are given up: so
-// the failure that is told is the one of the lowest number, however many processes there are.
+// Numbers are assigned in order. When a schedule fails, lower numbers are awaited and higher ones are killed: the
+// reported failure is the one with the lowest number, regardless of the number of processes.
 #pragma once
 
 #include <map>
@@ -17,11 +17,11 @@
 
 namespace waitpoint::tools {
 
-/// One run of the target in a process of its own; nothing where a signal to this one came between.
+/// One run of the target in a process of its own; nothing if a signal to this process interrupted it.
 std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request = {});
 
-/// "00000000000000000017 wp1:0123456789abcdef failed: 2 collisions, expected 0": as wide as any number, so that text
-/// sorts as numbers do.
+/// "00000000000000000017 wp1:0123456789abcdef failed: 2 collisions, expected 0": zero-padded, so that sorting text
+/// sorts by number.
 std::string result_line(std::uint64_t number, const Finding& finding);
 
 class Search {
@@ -33,17 +33,17 @@ class Search {
 
   Search(Target& target, SearchProgress& progress);
 
-  /// Tries the schedules that its options ask for. With `all`, failures do not end it.
+  /// Runs the schedules that the options request. With `all`, failures do not end the search.
   void run(bool all);
 
   std::uint64_t schedules() const { return schedules_; }
   std::uint64_t distinct() const { return digests_.size(); }
   std::uint64_t failures() const { return failures_; }
   bool interrupted() const { return interrupted_; }
-  /// Of a strategy that tries all there are, once it has: what they are all of.
+  /// The scope of an exhausted search; nothing for strategies that are not exhaustive or did not finish.
   const std::optional<std::string>& scope() const { return scope_; }
   const std::optional<Failed>& first() const { return first_; }
-  /// With `all`: the lines of all, in their order.
+  /// With `all`: the result lines, by number.
   const std::map<std::uint64_t, std::string>& lines() const { return lines_; }
 
  private:

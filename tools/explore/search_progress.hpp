@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shows how far a search has come: on a terminal a line redrawn in place; elsewhere a line now and then.
+// Progress of a search: on a terminal a line redrawn in place; elsewhere a line at intervals.
 //
-// The wall clock is read here, for display and for limits, never by a run.
+// Reads the wall clock for display and limits; runs never do.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace waitpoint::tools {
 
 class SearchProgress {
  public:
-  /// The stream is borrowed; whether it is a terminal is the caller's to find out.
+  /// Borrows the stream; the caller determines if it is a terminal.
   SearchProgress(std::FILE* stream, bool terminal, Progress::Clock clock = &wall_clock_s);
 
-  /// Schedules so far, of which so many are different ones, and so many failed.
+  /// Counts so far: schedules, distinct ones, failures.
   void update(std::uint64_t schedules, std::uint64_t distinct, std::uint64_t failures);
-  /// What else is under way, in words.
+  /// Another activity, in words.
   void update(const std::string& words);
-  /// Takes the line away.
+  /// Erases the line.
   void finish();
-  /// Since the beginning.
+  /// Seconds since construction.
   double seconds() const { return clock_() - start_s_; }
 
  private:

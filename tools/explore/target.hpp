@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is explored: a scenario, or a program of which nothing is known but that it runs. Each schedule is a run.
+// The subject of an exploration: a scenario, or an arbitrary program. Each schedule is a run.
 #pragma once
 
 #include <cstdint>
@@ -15,43 +15,43 @@ namespace waitpoint::tools {
 
 class Target {
  public:
-  /// What is to be seen of a run beside what it comes to.
+  /// The data requested of a run besides its outcome.
   struct Request {
     bool profile = false;
-    bool learn = false;    ///< for the profile: which code accesses memory that tasks share
-    bool choices = false;  ///< all that were chosen
+    bool learn = false;    ///< for the profile: code that accesses memory shared by tasks
+    bool choices = false;  ///< all choices made
     bool words = false;    ///< switches in words
-    bool places = false;   ///< where in the source tasks stand that a report names
-    bool events = false;   ///< the last of them, and with ExploreOptions::trace the trace
+    bool places = false;   ///< source locations of the tasks in reports
+    bool events = false;   ///< the last ones, and with ExploreOptions::trace the trace
     Time events_from = Time();
-    std::optional<std::size_t> decision = {};  ///< what was chosen there
-    std::optional<std::size_t> log_from = {};  ///< the events behind this decision
-    std::optional<std::uint32_t> trail = {};   ///< of a scenario: a mark behind each 2^N events; not beside the above
-    /// It ends before this event: what its task is about to do, and where it stands.
+    std::optional<std::size_t> decision = {};  ///< describe the choice made there
+    std::optional<std::size_t> log_from = {};  ///< the events after this decision
+    std::optional<std::uint32_t> trail = {};   ///< of scenarios: a mark after each 2^N events; excludes the above
+    /// Ends the run before this event, and describes its task's next operation and call stack.
     std::optional<exploration::EventOf> stop_before = {};
   };
 
   virtual ~Target() = default;
 
-  /// As it is called in reports.
+  /// The name in reports.
   virtual std::string name() const = 0;
-  /// Of all that its files and the options say: another target has another one.
+  /// Digest of the target's files and options: distinct for distinct targets.
   virtual std::uint64_t fingerprint() const = 0;
-  /// Whether runs differ in more than their schedules: then each number has noise of its own, and the first has what
-  /// the target itself says.
+  /// True if runs differ in more than their schedules: then each number has its own noise, and number 0 the target's
+  /// own.
   virtual bool has_noise() const = 0;
   virtual const ExploreOptions& options() const = 0;
 
-  /// Goes to where all runs set out from. BadInput where it does not come as far.
+  /// Advances to the common origin of all runs. BadInput if the target ends before it.
   virtual void prepare() = 0;
-  /// How the default order goes from there: for strategies that are to know.
+  /// The default order's profile, for strategies that need it.
   virtual void set_profile(exploration::Profile profile) = 0;
 
-  /// Of each run from now on, by the wall clock; 0: none.
+  /// Wall clock limit of each following run; 0: none.
   void set_limit(double seconds) { limit_s_ = seconds; }
   double limit_s() const { return limit_s_; }
 
-  /// One run, by the plan: in a process that does nothing else.
+  /// Executes one run by the plan, in a process that does nothing else.
   virtual Finding run(const Plan& plan, const Request& request) = 0;
   Finding run(const Plan& plan) { return run(plan, Request()); }
 
@@ -59,7 +59,7 @@ class Target {
   double limit_s_ = 0;
 };
 
-/// Whether schedules that a strategy draws depend on how the default order goes.
+/// True if the schedules that this strategy draws depend on the default order's profile.
 bool needs_profile(const std::string& strategy);
 
 }  // namespace waitpoint::tools

@@ -19,7 +19,7 @@ std::string read_file(const std::filesystem::path& path) {
   return text;
 }
 
-/// What durations belong to: what is in the scenario, wherever it stands, and the choices.
+/// The run that durations belong to: the scenario's content, regardless of its path, the seed and the order.
 std::string name_of_run(const RunOptions& options, const bridge::Scenario& scenario) {
   return fmt::format("{:016x} seed {} order {}", scenario.fingerprint, options.seed,
                      options.order == kernel::Order::seeded ? "seeded" : "fifo");

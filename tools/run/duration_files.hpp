@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --record-durations and --replay-durations: what local clocks measured, counted or chose, as a file of a run.
+// --record-durations and --replay-durations: the durations that local clocks measured, counted or drew, as a file.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ namespace waitpoint::tools {
 
 class DurationFiles {
  public:
-  /// Opens what the options name, for the run of `experiment`, which has not begun and outlives this. BadInput for a
-  /// file that cannot be written or read, is no record, or is one of another scenario, seed or order.
+  /// Opens the files that the options name. `experiment` has not begun and outlives this. BadInput for a file that
+  /// cannot be written or read, is not a record, or belongs to another scenario, seed or order.
   DurationFiles(const RunOptions& options, const bridge::Scenario& scenario, bridge::Experiment& experiment);
 
-  /// The run is over: writes the record. BadInput if a run that `ended` by itself did not use up the one it replayed.
+  /// Writes the record after the run. BadInput if a run that `ended` by itself did not use up the replayed record.
   void finish(bool ended);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The journal as it is written: line by line as things happen, so that it is there if the run stops at a bug.
+// Writes the journal line by line as the run proceeds, so that it survives a crash.
 #pragma once
 
 #include <cstdio>
@@ -14,7 +14,7 @@ class JournalFile {
   /// Throws BadInput if the file cannot be written.
   explicit JournalFile(const std::filesystem::path& path);
 
-  /// Appends lines, at once. Throws BadInput if the medium is full.
+  /// Appends lines and flushes. Throws BadInput if the medium is full.
   void write(std::string_view lines);
 
  private:

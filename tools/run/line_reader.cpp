@@ -9,7 +9,8 @@
 namespace waitpoint::tools {
 namespace {
 
-// How often a wait asks for signals: one that comes just before the wait would else be noticed at the next line only.
+// Interval at which a wait polls for signals: one that arrives just before poll() would otherwise wait for the next
+// line.
 constexpr int patience_ms = 200;
 
 }  // namespace

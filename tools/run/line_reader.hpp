@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of a file descriptor, waited for or not: what is typed while a run goes on must not hold it up.
+// Lines of a file descriptor, blocking or not: commands typed during a run must not delay it.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@ class LineReader {
  public:
   enum class Result {
     line,
-    nothing,      ///< no whole line is there yet
-    end,          ///< of the input; a last line without a newline comes before
-    interrupted,  ///< by a signal that was noted
+    nothing,      ///< no complete line yet
+    end,          ///< of the input; a last line without a newline is returned first
+    interrupted,  ///< by a recorded signal
   };
 
   explicit LineReader(int descriptor) : descriptor_(descriptor) {}
 
-  /// Waits for a line.
+  /// Blocks until a line arrives.
   Result wait(std::string& line);
-  /// Takes a line if one is there.
+  /// Returns a line if one is available.
   Result poll(std::string& line);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds a run back to a multiple of the wall clock's speed, and says how far it lagged behind. The wall clock is only
-// waited for: nothing of it gets into the run.
+// Throttles a run to a multiple of the wall clock's speed and reports its lag. The wall clock only delays the run and
+// does not enter it.
 #pragma once
 
 #include <algorithm>
@@ -15,26 +15,27 @@
 
 namespace waitpoint::tools {
 
-/// Simulated seconds a second that a run may be held to; 0 does not hold it back.
+/// Simulated seconds per second to which a run may be throttled; 0: unthrottled.
 inline bool is_speed(double speed) { return speed == 0 || (speed >= 1e-6 && speed <= 1e6); }
 inline constexpr const char* speeds = "0 or a number from 0.000001 to 1000000";
 
 class Pacing {
  public:
-  /// `speed` simulated seconds a second; 0 does not hold back.
+  /// `speed` is in simulated seconds per second; 0: unthrottled.
   explicit Pacing(double speed, Progress::Clock clock = &wall_clock_s)
       : clock_(clock), speed_(speed), start_s_(clock()) {}
 
   double speed() const { return speed_; }
-  /// Virtual time `now` is due at this moment, and what follows at that speed: after a pause, or at another speed.
+  /// Anchors virtual time `now` at the present wall clock time, and sets the speed: after a pause, or when the speed
+  /// changes.
   void restart(Time now, double speed) {
     speed_ = speed;
     from_ = now;
     start_s_ = clock_();
   }
 
-  /// Waits until the wall clock has come to `now`, or `stop()` says so: it is asked ten times a second, and may restart
-  /// the pace.
+  /// Waits until the wall clock reaches `now`, or `stop()` returns true: it is polled ten times a second, and may call
+  /// restart().
   template <class Stop>
   void wait_for(Time now, Stop stop) {
     if (speed_ <= 0) return;
@@ -49,7 +50,7 @@ class Pacing {
     }
   }
 
-  /// Nothing of a run that was not held back.
+  /// Empty for an unthrottled run.
   std::optional<bridge::Lag> lag() const {
     if (waits_ == 0) return std::nullopt;
     return bridge::Lag{lag_sum_s_ / static_cast<double>(waits_), lag_max_s_};

@@ -20,21 +20,21 @@ namespace {
 
 constexpr const char* help_text = R"(  step [N]                     execute the next event, or the next N
   run [TIME | +SECONDS]        run to that virtual time, or to the end (also: continue)
-  until TIME                   the same
-  until ROBOT.FIGURE >= N      run to the event after which it holds; figures: goals, collisions, travelled_m, x_m, y_m,
+  until TIME                   the same as run
+  until ROBOT.FIGURE >= N      run to the first event after which this holds; figures: goals, collisions, travelled_m, x_m, y_m,
                                stalled; comparisons: < <= == >= >
-  go [TIME | +SECONDS]         run, and take commands meanwhile (on a terminal, run and until do so too)
-  pause                        stop what goes on; Ctrl-C does so too
-  speed X                      X simulated seconds a second from now on; 0 is as fast as it goes
-  status                       where the run and its robots are
-  tasks                        all tasks, with their local times
-  [at TIME] INTERVENTION       at the world's next step, or the first one not before that time:
+  go [TIME | +SECONDS]         run, and accept commands meanwhile (on a terminal, run and until do so, too)
+  pause                        stop the run; so does Ctrl-C
+  speed X                      set the speed to X simulated seconds per second; 0: unthrottled
+  status                       show the run's time and the state of its robots
+  tasks                        list all tasks, with their local times
+  [at TIME] INTERVENTION       intervene at the world's next step, or at the first one from TIME on:
     request ROBOT MODULE REQUEST [FIELD=VALUE ...]
     move ROBOT X Y [HEADING_DEG]
-    obstacle {name: ..., ...}    a shape as in a scenario; takes the place of one of that name
+    obstacle {name: ..., ...}    add a shape as in a scenario, replacing one of the same name
     move-obstacle NAME X Y [HEADING_DEG]
     remove-obstacle NAME
-    push NAME FX_N FY_N SECONDS  a force on a robot or on something loose, in a dynamic world
+    push NAME FX_N FY_N SECONDS  apply a force to a robot or a loose body of a dynamic world
   quit                         end the run here, with summary and digest
 )";
 
@@ -86,17 +86,17 @@ void Prompt::obey(std::string_view line, bool running) {
     for (const Named& named : commands) {
       known.push_back(named.name);
       if (named.name != word) continue;
-      if (running && !named.while_running) throw written_.bad("the run goes on; pause it before '" + word + "'");
+      if (running && !named.while_running) throw written_.bad("the run is not paused; pause it before '" + word + "'");
       return (this->*named.command)(rest);
     }
-    throw written_.bad("unknown command '" + word + "'" + did_you_mean(word, known) + "; help lists what there is");
+    throw written_.bad("unknown command '" + word + "'" + did_you_mean(word, known) + "; help lists them all");
   } catch (const BadInput& error) {
     std::fflush(stdout);
     std::fprintf(stderr, "%s\n", error.what());
   }
 }
 
-// Takes what was typed while the run goes on; true to stop it.
+// Executes commands typed during the run; true to stop it.
 bool Prompt::heed() {
   std::string line;
   while (!pause_ && !quit_ && lines_.poll(line) == LineReader::Result::line) obey(line, true);
@@ -108,7 +108,7 @@ void Prompt::carry_on(Time target, const Session::Enough& enough, bool heeding) 
   pause_ = false;
   const Session::Stop stop =
       session_.carry_on(target, enough, heeding ? Session::Heed([this] { return heed(); }) : nullptr);
-  // On a terminal, Ctrl-C comes back to the prompt, also one that came when the run had just stopped by itself.
+  // On a terminal, Ctrl-C returns to the prompt, even if it arrived just after the run had stopped by itself.
   if (terminal_ && interruption() == SIGINT)
     forget_interruption();
   else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The prompt of `waitpoint run --interactive`: one command a line, see help_text. From a terminal, or from a pipe,
-// whose commands are then taken one after the other. What is not understood is told in one line, and nothing is done.
+// The prompt of `waitpoint run --interactive`: one command per line, see help_text, from a terminal or a pipe. A line
+// that cannot be parsed gets one line of error and has no effect.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ namespace waitpoint::tools {
 
 class Prompt {
  public:
-  /// On a terminal, commands are heeded while the run goes on too; from elsewhere only after `go`.
+  /// On a terminal, commands are also accepted during a run; from elsewhere only during `go`.
   Prompt(Session& session, int input, bool terminal)
       : session_(session), lines_(input), terminal_(terminal), written_{terminal ? "prompt" : "standard input", 0} {}
 
-  /// Takes commands until the run is over or left. False if a signal ended it.
+  /// Executes commands until the run is over or left. False if a signal ended it.
   bool run();
 
  private:
@@ -51,8 +51,8 @@ class Prompt {
   Session& session_;
   LineReader lines_;
   bool terminal_;
-  bridge::Location written_;  // the line that is obeyed
-  bool pause_ = false;        // asked for while the run goes on
+  bridge::Location written_;  // the line being executed
+  bool pause_ = false;        // requested during the run
   bool quit_ = false;
   bool interrupted_ = false;
 };

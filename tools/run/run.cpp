@@ -28,7 +28,7 @@
 namespace waitpoint::tools {
 namespace {
 
-// The files of one run: opened before it starts, written when it is over.
+// The output files of one run: opened before it starts, written when it is over.
 class Outputs {
  public:
   Outputs(const RunOptions& options, const bridge::Scenario& scenario) {
@@ -106,11 +106,11 @@ bridge::RunResult carry_out(const RunOptions& options, const bridge::Scenario& s
   return result;
 }
 
-// What a journal says, to its end; whether it came to the same.
+// Replays a journal to its end; `same` tells if the run ended with the journal's event count and digest.
 bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scenario, const bridge::Journal& journal,
                          bridge::Experiment& experiment, Outputs& outputs, JournalFile* kept, bool& same) {
   const std::optional<bridge::JournalEnd> end = options.until ? std::nullopt : journal.end;
-  // The run may have been left between two events of an instant: it is their number that says where.
+  // The run may have been left between two events of an instant: the number of events says where.
   const Time until = end ? end->time + Duration::from_ns(1) : options.limit(scenario.until);
   Session session = session_of(options, experiment, outputs, until);
   const kernel::Scheduler& scheduler = experiment.simulation().scheduler();
@@ -142,8 +142,7 @@ int status(const bridge::Scenario& scenario, const bridge::RunResult& result) {
 }
 
 void tell_of(const bridge::Journal& journal, bool same) {
-  if (!journal.end)
-    std::fputs("waitpoint: the journal has no end: the run that wrote it did not come to one\n", stderr);
+  if (!journal.end) std::fputs("waitpoint: the journal has no end: the run that wrote it did not finish\n", stderr);
   if (same) return;
   std::fprintf(stderr, "waitpoint: this is not the run of the journal, which ended with %s after %llu events\n",
                journal.end->digest.c_str(), static_cast<unsigned long long>(journal.end->events));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint run`: carries out a scenario, shows how far it has come, writes what was asked for.
+// `waitpoint run`: runs a scenario, shows its progress, writes the requested files.
 //
-// At once, or from a prompt (prompt.hpp), or as a journal says (modules/run/journal.hpp).
+// Unattended, from a prompt (prompt.hpp), or from a journal (modules/run/journal.hpp).
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@
 
 namespace waitpoint::tools {
 
-/// Returns the exit status: 0 if the run came to what the scenario expects, 1 if not,
-/// 130 if a signal ended it. Throws BadInput before anything is run or written.
+/// Returns the exit status: 0 if the result meets the scenario's expectations, 1 if not, 130 if a signal ended the run.
+/// Throws BadInput before anything is run or written.
 int run(const RunOptions& options, std::span<const genom::ModuleType> types);
 
 }  // namespace waitpoint::tools

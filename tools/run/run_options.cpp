@@ -27,7 +27,7 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   std::string line = "waitpoint run " + options.scenario.string() + " --seed " + std::to_string(seed);
   if (options.order == kernel::Order::seeded) line += " --order seeded";
   if (options.replay_durations) line += " --replay-durations " + options.replay_durations->string();
-  // What is written of this run is what another one has to read.
+  // A replay has to read the journal that this run writes.
   if (const auto& journal = options.journal ? options.journal : options.replay_journal)
     line += " --replay-journal " + journal->string();
   for (const std::string& assignment : options.assignments) line += " --set '" + assignment + "'";
@@ -40,56 +40,55 @@ void ScenarioArguments::add_file(Command& command) {
 
 void ScenarioArguments::add_set(Command& command) {
   command.repeated("--set", assignments, "KEY=VALUE",
-                   "set a value of the scenario, as often as needed. KEY is keys joined by dots,\n"
-                   "elements of lists by their number from 0 or their name; VALUE is YAML. A file\n"
+                   "override a value of the scenario; may be repeated. KEY is keys joined by dots,\n"
+                   "elements of lists by their index from 0 or their name; VALUE is YAML. A file\n"
                    "named here is relative to the current directory. For example:\n"
                    "  robots.0.goals=[[1,2],[3,4]]\n"
                    "  robot_types.rackham.modules.segloc.enabled=false");
 }
 
 RunArguments::RunArguments(CommandLine& line)
-    : command_(line.add_command("run", "Simulates a scenario; a summary and the digest at the end.")) {
+    : command_(line.add_command("run", "Simulates a scenario and prints a summary with the digest.")) {
   scenario_.add_file(command_);
   command_.option("--seed", seed_, "N",
                   "seed of the random streams and of the seeded order (default:\n$WAITPOINT_SEED, or 1)");
-  command_.option(
-      "--seeds", seeds_, "A..B",
-      "run each seed from A to B and print a row for each; of the files, only\n--summary can be written, of all runs");
+  command_.option("--seeds", seeds_, "A..B",
+                  "run each seed from A to B and print a row for each; of the output files\nonly --summary is allowed, "
+                  "for all runs");
   command_.option("--order", order_, "ORDER",
-                  "order of events of one instant: fifo, the default, or seeded, by hashes\nof the seed");
-  command_.option("--until", until_, "S", "end at this virtual time, in seconds (default: the scenario's until_s)");
-  command_.option("--speed", speed_, "X",
-                  "pace to X simulated seconds a second; 0, the default, is as fast as it goes");
+                  "order of events of one instant: fifo, or seeded: by hashes of the seed\n(default: fifo)");
+  command_.option("--until", until_, "S", "end at virtual time S, in seconds (default: the scenario's until_s)");
+  command_.option("--speed", speed_, "X", "throttle to X simulated seconds per second; 0: unthrottled (default: 0)");
   command_.flag("--interactive", interactive_,
-                "take commands from standard input: step, stop at a time or a condition, change\n"
-                "the speed, send requests, move robots and obstacles; type help there");
-  command_.option("--journal", journal_, "FILE", "write what was done at the prompt, each at its virtual time");
+                "read commands from standard input: step, stop at a time or a condition, change\n"
+                "the speed, send requests, move robots and obstacles; help lists them");
+  command_.option("--journal", journal_, "FILE", "write the interventions of the prompt with their virtual times");
   command_.option("--replay-journal", replay_journal_, "FILE",
-                  "do again what a journal says, and check that the run comes to its digest");
+                  "repeat the interventions of a journal and verify that the run ends with its\ndigest");
   command_.option("--summary", summary_, "FILE.json", "write the summary as JSON");
   command_.option("--picture", picture_, "FILE.svg", "draw the floor and the paths");
   command_.option("--trajectory", trajectory_, "FILE.tum",
-                  "write the paths in TUM format: the true one to FILE.tum, beside it\n"
-                  "FILE.estimated.tum and FILE.odometry.tum; with the robots' names if several");
+                  "write the paths in TUM format: the true one to FILE.tum, the others to\n"
+                  "FILE.estimated.tum and FILE.odometry.tum; several robots: with their names");
   command_.option("--record", record_, "FILE.mcap",
-                  "write scans, poses, frames, requests and the world over time for Foxglove, or\n"
-                  "with a name FILE.bag as a ROS 1 bag, with FILE.log for CARMEN's tools");
+                  "write scans, poses, frames, requests and the world over time for Foxglove; as\n"
+                  "FILE.bag a ROS 1 bag, as FILE.log a log for CARMEN's tools");
   command_.option("--digests", digests_, "FILE", "write a digest per robot and simulated second");
   command_.option("--events", events_, "FILE", "write every event as a line of text");
   command_.option("--record-durations", record_durations_, "FILE",
-                  "write what local clocks measured, counted or chose (docs/clocks.md)");
+                  "write the durations that local clocks measured, counted or drew (docs/clocks.md)");
   command_.option(
       "--replay-durations", replay_durations_, "FILE",
-      "take these durations from a record of the same scenario and seed:\nthe same run again, with the same digest");
+      "take these durations from a record of the same scenario and seed; the run and\nits digest are the same");
   command_.flag("--check", check_,
-                "run it twice in this process and once in a perturbed one (addresses,\n"
+                "run twice in this process and once in a perturbed one (addresses,\n"
                 "memory, environment, clocks, directories) and compare event by event:\n"
-                "tells the first event that differs, with status 1, or that none does\n"
+                "report the first difference, with status 1, or none\n"
                 "(docs/determinism.md)");
   scenario_.add_set(command_);
 }
 
-/// What is written of a single run, or done to it, has no place where the runs are many.
+/// Options that concern a single run are not allowed for many runs.
 void RunArguments::check_of_many(const char* option) const {
   if (interactive_) throw BadInput(option, "cannot be used together with --interactive");
   check_not_together(option, {{"--journal", journal_},
@@ -102,13 +101,13 @@ void RunArguments::check_of_many(const char* option) const {
                               {"--record-durations", record_durations_}});
 }
 
-/// A self-check compares runs and writes nothing of them.
+/// A self-check compares runs and writes no files.
 void RunArguments::check_writes_nothing() const {
   check_not_together("--check", {{"--seeds", seeds_}, {"--speed", speed_}, {"--summary", summary_}});
   check_of_many("--check");
 }
 
-/// A range of seeds is many runs, of which one summary is written.
+/// A range of seeds makes many runs, for which only one summary is written.
 void RunArguments::check_alone() const {
   check_not_together("--seeds", {{"--seed", seed_}, {"--replay-durations", replay_durations_}});
   check_of_many("--seeds");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `waitpoint run SCENARIO ...` is asked for, as values. Nothing is opened or run here.
+// The options of `waitpoint run SCENARIO ...` as values. Opens and runs nothing.
 #pragma once
 
 #include <cstdint>
@@ -22,22 +22,22 @@ struct RunOptions {
   std::optional<SeedRange> seeds;  ///< instead of `seed`
   std::optional<Duration> until;   ///< instead of the scenario's
   kernel::Order order = kernel::Order::fifo;
-  double speed = 0;  ///< simulated seconds a second; 0: as fast as it goes
+  double speed = 0;  ///< simulated seconds per second; 0: unthrottled
   bool interactive = false;
   std::optional<std::filesystem::path> journal;         ///< to write
-  std::optional<std::filesystem::path> replay_journal;  ///< to carry out again
-  bool check = false;  ///< whether it is the same run again, instead of what it came to
+  std::optional<std::filesystem::path> replay_journal;  ///< to repeat
+  bool check = false;                                   ///< self-check: compare runs instead of reporting a result
   std::optional<std::filesystem::path> summary, picture, trajectory, record, digests, events;
   std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
 
-  /// When a run ends at the latest, of a scenario that says `own`.
+  /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
 };
 
-/// The command that carries out the run of this seed again.
+/// The command that repeats the run of this seed.
 std::string replay_line(const RunOptions& options, std::uint64_t seed);
 
-/// The scenario's file and --set, of each command that reads a scenario.
+/// The scenario's file and --set, shared by the commands that read a scenario.
 struct ScenarioArguments {
   std::string file;
   std::vector<std::string> assignments;
@@ -46,15 +46,15 @@ struct ScenarioArguments {
   void add_set(Command& command);
 };
 
-/// The arguments as they are written.
+/// The arguments as text.
 class RunArguments {
  public:
   /// Adds the command with its options.
   explicit RunArguments(CommandLine& line);
 
-  /// Whether the command line has it.
+  /// True if the command line has this command.
   bool parsed() const { return command_.parsed(); }
-  /// What they say, with WAITPOINT_SEED where --seed is not given; BadInput where they cannot be meant.
+  /// The parsed options, with WAITPOINT_SEED if --seed is not given. BadInput for invalid values and combinations.
   RunOptions options() const;
 
  private:

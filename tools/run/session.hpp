@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run as the program carries it out: in short windows of virtual time, between which progress is shown, signals
-// are heeded, the wall clock is waited for and somebody may do something. The windows change nothing in the run.
+// One run in short windows of virtual time. Between windows it shows progress, polls signals, waits for the wall clock
+// and accepts commands. The windows do not affect the run.
 #pragma once
 
 #include <cstdint>
@@ -17,43 +17,43 @@ namespace waitpoint::tools {
 
 class Session {
  public:
-  /// Why carry_on() came back.
+  /// Reason for the return of carry_on().
   enum class Stop {
-    target,       ///< all before the time asked for is done
+    target,       ///< everything before the target time is done
     over,         ///< the run has ended, or its last time is reached
-    enough,       ///< after the event at which `enough` said so
-    asked,        ///< `heed` said so
+    enough,       ///< `enough` returned true after an event
+    asked,        ///< `heed` returned true
     interrupted,  ///< by a signal
   };
   using Enough = std::function<bool(const kernel::EventRecord&)>;
   using Heed = std::function<bool()>;
   using Second = std::function<void(std::int64_t)>;
 
-  /// A run to `until` at the latest. `second` is called when that many simulated seconds are done, and at the end.
+  /// A run to `until` at the latest. `second` is called after each simulated second, with their number, and at the end.
   Session(bridge::Experiment& experiment, Time until, double speed, Second second);
 
-  /// What is done from now on is written there too, with its date.
+  /// Also writes interventions to the journal from now on, with their dates.
   void keep(JournalFile& journal) { journal_ = &journal; }
 
-  /// Carries on to `target`, or to the event at which `enough`, which is asked after each, says so. `heed` is called
-  /// ten times a second or more, and stops the run by true.
+  /// Continues to `target`, or to the event after which `enough` returns true. `heed` is called at least ten times a
+  /// second, and stops the run by returning true.
   Stop carry_on(Time target, const Enough& enough = nullptr, const Heed& heed = nullptr);
 
-  /// See Experiment::intervene; kept in the journal.
+  /// See Experiment::intervene; recorded in the journal.
   Time intervene(const bridge::Intervention& intervention, std::optional<Time> date = std::nullopt);
-  /// Another speed from now on.
+  /// Changes the speed from now on.
   void set_speed(double speed) { pacing_.restart(now(), speed); }
   double speed() const { return pacing_.speed(); }
 
-  /// What is before is done; where the run stopped between two events of an instant, some of that instant too.
+  /// Everything before this time is done; after a stop between two events of an instant, also part of that instant.
   Time now() const;
   Time until() const { return until_; }
   bool over() const { return end_ != RunEnd::time_reached || reached_ >= until_; }
-  /// Where the run is now, for the journal.
+  /// The run's current position, for the journal.
   bridge::JournalEnd here() const;
   bridge::Experiment& experiment() { return experiment_; }
 
-  /// What has come out so far, with the figures of the wall clock.
+  /// The results so far, with the wall clock's figures.
   bridge::RunResult result() const;
 
  private:

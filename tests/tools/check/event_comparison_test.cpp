@@ -126,7 +126,7 @@ TEST(EventComparison, ARunThatEndsEarlierLaterOrOtherwiseDiffers) {
   EXPECT_FALSE(otherwise->expected || otherwise->found);
   EXPECT_NE(to_text(*otherwise)
                 .find("was               no event: no task remains\n  is                no event: deadlock\n"
-                      "  differs in        how the run ends\n"),
+                      "  differs in        the end of the run\n"),
             std::string::npos)
       << to_text(*otherwise);
 }

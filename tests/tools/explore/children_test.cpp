@@ -31,7 +31,7 @@ TEST(Children, give_back_what_they_came_to_or_how_they_died) {
   const auto ended = all_of(children);
   EXPECT_EQ(ended.at(1).bytes, "bytes");
   EXPECT_EQ(death_of(ended.at(1)), "");
-  EXPECT_EQ(death_of(ended.at(2)), "the process was killed by signal 9 (Killed), after saying:\nlast words");
+  EXPECT_EQ(death_of(ended.at(2)), "the process was killed by signal 9 (Killed), with standard error:\nlast words");
 }
 
 TEST(Children, that_compute_or_wait_for_too_long_are_ended) {
@@ -43,10 +43,8 @@ TEST(Children, that_compute_or_wait_for_too_long_are_ended) {
     for (;;) pause();
   });
   const auto ended = all_of(children);
-  EXPECT_EQ(death_of(ended.at(1)),
-            "it went on for 12 s, the most that one may (--schedule-limit): its process is ended");
-  EXPECT_EQ(death_of(ended.at(2)),
-            "it waited for 10 s for something that is not simulated, a real lock or input: its process is ended");
+  EXPECT_EQ(death_of(ended.at(1)), "exceeded 12 s of wall clock time (--schedule-limit); process killed");
+  EXPECT_EQ(death_of(ended.at(2)), "blocked for 10 s outside the simulation (a real lock or input); process killed");
 }
 
 TEST(Children, of_which_it_is_expected_may_wait) {

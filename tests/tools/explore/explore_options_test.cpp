@@ -107,9 +107,10 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
   EXPECT_EQ(refusal({"a", "--replay", "wx1.0.00000000.=", "--strategy", "random"}),
             "--replay: cannot be used together with --strategy");
   EXPECT_TRUE(refusal({"a", "--strategy", "pcd"}).starts_with("strategy: unknown strategy 'pcd', did you mean 'pct'?"));
-  EXPECT_EQ(refusal({"a", "--strategy", "dfs"}),
-            "--strategy: expected a strategy that draws its schedules: there are too many to try all of them, "
-            "found 'dfs'");
+  EXPECT_EQ(
+      refusal({"a", "--strategy", "dfs"}),
+      "--strategy: expected a strategy that draws its schedules (a scenario has too many for an exhaustive search), "
+      "found 'dfs'");
   for (const char* shard : {"0/2", "3/2", "1", "1/0", "a/b", "1/2/3"})
     EXPECT_EQ(refusal({"a", "--shard", shard}),
               std::string("--shard: expected I/N with 1 <= I <= N, found '") + shard + "'");
@@ -121,7 +122,7 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
   EXPECT_EQ(refusal({"a", "--schedule-limit", "-1"}),
             "--schedule-limit: expected a number of seconds, 0 for no limit, found '-1'");
   EXPECT_EQ(refusal({"a", "--time-limit", "0"}),
-            "--time-limit: expected a positive number of seconds (where it is not given there is no limit), found '0'");
+            "--time-limit: expected a positive number of seconds (omit the option for no limit), found '0'");
   EXPECT_FALSE(refusal({"a", "--strategy", "best"}).find("dpor") != std::string::npos);
   EXPECT_EQ(refusal({"a", "--strategy", "dpro"}).find("dpor"), std::string::npos);
   EXPECT_EQ(refusal({"a", "--replay", "wx1.0.zz"}),

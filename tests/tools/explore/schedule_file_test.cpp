@@ -64,9 +64,9 @@ TEST(ScheduleFile, what_is_none_is_refused_with_its_line) {
   EXPECT_EQ(message("scenario 9", "scenario x"), ":2: expected the scenario's digest as hexadecimal digits");
   EXPECT_EQ(message("7 1234", "7"), ":3: expected 'drawn', a strategy, a seed and a number");
   EXPECT_EQ(message("from 1.5", "from -1"), ":4: expected 'from' and a time in seconds");
-  EXPECT_EQ(message("0123456789abcdef\n", "01234567\n"), ":5: expected sixteen digits of a digest behind wp1:");
+  EXPECT_EQ(message("0123456789abcdef\n", "01234567\n"), ":5: expected sixteen digits of a digest after wp1:");
   EXPECT_EQ(message("0123456789abcdef\n", "0123456789abcdef 4a!\n"),
-            ":5: expected 'digest', the digest of the run, and its trail where that is known");
+            ":5: expected 'digest', the digest of the run, and its trail if known");
   EXPECT_EQ(message("wp1:", "wp2:"), ":5: expected a digest that begins with wp1:");
   for (const auto& [from, to] : {std::pair("task ", "tusk "), {" 12 ", " "}, {"bb 7", "bb x"}})
     EXPECT_TRUE(message(from, to).starts_with(":6: expected a switch such as 'task ")) << to;

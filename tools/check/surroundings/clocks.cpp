@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clocks that are behind: that of the calendar by days, those that count from the machine's start by half of what they
-// had counted at first. A deadline computed from one of them has passed already, and blocks nobody.
+// Clocks set back: calendar clocks by days, clocks that count from the machine's start by half of their first reading.
+// A deadline computed from one of them has passed already, and blocks no one.
 #include <sys/time.h>
 #include <time.h>
 
@@ -9,12 +9,12 @@
 namespace waitpoint::surroundings {
 namespace {
 
-constexpr time_t calendar_behind_s = 953'271;  // 11 days, and no whole number of minutes
+constexpr time_t calendar_behind_s = 953'271;  // 11 days, not a whole number of minutes
 
 constinit Next<int(clockid_t, timespec*)> next_clock_gettime("clock_gettime");
 constinit std::atomic<time_t> monotonic_behind_s{-1};
 
-// The same for all clocks of this kind, from the first question on.
+// The same offset for all clocks of this kind, from the first reading on.
 time_t monotonic_behind(time_t now_s) {
   time_t behind_s = -1;
   if (monotonic_behind_s.compare_exchange_strong(behind_s, now_s / 2)) behind_s = now_s / 2;
@@ -32,7 +32,7 @@ int off(clockid_t clock, timespec* time) {
     case CLOCK_MONOTONIC_COARSE:
     case CLOCK_MONOTONIC_RAW:
     case CLOCK_BOOTTIME: time->tv_sec -= monotonic_behind(time->tv_sec); break;
-    default:  // of processor time
+    default:  // processor time
       break;
   }
   return 0;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Directories that list their entries from the last to the first: the order is the file system's, and no program's to
-// rely on.
+// Lists directory entries in reverse: programs must not rely on the file system's order.
 //
-// The first reading of a directory takes in all its entries:
+// The first read of a directory reads all its entries:
 //
-//   entries  | dirent | dirent | dirent | ...          in a mapping of its own, that grows by moving
-//                                  ^ left: what is before it has not been shown
-#undef _FILE_OFFSET_BITS  // else <dirent.h> gives readdir the name of readdir64, and both are defined here
+//   entries  | dirent | dirent | dirent | ...          in a mapping of its own, grown by mremap
+//                                  ^ left: entries before it remain to be returned
+#undef _FILE_OFFSET_BITS  // otherwise <dirent.h> renames readdir to readdir64, and both are defined here
 #include <dirent.h>
 #include <sys/mman.h>
 
@@ -27,12 +26,12 @@ constinit Next<int(DIR*)> next_closedir("closedir");
 struct Listing {
   DIR* directory = nullptr;
   dirent* entries = nullptr;
-  std::size_t room = 0;  // for so many entries
+  std::size_t room = 0;  // capacity, in entries
   std::size_t left = 0;
 };
 
 constexpr std::size_t first_room = 128;
-constexpr std::size_t listings_max = 64;  // what is open beyond keeps the system's order
+constexpr std::size_t listings_max = 64;  // directories open beyond this number keep the system's order
 constinit Listing listings[listings_max];
 constinit std::atomic_flag taken;
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A heap whose small blocks come in an order of their own and are filled with what nobody set.
+// A heap that shuffles small blocks and fills them with nonzero bytes.
 //
-// For every size class some blocks wait in a pool; who asks gets one of them, drawn at random, and a fresh block takes
-// its place (Berger and Curtsinger's shuffling layer: STABILIZER, ASPLOS 2013). So of two blocks neither the order in
-// which they were asked for nor what was given back before says which lies lower. All blocks are the next heap's, which
-// gets back whatever is freed.
+// Every size class has a pool of blocks: an allocation takes a random one and replaces it by a fresh block (Berger and
+// Curtsinger's shuffling layer: STABILIZER, ASPLOS 2013). So the relative position of two blocks depends neither on the
+// order of their allocation nor on earlier releases. All blocks come from the next heap, which gets every freed block.
 #include <malloc.h>
 
 #include <cstddef>
@@ -18,7 +17,7 @@ namespace {
 
 constexpr unsigned char fill = 0xB7;
 constexpr std::size_t granule = 16;
-constexpr std::size_t shuffled_max = 1024;  // bytes: larger blocks are rare, and follow from the small ones
+constexpr std::size_t shuffled_max = 1024;  // bytes: larger blocks are rare, and their order follows the small ones
 constexpr std::size_t pool_size = 32;
 
 constinit Next<void*(std::size_t)> next_malloc("malloc");
@@ -33,10 +32,10 @@ struct Pool {
 constinit Pool pools[shuffled_max / granule + 1];
 constinit std::uint64_t draws = 0x5EED;
 constinit std::atomic_flag taken;
-// Looking up the next function may ask for memory itself.
+// Looking up the next function may allocate memory itself.
 constinit thread_local bool within = false;
 
-// Marsaglia's xorshift64: the order is arbitrary, and the same in every self-check.
+// Marsaglia's xorshift64: an arbitrary order, the same in every self-check.
 std::size_t drawn() {
   draws ^= draws << 13;
   draws ^= draws >> 7;
@@ -58,7 +57,7 @@ void* shuffled(std::size_t size) {
   return block;
 }
 
-// Small and not asked for by a next heap for itself.
+// Shuffles small blocks, except those that a next heap allocates for itself.
 void* allocate(std::size_t size) {
   if (within || size > shuffled_max) return next_malloc(size);
   within = true;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surroundings of a perturbed process: a preloaded object (LD_PRELOAD) whose functions stand before those of the
-// same names of the C library, and call them.
+// The surroundings of a perturbed process: a preloaded object (LD_PRELOAD) whose functions interpose on the C library's
+// functions of the same names, and call them.
 //
 //   clocks.cpp        clocks that are off
-//   directories.cpp   directories from their last entry to the first
-//   heap.cpp          blocks in an order of their own, filled with what nobody set
+//   directories.cpp   directories in reverse order
+//   heap.cpp          shuffled and filled blocks
 //
-// Only the third run of a self-check has it. It is linked to the C library alone, and its state is
-// constant-initialised: the first call may come before any constructor.
+// Only the third run of a self-check loads it. It links to the C library alone, and its state is constant-initialised:
+// the first call may precede all constructors.
 #pragma once
 
 #include <dlfcn.h>
@@ -15,8 +15,7 @@
 
 namespace waitpoint::surroundings {
 
-/// A function of the object that comes next, the C library as a rule. Looked for at the first call, by whoever comes
-/// first: all find the same.
+/// A function of the next object, usually the C library. Looked up at the first call; concurrent lookups find the same.
 template <class Function>
 class Next {
  public:
@@ -40,8 +39,8 @@ class Next {
   std::atomic<Function*> function_{nullptr};
 };
 
-/// Holds a lock, for some instructions, as long as it lives. It is no mutex of the C library's: a program whose threads
-/// are simulated would see that one as its own.
+/// Holds a lock, for a few instructions, during its lifetime. Not a mutex of the C library: a program with simulated
+/// threads would take that for its own.
 class Holding {
  public:
   explicit Holding(std::atomic_flag& lock) : lock_(lock) {
