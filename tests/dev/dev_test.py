@@ -117,7 +117,7 @@ class Cycles(InATemporaryFolder):
         source.unlink()
         status, output = self.cycles()
         self.assertEqual(status, 1)
-        self.assertIn("a cycle that is gone: a/one a/two", output)
+        self.assertIn("a cycle that no longer exists: a/one a/two", output)
 
 
 class Functions(InATemporaryFolder):
@@ -284,18 +284,18 @@ class Counting(InATemporaryFolder):
 
     def test_a_crash_fails_the_case_that_ran(self):
         result = self.run_program("echo '[ RUN      ] S.A'; echo '[       OK ] S.A (0 ms)'; echo '[ RUN      ] S.B'; kill -SEGV $$")
-        self.assertEqual((result.passed, result.failed), (1, ["S.B: was ended by SIGSEGV"]))
+        self.assertEqual((result.passed, result.failed), (1, ["S.B: was terminated by SIGSEGV"]))
 
     def test_what_failed_cases_said_is_shown_alone(self):
         output = ("before\n[ RUN      ] S.A\nfine\n[       OK ] S.A (0 ms)\n[ RUN      ] S.B\nbad\n[  FAILED  ] S.B (1 ms)\n"
                   "[ RUN      ] S.C\nworse\n")
         self.assertEqual(run_tests.excerpt(output, ["S.B"]), "S.B\nbad\n[  FAILED  ] S.B (1 ms)\n")
-        self.assertEqual(run_tests.excerpt(output, ["S.C: was ended by SIGSEGV"]), "S.C\nworse\n")
+        self.assertEqual(run_tests.excerpt(output, ["S.C: was terminated by SIGSEGV"]), "S.C\nworse\n")
         self.assertEqual(run_tests.excerpt(output, ["the program: holds no case"]), output)
 
     def test_a_crash_after_the_last_case_fails(self):
         result = self.run_program(self.xml(self.PASSED) + "; kill -ABRT $$")
-        self.assertEqual((result.passed, result.failed), (1, ["the program: was ended by SIGABRT after its cases"]))
+        self.assertEqual((result.passed, result.failed), (1, ["the program: was terminated by SIGABRT after its cases"]))
 
     def test_the_report_of_an_earlier_run_does_not_count(self):
         self.run_program(self.xml(self.PASSED))
@@ -303,7 +303,7 @@ class Counting(InATemporaryFolder):
 
     def test_a_program_that_hangs_is_ended_with_its_children(self):
         result = self.run_program("sleep 100 & sleep 100", timeout_s=0.3)
-        self.assertEqual(result.failed, ["the program: still ran after 0.3 s"])
+        self.assertEqual(result.failed, ["the program: exceeded 0.3 s"])
 
     def test_a_program_without_cases_fails(self):
         self.assertEqual(self.run_program(self.xml("")).failed, ["the program: holds no case"])

@@ -103,7 +103,7 @@ class Looking(unittest.TestCase):
         self.assertEqual(bench, 'mutex #1 "bench" of environment: held by master of environment\n'
                                 "  journeyman of environment waits since 0.000000000 s (lock)")
         self.assertIn("shop.keeper of environment waits since 0.000000000 s (wait)", number)
-        self.assertEqual(door, 'mutex #2 "door" of environment: held by nobody\n  nobody waits for it')
+        self.assertEqual(door, 'mutex #2 "door" of environment: not held\n  no waiters')
 
     COMMANDS = ["info fibers", "virtual-time", "fiber journeyman", "bt", "up", "fiber 4\ninfo locals",
                 "print workshop.clocks", "fiber apply all bt", "fiber apply shop.keeper 1 bt 1", "blocked-on bench",
@@ -209,7 +209,7 @@ class Back(unittest.TestCase):
         self.assertIn("event 2 at", told[4])
         self.assertIn("event 1 at", told[5])
         self.assertEqual(told[6].split(";")[0], "0.000000000 s, event 1")
-        self.assertIn("there is no event before", told[7])
+        self.assertIn("there is no previous event", told[7])
         self.assertIn("event 2 at", told[8])
         self.assertEqual(digest(told[9]), plain_digest())
 
@@ -268,7 +268,7 @@ class Office(unittest.TestCase):
         self.assertIn(f", event {at - 1};", told[5])
         self.assertIn("segloc", told[7])
         self.assertEqual(len(re.findall(r"^Fiber ", told[8], re.MULTILINE)), 13)
-        self.assertIn("there is no event before", told[9])
+        self.assertIn("there is no previous event", told[9])
         self.assertIn("at 3.500000000 s", told[11])
         self.assertEqual(digest(told[12]), digest(plain.stdout))
 

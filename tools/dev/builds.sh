@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# The same run from several builds of the program: builds.sh [BUILD...]. A BUILD is one of
+# Compares runs of several builds of the program: builds.sh [BUILD...]. A BUILD is one of
 #
 #   COMPILER[-libc++]-LEVEL[-v3]   like clang++-O0, clang++-libc++-O3-v3: built in build-BUILD/. With libc++ the C++
-#                                  libraries come from subprojects/, so that all of the program is built on it; v3 is
-#                                  x86-64-v3, the processors with AVX2 and FMA
-#   build                          the one that everyone uses, as it is
-#   build-no-fma                   the same program, told that the processor has neither FMA nor AVX2
-#   build-plain-path               the same program, told to take no fast path of the kernel
+#                                  libraries come from subprojects/, so that the whole program uses it; v3 is
+#                                  x86-64-v3: processors with AVX2 and FMA
+#   build                          the default build
+#   build-no-fma                   the same program without the processor's FMA and AVX2
+#   build-plain-path               the same program without the kernel's fast paths
 #
-# Each runs the office for the 120 s in which the robot meets the blocked door, and must give the digest and the
-# fingerprint of the math that the first one gives. Status 77 where a compiler or libc++ is missing.
+# Each runs the office for the 120 s in which the robot meets the blocked door. Digest and math fingerprint must equal
+# those of the first. Status 77 if a compiler or libc++ is missing.
 #
-#   builds.sh --outcome FOLDER     "digest fingerprint" of the program that was built in FOLDER
+#   builds.sh --outcome FOLDER     prints "digest fingerprint" of the program built in FOLDER
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -22,13 +22,13 @@ source "$root/tools/dev/build.sh"
 
 all_builds=({g++,clang++,clang++-libc++}-O{0,2,3} {g++,clang++,clang++-libc++}-O3-v3 build-no-fma build-plain-path)
 
-# glibc chooses its sine by what the processor has; python's is glibc's.
+# glibc selects its sine by the processor's features; python uses glibc's.
 no_fma=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2
 sines() { python3 -c 'import math; print(hash(tuple(math.sin(k) for k in range(1, 50000))))'; }
 
 # Prints "digest fingerprint" of the program in FOLDER: outcome FOLDER
 outcome() {
-  # Status 1 only says that 120 s do not meet what the scenario expects of the whole mission.
+  # Status 1 only means that 120 s are too short for the scenario's expectations.
   local status=0
   rm -f "$1/summary.json"
   "$1/tools/waitpoint" run "$root/scenarios/office.yaml" --until 120 --summary "$1/summary.json" >"$1/run.log" 2>&1 ||
@@ -41,7 +41,7 @@ outcome() {
   "$1/tools/waitpoint" --version | sed -n 's/^math *//p'
 }
 
-# Builds BUILD in build-BUILD/; its log is shown if that fails: build_one BUILD
+# Builds BUILD in build-BUILD/ and shows the log on failure: build_one BUILD
 build_one() {
   local build=$root/build-$1 log=$root/build-$1.log words=$1 options=()
   if [[ $words == *-v3 ]]; then
@@ -53,7 +53,7 @@ build_one() {
     compiler="${compiler%-libc++} -stdlib=libc++"
     options+=(-Dforce_fallback_for=fcl,fmt,tinyxml2,yaml-cpp,cli11,nlohmann_json -Dbullet=disabled -Dassimp=disabled)
   fi
-  # Warnings differ with the level and are the business of the one build that everyone uses.
+  # Warnings depend on the level; only the default build checks them.
   if ! {
     if [[ $compiler == *libc++ ]]; then
       python3 "$root/tools/dev/wraps.py" "$root/build-wraps" || return
@@ -87,12 +87,12 @@ fi
 for name; do
   [[ $name != build* ]] || continue
   compiler=${name%%+*}++
-  command -v "$compiler" >/dev/null || { say "there is no $compiler here" && exit 77; }
+  command -v "$compiler" >/dev/null || { say "$compiler is not installed" && exit 77; }
   [[ $name != *libc++* ]] || echo '#include <vector>' | clang++ -stdlib=libc++ -fsyntax-only -x c++ - 2>/dev/null ||
-    { say 'there is no libc++ here' && exit 77; }
+    { say 'libc++ is not installed' && exit 77; }
 done
 if [[ " $* " == *' build-no-fma '* && $(sines) == $(GLIBC_TUNABLES=$no_fma sines) ]]; then
-  say 'this processor has no FMA to switch off, or this C library does not listen'
+  say 'FMA cannot be switched off on this processor or in this C library'
 fi
 
 passed=0

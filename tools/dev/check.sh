@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# The rules of the repository's sources: check.sh [--all] [PART...]. All parts are run, whichever fails. The static analysis
-# reads the files that changed since the parent of the last commit (or since $CHECK_SINCE); with --all, every file.
-# Exit status: 0 all kept, 1 something violated, 77 (of a single part) its tool is not installed.
+# The rules for the repository's sources: check.sh [--all] [PART...]. All parts are run, even after failures. Static
+# analysis covers files changed since the parent of the last commit (or since $CHECK_SINCE); with --all, every file.
+# Exit status: 0 passed, 1 violations, 77 (of a single part) its tool is not installed.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -14,18 +14,18 @@ cd "$root"
 
 formatting() {
   command -v clang-format >/dev/null || { say 'clang-format is not installed' && return 77; }
-  # One line a file is enough to find it; `./dev format` repairs them all.
+  # Lists each file once; `./dev format` repairs them all.
   local unformatted
   unformatted=$(list_sources | xargs -0 clang-format --dry-run 2>&1 | awk -F: '/warning:/ && !seen[$1]++ {print $1 ":" $2}')
   if [[ $unformatted ]]; then
     sed 's/$/: not formatted (dev format repairs it)/' <<<"$unformatted"
     return 1
   fi
-  echo "$(list_sources | tr -cd '\0' | wc -c) files are formatted as .clang-format says"
+  echo "$(list_sources | tr -cd '\0' | wc -c) files formatted according to .clang-format"
 }
 
-# clang-tidy reads each file as the build compiles it, once for as long as nothing changes in it; .clang-tidy says why each
-# group is there.
+# clang-tidy analyses each file as compiled in the build, and again only after changes; .clang-tidy gives the reason for
+# each group.
 analysis() {
   command -v clang-tidy >/dev/null || { say 'clang-tidy is not installed' && return 77; }
   local count quiet=()
@@ -37,12 +37,12 @@ analysis() {
   fi
   count=$(python3 tools/dev/check/analysis.py "$build" ${since:+"$since"})
   ((count)) || { echo "no source changed since $since" && return; }
-  # A header that is not in the tree: the benchmark of the kernel includes it.
+  # This generated header is included by the kernel's benchmark.
   local generated=tests/bench/installed_headers.hpp
   if grep -qF "build $generated:" "$build/build.ninja"; then compile "$generated"; fi
   [[ -t 1 ]] || quiet=(--quiet)
   ninja -C "$build" -f analysis/build.ninja -j "$(nproc)" -k 0 "${quiet[@]}"
-  echo "$count files are as .clang-tidy says"
+  echo "$count files conform to .clang-tidy"
 }
 
 dependencies() { python3 tools/dev/check/dependencies.py "$root"; }
@@ -75,11 +75,11 @@ failed=()
 status=1
 for part; do
   if [[ " ${parts[*]} " != *" $part "* ]]; then
-    say "check has no part '$part'; its parts: ${parts[*]}"
+    say "unknown part '$part'; parts: ${parts[*]}"
     exit 2
   fi
   echo "== $part"
-  # A subshell under `set -e` of its own: `if` and `||` would switch that off within it.
+  # A subshell with its own `set -e`: `if` and `||` would switch that off within it.
   set +e
   (set -e; "$part")
   part_status=$?

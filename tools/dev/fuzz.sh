@@ -3,10 +3,10 @@
 #
 # Fuzzes the loaders: fuzz.sh [--seconds N] [NAME...]
 #
-# Each libFuzzer target of tests/fuzz, or each one named, for N seconds (default 60), built with clang++ in build-fuzz/. It
-# starts from the files in tests/fuzz/corpus/NAME, which are tried first, and what it finds beside them stays in
-# build-fuzz/corpus/NAME. An input that crashes, takes more than 10 s or more than 1 GiB is left in build-fuzz/found, and the
-# status is 1: fix the loader and keep the input in the corpus.
+# Runs each libFuzzer target of tests/fuzz, or each one named, for N seconds (default: 60), built with clang++ in
+# build-fuzz/. It starts with the files of tests/fuzz/corpus/NAME; new inputs go to build-fuzz/corpus/NAME. An input
+# that crashes, takes more than 10 s or more than 1 GiB is kept in build-fuzz/found, and the status is 1: fix the loader
+# and add the input to the corpus.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -22,7 +22,7 @@ fi
 names=()
 for source in "$root"/tests/fuzz/*.cpp; do names+=("$(basename "$source" .cpp)"); done
 for name; do
-  [[ " ${names[*]} " == *" $name "* ]] || { say "there is no target '$name', only: ${names[*]}"; exit 2; }
+  [[ " ${names[*]} " == *" $name "* ]] || { say "unknown target '$name'; targets: ${names[*]}"; exit 2; }
 done
 (($#)) && names=("$@")
 
@@ -34,12 +34,12 @@ mkdir -p "$build/found"
 status=0
 for name in "${names[@]}"; do
   mkdir -p "$build/corpus/$name"
-  # In an empty folder: what inputs include is not there.
+  # An empty current folder: included files of inputs are missing.
   empty=$(mktemp -d)
   if output=$(cd "$empty" && UBSAN_OPTIONS=print_stacktrace=1 "$build/tests/fuzz/fuzz-$name" -max_total_time="$seconds" \
     -timeout=10 -rss_limit_mb=1024 -max_len=16384 -print_final_stats=1 -artifact_prefix="$build/found/$name-" \
     "$build/corpus/$name" "$root/tests/fuzz/corpus/$name" 2>&1); then
-    echo "$name: $(sed -n 's/^stat::number_of_executed_units: //p' <<<"$output") inputs, nothing found"
+    echo "$name: $(sed -n 's/^stat::number_of_executed_units: //p' <<<"$output") inputs, no findings"
   else
     echo "$output" | tail -40
     echo "$name: FAILED"

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lays out headers for users' own code: install_headers.py [--stamp FILE --depfile FILE --to FOLDER] ROOT FOLDER...
+"""Installs headers for users' code: install_headers.py [--stamp FILE --depfile FILE --to FOLDER] ROOT FOLDER...
 
-Each header of the FOLDERs of the tree ROOT becomes TO/waitpoint/PATH-IN-THE-TREE, and what it includes of the tree is named
-<waitpoint/...> there: users need one folder on their path, and a `core/` of their own beside it does no harm. Left out are
-headers that need FCL's or Bullet's own. TO is by default where Meson installs headers.
+Each header of the FOLDERs of the tree ROOT is copied to TO/waitpoint/PATH-IN-THE-TREE, and its includes of the tree become
+<waitpoint/...>: users need one include folder, and a `core/` of their own does not conflict. Headers that need FCL's or
+Bullet's headers are left out. TO defaults to Meson's folder for installed headers.
 """
 
 import argparse
@@ -16,10 +16,10 @@ OF_OTHERS = re.compile(r"^\s*#\s*include\s*<(fcl|ccd|bt|Bullet|LinearMath)", re.
 
 
 def is_public(header, root, known):
-    """Whether neither the header nor what it includes needs a library that users need not have."""
+    """True if neither the header nor its includes need a library that users may lack."""
     if header not in known:
         text = (root / header).read_text()
-        known[header] = True  # while it is looked at
+        known[header] = True  # breaks cycles
         known[header] = not OF_OTHERS.search(text) and all(is_public(name, root, known) for _, name in OWN.findall(text))
     return known[header]
 

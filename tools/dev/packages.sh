@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# What each command needs, and how it gets there. Sourced by `dev`.
+# The packages that each command needs, and their installation. Sourced by `dev`.
 
-# Debian's names, and beside them what the same things are called upstream.
+# Debian's names, and the upstream names of the same software.
 declare -A debian=(
   [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
          nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libassimp-dev libbullet-dev librosbag-storage-dev
@@ -23,7 +23,7 @@ declare -A upstream=(
          yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for meshes of other kinds than STL and OBJ, if
          wanted, Assimp 5.2; for the dynamic world, if wanted, Bullet 3.24 in double precision; for ROS bags, if wanted,
          rosbag_storage and its messages'
-  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; where they are there: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake'
+  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'
   [valgrind]='valgrind'
@@ -33,8 +33,7 @@ declare -A upstream=(
   [check]='clang-format and clang-tidy 14'
   [format]='clang-format 14'
 )
-# Without these nothing can be built; all libraries but Google Benchmark and its peers come from subprojects/ when they
-# are missing.
+# Required for every build; all libraries except Google Benchmark and its peers come from subprojects/ if missing.
 declare -A tools=(
   [run]='meson ninja c++ pkg-config python3' [test]='' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
   [bench]='' [peers]='' [check]='' [format]='clang-format'
@@ -42,7 +41,7 @@ declare -A tools=(
 
 say() { echo "dev: $*" >&2; }
 
-# Makes sure that what the given commands need is installed: require COMMAND...
+# Installs the packages that the given commands need: require COMMAND...
 require() {
   local missing=()
   if command -v apt-get >/dev/null; then
@@ -59,7 +58,7 @@ require() {
   require_tools "$@"
 }
 
-# The words of table TABLE for the given commands: needed TABLE COMMAND...
+# Entries of table TABLE for the given commands: needed TABLE COMMAND...
 needed() {
   local -n table=$1
   shift
@@ -67,7 +66,7 @@ needed() {
   for name; do echo ${table[$name]}; done
 }
 
-# Those of the given packages that are not installed; dpkg-query fails where it does not know one.
+# The given packages that are not installed; dpkg-query fails for unknown ones.
 missing_packages() {
   local installed
   installed=$( (dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true) | sed -n 's/^installed //p')
@@ -89,7 +88,7 @@ as_root() {
 install_packages() {
   local install=(env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3
     -o Dpkg::Use-Pty=0 -y -q)
-  # A fresh machine has no package lists, an old one has lists that name files which are gone.
+  # Package lists are missing on a fresh machine, and name deleted files on an old one.
   if ! apt-cache show "$@" >/dev/null 2>&1 || ! as_root "${install[@]}" install --no-install-recommends "$@" >&2; then
     as_root "${install[@]}" update >&2
     as_root "${install[@]}" install --no-install-recommends "$@" >&2
@@ -102,12 +101,12 @@ require_tools() {
     command -v "$tool" >/dev/null || absent+=("$tool")
   done
   if ((${#absent[@]})) || [[ ! -e $build/build.ninja ]]; then
-    say 'no packages can be installed here. Needed are:'
+    say 'cannot install packages here; needed are:'
     needed upstream "$@" | sed 's/^/       /' >&2
   fi
   if ((${#absent[@]})); then
-    say "cannot go on without: ${absent[*]}"
+    say "cannot continue without: ${absent[*]}"
     exit 1
   fi
-  say 'Meson builds the libraries that it does not find from subprojects/'
+  say 'Meson builds missing libraries from subprojects/'
 }

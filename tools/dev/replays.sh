@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Failures that exploration found are replayed by the program that found them, and by others that were built from the same
-# code: with another level of optimisation, and by another compiler. Each must come to the same run, by its digest.
+# Failures found by exploration are replayed by the program that found them, and by builds of the same code with another
+# optimisation level or compiler. Each replay must be the same run, by its digest.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -18,7 +18,7 @@ trap 'rm -f "$stored"' EXIT
 status=0
 for name in '' g++-O0 clang++-O2; do
   if [[ $name ]]; then
-    command -v "${name%-O?}" >/dev/null || { say "there is no ${name%-O?} here" && continue; }
+    command -v "${name%-O?}" >/dev/null || { say "${name%-O?} is not installed" && continue; }
     build=$root/build-replays-$name
     CXX=${name%-O?} configure -Doptimization="${name##*-O}" -Dwerror=false -Dtests=enabled -Dbenchmarks=disabled
     compile tests/zoo-failures

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs every benchmark that Meson knows in a build folder, one after the other, with nothing beside it.
+"""Runs all benchmarks of a Meson build folder, one at a time.
 
-`--json FILE` gets the rows of all of them. Other options go to those benchmarks that know them.
+`--json FILE` receives the rows of all of them. Other options go to the benchmarks that know them.
 """
 
 import json
@@ -13,7 +13,7 @@ import tempfile
 
 
 def known(command, options):
-    """Those of the options that `command --help` tells of, with their values."""
+    """The options that `command --help` mentions, with their values."""
     text = subprocess.run([*command, "--help"], check=True, capture_output=True, text=True).stdout
     words, is_known = [], True
     for option in options:
@@ -34,7 +34,7 @@ def main():
     description = subprocess.run(["meson", "introspect", "--benchmarks", build], check=True, capture_output=True).stdout
     benchmarks = json.loads(description)
     if not benchmarks:
-        print("dev: there are no benchmarks in this build", file=sys.stderr)
+        print("dev: this build has no benchmarks", file=sys.stderr)
         return 1
     failed, rows = [], []
     with tempfile.TemporaryDirectory() as folder:

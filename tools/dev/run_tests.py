@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs every test that Meson knows in a build folder, and counts the single GoogleTest cases.
+"""Runs all tests of a Meson build folder, and counts the individual GoogleTest cases.
 
-A program that crashes, hangs past its timeout, or holds no case at all counts as a failed case. The last line is
-`N passed, M failed`, with `, K skipped` where some were; the exit status is 1 if any failed or nothing was run.
+A program that crashes, exceeds its timeout, or holds no case counts as a failed case. The last line is
+`N passed, M failed`, with `, K skipped` if any were; the exit status is 1 if any failed or nothing was run.
 """
 
 import argparse
@@ -21,8 +21,8 @@ import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# What the repository says about itself. Each is one case; a part whose tool is not installed is left out. The word BUILD
-# stands for the build folder.
+# Checks of the repository. Each is one case; a part without its tool is skipped. The word BUILD stands for the build
+# folder.
 BUILD = "BUILD"
 OWN_CASE_TIMEOUT_S = 900
 OWN_CASES = {
@@ -32,9 +32,9 @@ OWN_CASES = {
     "check formatting": [str(ROOT / "tools/dev/check.sh"), "formatting"],
     "check functions": [str(ROOT / "tools/dev/check.sh"), "functions"],
     "dev": [sys.executable, str(ROOT / "tests/dev/dev_test.py")],
-    "clang++ -O0 and this build are one run": [str(ROOT / "tools/dev/builds.sh"), "build", "clang++-O0"],
+    "clang++ -O0 gives this build's run": [str(ROOT / "tools/dev/builds.sh"), "build", "clang++-O0"],
     "documents": [sys.executable, str(ROOT / "tests/docs/pages_test.py"), BUILD],
-    "the kernel's plain path and this build are one run": [str(ROOT / "tools/dev/builds.sh"), "build", "build-plain-path"],
+    "the kernel's plain path gives this build's run": [str(ROOT / "tools/dev/builds.sh"), "build", "build-plain-path"],
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],
     "exec, the command": [sys.executable, str(ROOT / "tests/exec/command_test.py"), BUILD],
     "exec, libc and children": [sys.executable, str(ROOT / "tests/exec/libc_and_children_test.py"), BUILD],
@@ -49,7 +49,7 @@ OWN_CASES = {
 
 @dataclasses.dataclass
 class Result:
-    """What one program's run came to: case names, and its output where it is worth reading."""
+    """Results of one program's run: case names, and its output if relevant."""
 
     passed: int = 0
     failed: list = dataclasses.field(default_factory=list)
@@ -57,7 +57,7 @@ class Result:
     output: str = ""
 
 
-# Process groups that an interrupt must end: they do not hear it from the terminal.
+# Process groups to kill on an interrupt: the terminal's does not reach them.
 running_groups = set()
 
 
@@ -93,9 +93,9 @@ def run(command, timeout_s, environment=None, folder=None):
 
 def explain(status, timeout_s):
     if status is None:
-        return f"still ran after {timeout_s} s"
+        return f"exceeded {timeout_s} s"
     if status < 0:
-        return f"was ended by {signal.Signals(-status).name}"
+        return f"was terminated by {signal.Signals(-status).name}"
     return f"ended with status {status}"
 
 
@@ -112,7 +112,7 @@ def read_cases(report, result):
 
 
 def run_googletest(command, report, timeout_s, environment=None, folder=None, filtered=False):
-    """Runs a GoogleTest program; the report is written only by one that came to its end."""
+    """Runs a GoogleTest program; only a complete run writes the report."""
     report.unlink(missing_ok=True)
     status, output = run(command + [f"--gtest_output=xml:{report}"], timeout_s, environment, folder)
     result = Result(output=output)
@@ -141,7 +141,7 @@ def run_one_case(command, timeout_s, environment=None, folder=None):
 
 
 def excerpt(output, failed):
-    """Of a GoogleTest program's output what its failed cases said; all of it where they cannot be told apart."""
+    """The failed cases' part of a GoogleTest program's output; all of it if they cannot be separated."""
     said = re.findall(r"^\[ RUN      \] (\S+)\n(.*?)(?=^\[ (?:RUN|      OK|  SKIPPED) |\Z)", output, re.MULTILINE | re.DOTALL)
     parts = [f"{name}\n{text}" for name, text in said if any(case.split(":")[0] == name for case in failed)]
     return "".join(parts) or output
@@ -163,7 +163,7 @@ def report_end(name, result, wall_s, total):
 
 
 def jobs_of(build, arguments):
-    """The tests as (name, runs alone, function), what Meson gives a higher priority first; with `programs`, these alone."""
+    """The tests as (name, runs alone, function), by Meson's priority; with `programs`, only these."""
     description = subprocess.run(["meson", "introspect", "--tests", str(build)], check=True, capture_output=True).stdout
     reports = build / "test-reports"
     reports.mkdir(exist_ok=True)
@@ -200,8 +200,8 @@ def timed(job):
 def main():
     parser = argparse.ArgumentParser(prog="dev test", description="Unknown options go to each GoogleTest program.")
     parser.add_argument("build", type=pathlib.Path, help=argparse.SUPPRESS)
-    parser.add_argument("--filter", metavar="PATTERN", help="a word in the name of the cases, or GoogleTest's own pattern")
-    parser.add_argument("--jobs", type=int, default=2, help="programs at a time (default: 2)")
+    parser.add_argument("--filter", metavar="PATTERN", help="run cases that contain a word, or match a GoogleTest pattern")
+    parser.add_argument("--jobs", type=int, default=2, help="number of programs to run at once (default: 2)")
     parser.add_argument("--programs", type=lambda names: names.split(","), help=argparse.SUPPRESS)
     parser.add_argument("--under", type=shlex.split, default=[], help=argparse.SUPPRESS)
     parser.add_argument("--patience", type=int, default=1, help=argparse.SUPPRESS)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A copy of the tree whose subprojects need no network: wraps.py FOLDER.
+"""Copies the tree, with subprojects that need no network: wraps.py FOLDER.
 
-The wraps name upstream's archives. Where only Debian's packages can be had, the same releases are in its source packages:
-some archives bit by bit the same, others packed anew, without what Debian may not ship. This script downloads them with
-the system's own apt, copies the tree to FOLDER/tree and fills the wraps' package cache there; in the copy, the wraps of
-what is packed anew say so. A second run takes over what changed in the tree.
+The wraps name upstream's archives. If only Debian's packages are available, its source packages contain the same releases:
+some archives bit by bit the same, others repacked without files that Debian may not ship. This script downloads them with
+the system's apt, copies the tree to FOLDER/tree and fills the wraps' package cache there; in the copy, wraps of repacked
+archives have new hashes. Another call updates the copy with changes of the tree.
 """
 
 import hashlib
@@ -18,7 +18,7 @@ import tarfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Each wrap and Debian's source package of the same release.
+# Debian's source packages of the same releases, by wrap.
 SOURCE_PACKAGES = {
     "boost": "boost1.74",
     "ccd": "libccd",
@@ -42,7 +42,7 @@ def find_archive(folder, package):
 
 
 def apt(state, *arguments):
-    """apt-get with package lists of its own, which hold the source packages of where the binary ones come from."""
+    """apt-get with separate package lists, which hold the source packages of the configured binary ones."""
     command = ["apt-get", "-q", "-o", f"Dir::Etc::sourcelist={state}/sources.list", "-o", "Dir::Etc::sourceparts=-",
                "-o", f"Dir::State::lists={state}/lists", "-o", "Acquire::Retries=3", "-o", "APT::Sandbox::User=root"]
     subprocess.run([*command, *arguments], check=True, stdout=sys.stderr, cwd=state)
@@ -56,8 +56,8 @@ def download(packages, folder):
          "Origin: Debian"], check=True, capture_output=True, text=True).stdout
     if not targets:
         raise SystemExit("dev: apt has no lists of Debian's packages yet: run apt-get update")
-    # A release's own archives are always there; those of its security updates, not at each mirror. What upstream
-    # made of a package is the same in both.
+    # A release's own archives are always available; those of its security updates are missing on some mirrors. Both
+    # contain the same upstream source.
     suites = {line for line in targets.splitlines(keepends=True) if "-" not in line.split()[2]}
     (folder / "sources.list").write_text("".join(sorted(suites)))
     apt(folder, "update")
@@ -65,7 +65,7 @@ def download(packages, folder):
 
 
 def files_of_tree(folder):
-    """The files of a tree, relative to it: not what was built or unpacked there, and not its wraps."""
+    """The files of a tree, relative to it, without built and unpacked ones, and without its wraps."""
     for place, folders, files in os.walk(folder):
         place = pathlib.Path(place).relative_to(folder)
         if place == pathlib.Path("."):
@@ -77,14 +77,14 @@ def files_of_tree(folder):
 
 
 def write_if_new(path, content):
-    """What is as it was keeps its time, for Ninja."""
+    """Keeps the time of unchanged files, for Ninja."""
     if not path.exists() or path.read_bytes() != content:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(content)
 
 
 def copy_tree(source, target):
-    """Makes `target` what `source` is, but for the wraps."""
+    """Makes `target` equal to `source`, except for the wraps."""
     wanted = set(files_of_tree(source))
     for path in wanted:
         write_if_new(target / path, (source / path).read_bytes())
@@ -94,7 +94,7 @@ def copy_tree(source, target):
 
 
 def fit(wrap_text, archive):
-    """The text of a wrap that takes `archive`: the same, if it is the one that it names."""
+    """The text of a wrap that uses `archive`: unchanged if it already names that."""
     digest = hashlib.sha256(archive.read_bytes()).hexdigest()
     if f"source_hash = {digest}\n" in wrap_text:
         return wrap_text
@@ -125,7 +125,7 @@ def main():
         cached = cache / re.search(r"^source_filename = (.*)$", fitted, re.MULTILINE).group(1)
         if not cached.exists():
             shutil.copyfile(archive, cached)
-    print(f"dev: {len(SOURCE_PACKAGES)} archives from Debian, {same} of them upstream's own", file=sys.stderr)
+    print(f"dev: {len(SOURCE_PACKAGES)} archives from Debian, {same} of them identical to upstream's", file=sys.stderr)
 
 
 if __name__ == "__main__":

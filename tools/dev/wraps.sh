@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# The build in which every library comes from subprojects/ and none from the system: its tests of core and fibers pass, and
-# it gives the digest that build/ gives. The wraps' package cache is filled from Debian's source packages (wraps.py), in a
-# copy of the tree in build-wraps/.
+# Tests a build with every library from subprojects/ and none from the system: the tests of core and fibers must pass,
+# and the digest must be that of build/. The wraps' package cache is filled from Debian's source packages (wraps.py), in
+# a copy of the tree in build-wraps/.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -12,7 +12,7 @@ source "$root/tools/dev/build.sh"
 
 outcome() { "$root/tools/dev/builds.sh" --outcome "$1"; }
 
-say 'the libraries from Debian'"'"'s source packages'
+say 'getting the libraries from Debian'"'"'s source packages'
 python3 "$root/tools/dev/wraps.py" "$root/build-wraps"
 (
   build=$root/build-wraps/build
@@ -20,7 +20,7 @@ python3 "$root/tools/dev/wraps.py" "$root/build-wraps"
   configure -Ddefault_library=static -Db_pch=false -Dwrap_mode=forcefallback -Dtests=enabled -Dbenchmarks=disabled -Dbullet=disabled -Dassimp=disabled -Drosbag=disabled -Dwerror=false
   compile tools/waitpoint tests/test-core tests/test-fibers
 )
-# Those of the compiler, and those that only tests have, which can do without.
+# The compiler's libraries, and optional ones of the tests, may come from the system.
 from_system=$(meson introspect --dependencies "$root/build-wraps/build" | python3 -c '
 import json, sys
 names = {dependency["name"] for dependency in json.load(sys.stdin)}

@@ -27,8 +27,7 @@ std::filesystem::path commands() {
     const std::filesystem::path script = place / "waitpoint-gdb.py";
     if (std::filesystem::exists(script)) return script.lexically_normal();
   }
-  throw BadInput("gdb",
-                 "the commands for gdb are not installed: expected " + (installed / "waitpoint-gdb.py").string());
+  throw BadInput("gdb", "the gdb commands are not installed: expected " + (installed / "waitpoint-gdb.py").string());
 }
 
 [[noreturn]] void become_gdb(const DebugOptions& options, const std::vector<std::string>& first,
@@ -44,7 +43,7 @@ std::filesystem::path commands() {
   throw BadInput("gdb", errno == ENOENT ? "gdb is not installed" : std::string("gdb: ") + std::strerror(errno));
 }
 
-/// gdb starts the program itself, with what `waitpoint exec` would put in front of it.
+/// gdb starts the program itself, with the environment of `waitpoint exec`.
 [[noreturn]] void debug_program(const DebugOptions& options, const ExecOptions& program) {
   const ProgramFiles files(program.words);
   const RunMemory memory(settings_of(program, program.seed), files.programs);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program in gdb, with the commands of tools/gdb loaded.
+// Runs a program in gdb, with the commands of tools/gdb loaded.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,13 @@ namespace waitpoint::tools {
 /// `waitpoint gdb [OPTIONS OF GDB] -- PROGRAM ...`
 struct DebugOptions {
   std::vector<std::string> gdb_options;
-  bool own = false;                    ///< the words after `--` are a command of this program
-  std::vector<std::string> words;      ///< at least one
-  std::optional<ExecOptions> program;  ///< of `waitpoint exec`, where that is the command
+  bool own = false;                    ///< the words after `--` are a command of waitpoint
+  std::vector<std::string> words;      ///< not empty
+  std::optional<ExecOptions> program;  ///< of the command `waitpoint exec`
 };
 
-/// Becomes gdb. BadInput where there is no gdb, no such program, or the commands are not found: beside this program, in
-/// share/waitpoint/gdb of where it is installed, or where its library was.
+/// Replaces this process by gdb. BadInput if gdb, the program or the commands are missing; the commands are looked up
+/// beside this program, in its installation's share/waitpoint/gdb, and in the library's.
 [[noreturn]] void debug(const DebugOptions& options);
 
 }  // namespace waitpoint::tools

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""gdb sees the fibers of waitpoint: `source .../waitpoint-gdb.py`, for gdb 12 or later with Python.
+"""gdb commands for the fibers of waitpoint: `source .../waitpoint-gdb.py`, for gdb 12 or later with Python.
 
-The commands are in the files of waitpoint_gdb/, which lie beside this one; `help waitpoint` lists them.
+The commands are in the files of waitpoint_gdb/, beside this one; `help waitpoint` lists them.
 """
 
 import os
@@ -10,7 +10,7 @@ import sys
 folder = os.path.dirname(os.path.realpath(__file__))
 writes_bytecode = sys.dont_write_bytecode
 sys.path.insert(0, folder)
-sys.dont_write_bytecode = True  # nothing is left behind in the tree, or in a folder of the system
+sys.dont_write_bytecode = True  # leaves no files in the tree or in a system folder
 try:
     import waitpoint_gdb
 

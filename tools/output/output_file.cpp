@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The rights a new file gets; asking for them means setting them.
+/// The permissions of a new file; reading the mask requires setting it.
 mode_t usual_mode() {
   const mode_t mask = umask(0);
   umask(mask);
@@ -38,7 +38,7 @@ OutputFile::OutputFile(const fs::path& path) : path_(path), target_(path) {
       if (!stream_) fail();
       return;
     }
-    // The name may be a link: what it points to is replaced, not the link.
+    // Through a link, the target is replaced, not the link.
     target_ = fs::canonical(path_, error);
     if (error) target_ = path_;
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file that is either written whole or not at all.
+// A file that is written completely or not at all.
 //
-// It is opened before the run starts, so that a name that cannot be written is told at once. What is written goes to a
-// temporary file beside it, which takes the name on commit(); without commit() nothing is left and what was there
-// stays. A name that is no regular file (/dev/null, a pipe) is written directly.
+// Opened before the run starts, so that an unwritable name is reported at once. Data goes to a temporary file beside
+// it, which commit() renames; without commit() the temporary file is removed and the old file stays. A name of a
+// special file (/dev/null, a pipe) is written directly.
 #pragma once
 
 #include <cstdio>
@@ -24,11 +24,11 @@ class OutputFile {
   OutputFile(OutputFile&&) = default;
 
   const std::filesystem::path& path() const { return path_; }
-  /// The file that takes the name on commit(), for a library that opens files by name.
+  /// The file that commit() renames, for a library that opens files by name.
   const std::filesystem::path& written_to() const { return temporary_.empty() ? path_ : temporary_; }
   /// Appends. Throws BadInput if the medium is full.
   void write(std::string_view text);
-  /// Gives the file its name; nothing can be written afterwards. Throws BadInput if that fails.
+  /// Renames the file; nothing can be written afterwards. Throws BadInput on failure.
   void commit();
 
  private:
@@ -37,12 +37,12 @@ class OutputFile {
   };
   [[noreturn]] void fail() const;
 
-  std::filesystem::path path_;  ///< as asked for
+  std::filesystem::path path_;  ///< as requested
   std::filesystem::path target_, temporary_;
   std::unique_ptr<std::FILE, Close> stream_;
 };
 
-/// Throws BadInput if anything printed so far could not be written.
+/// Throws BadInput if earlier output could not be written.
 void flush_standard_output();
 
 }  // namespace waitpoint::tools

@@ -19,11 +19,11 @@ using bridge::RunResult;
 using world::Obstacle;
 using world::Shape;
 
-/// What stands as high as this is drawn as a wall, the rest as furniture.
+/// Obstacles of at least this height are drawn as walls, the others as furniture.
 constexpr double wall_height_m = 1.9;
 constexpr Duration outline_period = std::chrono::seconds(15);
 
-/// Told apart also by the common colour blindnesses, as far as ten colours can be.
+/// Distinguishable with the common colour blindnesses, as far as ten colours can be.
 constexpr std::array<std::string_view, 10> robot_colours = {"#1c7ed6", "#d9480f", "#2b8a3e", "#9c36b5", "#0b7285",
                                                             "#c2255c", "#5c940d", "#5f3dc4", "#e67700", "#495057"};
 
@@ -31,7 +31,7 @@ constexpr std::string_view ink = "#212529", wall = "#495057", furniture = "#d6c7
 constexpr std::string_view unknown = "#f08c00", estimate_single = "#f76707", odometry_single = "#c2255c";
 constexpr std::string_view segment_colour = "#2f9e44", paper = "#ffffff", floor_colour = "#f8f7f4";
 
-/// The colours and widths of one robot's lines: alone it has a colour for each line, among others one for all.
+/// Colours and widths of one robot's lines: a single robot has a colour for each line, one of several a colour for all.
 struct Pen {
   std::string truth, estimate, odometry, segments, colour;
 };
@@ -72,7 +72,7 @@ void draw_floor(Svg& svg, const PictureFrame& frame, std::span<const Obstacle> o
     (!obstacle.known ? unknowns : high ? walls : low) += outline_path(frame, obstacle.shape);
   }
   svg.path(low, fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"1\"", furniture, furniture_edge));
-  // The stroke closes the seams between the boxes that a map's cells were merged into.
+  // The stroke closes the seams between the merged boxes of a map's cells.
   svg.path(walls, fmt::format("fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.6\"", wall));
   svg.path(unknowns, fmt::format("fill=\"url(#unknown)\" stroke=\"{}\" stroke-width=\"1.5\"", unknown));
 }
@@ -154,7 +154,7 @@ class Legend {
  private:
   void write(double indent, std::string_view label) {
     svg_.text(at_ + Point{indent, 5}, label, fmt::format("font-size=\"14\" fill=\"{}\"", ink));
-    // Without the font's measures: an average letter of Helvetica is a little over half as wide as the font is high.
+    // An estimate without font metrics: Helvetica's average letter is a little over half as wide as the font is high.
     at_.x += indent + 7.3 * static_cast<double>(label.size()) + 20;
   }
 
@@ -180,7 +180,7 @@ void draw_legend(Svg& svg, const PictureFrame& frame, const RunResult& result) {
   areas.disc(faint_style(pen), fmt::format("robot, every {:.0f} s", outline_period.seconds()));
 }
 
-/// The roundest length that is about a tenth of the map.
+/// The roundest length of about a tenth of the map.
 void draw_scale_bar(Svg& svg, const PictureFrame& frame) {
   double length_m = 0.1;
   for (const double candidate : {0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture of a run: the floor, and for each robot its start, goals, paths (true, estimated, by odometry alone), its
-// outline now and then and at the end, and the segments that its localisation built.
+// A picture of a run: the floor, and for each robot its start, goals, paths (true, estimated, odometry alone), outlines
+// at intervals and at the end, and the segments mapped by its localisation.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace waitpoint::tools {
 
-/// An SVG document. `obstacles` is all that stands on the floor, a map's boxes included: thousands are fine.
+/// An SVG document. `obstacles` are all obstacles on the floor, including a map's boxes: thousands are fine.
 std::string picture_svg(std::span<const world::Obstacle> obstacles, const bridge::RunResult& result);
 
 }  // namespace waitpoint::tools

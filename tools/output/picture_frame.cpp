@@ -8,7 +8,7 @@ namespace {
 
 constexpr double long_side_pixels = 1400;
 constexpr double margin_m = 0.4;
-// A legend needs room, even under a map that is narrow.
+// Minimum width: the legend needs it even under a narrow map.
 constexpr double width_least = 1000;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where metres of the world lie on a picture: the part of the world that is shown, and its scale.
+// The mapping of world metres to pixels: the visible part of the world, and its scale.
 #pragma once
 
 #include <span>
@@ -20,7 +20,7 @@ class PictureFrame {
 
   double map_width() const { return pixels(high_.x - low_.x); }
   double map_height() const { return pixels(high_.y - low_.y); }
-  /// The whole picture, with room for the title above and the legend below.
+  /// The whole picture, including the title above and the legend below.
   double width() const { return map_width() + 2 * left; }
   double height() const { return top + map_height() + bottom; }
 
@@ -34,7 +34,7 @@ class PictureFrame {
   double scale_ = 1;
 };
 
-/// The corners of a box or a prism that stands at its pose.
+/// The corners of a box or a prism at its pose.
 std::vector<Point> corners(const world::Shape& shape);
 
 }  // namespace waitpoint::tools

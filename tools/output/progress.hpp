@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shows how far a run has come: on a terminal a bar in simulated time, redrawn in place; elsewhere a line for every
-// simulated minute, the same lines in every run. Messages of the run go through it too, so that they do not tear the
-// bar.
+// Progress of a run: on a terminal a bar in simulated time, redrawn in place; elsewhere a line for every simulated
+// minute, identical in every run. Log messages of the run are printed through it, so that they do not tear the bar.
 //
-// The wall clock is read here, for display alone.
+// Reads the wall clock, only for display.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +13,21 @@
 
 namespace waitpoint::tools {
 
-/// Seconds of a steady clock, from any beginning.
+/// Seconds of a steady clock with an arbitrary origin.
 double wall_clock_s();
 
 class Progress {
  public:
   using Clock = double (*)();
 
-  /// `until` is the end of the bar. The stream is borrowed; whether it is a terminal is the caller's to find out.
+  /// `until` is the end of the bar. Borrows the stream; the caller determines if it is a terminal.
   Progress(std::FILE* stream, bool terminal, Duration until, Clock clock = &wall_clock_s);
 
-  /// Meant to be called at every world step: it only reads the clock most of the time.
+  /// Call at every world step: most calls only read the clock.
   void update(Time now, std::size_t goals_reached, std::size_t goals);
   /// A line of the run's log, with its virtual time.
   void log(Time now, std::string_view robot, std::string_view message);
-  /// Takes the bar away. Nothing is shown afterwards until the next update.
+  /// Erases the bar; the next update shows it again.
   void finish();
 
  private:

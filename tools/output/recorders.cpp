@@ -30,7 +30,7 @@ std::string event_text(const kernel::EventRecord& record) {
 void EventRecorder::write(kernel::Watch& watch, const kernel::EventRecord& record) {
   EventRecorder& self = static_cast<EventRecorder&>(watch);
   if (self.failure_ != nullptr) return;
-  // Nothing may be thrown through the kernel: what fails here is told at the end.
+  // Exceptions must not pass through the kernel: failures are reported at the end.
   try {
     self.file_.write(event_text(record) + "\n");
   } catch (...) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What locates a difference between two runs: digests by robot and second, and the events themselves, as text.
+// Files that locate a difference between two runs: digests by robot and second, and all events, as text.
 //
 // Compare the digest files first (`diff` names the first second and robot), then the event files of that second.
 // Neither changes the run.
@@ -13,7 +13,7 @@
 
 namespace waitpoint::tools {
 
-/// Lines "second robot digest events", robots in the order of the scenario, then the environment.
+/// Lines "second robot digest events": robots in the scenario's order, then the environment.
 class DigestRecorder {
  public:
   explicit DigestRecorder(const std::filesystem::path& path) : file_(path) {}
@@ -27,7 +27,7 @@ class DigestRecorder {
 /// "time robot task operation object", without a newline.
 std::string event_text(const kernel::EventRecord& record);
 
-/// Lines "time robot task operation object": one for each event.
+/// Lines "time robot task operation object", one for each event.
 class EventRecorder : private kernel::Watch {
  public:
   explicit EventRecorder(const std::filesystem::path& path);

@@ -75,7 +75,7 @@ std::string robot_table(const RunResult& result) {
   return text;
 }
 
-/// The keys that a run and each of its robots share.
+/// Keys of both a run and each of its robots.
 void put_figures(Json& json, const RunTotals& figures) {
   json["goals"] = figures.goals;
   json["goals_reached"] = figures.goals_reached;
@@ -158,7 +158,7 @@ Json json_of(const RunResult& result) {
   return json;
 }
 
-/// Names and messages come from files: bytes that are no UTF-8 are replaced instead of thrown at the end of a run.
+/// Names and messages come from files: invalid UTF-8 is replaced, so that it does not throw at the end of a run.
 std::string dumped(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What came out of a run, for people and for programs.
+// The results of a run, as text and as JSON.
 #pragma once
 
 #include <span>
@@ -9,19 +9,19 @@
 
 namespace waitpoint::tools {
 
-/// The text shown at the end of a run: figures of all robots, a table of the robots if there are several, goals that
-/// were not reached, periodic tasks that missed deadlines, warnings, the report of a deadlock or of no progress if any,
-/// and last the digest. Ends with a newline.
+/// The text shown at the end of a run: totals of all robots, a table of several robots, missed goals, periodic tasks
+/// with missed deadlines, warnings, the report of a deadlock or of no progress if any, and finally the digest. Ends
+/// with a newline.
 std::string summary_text(const bridge::RunResult& result);
 
-/// One JSON object, figures by the names of the fields with their units; `robots` has the same figures for each, and
-/// its goals one by one. Ends with a newline.
+/// One JSON object; keys are the names of the fields with their units; `robots` has the same keys for each robot, and
+/// its goals. Ends with a newline.
 std::string summary_json(const bridge::RunResult& result);
 
 /// Several runs: {"runs": [...]}, one object each as above.
 std::string summary_json(std::span<const bridge::RunResult> results);
 
-/// For `--seeds`: the table's head, and a row for each run.
+/// For `--seeds`: the head of the table, and a row for each run.
 std::string seeds_head();
 std::string seeds_row(const bridge::RunResult& result);
 

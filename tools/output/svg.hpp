@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scalable vector graphics as text: shapes in pixels, y downwards, drawn in the order in which they are added. Numbers
-// have two decimals, so the same picture is the same text everywhere.
+// Scalable vector graphics as text: shapes in pixels, y downwards, drawn in order of addition. Numbers have two
+// decimals, so equal pictures are equal texts everywhere.
 //
 // `style` is a list of attributes: `fill="none" stroke="#000"`.
 #pragma once
@@ -21,13 +21,13 @@ class Svg {
   void rectangle(Point corner, double width, double height, std::string_view style);
   void circle(Point centre, double radius, std::string_view style);
   void line(Point a, Point b, std::string_view style);
-  /// Nothing for fewer than two points.
+  /// Draws nothing for fewer than two points.
   void polyline(std::span<const Point> points, std::string_view style);
   /// `data` is an SVG path, such as svg_polygon makes.
   void path(std::string_view data, std::string_view style);
-  /// `at` is the left end of the base line, unless the style has a text-anchor. The text may have any characters.
+  /// `at` is the left end of the base line, unless the style has a text-anchor. Any characters are allowed.
   void text(Point at, std::string_view text, std::string_view style);
-  /// A definition, such as a pattern, as it is.
+  /// A definition, such as a pattern, verbatim.
   void define(std::string_view xml);
   void begin_group(std::string_view style);
   void end_group();
@@ -39,14 +39,14 @@ class Svg {
   std::string head_, body_;
 };
 
-/// "12.35"; trailing zeros are left out.
+/// "12.35"; without trailing zeros.
 std::string svg_number(double value);
-/// The closed polygon through the points, as a part of a path.
+/// The closed polygon through the points, as path data.
 std::string svg_polygon(std::span<const Point> points);
-/// Text with the characters that XML reserves replaced, and without those that it does not allow.
+/// Text with characters reserved in XML escaped, and disallowed ones removed.
 std::string xml_escaped(std::string_view text);
 
-/// The line with the points left out that are nearer than `tolerance` to what remains (Douglas and Peucker 1973).
+/// The line without the points closer than `tolerance` to the rest (Douglas and Peucker 1973).
 std::vector<Point> simplified(std::span<const Point> line, double tolerance);
 
 }  // namespace waitpoint::tools

@@ -9,7 +9,7 @@
 namespace waitpoint::tools {
 namespace {
 
-/// out.tum with "NAME" -> out.NAME.tum; "" leaves it.
+/// out.tum with "NAME" -> out.NAME.tum; "" leaves it unchanged.
 std::filesystem::path with_part(const std::filesystem::path& path, const std::string& part) {
   if (part.empty()) return path;
   return path.parent_path() / (path.stem().string() + "." + part + path.extension().string());

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories in the format of the TUM RGB-D benchmark, as `evo` and others read it: a line `t x y z qx qy qz qw` for
-// each pose, seconds and metres, the rotation as a quaternion about z.
+// Trajectories in the format of the TUM RGB-D benchmark, for `evo` and others: a line `t x y z qx qy qz qw` per pose,
+// in seconds and metres, with the rotation as a quaternion about z.
 //
-// `--trajectory out.tum` writes the true path to out.tum, what the robot thought to out.estimated.tum and its odometry
-// to out.odometry.tum; with several robots each has its own: out.NAME.tum, out.NAME.estimated.tum, ...
+// `--trajectory out.tum` writes the true path to out.tum, the estimated one to out.estimated.tum and odometry to
+// out.odometry.tum; several robots have a file each: out.NAME.tum, out.NAME.estimated.tum, ...
 #pragma once
 
 #include <filesystem>
@@ -22,10 +22,10 @@ std::string tum_text(std::span<const bridge::DatedPose> path);
 /// The files of one run, opened before it starts and written after it.
 class TrajectoryFiles {
  public:
-  /// Throws BadInput if one cannot be written.
+  /// Throws BadInput if a file cannot be written.
   TrajectoryFiles(const std::filesystem::path& path, std::span<const std::string> robots);
 
-  /// Writes and commits them all; the result has the robots named before, in that order.
+  /// Writes and commits all files; the result has the robots given before, in that order.
   void write(const bridge::RunResult& result);
 
  private:

@@ -8,7 +8,7 @@ namespace {
 
 std::string text(const Pose& pose) { return fmt::format("{:.6f} {:.6f} {:.6f}", pose.x, pose.y, pose.heading); }
 
-// When it happened, on which robot, and when it was logged: the same.
+// The time of the event, the robot, and the time of logging, which is the same.
 std::string ending(Time time, const std::string& robot) {
   return fmt::format(" {0:.6f} {1} {0:.6f}\n", time.since_start().seconds(), robot);
 }

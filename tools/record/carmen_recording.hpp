@@ -5,7 +5,7 @@
 //   ODOM x y theta v w 0 time ROBOT time
 //   TRUEPOS x y theta odom_x odom_y odom_theta time ROBOT time
 //
-// The laser's pose is in the odometry's frame. The format has one laser: of each robot the first one.
+// The laser's pose is in the odometry's frame. The format supports one laser: each robot's first one is recorded.
 #pragma once
 
 #include "tools/output/output_file.hpp"

@@ -17,8 +17,9 @@ std::unique_ptr<Recording> make_bag(const std::filesystem::path& path,
 #ifdef WAITPOINT_ROS_BAGS
   return std::make_unique<RosBagRecording>(path, scenario);
 #else
-  throw BadInput(path.string(),
-                 "this waitpoint was built without rosbag_storage (Debian: librosbag-storage-dev): it writes no bags");
+  throw BadInput(
+      path.string(),
+      "this waitpoint was built without rosbag_storage (Debian: librosbag-storage-dev) and cannot write bags");
 #endif
 }
 

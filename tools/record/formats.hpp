@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formats of --record, by the extensions of file names.
+// The formats of --record, by file name extension.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace waitpoint::tools {
 
-/// Of the kind that the file's extension says; BadInput for another one, or where the file cannot be written.
+/// Chosen by the file's extension; BadInput for an unknown one, or if the file cannot be written.
 std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const bridge::Scenario& scenario);
 
 }  // namespace waitpoint::tools

@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int information = 2, warning = 3;  // of foxglove.Log's levels
+constexpr int information = 2, warning = 3;  // levels of foxglove.Log
 
 Json number() { return {{"type", "number"}}; }
 Json whole() { return {{"type", "integer"}}; }

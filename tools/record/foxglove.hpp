@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages as Foxglove's viewers know them (docs.foxglove.dev, "Foxglove schemas"), in JSON: their schemas, and what
-// they look like. Lengths in metres, angles in radians, rotations as quaternions; times are virtual, from 0 on.
+// JSON messages of Foxglove's viewers (docs.foxglove.dev, "Foxglove schemas"), and their schemas. Lengths in metres,
+// angles in radians, rotations as quaternions; times are virtual, from 0.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace waitpoint::tools::foxglove {
 
-/// A schema's name, and its text as a JSON Schema.
+/// A schema's name and its JSON Schema text.
 struct Schema {
   std::string name, text;
 };
@@ -22,17 +22,17 @@ Schema log();
 Schema pose_in_frame();
 Schema scene_update();
 
-/// The virtual time, as ROS tells it; Foxglove has no schema of its own for that.
+/// The virtual time in ROS's format; Foxglove has no schema for it.
 std::string clock(Time time);
-/// Where `child` is in `parent`.
+/// The pose of `child` in `parent`.
 std::string frame_transform(Time time, const std::string& parent, const std::string& child, const Pose& pose,
                             double z_m = 0);
 /// A scan in its device's frame.
 std::string laser_scan(const posters::LaserReading& scan, const std::string& frame);
-/// A line of text, of severity "information" or "warning".
+/// A line of text with severity "information" or "warning".
 std::string log(Time time, const std::string& who, const std::string& text, bool is_warning = false);
 std::string pose_in_frame(Time time, const std::string& frame, const Pose& pose);
-/// Boxes and cylinders that stay.
+/// Static boxes and cylinders.
 std::string scene_update(Time time, const std::string& frame, std::span<const world::Shape> shapes);
 
 }  // namespace waitpoint::tools::foxglove

@@ -25,7 +25,7 @@ enum Operation : std::uint8_t {
   data_end = 0x0F,
 };
 
-/// The fields of a record: little-endian numbers, texts behind their lengths.
+/// The fields of a record: little-endian numbers, texts with a length prefix.
 class Fields {
  public:
   template <class Number>
@@ -38,7 +38,7 @@ class Fields {
     return *this;
   }
   Fields& text(std::string_view bytes) { return number(static_cast<std::uint32_t>(bytes.size())).raw(bytes); }
-  /// A map: its entries behind their size in bytes.
+  /// A map: its entries after their size in bytes.
   Fields& map(const Fields& entries) { return text(entries.bytes_); }
 
   std::string as_record(Operation operation) const {
@@ -183,7 +183,7 @@ void McapFile::finish() {
   const std::uint64_t offsets_start = summary_start + summary.size();
   for (const Group& group : groups)
     summary += Fields().number(group.operation).number(group.offset).number(group.length).as_record(summary_offset);
-  // The footer's checksum is of the summary and of the footer up to the checksum itself.
+  // The footer's checksum covers the summary and the footer up to the checksum itself.
   constexpr std::size_t checksum_bytes = 4;
   const std::string last =
       Fields().number(summary_start).number(offsets_start).number(std::uint32_t{0}).as_record(footer);

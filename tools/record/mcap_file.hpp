@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file of the MCAP format (mcap.dev, version 0): messages of several channels by time, with an index, so that viewers
-// can jump to any time. Chunks of about a megabyte, not compressed, each with its checksum.
+// An MCAP file (mcap.dev, version 0): messages of several channels by time, with an index, so that viewers can seek.
+// Uncompressed chunks of about a megabyte, each with a checksum.
 //
 //   magic | Header | (Chunk MessageIndex...)... | DataEnd | Schema... Channel... ChunkIndex... Statistics
 //         | SummaryOffset... | Footer | magic
 //
-// The same messages give the same bytes: nothing of the machine or the clock is in it.
+// Equal messages give equal bytes: the file does not depend on the machine or the clock.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +24,13 @@ class McapFile {
   /// Throws BadInput if the file cannot be written; so do write() and finish().
   explicit McapFile(const std::filesystem::path& path);
 
-  /// A kind of message: `text` is a JSON Schema. Returns its number, for add_channel().
+  /// Adds a kind of message: `text` is a JSON Schema. Returns its number, for add_channel().
   std::uint16_t add_schema(const std::string& name, const std::string& text);
-  /// Messages in JSON, of a schema, on a topic.
+  /// Adds a topic with JSON messages of a schema.
   std::uint16_t add_channel(std::uint16_t schema, const std::string& topic);
   /// Appends a message; times need not ascend.
   void write(std::uint16_t channel, Time time, std::string_view message);
-  /// Writes the index and gives the file its name.
+  /// Writes the index and renames the file into place.
   void finish();
 
  private:
@@ -50,7 +50,7 @@ class McapFile {
 
   OutputFile file_;
   std::uint64_t size_ = 0;
-  std::uint32_t checksum_ = 0;                   // of all that was written
+  std::uint32_t checksum_ = 0;                   // of everything written
   std::vector<std::string> schemas_, channels_;  // as records
   std::string chunk_;
   std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0;

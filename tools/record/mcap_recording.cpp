@@ -41,7 +41,7 @@ void McapRecording::add(const OfRobot& robot) {
 
 void McapRecording::write_clock() { file_.write(clock_, now_, foxglove::clock(now_)); }
 
-// Its time is that of the first message, whenever that was: the same world is the same text.
+// Stamped with the time of the first message: equal worlds give equal texts.
 void McapRecording::write_obstacles(const std::vector<world::Shape>& shapes) {
   file_.write(world_, now_, foxglove::scene_update(Time(), root, shapes));
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run for Foxglove and other viewers of MCAP files:
 //
-//   /tf               every robot's frames: world -> ROBOT (the truth), world -> ROBOT/position (what it believes), and
+//   /tf               every robot's frames: world -> ROBOT (true), world -> ROBOT/position (estimated), and
 //                     ROBOT/position -> ROBOT/LASER
-//   /world            the obstacles, again when they change
+//   /world            the obstacles, again on every change
 //   /clock            the virtual time, after each step of the world, ten times a second
 //   /ROBOT/LASER      its scans, in the frame ROBOT/LASER
 //   /ROBOT/odometry, /ROBOT/position, /ROBOT/truth    its poses
-//   /ROBOT/modules    what its modules were asked, and what became of that, in words
-//   /ROBOT/goals      what became of its goals, in words
+//   /ROBOT/modules    requests to its modules and their outcomes, in words
+//   /ROBOT/goals      outcomes of its goals, in words
 #pragma once
 
 #include "tools/record/mcap_file.hpp"
@@ -22,7 +22,7 @@ class McapRecording final : public ViewerRecording {
   McapRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
 
  private:
-  /// Of a robot.
+  /// Of one robot.
   struct Channels {
     std::vector<std::uint16_t> scans;
     std::uint16_t odometry, position, truth, log;
@@ -45,7 +45,7 @@ class McapRecording final : public ViewerRecording {
   McapFile file_;
   std::uint16_t transform_, scan_, log_, pose_, scene_, time_;  // schemas
   std::uint16_t frames_, world_, clock_;                        // channels
-  std::vector<Channels> channels_;                              // of each robot
+  std::vector<Channels> channels_;                              // by robot
   Time now_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the modules of a robot were asked, and what became of that, in words: "GoTo: asked", "GoTo: activity 0 started",
-// "GoTo: activity 0 ended: ok".
+// Requests to the modules of a robot and their outcomes, in words: "GoTo: asked", "GoTo: activity 0 started", "GoTo:
+// activity 0 ended: ok".
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ class ModuleLog final : public genom::ModuleWatch {
   struct Line {
     Time date;
     std::string module, text;
-    bool is_bad = false;  ///< it ended with a report other than ok
+    bool is_bad = false;  ///< ended with a report other than ok
   };
 
   void on(const genom::Module& module, const genom::ModuleEvent& event) override;
-  /// All lines since it was asked last, in the order in which things happened.
+  /// All lines since the last call, in chronological order.
   std::vector<Line> take();
 
  private:
@@ -27,7 +27,7 @@ class ModuleLog final : public genom::ModuleWatch {
     const genom::Module* module;
     genom::ModuleEvent event;
   };
-  std::vector<Told> told_;  // in words later: the stacks of the modules' tasks are small
+  std::vector<Told> told_;  // formatted later: the stacks of the modules' tasks are small
 };
 
 }  // namespace waitpoint::tools

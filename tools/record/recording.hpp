@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happens in a run, for viewers: `--record FILE.mcap` for Foxglove, `--record FILE.log` for CARMEN's tools.
+// A recording of a run for viewers: `--record FILE.mcap` for Foxglove, `--record FILE.log` for CARMEN's tools.
 //
-// A recording looks at the world and at the robots' posters after each step of the world. Looking is no event: a run is
-// the same whether it is recorded or not, and the same run gives the same bytes.
+// A recording reads the world and the robots' posters after each step of the world. Reading is not an event: a run is
+// the same with and without recording, and equal runs give equal bytes.
 #pragma once
 
 #include <exception>
@@ -14,12 +14,12 @@ namespace waitpoint::tools {
 class Recording {
  public:
   virtual ~Recording() = default;
-  /// Before the run, which it must outlive. The scenario is the experiment's.
+  /// Call before the run; the recording must outlive it. The scenario is the experiment's.
   virtual void begin(bridge::Experiment& experiment) = 0;
-  /// After a step of the world, at `now`. Throws nothing, as it would be through the world's task: what fails is told
-  /// by finish().
+  /// Call after a step of the world, at `now`. Does not throw, as exceptions would pass through the world's task:
+  /// finish() reports failures.
   void observe(const bridge::Experiment& experiment, Time now);
-  /// The run is over: gives the file its name. Throws BadInput where it could not be written.
+  /// Call after the run: renames the file into place. Throws BadInput if it could not be written.
   void finish(const bridge::RunResult& result);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's posters as a recording sees them: what is new since it looked last.
+// New values of a robot's posters, for recordings.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@
 
 namespace waitpoint::tools {
 
-/// One poster; of a robot that does not have it, nothing is ever new.
+/// One poster; if the robot does not have it, there are never new values.
 template <class Value>
 class NewValues {
  public:
   NewValues(const genom::NameSpace& names, const std::string& poster)
       : poster_(dynamic_cast<const genom::Poster<Value>*>(names.find_poster(poster))) {}
 
-  /// The value, if its date is another than that of the last one taken.
+  /// The value, if its date differs from that of the last one taken.
   template <class DateOf>
   std::optional<Value> take(DateOf date_of) {
     std::optional<Value> value = poster_ != nullptr ? poster_->look() : std::nullopt;

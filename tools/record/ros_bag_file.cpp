@@ -44,7 +44,7 @@ geometry_msgs::Pose pose_of(const RosBagFile::Place& place) {
   return pose;
 }
 
-// In ROS's order of x, y, z and the angles about them.
+// In ROS's order: x, y, z and the angles about them.
 boost::array<double, 36> of(const RosBagFile::Covariance& covariance) {
   constexpr std::size_t places[] = {0, 1, 5};
   boost::array<double, 36> all{};

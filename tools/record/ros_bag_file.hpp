@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ROS 1 bag as rosbag_storage writes it, in ROS's own messages. Debian's headers of these messages end at C++17, so
-// this is the file's whole interface, without a word of ours: times in nanoseconds from 0 on, lengths in metres, angles
-// in radians. What cannot be written is std::runtime_error.
+// A ROS 1 bag with ROS's own messages, written by rosbag_storage. Debian's headers of these messages do not compile
+// beyond C++17, so this interface uses no types of waitpoint: times in nanoseconds from 0, lengths in metres, angles in
+// radians. Failures to write are std::runtime_error.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace waitpoint::tools {
 
 class RosBagFile {
  public:
-  /// Where something is in `frame`; turned about z by 2 atan2(sin_half, cos_half).
+  /// A position in `frame`; turned about z by 2 atan2(sin_half, cos_half).
   struct Place {
     std::int64_t time_ns;
     std::string frame;
@@ -26,25 +26,25 @@ class RosBagFile {
     double first_angle, angle_step, range_max;
     std::vector<float> ranges;
   };
-  /// A box of the given sizes, or an upright cylinder whose diameter is the first of them; grey.
+  /// A grey box of the given sizes, or an upright cylinder whose diameter is the first of them.
   struct Solid {
     bool is_box;
     Place place;
     std::array<double, 3> size;
   };
-  /// Of x, y and the angle, by rows.
+  /// Of x, y and the angle, row-major.
   using Covariance = std::array<double, 9>;
 
   explicit RosBagFile(const std::string& path);
   ~RosBagFile();
 
-  /// All that is written from here on was received then.
+  /// The time of receipt of the following messages.
   void set_time(std::int64_t now_ns) { now_ns_ = now_ns; }
   void write_clock();
   void write_transform(const Place& child, const std::string& child_frame);
   void write_pose(const std::string& topic, const Place& place);
   void write_pose(const std::string& topic, const Place& place, const Covariance& covariance);
-  /// Of the frame `child`, with its speeds.
+  /// Of the frame `child`, with its velocities.
   void write_odometry(const std::string& topic, const Place& place, const Covariance& covariance,
                       const std::string& child, double v, double w);
   void write_scan(const std::string& topic, const Scan& scan);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run as a ROS 1 bag, for rviz and everything else that reads bags:
+// A run as a ROS 1 bag, for rviz and all other readers of bags:
 //
 //   /clock            rosgraph_msgs/Clock, ten times a second
-//   /tf               tf2_msgs/TFMessage: world -> ROBOT (the truth), world -> ROBOT/position (what it believes), and
+//   /tf               tf2_msgs/TFMessage: world -> ROBOT (true), world -> ROBOT/position (estimated), and
 //                     ROBOT/position -> ROBOT/LASER
-//   /world            visualization_msgs/MarkerArray: the obstacles, again when they change
+//   /world            visualization_msgs/MarkerArray: the obstacles, again on every change
 //   /ROBOT/LASER      sensor_msgs/LaserScan, in the frame ROBOT/LASER
 //   /ROBOT/odometry   nav_msgs/Odometry
-//   /ROBOT/position   geometry_msgs/PoseWithCovarianceStamped, what it believes
+//   /ROBOT/position   geometry_msgs/PoseWithCovarianceStamped, the estimated pose
 //   /ROBOT/truth      geometry_msgs/PoseStamped, ten times a second
-//   /ROBOT/modules    rosgraph_msgs/Log: what its modules were asked, and what became of that
+//   /ROBOT/modules    rosgraph_msgs/Log: requests to its modules and their outcomes
 #pragma once
 
 #include "tools/output/output_file.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run as viewers show it, whatever the format of their files: what is recorded, when, and in which frame.
+// The contents of a recording for viewers, independent of the file format:
 //
-//   ten times a second  the virtual time; the obstacles, if they changed; where each robot is (world -> ROBOT)
-//   as it comes         a robot's odometry, what it believes (world -> ROBOT/position), the scans of its lasers
-//                       (in ROBOT/position -> ROBOT/LASER), what its modules were asked and what became of that
+//   ten times a second  the virtual time; the obstacles, if changed; each robot's true pose (world -> ROBOT)
+//   at each new value   a robot's odometry, its estimated pose (world -> ROBOT/position), its laser scans
+//                       (in ROBOT/position -> ROBOT/LASER), requests to its modules and their outcomes
 #pragma once
 
 #include "tools/record/module_log.hpp"
@@ -24,7 +24,7 @@ class ViewerRecording : public Recording {
     std::unique_ptr<ModuleLog> modules;
   };
 
-  static constexpr const char* root = "world";  ///< the frame that all others are in
+  static constexpr const char* root = "world";  ///< the root frame
 
   explicit ViewerRecording(const bridge::Scenario& scenario) : scenario_(scenario) {}
 
@@ -36,11 +36,11 @@ class ViewerRecording : public Recording {
   void record_news(OfRobot& robot);
   void record_modules(OfRobot& robot);
 
-  // What a format does with it.
+  // Implemented by the format.
 
-  /// Before the run, once for each.
+  /// Called once per robot before the run.
   virtual void add(const OfRobot& robot) = 0;
-  /// All that is written from here on was received then.
+  /// The time of receipt of the following messages.
   virtual void set_time(Time now) = 0;
   virtual void write_clock() = 0;
   virtual void write_obstacles(const std::vector<world::Shape>& shapes) = 0;
@@ -53,13 +53,13 @@ class ViewerRecording : public Recording {
   virtual void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                           const posters::LaserReading& scan) = 0;
   virtual void write_log(const OfRobot& robot, const ModuleLog::Line& line) = 0;
-  /// After all else.
+  /// Called last.
   virtual void close(const bridge::RunResult& result) = 0;
 
   const bridge::Scenario& scenario_;
   std::vector<OfRobot> robots_;
-  std::optional<std::vector<world::Shape>> meshes_;  // as a plan shows them, once they have been looked at
-  std::optional<std::vector<world::Shape>> drawn_;   // the obstacles, as they were written last
+  std::optional<std::vector<world::Shape>> meshes_;  // as shown on a plan, computed once
+  std::optional<std::vector<world::Shape>> drawn_;   // the obstacles as last written
   std::optional<Time> sampled_;
 };
 

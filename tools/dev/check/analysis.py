@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`analysis.py BUILD [REVISION]` writes what Ninja needs to run clang-tidy over this repository's sources, in BUILD/analysis/:
-each source once, as the build first compiles it, and again only after it, a header it includes, its flags or .clang-tidy
-changed. With REVISION only those that changed since, or whose own header did.
+"""`analysis.py BUILD [REVISION]` writes BUILD/analysis/build.ninja, by which Ninja runs clang-tidy over this repository's
+sources: each source once, with its first compile command, and again only when the source, an included header, its flags or
+.clang-tidy changed. With REVISION: only sources that changed since, or whose own header did.
 
-A file's stamp is made when nothing was found in it; what the compiler says it includes is told to Ninja.
+A file without findings gets a stamp; its includes come from the compiler's dependency output.
 """
 
 import json
@@ -29,7 +29,7 @@ rule analyse
 
 
 def flags(entry):
-    """The compiler and the flags that say how the source is read."""
+    """The compiler and the flags that affect parsing."""
     words = iter(shlex.split(entry["command"]))
     compiler, kept = [], []
     for word in words:
@@ -46,7 +46,7 @@ def flags(entry):
 
 
 def changed_units(revision):
-    """The sources and headers that differ from `revision`, without their suffix; moved ones only if their text changed."""
+    """Sources and headers that differ from `revision`, without suffix; moved ones only if their text changed."""
     listing = subprocess.run(
         ["git", "diff", "--name-status", "--find-renames", revision], cwd=ROOT, check=True, capture_output=True, text=True
     ).stdout

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds folders to a density of assertions: assertions.py ROOT. assertions.table names the folders and their bounds."""
+"""Checks the density of assertions: assertions.py ROOT. assertions.table has the folders and their bounds."""
 
 import pathlib
 import re

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a build folder compiles: `compiled.py objects BUILD FOLDER` prints the objects made of the sources in FOLDER, as
-Ninja names them."""
+"""Objects of a build folder: `compiled.py objects BUILD FOLDER` prints the objects compiled from the sources in FOLDER, as
+named by Ninja."""
 
 import json
 import pathlib

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finds cycles of includes: cycles.py ROOT [TABLE]. A source and its header are one unit, and so is a folder.
+"""Finds cycles of includes between units and between folders: cycles.py ROOT [TABLE].
 
-Units: `fibers/kernel/task` is task.hpp and task.cpp. Two folders that include each other are one folder in disguise. The cycles
-that stand in TABLE (cycles.table) are tolerated, and no others; one that stands there and is gone must leave the table.
+A source and its header are one unit: `fibers/kernel/task` is task.hpp and task.cpp. Only the cycles in TABLE (cycles.table)
+are tolerated; one that no longer exists must be removed from the table.
 """
 
 import collections
@@ -14,7 +14,7 @@ from dependencies import INCLUDE, sources  # noqa: E402
 
 
 def include_graph(root):
-    """{unit: {unit that it includes: the file that does}}."""
+    """{unit: {included unit: the including file}}."""
     graph = collections.defaultdict(dict)
     for source in sources(root):
         unit = str(source.with_suffix(""))
@@ -29,7 +29,7 @@ def include_graph(root):
 
 
 def folder_graph(units):
-    """The same of folders, by the graph of units."""
+    """The same for folders, from the graph of units."""
     graph = collections.defaultdict(dict)
     for unit, edges in units.items():
         own = str(pathlib.PurePosixPath(unit).parent)
@@ -76,7 +76,7 @@ def cycles(graph):
 
 
 def read_table(path):
-    """Each line is a cycle that is tolerated: its members."""
+    """Each line has the members of a tolerated cycle."""
     lines = (line.split("#")[0].split() for line in path.read_text().splitlines())
     return {tuple(sorted(words)) for words in lines if words}
 
@@ -95,7 +95,7 @@ def main():
             violations.append(f"{len(cycle)} include each other: {' '.join(cycle)}")
             for node in cycle:
                 violations += [f"    {graph[node][other]} includes {other}" for other in cycle if other in graph[node]]
-    violations += [f"the table names a cycle that is gone: {' '.join(cycle)}" for cycle in sorted(tolerated)]
+    violations += [f"the table names a cycle that no longer exists: {' '.join(cycle)}" for cycle in sorted(tolerated)]
     print(f"{len(units)} units, {count} cycles, {len(violations)} violations")
     print("".join(f"{violation}\n" for violation in violations), end="")
     return 1 if violations else 0

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds every #include of the repository against dependencies.table: dependencies.py ROOT.
+"""Checks every #include of the repository against dependencies.table: dependencies.py ROOT.
 
-Quoted headers are this repository's, named from its root; angled ones are other people's.
+Quoted headers are this repository's, named from its root; angled ones are external.
 """
 
 import collections
@@ -40,16 +40,16 @@ def allowed_in(folder, rules):
 
 
 def complaint(source, name, root, folders, headers):
-    """What is wrong with `source` including `name` (with its quotes or brackets), or None."""
+    """The violation of `source` including `name` (with its quotes or brackets), or None."""
     if name.startswith("<"):
         for pattern, users in headers:
             if fnmatch.fnmatchcase(name, pattern):
                 return None if fits(str(source), users) else f"{name} may only be included in: {' '.join(users) or 'none'}"
         top = name[1:].split("/")[0]
-        return f'{name} is ours: "{name[1:-1]}"' if "/" in name and (root / top).is_dir() else None
+        return f'{name} belongs to this repository: "{name[1:-1]}"' if "/" in name and (root / top).is_dir() else None
     header = pathlib.PurePosixPath(name.strip('"'))
     if not (root / header).is_file():
-        return f"{name} is not the name of a header from the repository's root"
+        return f"{name} is not a header's path from the repository's root"
     own, other = str(source.parent), str(header.parent)
     allowed = allowed_in(own, folders) or []
     if other == own or fits(other, allowed):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What holds of every text file of the repository: files.py ROOT.
+"""Checks every text file of the repository: files.py ROOT.
 
-Each source names its licence in the first two lines, nothing is left "to do", and no path of somebody's machine is in it.
-Sources of more than 400 lines are told, as a warning.
+Each source must have an SPDX licence line among its first two, no note of unfinished work, and no path of a particular
+machine. Sources of more than 400 lines get a warning.
 """
 
 import os
@@ -20,7 +20,7 @@ MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(home|root|work|tmp|Users|mnt|media)/
 
 
 def text_files(root):
-    """The paths of the repository's text files, relative to its root, without what is built, fetched or hidden."""
+    """Paths of the repository's text files, relative to its root, without built, fetched and hidden ones."""
     for folder, folders, names in os.walk(root):
         here = pathlib.Path(folder).relative_to(root)
         folders[:] = sorted(
@@ -53,9 +53,9 @@ def main():
                 warnings.append(f"{path}: {len(lines)} lines: a file holds one concept, in at most {LINES_MAX} lines")
         for number, line in enumerate(lines, 1):
             if LEFT.search(line):
-                violations.append(f"{path}:{number}: something is left undone: {line.strip()}")
+                violations.append(f"{path}:{number}: a note of unfinished work: {line.strip()}")
             if MACHINE_PATH.search(line):
-                violations.append(f"{path}:{number}: a path of one machine: {line.strip()}")
+                violations.append(f"{path}:{number}: a path of a particular machine: {line.strip()}")
     print("".join(f"warning: {warning}\n" for warning in warnings), end="")
     print(f"{count} files, {len(warnings)} warnings, {len(violations)} violations")
     print("".join(f"{violation}\n" for violation in violations), end="")

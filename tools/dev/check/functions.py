@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds every C++ function to a length: functions.py ROOT. A body of more lines than LINES_MAX is more than one step.
+"""Limits the length of C++ functions: functions.py ROOT. A body of more than LINES_MAX lines does more than one step.
 
-A body is what stands between the braces behind a head that has a parenthesis; comments, strings and characters are blanked
-first. Lambdas count as functions, and as lines of the function around them.
+A body is the text between the braces after a head with a parenthesis; comments, strings and characters are blanked first.
+Lambdas count as functions, and as lines of the enclosing function.
 """
 
 import pathlib
@@ -13,7 +13,7 @@ sys.dont_write_bytecode = True
 from dependencies import sources  # noqa: E402
 
 LINES_MAX = 70
-# What opens a block and is no function.
+# Heads of blocks that are not functions.
 NO_FUNCTION = re.compile(
     r"\s*(\}|if\b|for\b|while\b|do\b|switch\b|else\b|case\b|default\b|namespace\b|class\b|struct\b|union\b|enum\b|extern\b|try\b)"
 )
@@ -23,12 +23,12 @@ BLANKED = re.compile(
 
 
 def blank(text):
-    """The text without comments and literals; its lines stay."""
+    """The text without comments and literals, with the same number of lines."""
     return BLANKED.sub(lambda match: "\n" * match[0].count("\n"), text)
 
 
 def closing_lines(lines):
-    """{line that ends with an opening brace: line of the brace that closes it}, of blanked lines."""
+    """{line with a trailing opening brace: line of its closing brace}, for blanked lines."""
     closed, opened = {}, []
     for at, line in enumerate(lines):
         for place, letter in enumerate(line):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the symbols of the kernel's objects: symbols.py OBJECT...
+"""Checks the symbols of the kernel's objects: symbols.py OBJECT...
 
-A C layer must be able to stand on the kernel (fibers/switch, kernel, clocks): it throws nothing, allocates nothing while running, uses no standard
-containers and no thread-local storage.
+The kernel (fibers/switch, kernel, clocks) must be usable below a C library layer: no exceptions, no allocation while
+running, no standard containers, no thread-local storage.
 """
 
 import re
@@ -26,7 +26,7 @@ THREAD_LOCAL = re.compile(r"\b(__tls_get_addr|__emutls_get_address|TLS (init|wra
 
 
 def symbols(object_file):
-    """The object's symbols, read with their types: (type letter, name)."""
+    """The object's symbols: (type letter, name)."""
     listing = subprocess.run(["nm", "-C", object_file], check=True, capture_output=True, text=True).stdout
     for line in listing.splitlines():
         kind, name = line[16:].strip().split(" ", 1)
@@ -34,7 +34,7 @@ def symbols(object_file):
 
 
 def thread_locals(object_file):
-    """The names of the object's own thread-local variables: nm does not tell them from others."""
+    """The names of the object's own thread-local variables, which nm does not distinguish."""
     listing = subprocess.run(["readelf", "-sW", "-C", object_file], check=True, capture_output=True, text=True).stdout
     return [line.split(maxsplit=7)[7] for line in listing.splitlines() if re.search(r"\bTLS\b", line)]
 
@@ -51,7 +51,7 @@ def main():
                 violations.append(f"{object_file}: uses thread-local storage: {name}")
         violations += [f"{object_file}: uses thread-local storage: {name}" for name in thread_locals(object_file)]
     if len(sys.argv) < 2:
-        violations.append("no object of the kernel is built")
+        violations.append("no objects of the kernel given")
     print(f"{len(sys.argv) - 1} objects, {len(violations)} violations")
     print("".join(f"{violation}\n" for violation in violations), end="")
     return 1 if violations else 0

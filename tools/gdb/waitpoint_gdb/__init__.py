@@ -5,7 +5,7 @@ from . import back, core_files, looking, selection, stepping, watching
 
 
 def register():
-    """Makes the commands, the unwinder and the breakpoints of this package gdb's; once is enough, twice does no harm."""
+    """Registers the commands, the unwinder and the breakpoints of this package; may be repeated."""
     selection.register()
     watching.register()
     looking.register()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`back`: to the event before, by a checkpoint and a replay of the events from there.
+"""`back`: goes to a previous event, by a checkpoint and a replay of the events from there.
 
-The run is deterministic, so that the replay comes to the same event; the kernel keeps the last two events, with which it
-is compared. What the process writes is thrown away meanwhile: it was seen.
+The run is deterministic, so the replay reaches the same event, which is verified against the last two events, kept by the
+kernel. Output of the replay is discarded.
 """
 
 import contextlib
@@ -12,7 +12,7 @@ import gdb
 from . import checkpoints, records, selection, stepping, watching
 
 MEMBERS = ("time.ns_", "task", "operation", "object")
-# A replay of so many events leaves a checkpoint on its way: the next step back begins there.
+# A replay of this many events leaves a checkpoint on its way: the next step back starts there.
 LONG_WAY = 16384
 
 
@@ -22,11 +22,11 @@ def event_seen(which):
 
 
 class Back(gdb.Command):
-    """back [N]: to the event before, or N events back.
+    """back [N]: go back to the previous event, or N events back.
 
-    Where the process stands within an event, the first step back is to that event's beginning. It begins again from a fork
-    made before and repeats the events up to there, without breakpoints and without output. A variable that was changed by
-    hand since, input that was read, and other processes are not taken back."""
+    From within an event, the first step goes back to that event's beginning. The process is restarted from an earlier fork
+    and repeats the events up to there, without breakpoints and output. Variables changed by hand since, input already read,
+    and other processes are not restored."""
 
     def __init__(self):
         super().__init__("back", gdb.COMMAND_RUNNING)
@@ -35,21 +35,21 @@ class Back(gdb.Command):
         steps = stepping.count(argument, "back")
         watching.check_alive()
         if not records.view().number("watching"):
-            raise gdb.GdbError("no event was seen yet")
+            raise gdb.GdbError("no event has been executed yet")
         present, began = watching.events(), watching.at_an_event()
         target = present - steps + (0 if began else 1)
         if target < 1:
-            raise gdb.GdbError("there is no event before")
+            raise gdb.GdbError("there is no previous event")
         expected = {present: event_seen("last"), present - 1: event_seen("before")}.get(target)
         selection.parked.deselect()
         replay(target)
         if expected not in (None, event_seen("last")):
-            print("warning: this run does not repeat: the event is another one than it was")
+            print("warning: this run does not repeat: the event differs from the recorded one")
         watching.tell()
 
 
 def replay(target):
-    """From the nearest checkpoint to the event that has this count."""
+    """Runs from the nearest checkpoint to the event with this count."""
     begun = checkpoints.restart_before(target)
     with quiet():
         if target - begun > LONG_WAY:
@@ -74,7 +74,7 @@ def run_to(event):
 
 @contextlib.contextmanager
 def quiet():
-    """Neither breakpoints nor output."""
+    """Disables breakpoints and output."""
     enabled = [breakpoint for breakpoint in gdb.breakpoints() if breakpoint.enabled and breakpoint.number > 0]
     for breakpoint in enabled:
         breakpoint.enabled = False

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checkpoints for `back`: gdb's own, which are forks of the process, made while it runs.
+"""Checkpoints for `back`: gdb's own, which are forks of the process.
 
-One at the first event, then one each `spacing` events. When there are too many every second one is given up, and the
-spacing doubles: so they lie evenly over the run however long it is, and the way from the nearest one before an event is at
-most some part of the run.
+Made at the first event, then every `spacing` events. Beyond a maximum number every second one is deleted and the spacing
+doubles: so they are spread evenly over a run of any length, and the distance of an event from the nearest earlier one is at
+most a fixed fraction of the run.
 """
 
 import os
@@ -14,17 +14,17 @@ import gdb
 
 from . import records
 
-SPACING_MIN = 65536  # events: some 50 ms of a replay
+SPACING_MIN = 65536  # events: a replay of some 50 ms
 MOST = 12
 
-kept = {}  # by event: (the number that gdb has given, process)
+kept = {}  # by event: (gdb's number, process)
 spacing = SPACING_MIN
-refused = False  # gdb cannot: the program has threads of the system
+refused = False  # gdb cannot fork: the program has system threads
 exit_breakpoint = None
 
 
 class Wanted(gdb.Parameter):
-    """Whether the process is forked now and then while it runs, so that `back` is quick; without, `back` cannot be had."""
+    """Whether the process is forked at intervals while it runs; `back` needs these checkpoints."""
 
     set_doc = "Set whether checkpoints are made for `back`."
     show_doc = "Show whether checkpoints are made for `back`."
@@ -41,7 +41,7 @@ class Wanted(gdb.Parameter):
 
 
 class Exit(gdb.Breakpoint):
-    """The process ends: gdb would go on with one of its checkpoints, as if it were still there."""
+    """At the end of the process, where gdb would continue with one of its checkpoints."""
 
     def __init__(self):
         super().__init__("_exit", internal=True)
@@ -53,12 +53,12 @@ class Exit(gdb.Breakpoint):
 
 
 def wanted():
-    """Not of a process that was there before gdb: its forks would go on when gdb leaves it."""
+    """Not for an attached process: its forks would continue after gdb detaches."""
     return gdb.parameter("waitpoint-checkpoints") and not refused and not gdb.selected_inferior().was_attached
 
 
 def listed():
-    """({number: process} of all that gdb has, the current one included; its number)."""
+    """({number: process} of all checkpoints, including the current process; its number)."""
     text, found, current = gdb.execute("info checkpoints", to_string=True), {}, None
     pattern = r"^([* ]) *(\d+) (?:process (\d+)|Thread \S+ \(LWP (\d+)\))"
     for star, number, process, thread in re.findall(pattern, text, re.MULTILINE):
@@ -68,7 +68,7 @@ def listed():
 
 
 def fork():
-    """Makes a checkpoint of the process as it stands: (number, process)."""
+    """Makes a checkpoint of the process in its present state: (number, process)."""
     before = set(listed()[0])
     gdb.execute("checkpoint", to_string=True)
     processes = listed()[0]
@@ -79,7 +79,7 @@ def fork():
 
 
 def make(event):
-    """Of the event that begins now; called where the kernel calls debugger_checkpoint()."""
+    """Makes a checkpoint of the event that begins now; called where the kernel calls debugger_checkpoint()."""
     global spacing, refused, exit_breakpoint
     if exit_breakpoint is None:
         exit_breakpoint = Exit()
@@ -88,7 +88,7 @@ def make(event):
             kept[event] = fork()
     except gdb.error as reason:
         refused = True
-        print(f"`back` cannot be had: {reason}")
+        print(f"`back` is not available: {reason}")
     while len(kept) > MOST:
         spacing *= 2
         for surplus in sorted(kept)[1::2]:
@@ -104,10 +104,10 @@ def ask_for_next(event):
 def delete(number, process):
     """Ends a process that is not the current one.
 
-    Not by `delete checkpoint`: gdb 13 fails at the first process, whose parent is gdb itself. A signal to stop is waiting
-    for the process when it is let go, so that it executes nothing more."""
+    Not by `delete checkpoint`: gdb 13 fails for the first process, whose parent is gdb itself. A stop signal is pending
+    when the process is released, so that it executes nothing more."""
     if listed()[0].get(number) != process:
-        return  # it is gone
+        return  # already gone
     os.kill(process, signal.SIGSTOP)
     gdb.execute(f"detach checkpoint {number}", to_string=True)
     os.kill(process, signal.SIGKILL)
@@ -120,13 +120,13 @@ def delete_all():
 
 
 def delete_after(event):
-    """What comes later need not come again: somebody may change a variable."""
+    """Later events may differ from now on: the user may change a variable."""
     for made in [made for made in kept if made > event]:
         delete(*kept.pop(made))
 
 
 def restart_before(event):
-    """Goes to the last checkpoint not after `event`; the process that was there before is given up."""
+    """Goes to the last checkpoint not after `event`, and ends the current process."""
     processes, left = listed()
     before = [made for made, (number, process) in kept.items() if made <= event and processes.get(number) == process]
     if not before:
@@ -142,18 +142,18 @@ def restart_before(event):
 
 
 def adopt_current(event):
-    """When a process dies otherwise than by its exit, gdb goes on with a checkpoint, which is none any more."""
+    """When a process dies without exiting, gdb continues with a checkpoint, which thereby ceases to be one."""
     for made, (_, process) in list(kept.items()):
         if process == gdb.selected_inferior().pid:
             del kept[made]
-            print(f"The process that was here is gone; this is a checkpoint of it, of event {made}.")
+            print(f"The process has died; this is its checkpoint of event {made}.")
             records.write_view("restarted", 1)
             if event == made:
                 kept[event] = fork()
 
 
 def forget():
-    """Of a process that is gone."""
+    """Clears the state of a process that has ended."""
     global spacing, refused
     kept.clear()
     spacing, refused = SPACING_MIN, False

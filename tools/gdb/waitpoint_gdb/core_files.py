@@ -1,26 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Core files by `generate-core-file` (gcore): small, and with the stacks in them.
 
-The stacks' arena (fibers/switch/stack_arena.hpp) is gigabytes of addresses, of which little is used: gdb 13 would write all
-of it. And gdb gives up a whole region at a page that it cannot read, as light guard pages (Linux 6.13) are. So while
-the file is written, what no stack was opened in is marked as not to be dumped, and the guards are away. A core file that
-Linux writes needs none of this.
+The stacks' arena (fibers/switch/stack_arena.hpp) spans gigabytes of addresses, mostly unused: gdb 13 would write all of it.
+And gdb skips a whole region at an unreadable page, such as a light guard page (Linux 6.13). So while the file is written,
+unused parts of the arena are marked as not to be dumped, and the guards are removed. Core files written by Linux need none
+of this.
 """
 
 import gdb
 
 from . import records, watching
 
-# Of madvise, which x86-64 Linux fixes.
+# Advice values of madvise, fixed by x86-64 Linux's ABI.
 DONT_DUMP, DO_DUMP, INSTALL_GUARD, REMOVE_GUARD = 16, 17, 102, 103
 STACK_SIZES = (16384, 65536, 262144)
 PAGE = 4096
 
-lifted = []  # what to undo: (address, size, advice)
+lifted = []  # to undo: (address, size, advice)
 
 
 def advise(address, size, advice):
-    """Whether the kernel did it; errno stays what it was."""
+    """True if the kernel accepted it; preserves errno."""
     gdb.execute("set $waitpoint_errno = *((int *(*)(void))__errno_location)()", to_string=True)
     call = f"((int (*)(unsigned long, unsigned long, int))madvise)({address}, {size}, {advice})"
     done = int(gdb.parse_and_eval(call)) == 0
@@ -29,7 +29,7 @@ def advise(address, size, advice):
 
 
 def ranges(scheduler):
-    """(base, bytes of a slot, slots opened, slots with a guard, slots in all) of each size of stacks."""
+    """(base, bytes per slot, slots opened, slots with a guard, total slots) for each stack size."""
     offset, size, _ = records.place("Scheduler", "arena_.ranges_")
     width = records.record_type("StackArena::Range").sizeof
     for at, slot in zip(range(0, size, width), STACK_SIZES):

@@ -7,11 +7,11 @@ import gdb
 from . import records
 
 HOLDERS_SHOWN = 4
-# Where a part of the event list has its entries: see event.hpp and event_list.hpp.
+# Location of the entries of each part of the event list: see event.hpp and event_list.hpp.
 PARTS = {0: "agenda_.events.heap_.entries_", 1: "agenda_.events.run_", 2: "agenda_.events.calendar_.chunks_"}
-RUN = 1  # the part in whose entries a node may have been moved up since it was told where it is
-CALENDAR = 2  # the one that has them in chunks: see Calendar::entry_at()
-READY = 0xFFFFFFFE  # the place of an event that is due now: see ready_set.hpp and present_queue.hpp
+RUN = 1  # in this part a node may have moved up since its recorded place
+CALENDAR = 2  # this part has chunks: see Calendar::entry_at()
+READY = 0xFFFFFFFE  # the place of an event due now: see ready_set.hpp and present_queue.hpp
 
 
 class Task(records.Record):
@@ -21,7 +21,7 @@ class Task(records.Record):
 
     @property
     def made(self):
-        """Its number."""
+        """The task's number."""
         return self.number("number") + 1
 
     @property
@@ -30,12 +30,12 @@ class Task(records.Record):
 
     @property
     def module(self):
-        """Tasks of a module are called MODULE.TASK."""
+        """Tasks of a module are named MODULE.TASK."""
         return self.name_given.rpartition(".")[0]
 
     @property
     def context(self):
-        """Where the parked fiber goes on; 0 of the one whose stack is the processor's."""
+        """The saved context of the parked fiber; 0 for the fiber that has the processor."""
         return self.number("fiber.context")
 
     @property
@@ -66,7 +66,7 @@ class Object(records.Record):
         return f"{self.kind} #{self.number('number')}{label}"
 
     def holders(self):
-        """Who holds it, in words; empty where nobody does."""
+        """The holders, in words; empty if there are none."""
         owner = self.number("owner")
         if owner:
             return ("of " if self.kind == "end of thread" else "held by ") + Task(owner).describe()
@@ -79,7 +79,7 @@ class Object(records.Record):
         return "shared by " + ", ".join(names) + (f" and {count - shown} more" if count > shown else "")
 
     def waiters(self):
-        """The tasks that wait, in the order in which they came."""
+        """The waiting tasks, in order of arrival."""
         address = self.number("first_waiter")
         while address:
             task = Task(address)
@@ -97,7 +97,7 @@ def all_tasks(scheduler=None):
 
 
 def due(task, scheduler):
-    """When the event of a task that is not running is due."""
+    """The time of the event of a task that is not running."""
     location = task.number("event.place")
     if location == READY:
         return scheduler.number("agenda_.now.ns_")
@@ -119,7 +119,7 @@ def due(task, scheduler):
 
 
 def waits_for(task, scheduler):
-    """What a task that is not running waits for, in words."""
+    """The reason why a task is not running, in words."""
     blocked_on = task.number("blocked_on")
     if blocked_on:
         thing = Object(blocked_on)
@@ -141,11 +141,11 @@ def is_called(task, word):
 
 
 def find(word):
-    """The fiber that is meant by its number, NAME, or ROBOT/NAME."""
+    """The fiber with this number, NAME, or ROBOT/NAME."""
     fitting = [task for task in all_tasks() if is_called(task, word)]
     if not fitting:
-        raise gdb.GdbError(f"there is no fiber '{word}'; info fibers lists what there is")
+        raise gdb.GdbError(f"there is no fiber '{word}'; info fibers lists them all")
     if len(fitting) > 1:
         numbers = ", ".join(str(task.made) for task in fitting)
-        raise gdb.GdbError(f"fibers {numbers} are called '{word}': say ROBOT/NAME, or the number")
+        raise gdb.GdbError(f"fibers {numbers} are called '{word}': use ROBOT/NAME, or the number")
     return fitting[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Commands that look and change nothing; they work on core files too."""
+"""Commands that only read; they work on core files, too."""
 
 import re
 
@@ -16,15 +16,15 @@ def header(task, scheduler):
 class Waitpoint(gdb.Command):
     """Commands for programs whose threads are simulated by waitpoint.
 
-    info fibers            the tasks of the run: where each is in virtual time, and what it waits for
-    fiber N|NAME           look at a parked task: bt, up, info locals, print
-    fiber apply all bt     a command for each of them, or for those given: fiber apply 1 3 bt
-    virtual-time           the time of the event now executing
-    blocked-on OBJECT      who waits for an object, and who holds it
-    next-event [N]         go on to the next event, of any task
-    next-event-of FIBER    go on to the next event of a task
+    info fibers            list the tasks of the run, with their virtual times and reasons to wait
+    fiber N|NAME           select a parked task for bt, up, info locals, print
+    fiber apply all bt     apply a command to all fibers, or to some: fiber apply 1 3 bt
+    virtual-time           show the time of the current event
+    blocked-on OBJECT      list the waiters and holders of an object
+    next-event [N]         continue to the next event of any task
+    next-event-of FIBER    continue to the next event of a task
     break-time T           stop at the first event at or after a virtual time
-    back [N]               go to the event before
+    back [N]               go back to the previous event
     """
 
     def __init__(self):
@@ -35,9 +35,9 @@ class Waitpoint(gdb.Command):
 
 
 class InfoFibers(gdb.Command):
-    """The tasks of the run: number, name, robot, module, local virtual time in seconds, state, and what they wait for.
+    """List the tasks of the run: number, name, robot, module, local virtual time in seconds, state, reason to wait.
 
-    Numbers are given in the order in which tasks are made. The star is at the one that is running."""
+    Tasks are numbered in order of creation. A star marks the running one."""
 
     def __init__(self):
         super().__init__("info fibers", gdb.COMMAND_STATUS)
@@ -55,14 +55,15 @@ class InfoFibers(gdb.Command):
 
 
 class Fiber(gdb.Command):
-    """fiber N|NAME|ROBOT/NAME: shows a task where it is parked, until another is selected or the process goes on.
+    """fiber N|NAME|ROBOT/NAME: select a parked task, until another selection or until the process continues.
 
-    bt, up, down, info locals and print are about it then. Nothing is written to the process. Frame 0 stays what the
-    processor executes; the innermost frame that is not of a primitive is selected. Without an argument: which one.
+    bt, up, down, info locals and print then apply to it. Nothing is written to the process. Frame 0 remains the processor's;
+    the innermost frame outside the primitives is selected. Without an argument: show the selected fiber.
 
-    fiber apply all COMMAND, or fiber apply N|NAME ... COMMAND: the command in each fiber, with a line that names it."""
+    fiber apply all COMMAND, or fiber apply N|NAME ... COMMAND: run the command in each fiber, after a line with
+    its name."""
 
-    def __init__(self):  # no prefix: gdb would take a task's name for what is short for `apply`
+    def __init__(self):  # no prefix: gdb would complete a task's name to `apply`
         super().__init__("fiber", gdb.COMMAND_STACK)
 
     def invoke(self, argument, from_tty):
@@ -79,7 +80,7 @@ class Fiber(gdb.Command):
 
 
 def selected():
-    """The fiber selected, or of that whose stack is the processor's."""
+    """The selected fiber, or the one that has the processor."""
     context = selection.parked.context
     for task in fibers.all_tasks():
         if task.context == context:
@@ -115,7 +116,7 @@ def apply(words):
 
 
 class VirtualTime(gdb.Command):
-    """The virtual time of the event now executing, the number of events so far, and the running task's local time."""
+    """Show the virtual time of the current event, the number of events so far, and the running task's local time."""
 
     def __init__(self):
         super().__init__("virtual-time", gdb.COMMAND_STATUS)
@@ -130,10 +131,10 @@ class VirtualTime(gdb.Command):
 
 
 class BlockedOn(gdb.Command):
-    """blocked-on OBJECT: who waits for it, and who holds it.
+    """blocked-on OBJECT: list its waiters and holders.
 
-    OBJECT is a number as in reports (3 or #3, of every robot), a kind with one ("mutex #3"), a label, or an expression of
-    the program that has an address, such as *this or workshop.door."""
+    OBJECT is a number as in reports (3 or #3, of every robot), a kind and number ("mutex #3"), a label, or an expression of
+    the program with an address, such as *this or workshop.door."""
 
     def __init__(self):
         super().__init__("blocked-on", gdb.COMMAND_STATUS)
@@ -146,16 +147,16 @@ class BlockedOn(gdb.Command):
         if not fitting:
             raise gdb.GdbError(f"no task waits for, uses or holds an object '{word}'")
         for thing in fitting:
-            print(f"{thing.describe()} of {fibers.robot_name(thing.number('robot'))}: {thing.holders() or 'held by nobody'}")
+            print(f"{thing.describe()} of {fibers.robot_name(thing.number('robot'))}: {thing.holders() or 'not held'}")
             waiters = list(thing.waiters())
             for task in waiters:
                 print(f"  {task.describe()} waits since {records.seconds(task.number('local_time.ns_'))} s ({task.operation})")
             if not waiters:
-                print("  nobody waits for it")
+                print("  no waiters")
 
     @staticmethod
     def known():
-        """What some task waits for, holds, or is about to use."""
+        """All objects that a task waits for, holds, or is about to use."""
         found = {}
         for task in fibers.all_tasks():
             paths = ["blocked_on", "held"] + (["at"] if task.state == "ready" else [])
@@ -169,7 +170,7 @@ class BlockedOn(gdb.Command):
 
     @staticmethod
     def meant_by(expression):
-        """The objects in what an expression of the program is: a mutex, or what has one among its members."""
+        """The objects in the value of an expression: a mutex, or a value with one among its members."""
         try:
             value = gdb.parse_and_eval(expression)
             if value.type.strip_typedefs().code in (gdb.TYPE_CODE_REF, gdb.TYPE_CODE_PTR):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The kernel's records, read from the memory of a process or of a core file.
 
-fibers/kernel/task.hpp and debugger.hpp say what they are. A record is read as a whole, and its members are taken from the
-bytes by the offsets that the debugging information gives: gdb's own values cost some ten microseconds a member, too much
+They are documented in fibers/kernel/task.hpp and debugger.hpp. A record is read as a whole, and its members are extracted
+from the bytes by the offsets in the debugging information: gdb's own values cost some ten microseconds per member, too much
 for thousands of tasks.
 """
 
@@ -24,7 +24,7 @@ def record_type(name):
 
 @functools.lru_cache(maxsize=None)
 def place(name, path):
-    """(offset, size, whether it is signed) of the member `path`, "fiber.context" for example, of the record `name`."""
+    """(offset, size, True if signed) of the member `path`, "fiber.context" for example, of the record `name`."""
     kind, offset = record_type(name), 0
     for part in path.split("."):
         for field in kind.fields():
@@ -45,7 +45,7 @@ def enumerators(name):
 
 @functools.lru_cache(maxsize=None)
 def constant(record, name):
-    """The static constant `name` of the class `record`, with its namespace, from the debugging information."""
+    """The static constant `name` of the class `record` (with namespace), from the debugging information."""
     try:
         return int(gdb.parse_and_eval(f"waitpoint::{record}::{name}"))
     except gdb.error:
@@ -53,7 +53,7 @@ def constant(record, name):
 
 
 def forget():
-    """Another program has other offsets."""
+    """Call for a new program, which has other offsets."""
     for cache in (record_type, place, enumerators, constant):
         cache.cache_clear()
 
@@ -64,12 +64,12 @@ def memory(address, size):
 
 @functools.lru_cache(maxsize=4096)
 def text_at(address):
-    """The zero-terminated text there: a kind or a label, which never change."""
+    """The zero-terminated text at this address: a kind or a label; they never change."""
     return gdb.Value(address).cast(gdb.lookup_type("char").pointer()).string(errors="replace") if address else ""
 
 
 class Record:
-    """One record, as it was when it was read."""
+    """A copy of one record."""
 
     def __init__(self, name, address):
         self.name, self.address = name, address
@@ -85,13 +85,13 @@ class Record:
         return self.bytes[offset : offset + size].split(b"\0")[0].decode(errors="replace")
 
     def follow(self, path, name):
-        """The record that a pointer points to, or None."""
+        """The record at a pointer, or None."""
         address = self.number(path)
         return Record(name, address) if address else None
 
 
 def address_of(variable):
-    """Of a global variable of the kernel."""
+    """The address of a global variable of the kernel."""
     symbol = gdb.lookup_global_symbol(NAMESPACE + variable)
     if symbol is None:
         raise gdb.GdbError("this program has no tasks of waitpoint, or no debugging information (-g) of them")
@@ -104,20 +104,20 @@ def running():
 
 
 def view():
-    """What the kernel tells debuggers."""
+    """The kernel's interface for debuggers."""
     if gdb.selected_inferior().pid == 0 and not gdb.selected_inferior().threads():
         raise gdb.GdbError("no program is being run, and no core file is read")
     return Record("DebuggerView", address_of("debugger_view"))
 
 
 def write_view(path, value):
-    """Asks the kernel for something: the only memory that is written here."""
+    """Sends a request to the kernel: the only memory written here."""
     offset, size, signed = place("DebuggerView", path)
     gdb.selected_inferior().write_memory(address_of("debugger_view") + offset, value.to_bytes(size, "little", signed=signed))
 
 
 def scheduler():
-    """That of the run which was entered last."""
+    """The scheduler of the run entered last."""
     found = view().follow("scheduler", "Scheduler")
     if found is None:
         raise gdb.GdbError("no run has begun, or it is over")
@@ -125,7 +125,7 @@ def scheduler():
 
 
 def events_of(run):
-    """How many events were executed in the run of this scheduler, as Scheduler::events()."""
+    """The number of events executed in this scheduler's run, as in Scheduler::events()."""
     inverse = constant("PairDigest", "inverse_of_step")
     hashed = run.number("unheard_.last_key_") * inverse
     robot = run.follow("first_robot_", "Robot")
@@ -136,7 +136,7 @@ def events_of(run):
 
 
 def seconds(time_ns):
-    """As reports show it."""
+    """The time in the format of reports."""
     if time_ns == NO_TIME:
         return "never"
     sign = "-" if time_ns < 0 else ""

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Selecting a parked fiber: its frames are shown, and nothing is written to the process.
+"""Selection of a parked fiber: shows its frames, and writes nothing to the process.
 
-While a fiber is selected, an unwinder answers that the caller of the innermost frame is where the fiber goes on, with the
-registers that the fiber's switch left on its stack; it needs no others. So frame 0 stays what the processor executes,
-and the frames above it are the fiber's. A filter keeps frame 0 out of back traces.
+While a fiber is selected, an unwinder presents the fiber's frame as the caller of the innermost frame, with the registers
+that the fiber's switch saved on its stack; no others are needed. So frame 0 remains the processor's, and the frames above
+it are the fiber's. A filter hides frame 0 from back traces.
 
     fibers/switch/departure.hpp, x86-64, at the context c:  +40 rbx  +48 rbp  +56 rip;  rsp = c + 64
 """
@@ -17,7 +17,7 @@ from . import records
 
 SAVED = {"rbx": 40, "rbp": 48, "rip": 56}
 STACK_ABOVE_CONTEXT = 64
-# Frames of the primitives, and of the library's templates beneath them: not what somebody looks for.
+# Frames of the primitives and of the library's templates beneath them: not of interest to users.
 INNER = re.compile(r"(?<!/tests)/fibers/(switch|kernel|clocks|sync|io|laas)/|/include/c\+\+/")
 
 
@@ -54,7 +54,7 @@ class ParkedFiber(gdb.unwinder.Unwinder):
         pc, sp = int(pending.read_register("rip")), int(pending.read_register("rsp"))
         if (pc, sp) != (self.pc, self.sp):
             return None
-        # A stack address just below the fiber's: gdb wants callers to lie above.
+        # A stack address just below the fiber's: gdb requires callers to be higher.
         unwound = pending.create_unwind_info(FrameId(gdb.Value(self.context - 16), gdb.Value(pc)))
         saved = records.memory(self.context, STACK_ABOVE_CONTEXT)
         for register, offset in SAVED.items():
@@ -71,14 +71,14 @@ def typed(value, register):
 
 
 def is_inner(frame):
-    """Of the kernel or a primitive, or what they are made of, which has no source here."""
+    """True for frames of the kernel or a primitive, or of their internals, which have no source here."""
     table = frame.find_sal().symtab
     return table is None or bool(INNER.search(table.fullname()))
 
 
 class FibersFrames:
-    """A frame filter: of a selected fiber, only its own frames; of many fibers, from the innermost frame on that is of no
-    primitive, so that `fiber apply all bt 3` shows where the program is."""
+    """A frame filter: of a selected fiber, only its own frames; of many fibers, only frames from the innermost one outside
+    the primitives, so that `fiber apply all bt 3` shows the program's code."""
 
     name, priority, enabled = "waitpoint-fiber", 1000, True
     of_many = False
@@ -92,18 +92,18 @@ class FibersFrames:
             if self.of_many and inner is not None and is_inner(frame.inferior_frame()):
                 inner.append(frame)
                 continue
-            inner = None  # no others are left out
+            inner = None  # only the innermost ones are left out
             yield frame
-        yield from inner or []  # where there is nothing else
+        yield from inner or []  # if there are no others
 
 
 parked = ParkedFiber()
 shown = FibersFrames()
-calling = False  # a function of the process, for an expression: the fiber stays selected
+calling = False  # gdb calls a function of the process for an expression: the fiber remains selected
 
 
 def innermost():
-    """The innermost frame of what is selected."""
+    """The innermost frame of the selected fiber or of the processor."""
     frame = gdb.newest_frame()
     if parked.context:
         first = parked.resumes_at()
@@ -116,7 +116,7 @@ def innermost():
 
 
 def select_users_frame():
-    """Selects the innermost frame that belongs to no primitive, or the innermost of all; whether there is such a one."""
+    """Selects the innermost frame outside the primitives (returns True), or the innermost of all (False)."""
     frame = first = innermost()
     while frame is not None:
         if not is_inner(frame):
@@ -127,12 +127,12 @@ def select_users_frame():
 
 
 def select(task):
-    """Shows `task` until something else is selected or the process goes on."""
+    """Selects `task` until another selection or until the process continues."""
     if gdb.selected_inferior().architecture().name() != "i386:x86-64":
         raise gdb.GdbError("the registers of a parked fiber are known for x86-64 only")
     if task.context:
         parked.select(task.context)
-    else:  # its stack is the processor's
+    else:  # it has the processor
         parked.deselect()
     select_users_frame()
 

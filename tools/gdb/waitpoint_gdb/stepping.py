@@ -25,9 +25,9 @@ def count(argument, command):
 
 
 class NextEvent(gdb.Command):
-    """next-event [N]: goes on to the next event of any task, or N times, unless a breakpoint comes before.
+    """next-event [N]: continue to the next, or N-th next, event of any task, unless a breakpoint comes first.
 
-    It stops where the event is the least and is about to be carried out: virtual time is the event's already."""
+    Stops at the beginning of the event: virtual time is already the event's."""
 
     def __init__(self):
         super().__init__("next-event", gdb.COMMAND_RUNNING)
@@ -41,7 +41,7 @@ class NextEvent(gdb.Command):
 
 
 class NextEventOf(gdb.Command):
-    """next-event-of FIBER: goes on to the next event of a task, by its number, NAME or ROBOT/NAME."""
+    """next-event-of FIBER: continue to the next event of a task, given by its number, NAME or ROBOT/NAME."""
 
     def __init__(self):
         super().__init__("next-event-of", gdb.COMMAND_RUNNING)
@@ -56,9 +56,9 @@ class NextEventOf(gdb.Command):
 
 
 class BreakTime(gdb.Command):
-    """break-time T: the process will stop, once, at the first event at or after virtual time T, in seconds or with a unit.
+    """break-time T: stop once, at the first event at or after virtual time T, in seconds or with a unit.
 
-    To be followed by run or continue. Without an argument: the times at which it will stop. break-time off: none."""
+    Follow with run or continue. Without an argument: list the times set. break-time off: clear them."""
 
     def __init__(self):
         super().__init__("break-time", gdb.COMMAND_BREAKPOINTS)
@@ -81,7 +81,7 @@ class BreakTime(gdb.Command):
     def add(time):
         if watching.is_process() and (run := records.view().follow("scheduler", "Scheduler")):
             if time <= (now := run.number("agenda_.now.ns_")) and records.events_of(run):
-                raise gdb.GdbError(f"it is {records.seconds(now)} s already; `back` goes back by events")
+                raise gdb.GdbError(f"it is {records.seconds(now)} s already; `back` goes back")
         watching.request.times = sorted({*watching.request.times, time})
 
 

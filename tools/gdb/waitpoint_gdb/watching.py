@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The events of a process under gdb: asking the kernel to stop at one, and telling where it stopped.
+"""The events of a process under gdb: requests to the kernel to stop at one, and reports of stops.
 
-The kernel (fibers/kernel/debugger.hpp) compares each event with what is asked here and calls an empty function when it is
-the one; so a step over a million events costs two stops, and none in between.
+The kernel (fibers/kernel/debugger.hpp) compares each event with the request and calls an empty function at a match; so a
+step over a million events costs two stops.
 """
 
 import gdb
@@ -13,7 +13,7 @@ NEVER = 2**64 - 1
 
 
 class Request:
-    """What the process is asked to stop at: kept here, because a checkpoint has in it what was asked when it was made."""
+    """The conditions to stop at: kept here, as a checkpoint contains the request of its creation."""
 
     def __init__(self):
         self.event, self.task, self.times = 0, 0, []
@@ -25,7 +25,7 @@ class Request:
 
 
 class RunBegins(gdb.Breakpoint):
-    """A run is entered: the first of a process makes the kernel show its events."""
+    """A run is entered: at the first of a process, the kernel is told to show its events."""
 
     def __init__(self):
         super().__init__("waitpoint::kernel::debugger_run", internal=True)
@@ -40,7 +40,7 @@ class RunBegins(gdb.Breakpoint):
 
 
 class EventReached(gdb.Breakpoint):
-    """An event that was asked for is executed."""
+    """A requested event is reached."""
 
     place = "waitpoint::kernel::debugger_stop"
 
@@ -50,7 +50,7 @@ class EventReached(gdb.Breakpoint):
 
 
 class CheckpointDue(gdb.Breakpoint):
-    """Enough events since the last checkpoint; the process goes on by itself."""
+    """The next checkpoint is due; the process then continues."""
 
     place = "waitpoint::kernel::debugger_checkpoint"
 
@@ -64,17 +64,17 @@ class CheckpointDue(gdb.Breakpoint):
 
 
 request = Request()
-replaying = False  # somewhere in between nobody wants to be told
+replaying = False  # suppresses reports of stops in between
 breakpoints = {}
 
 
 def events():
-    """How many were seen in this process, of all runs."""
+    """The number of events seen in this process, in all runs."""
     return records.view().number("events")
 
 
 def watch():
-    """The kernel shows its events to gdb from now on."""
+    """Makes the kernel show its events to gdb from now on."""
     view = records.view()
     if view.number("watching"):
         return
@@ -82,14 +82,14 @@ def watch():
     if run := view.number("scheduler"):
         inferior = gdb.selected_inferior()
         inferior.write_memory(run + records.place("Scheduler", "watched_")[0], b"\1")
-        # As Scheduler::set_watch(): who runs passes its waitpoints unseen until it is told.
+        # As Scheduler::set_watch(): the running task passes its waitpoints by the fast path until told otherwise.
         inferior.write_memory(records.address_of("turn") + records.place("Turn", "fast_epoch")[0], b"\xff" * 8)
     records.write_view("checkpoint_at", view.number("events") + 1 if checkpoints.wanted() else NEVER)
     request.write()
 
 
 def is_process():
-    """And no core file, nor nothing at all."""
+    """True for a live process, not for a core file or no program."""
     inferior = gdb.selected_inferior()
     return bool(inferior.pid and inferior.connection is not None and inferior.connection.type != "core")
 
@@ -101,12 +101,12 @@ def check_alive():
 
 
 def at_an_event():
-    """Whether the process stands at the beginning of the event that was executed last."""
+    """True if the process is at the beginning of the event that was executed last."""
     return gdb.newest_frame().name() in (EventReached.place, CheckpointDue.place)
 
 
 def describe_event():
-    """The event now executing."""
+    """The current event, in words."""
     scheduler = records.scheduler()
     where = f"event {records.events_of(scheduler)} at {records.seconds(scheduler.number('agenda_.now.ns_'))} s"
     if not (address := records.running()):
@@ -118,7 +118,7 @@ def describe_event():
 
 
 def operation():
-    """Of the event that was executed last."""
+    """The operation of the event that was executed last."""
     return records.enumerators("Operation")[last("operation")]
 
 
@@ -131,7 +131,7 @@ def tell():
     if selection.select_users_frame():
         gdb.execute("frame")
     elif operation() == "start":
-        print("its function has not begun: a breakpoint in it, or next-event, goes there")
+        print("its function has not begun: use a breakpoint in it, or next-event")
     elif operation() == "end":
         print("its function has returned")
     else:
@@ -149,7 +149,7 @@ def on_stop(event):
 
 
 def go_on():
-    """Lets the process run until something stops it; what is asked for is written before, and forgotten after."""
+    """Continues until a stop; writes the request before, and clears it after."""
     request.write()
     try:
         gdb.execute("continue")
@@ -160,7 +160,7 @@ def go_on():
 
 
 def on_new_process(_=None):
-    """A process is started, or another program read."""
+    """A process is started, or another program is loaded."""
     if "run" in breakpoints:
         breakpoints["run"].enabled = True
 
