@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many times faster than real time the shipped scenarios run, digest included, and what each module costs.
+// Speed of the shipped scenarios relative to real time, digest included, and the cost of each module.
 //
-// The speed is the fastest of some whole missions, by the wall clock. The costs come from one more mission, in which a
-// watch reads the clock at every event: the time since the event before belongs to the task of that one, its share of
-// the scheduler's work included. The readings themselves slow that mission down a little.
+// The speed is that of the fastest of several whole missions, by the wall clock. The costs come from one more mission,
+// in which a watch reads the clock at every event: the time since the previous event belongs to the task of that event,
+// including its share of the scheduler's work. The readings slow that mission down a little.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -21,8 +21,8 @@ namespace {
 
 struct Case {
   std::string scenario;
-  int floors = 1;                   // with as many times the robots
-  std::optional<double> must = {};  // times real time
+  int floors = 1;                   // multiplies the robots
+  std::optional<double> must = {};  // relative to real time
   Duration at_most = std::chrono::minutes(10);
 };
 const std::vector<Case> cases = {{"office.yaml", 1, 50},
@@ -30,7 +30,7 @@ const std::vector<Case> cases = {{"office.yaml", 1, 50},
                                  {"office-10.yaml", 10, 5},
                                  {"office-10.yaml", 100, std::nullopt, std::chrono::seconds(5)}};
 
-// Many floors are for the engine that is made for many robots; the digest is the same with either.
+// Many floors use the engine for many robots; the digest is the same with both.
 bridge::Scenario scenario_of(const Case& of) {
   bridge::Scenario scenario = runs::shipped(of.scenario);
   if (of.floors > 1) {
@@ -47,7 +47,7 @@ std::int64_t clock_ns(clockid_t clock) {
   return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
 }
 
-/// Wall time by task, while it is hung on a run.
+/// Wall time by task, while attached to a run.
 class Costs : public kernel::Watch {
  public:
   Costs() : Watch{&Costs::take} { last_ns_ = clock_ns(CLOCK_MONOTONIC); }
@@ -72,7 +72,7 @@ class Costs : public kernel::Watch {
   }
 
   std::map<std::string, std::int64_t> by_task_;
-  const char* name_ = nullptr;  // of the task whose event was the last
+  const char* name_ = nullptr;  // of the previous event's task
   std::int64_t* cost_ = nullptr;
   std::int64_t last_ns_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program that a benchmark is: its command line, its rows, its errors.
+// The main program of a benchmark: its command line, rows, errors.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,8 +9,8 @@
 
 namespace waitpoint::bench {
 
-/// Reads the command line by the options of `app` and --json, measures, and writes the rows where they are asked for.
-/// Returns the exit status; BadInput is one line, and 2.
+/// Parses the options of `app` and --json, measures, and writes the rows if requested. Returns the exit status;
+/// BadInput prints one line and returns 2.
 int run_program(CLI::App& app, int argc, char** argv, const std::function<std::vector<Row>()>& measure);
 
 }  // namespace waitpoint::bench

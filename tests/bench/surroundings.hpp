@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a benchmark was run: machine, system, compiler, packages.
+// The environment of a benchmark: machine, system, compiler, packages.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace waitpoint::bench {
 
-/// Some lines; `packages` are Debian's, of which the installed versions are told.
+/// Several lines; `packages` are Debian's, whose installed versions are listed.
 std::string surroundings(const std::vector<std::string>& packages);
 
 }  // namespace waitpoint::bench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a loop of a thousand turns and one of ten thousand take, in nanoseconds.
+// Prints the durations of a loop of 1000 iterations and one of 10000, in nanoseconds.
 #include <stdio.h>
 #include <time.h>
 

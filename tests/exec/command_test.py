@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `waitpoint exec` says and does, whatever the program: command_test.py BUILD.
+"""Output and exit status of `waitpoint exec`: command_test.py BUILD.
 
-How programs end, what is told of deadlocks, traces, options, campaigns over seeds, and what is refused.
+Ends of programs, reports of deadlocks, traces, options, campaigns over seeds, and rejected arguments.
 """
 
 import functools
@@ -17,7 +17,7 @@ from exec_case import ExecCase, Summary, WAITPOINT, execute
 
 
 class Ends(ExecCase):
-    """However a program ends, its exit status is its own, and what it came to is told."""
+    """The exit status and the summary, for each way a program can end."""
 
     def end(self, way):
         return execute(1, self.compile("ends.c"), way)
@@ -40,7 +40,7 @@ class Ends(ExecCase):
     def test_by_a_signal_that_is_sent_to_waitpoint_alone(self):
         for sent in (signal.SIGINT, signal.SIGQUIT, signal.SIGTERM):
             words = [str(word) for word in (WAITPOINT, "exec", "--", "cat")]
-            # Who runs the tests may have these ignored, as a shell does for what it runs in the background.
+            # The parent may have these ignored, as a shell does for background jobs.
             heed = functools.partial(signal.signal, sent, signal.SIG_DFL)
             with subprocess.Popen(
                 words, stdin=subprocess.PIPE, stderr=subprocess.DEVNULL, preexec_fn=heed
@@ -81,7 +81,7 @@ class Traces(ExecCase):
 
 
 class Options(ExecCase):
-    """What a run does not share with the machine."""
+    """Isolation of a run from the machine."""
 
     def output(self, what, *options, seed=1):
         words = [WAITPOINT, "exec", "--quiet", "--seed", seed, *options, "--", self.compile("options.c"), what]
@@ -114,7 +114,7 @@ class Options(ExecCase):
 
 
 class Deadlocks(ExecCase):
-    """Waiting for a descriptor whose ends only the program has, and whom nobody else can do anything to."""
+    """Waits for descriptors that only the program itself could make ready."""
 
     def test_are_told_whatever_made_the_descriptor(self):
         program = self.compile("stuck.c")
@@ -140,7 +140,7 @@ class Loopback(ExecCase):
 
 
 class Seeds(ExecCase):
-    """A campaign ends at the first seed that fails, and says how to see it again."""
+    """A campaign ends at the first failing seed, and prints its replay line."""
 
     def test_find_a_lost_update_without_compiling_the_program_anew(self):
         program = self.compile("lost_update.c")

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What POSIX, C11 and Linux say of the calls that `waitpoint exec` simulates: conformance_test.py BUILD.
+"""The simulated calls of `waitpoint exec` against POSIX, C11 and Linux: conformance_test.py BUILD.
 
-Each case of the programs of tests/exec/conformance runs on the threads of the system and, with three seeds, as simulated
-ones; it must end in the same way, and write the same again with the same seed. It speaks as a GoogleTest program does:
-each case counts as one.
+Each case of the programs of tests/exec/conformance runs on system threads and, with three seeds, simulated; it must end in
+the same way, and repeat its output with the same seed. The script imitates a GoogleTest program: each case counts as one.
 
-  --gtest_filter=PATTERN   some of the cases, as PROGRAM.CASE
-  --gtest_output=xml:FILE  what came of them
-  --without-each           instead: what fails if the library lacks one of its functions, for each of them
+  --gtest_filter=PATTERN   run some of the cases, named PROGRAM.CASE
+  --gtest_output=xml:FILE  write a report
+  --without-each           instead: for each function of the library, find a case that fails without it
 """
 
 import argparse
@@ -28,14 +27,14 @@ import xml.etree.ElementTree
 SEEDS = (1, 2, 3)
 JOBS = 2
 TIMEOUT_S = 10
-# On a machine with much to do, a thread of the system may come later than the others of a case wait for it: how many
-# times longer they wait, attempt by attempt.
+# On a loaded machine, system threads may be later than the other threads of a case wait for them: factors by which the
+# waits are extended, per attempt.
 NATIVE_PATIENCE = (1, 1, 3, 9, 9)
 
-# Cases that end otherwise when they are simulated, and why.
+# Cases whose exit status differs when simulated, with reasons.
 DIFFERENCES = {}
 
-# Functions of the library that no case calls, and why.
+# Functions of the library that no case calls, with reasons.
 NOT_CALLED = {
     "__libc_start_main": "called by the start-up code of every program",
     "__sanitizer_cov_trace_pc": "called by code that is compiled so (exploring_test.py, CountedTime)",
@@ -43,7 +42,7 @@ NOT_CALLED = {
     "__sanitizer_cov_trace_pc_guard_init": "as __sanitizer_cov_trace_pc, by clang++'s",
 }
 
-# Functions without which no case can end otherwise, and why.
+# Functions whose removal makes no case fail, with reasons.
 NOT_MISSED = (
     dict.fromkeys(
         """cnd_destroy mtx_destroy pthread_cond_destroy pthread_mutex_destroy pthread_rwlock_destroy pthread_spin_destroy
@@ -108,7 +107,7 @@ def run(words):
 
 
 class Suite:
-    """The programs and the cases that they hold."""
+    """The programs and their cases."""
 
     def __init__(self, build):
         self.folder = build / "tests/exec/conformance"
@@ -125,7 +124,7 @@ class Suite:
                 self.cases.append((program, case, int(status)))
 
     def native(self, program, case, expected):
-        """What is wrong, or nothing."""
+        """The differences, or the empty text."""
         for patience in NATIVE_PATIENCE:
             status, _, errors = run(["env", f"CONFORMANCE_PATIENCE={patience}", program, case])
             if status == expected:
@@ -152,12 +151,12 @@ class Suite:
         return "" if wrong else "ends as natively: no difference to be listed\n"
 
     def functions(self):
-        """What the library takes the place of."""
+        """The functions that the library defines."""
         listed = subprocess.run(["nm", "-D", "--defined-only", self.library], capture_output=True, text=True, check=True)
         return sorted(line.split()[2].split("@")[0] for line in listed.stdout.splitlines())
 
     def called(self):
-        """By function, the programs that call it: linked with it, or asking for it by its name."""
+        """By function, the programs that call it: by linking, or by looking up its name."""
         found = {}
         for program in self.programs:
             listed = subprocess.run(["nm", "-D", "--undefined-only", program], capture_output=True, text=True, check=True)
@@ -174,7 +173,7 @@ class Suite:
 
 
 class Report:
-    """Lines as GoogleTest prints them, and its file."""
+    """Prints GoogleTest's lines, and writes its report."""
 
     def __init__(self):
         self.root = xml.etree.ElementTree.Element("testsuites")
@@ -202,7 +201,7 @@ class Report:
 
 
 def wanted(pattern, name):
-    """GoogleTest's patterns: those before a minus, without those behind it."""
+    """GoogleTest's patterns: those before a minus, except those after it."""
     ours, _, not_ours = pattern.partition("-")
     return any(fnmatch.fnmatchcase(name, each) for each in (ours or "*").split(":")) and not any(
         fnmatch.fnmatchcase(name, each) for each in not_ours.split(":")
@@ -210,7 +209,7 @@ def wanted(pattern, name):
 
 
 def without(library, function, to):
-    """Writes a copy of the library in which a dynamic symbol is not defined: the C library's is found instead."""
+    """Writes a copy of the library without one dynamic symbol: the C library's is found instead."""
     image = bytearray(library.read_bytes())
     (sections_at,), (size, count, _) = struct.unpack_from("<Q", image, 0x28), struct.unpack_from("<HHH", image, 0x3A)
     sections = [struct.unpack_from("<IIQQQQIIQQ", image, sections_at + i * size) for i in range(count)]
@@ -224,7 +223,7 @@ def without(library, function, to):
 
 
 def without_each(suite, pattern):
-    """Prints, for each function of the library, a case that fails without it; 1 if there is none."""
+    """Prints, for each function of the library, a case that fails without it; returns 1 if one has none."""
     lacking = 0
     called = suite.called()
     with tempfile.TemporaryDirectory() as folder:

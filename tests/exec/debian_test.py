@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Programs of Debian, unmodified, run by `waitpoint exec`: debian_test.py BUILD [--long].
 
-Their output is the native one, a seed is one run, another seed another. With --long, on 50 MB and a hundred runs each.
+Their output must equal the native one; equal seeds give equal runs, others different ones. With --long: 50 MB of input and
+100 runs each.
 """
 
 import hashlib
@@ -116,7 +117,7 @@ class Exec(ExecCase):
                 file.write("".join(f"{draws.randrange(10**7)}\n" for _ in range(1000)))
 
     def check(self, *command, switches=1000):
-        """As native; one seed is one run, another one another; with four threads at once, and many switches."""
+        """The output equals the native one; the run depends on the seed alone; four threads at once, and many switches."""
         if not shutil.which(str(command[0])):
             self.skipTest(f"there is no {command[0]}")
         expected = native(*command)
@@ -168,7 +169,7 @@ class Programs(Exec):
 
 
 class Processes(Exec):
-    """Children of a program: when they do what is not of the seed."""
+    """Children of a program, whose timing does not follow from the seed."""
 
     @unittest.skipUnless(os.path.exists(PYTHON), "there is no Python of the system")
     def test_of_python_share_locks_queues_and_pools(self):
@@ -178,7 +179,7 @@ class Processes(Exec):
 
 
 class Clocks(Exec):
-    """What a program's code costs, if it is to cost anything."""
+    """The cost of a program's code, by --clock."""
 
     def seconds(self, *options):
         words = [WAITPOINT, "exec", *options, "--", "zstd", "-T4", "-q", "-c", self.folder / "short"]

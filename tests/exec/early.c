@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Ends before its main().
+// Ends before main().
 #include <stdlib.h>
 
 __attribute__((constructor)) static void end(void) { abort(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Ends in ways that the first argument names, from a second thread.
+// Ends from a second thread in the way named by the first argument.
 #include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>

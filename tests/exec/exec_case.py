@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests of programs under waitpoint have in common. The first argument of the test program is the build folder."""
+"""Shared parts of the tests of programs under waitpoint. The first argument of a test program is the build folder."""
 
 import hashlib
 import pathlib
@@ -15,7 +15,7 @@ WAITPOINT = BUILD / "tools/waitpoint"
 
 
 class Summary:
-    """The line about a run."""
+    """The summary line of a run."""
 
     def __init__(self, text):
         found = re.search(r"waitpoint: (\S+): (\d+) threads, (\d+) at once, (\d+) events, (\d+) switches, "
@@ -27,14 +27,14 @@ class Summary:
 
 
 def execute(seed, *command, stdin=None):
-    """Returns the exit status, a hash of standard output, and what was said on the error stream."""
+    """Returns the exit status, a hash of standard output, and the text of standard error."""
     words = [WAITPOINT, "exec", "--seed", seed, "--", *command]
     done = subprocess.run([str(word) for word in words], stdin=stdin, capture_output=True, timeout=300)
     return done.returncode, hashlib.sha256(done.stdout).hexdigest(), done.stderr.decode(errors="replace")
 
 
 class ExecCase(unittest.TestCase):
-    """`folder` is one for all tests, and gone behind them."""
+    """`folder` is shared by all tests, and removed after them."""
 
     @classmethod
     def setUpClass(cls):
@@ -46,7 +46,7 @@ class ExecCase(unittest.TestCase):
             ExecCase.folder = pathlib.Path(folder.name)
 
     def compile(self, source, *options):
-        """The program of a source beside this file, for nothing but the system."""
+        """The program compiled from a source beside this file, without waitpoint."""
         program = self.folder / pathlib.Path(source).stem
         compiler = "gcc" if source.endswith(".c") else "g++"
         if not program.exists():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`waitpoint explore --exec`: programs that know nothing of it, schedule after schedule: exploring_test.py BUILD."""
+"""`waitpoint explore --exec`: unmodified programs under many schedules: exploring_test.py BUILD."""
 
 import json
 import pathlib
@@ -17,7 +17,7 @@ def explore(*words, stdin=subprocess.DEVNULL):
 
 
 def replay_words(text):
-    """Of the last line of a report that repeats a schedule, behind the program's name."""
+    """The arguments of the last replay line of a report."""
     return re.findall(r"^replay: \S+ explore --exec (.*)$", text, re.M)[-1].split()
 
 
@@ -105,10 +105,10 @@ class Exploring(ExecCase):
 
 
 class Exhaustive(ExecCase):
-    """Strategies that try all there are."""
+    """Exhaustive strategies."""
 
     def outcomes(self, *words):
-        """Of all schedules: how each ended, and the line about them."""
+        """The outcome of each schedule, and the summary line."""
         results = self.folder / "results"
         done = explore("--iterations", "100000", "--results", results, *words, "--", self.compile("orders.c"))
         lines = results.read_text().splitlines()[1:]
@@ -152,7 +152,7 @@ class Exhaustive(ExecCase):
 
 
 class Conditions(ExecCase):
-    """What runs have in common beside their schedules."""
+    """Properties shared by all runs, besides their schedules."""
 
     def test_computing_costs_what_the_clock_says(self):
         program = self.compile("lost_update.c")
@@ -182,7 +182,7 @@ class Conditions(ExecCase):
 
 
 class CountedTime(ExecCase):
-    """Of programs whose basic blocks are counted."""
+    """Programs whose basic blocks are counted."""
 
     def compile_counted(self):
         library = self.folder / "libblocks.so"
@@ -214,7 +214,7 @@ class CountedTime(ExecCase):
 
 
 class Instrumented(ExecCase):
-    """Programs that are compiled with -fsanitize=thread, as they are for the compiler's own runtime."""
+    """Programs compiled with -fsanitize=thread, as for the compiler's own runtime."""
 
     def setUp(self):
         if not (WAITPOINT.parent.parent / "libwaitpoint-exec-races.so").exists():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `waitpoint exec` simulates beside a program's own calls, if it is asked to: libc_and_children_test.py BUILD.
+"""Optional parts of the simulation by `waitpoint exec`: libc_and_children_test.py BUILD.
 
-What the C library waits for within itself (--trap-libc), and programs that are started (--children).
+Internal waits of the C library (--trap-libc), and started programs (--children).
 """
 
 import subprocess
@@ -11,14 +11,14 @@ from exec_case import ExecCase, WAITPOINT
 
 
 class WithinTheCLibrary(ExecCase):
-    """What the C library waits for within itself, which no name of ours is in front of."""
+    """Internal waits of the C library, at which no function of the layer is called."""
 
     def run_by(self, what, *options, timeout=60):
         words = [WAITPOINT, "exec", "--quiet", *options, "--", self.compile("within_libc.c"), what]
         return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=timeout)
 
     def test_locks_and_streams_are_simulated_by_traps(self):
-        # As natively on a machine that has nothing else to do: there its sleeps may take longer.
+        # As natively on an idle machine: on a loaded one its sleeps may take longer.
         for what, order in (("lock", "abc"), ("character", "abc"), ("pipe", "wline"), ("much", "WR")):
             done = self.run_by(what, "--trap-libc")
             self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", order + "\n"), what)
@@ -33,7 +33,7 @@ class WithinTheCLibrary(ExecCase):
 
 
 class Children(ExecCase):
-    """Programs that a simulated one starts."""
+    """Programs started by a simulated one."""
 
     def test_are_native_or_simulated(self):
         program = self.compile("starts.c")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// More clients than the queue of the server's socket has room for, each with a request in two small pieces and an
-// answer that its small buffer has no room for, while a thread looks at the clock.
+// More clients than the backlog of the server's socket, each with a request in two small pieces and an answer that
+// exceeds its small buffer, while a thread polls the clock.
 #include <netinet/in.h>
 #include <pthread.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Two threads read a balance, and write it back later: with an argument under one lock, else under two in a row.
+// Two threads read a balance and write it back later: with an argument under one lock, otherwise under two in sequence.
 #include <pthread.h>
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Two threads use a variable that is no atomic, before and after they have met by what the argument names: no race.
-// Without an argument, the names.
+// Two threads use a plain variable, before and after synchronising by the means that the argument names: no race.
+// Without an argument, lists the names.
 #include <pthread.h>
 #include <semaphore.h>
 #include <sys/eventfd.h>
@@ -44,7 +44,7 @@ void run(Both both) {
   run(both, both);
 }
 
-/// One sees, and then tells the other, who has waited for that.
+/// One thread reads, then tells the other, which waits for it.
 template <class Tell, class Wait>
 void pass_on(Tell tell, Wait wait) {
   run([&] { see(), tell(); }, [&] { wait(), see(); });

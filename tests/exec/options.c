@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Shows what the first argument names of what options of `waitpoint exec` change.
+// Shows the effect, named by the first argument, of an option of `waitpoint exec`.
 #include <arpa/inet.h>
 #include <errno.h>
 #include <netinet/in.h>

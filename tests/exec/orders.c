@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Two threads write their letters, twice each: which of the six orders it was is the exit status.
+// Two threads write their letters, twice each: the exit status tells which of the six orders occurred.
 #include <pthread.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Leaves a child behind, who waits for ever.
+// Leaves a child behind that waits forever.
 #include <unistd.h>
 
 int main(void) {

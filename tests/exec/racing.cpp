@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Two threads count what they saw: with "locked" under one lock, with "ordered" by atomics, else as it comes. And one
-// that looks at a flag that is no atomic, with "flag".
+// Two threads count: with "locked" under one lock, with "ordered" by atomics, otherwise without synchronisation. With
+// "flag", a thread reads a plain flag.
 #include <atomic>
 #include <cstdio>
 #include <cstring>

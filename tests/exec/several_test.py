@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Several programs in one process: several_test.py BUILD [CLASS[.TEST]...].
 
-They are shared objects with a main(), from sources that know nothing of it (several/), under `waitpoint exec`.
+They are shared objects with a main(), from sources independent of waitpoint (several/), run by `waitpoint exec`.
 """
 
 import pathlib
@@ -21,7 +21,7 @@ INSTANCE = str(PROGRAMS / "instance.so")
 
 
 def several(*programs):
-    """The words of programs, each a list."""
+    """The command line of several programs, each given as a list."""
     words = []
     for program in programs:
         words += ([] if not words else ["::"]) + [str(word) for word in program]
@@ -104,7 +104,7 @@ robots:
 
 
 class Links(unittest.TestCase):
-    """What programs of two robots send to each other."""
+    """Messages between the programs of two robots."""
 
     def heard(self, program, medium, *options, sends="send", receives="receive"):
         port = random.randrange(20000, 60000)
@@ -147,7 +147,7 @@ class Links(unittest.TestCase):
 
 
 class Instances(unittest.TestCase):
-    """One program, again and again."""
+    """Many copies of one program."""
 
     def test_each_of_a_hundred_has_globals_of_its_own(self):
         run = execute(several(*(instance(i) for i in range(100))))
@@ -186,7 +186,7 @@ class Instances(unittest.TestCase):
 
 
 class Ends(unittest.TestCase):
-    """One of two ends in its own way; the other goes on."""
+    """One of two ends in its own way; the other continues."""
 
     def ends(self, way, status, destroyed, first=""):
         run = execute(several([f"other={INSTANCE}", "other"], [f"one={INSTANCE}", "one", way]))
@@ -323,7 +323,7 @@ class Executables(unittest.TestCase):
 
 
 class BadInput(unittest.TestCase):
-    """One line that says what is wrong; nothing is run."""
+    """Bad input gives one line of error, and nothing is run."""
 
     def refused(self, words, line):
         run = execute(words)

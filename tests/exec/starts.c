@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Starts itself in each way, as "started", which prints the year that it is there and ends with status 7.
+// Starts itself in each way, with "started", which prints the year and ends with status 7.
 #include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>

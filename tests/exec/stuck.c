@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Waits for ever for what only this program could do, by a descriptor that it made as the first argument says.
+// Waits forever on a descriptor that only this program could make ready, created in the way that the first argument
+// names.
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <string.h>

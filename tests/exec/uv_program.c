@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A loop of libuv with work for its pool of threads, which tell it of each piece, and a timer.
+// A libuv loop with work for its thread pool, which notifies the loop of each piece, and a timer.
 #include <stdio.h>
 #include <uv.h>
 

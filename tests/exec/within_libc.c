@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the C library waits for within itself, as the first argument says: natively each ends.
+// An internal wait of the C library, named by the first argument: natively each ends.
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 static FILE *in, *out;
 static char order[64];
 
-// A lock of the C library's own, held while its holder sleeps.
+// A lock internal to the C library, held while its holder sleeps.
 static void* hold(void* unused) {
   flockfile(out);
   strcat(order, "a");
@@ -31,7 +31,7 @@ static void* print(void* unused) {
   return unused;
 }
 
-// A FILE* on a pipe, whose other end another thread has.
+// A FILE* on a pipe with its other end in another thread.
 static void* read_line(void* unused) {
   char line[64] = "";
   if (fgets(line, sizeof line, in) != NULL) strcat(order, line);
@@ -45,7 +45,7 @@ static void* write_line(void* unused) {
   return unused;
 }
 
-// More than fits into a pipe.
+// Exceeds the capacity of a pipe.
 enum { much = 300000 };
 static void* write_much(void* unused) {
   char* const bytes = malloc(much);
@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
   if (strcmp(what, "lock") == 0 || strcmp(what, "character") == 0) meet(hold, print);
   if (strcmp(what, "pipe") == 0) meet(read_line, write_line);
   if (strcmp(what, "much") == 0) meet(write_much, read_much);
-  // A program that is started has none of it.
+  // Started programs are not simulated.
   if (strcmp(what, "start") == 0)
     sprintf(order, "%d",
             WEXITSTATUS(system("python3 -c 'import threading\n"

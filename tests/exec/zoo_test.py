@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The planted bugs of tests/exec/zoo under `waitpoint explore --exec`: zoo_test.py BUILD [--long].
 
-The default strategy finds each, and no mended twin is reported: in the programs as they are, those that show by switches
-at calls; all in the programs whose accesses to memory are seen. With --long, for 20 seeds, with more schedules of the
+The default strategy must find each bug and report no mended twin: in the plain programs, the bugs that show by switches at
+calls; in the programs instrumented at memory accesses, all of them. With --long: for 20 seeds, with more schedules of the
 twins, and the table of docs/exec.md at the end.
 """
 
@@ -37,7 +37,7 @@ class Specimen:
 
 @functools.cache
 def specimens(suffix):
-    """As the programs list them, in those with that end of their names."""
+    """The specimens listed by the programs with this suffix."""
     found = []
     for program in PROGRAMS:
         lines = subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines()
@@ -56,7 +56,7 @@ def explore(specimen, mended=False, seed=1, schedules=SCHEDULES_MAX, strategy="p
 
 
 def schedules_until_found(specimen, seed):
-    """None if it is not; 0 for what the default order shows."""
+    """None if it is not found; 0 for the default order."""
     done = explore(specimen, seed=seed)
     number = re.search(rf"^(?:schedule (\d+) of strategy portfolio, seed {seed},|the default order) failed", done.stdout, re.M)
     if done.returncode != (1 if number else 0):
@@ -65,15 +65,15 @@ def schedules_until_found(specimen, seed):
 
 
 def for_each(function, arguments):
-    """Pairs of an argument and what the function says of it."""
+    """Pairs of an argument and the function's result."""
     with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
         return list(zip(arguments, pool.map(lambda each: function(*each), arguments)))
 
 
 class Programs:
-    """What is shown with either build of the programs."""
+    """Tests for either build of the programs."""
 
-    found = {}  # by suffix and name, for each seed the schedules until it was found
+    found = {}  # by suffix and name: for each seed the number of schedules needed
 
     def check_passes(self, runs):
         for (specimen, mended, *_), done in for_each(explore, runs):
@@ -111,7 +111,7 @@ class AsTheyAre(Programs, ExecCase):
         self.check_passes([(specimen, mended, 1, 1, "fifo") for specimen in specimens("") for mended in (False, True)])
 
 
-# Data races are failures here: the default order shows them though they do no harm in it.
+# Data races are failures here: even the default order shows them, where they do no harm.
 class Instrumented(Programs, ExecCase):
     suffix = INSTRUMENTED
     replayed = {"crossing of 3": "deadlock", "work stealing": "a job is done twice"}
@@ -127,7 +127,7 @@ class Instrumented(Programs, ExecCase):
 
 
 def cell(schedules):
-    """The median, and how many of the seeds found it where not all did; a seed that did not counts as more than all."""
+    """The median, and the number of successful seeds unless all were; a failed seed counts as more than the maximum."""
     median = statistics.median_high([SCHEDULES_MAX + 1 if each is None else each for each in schedules])
     count = sum(each is not None for each in schedules)
     return ("-" if median > SCHEDULES_MAX else str(median)) + ("" if count == len(schedules) else f" ({count})")

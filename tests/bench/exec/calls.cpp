@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What calls of threads cost, natively and simulated alike: calls WORKLOAD COUNT prints nanoseconds of real time for
-// each.
+// Costs of thread calls, the same natively and simulated: calls WORKLOAD COUNT prints nanoseconds of real time per
+// call.
 #include <pthread.h>
 #include <sched.h>
 #include <semaphore.h>
@@ -22,7 +22,7 @@ pthread_cond_t condition = PTHREAD_COND_INITIALIZER;
 sem_t semaphore;
 long count, turn;
 
-// Real time, whatever stands before the C library: the clock is asked by the instruction.
+// Real time despite simulated clocks: the instruction is not intercepted.
 double now_ns() {
   struct timespec time;
   long result = SYS_clock_gettime;

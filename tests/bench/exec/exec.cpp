@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What calls of threads cost in a program that `waitpoint exec` runs, beside the same program without it.
+// Costs of thread calls in a program run by `waitpoint exec`, compared with the same program run natively.
 //
-// Both are the same binary; the time is real, the best of some runs.
+// Both are the same binary; times are real, the best of several runs.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -11,7 +11,7 @@ namespace waitpoint::bench {
 
 namespace {
 
-// So many that a schedule has about a hundred switch points, of which instrumented accesses to memory are some.
+// Sized for about a hundred switch points per schedule, including instrumented accesses to memory.
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
 constexpr int rounds = 4;
 #else

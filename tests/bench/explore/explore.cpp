@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many distinct schedules of a test body a second, on one core, and what one switch point costs.
+// Distinct schedules of a test body per second on one core, and the cost of a switch point.
 //
-// Each strategy runs the body for some time, the fastest of a few goes counts; time is the processor's. Beside it, in
-// the same run, the other ways to begin anew: a simulation made for each schedule, and a process forked for each (by
-// the wall clock: it is another process's time); and the body with its accesses to memory instrumented.
+// Each strategy runs the body for some time; the fastest of several attempts counts, in processor time. Measured beside
+// it, in the same run: the alternatives for restarting, a new simulation per schedule and a forked process per schedule
+// (in wall clock time, as the time is another process's); and the body with instrumented accesses to memory.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -33,7 +33,7 @@ Speed with_new_simulations(double seconds) {
   });
 }
 
-// As tools do that cannot begin anew within a process. What the child saw does not come back: only its speed counts.
+// The method of tools that cannot restart within a process. The child's results are dropped: only speed is measured.
 Speed with_forks(double seconds) {
   return carry_on(seconds, Clock::wall, [](std::uint64_t number) -> Done {
     const pid_t child = fork();
@@ -86,7 +86,7 @@ class Bench {
   Speed best(Run run) const {
     return best_of_some(seconds_, run);
   }
-  // Of the office in mid-run, each in a process forked there, and carried on for a second of virtual time.
+  // Branches of the office from mid-run, each a forked process that runs for a second of virtual time.
   void add_branches() {
     const auto build = std::filesystem::canonical("/proc/self/exe").parent_path().parent_path().parent_path();
     const std::string command = fmt::format(
@@ -102,7 +102,7 @@ class Bench {
     add("branches of the office in mid-run", "waitpoint", rate, "branches/s");
     add("branches of the office in mid-run, share distinct", "waitpoint", 100 * distinct / schedules, "%");
   }
-  // Beside the accesses to memory that tasks share, the primitives are switch points as ever.
+  // Accesses to shared memory are switch points in addition to the primitives.
   void add_instrumented() {
     const auto program = std::filesystem::canonical("/proc/self/exe").parent_path() / "explore-instrumented";
     if (!std::filesystem::exists(program)) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the portfolio on the body whose accesses to memory are instrumented: `PROGRAM STRATEGY 1 MILLISECONDS`, and
-// answers in lines "NAME VALUE". A process of its own, since its library is another one.
+// Measures the portfolio on the body with instrumented accesses to memory: `PROGRAM STRATEGY 1 MILLISECONDS`; prints
+// lines "NAME VALUE". A separate process, as it links another library.
 #include "tests/bench/explore/throughput.hpp"
 #include "tests/bench/kernel/meter.hpp"
 

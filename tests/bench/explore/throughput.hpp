@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many schedules of the body are done in some time, and how many of them differ.
+// Number of schedules of the body run in some time, and number of distinct ones.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,15 @@ struct Speed {
   double schedules = 0, distinct = 0, switch_points = 0, seconds = 0;
 };
 
-/// What one schedule came to: its switch points, and its digest.
+/// Result of one schedule: its switch points and digest.
 using Done = std::pair<double, std::uint64_t>;
 
-/// For `seconds` by that clock, schedule after schedule; `run` does the one of that number.
+/// Runs schedules for `seconds` of that clock; `run` executes the schedule with the given number.
 template <class Run>
 Speed carry_on(double seconds, Clock clock, Run run) {
   Speed speed;
   std::vector<std::uint64_t> seen;
-  seen.reserve(std::size_t{1} << 18);  // what it takes to make room is not the schedules'
+  seen.reserve(std::size_t{1} << 18);  // excludes allocation from the measured time
   const std::int64_t start_ns = clock_ns(clock);
   do {
     for (int i = 0; i < 16; ++i, ++speed.schedules) {
@@ -39,7 +39,7 @@ Speed carry_on(double seconds, Clock clock, Run run) {
   return speed;
 }
 
-/// The fastest of a few goes of `run(seconds)`, of `seconds` in all.
+/// The fastest of several attempts of `run(seconds)`, `seconds` in total.
 template <class Run>
 Speed best_of_some(double seconds, Run run) {
   constexpr int goes = 5;
@@ -51,7 +51,7 @@ Speed best_of_some(double seconds, Run run) {
   return best;
 }
 
-/// contend() under the strategy of that name, in one place in memory.
+/// contend() under the named strategy, at one address for all measurements.
 Speed by_strategy(const std::string& name, double seconds);
 
 }  // namespace waitpoint::bench

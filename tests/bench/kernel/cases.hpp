@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the kernel is measured on, and how fast it has to be: against a peer in the same run, or in itself.
+// The kernel's workloads, and its required speed: relative to a peer in the same run, or absolute.
 #pragma once
 
 #include <string>
@@ -7,19 +7,19 @@
 
 namespace waitpoint::bench {
 
-/// One who carries workloads out, each a program of its own, build/tests/bench/kernel-PROGRAM.
+/// An implementation of the workloads, a program of its own, build/tests/bench/kernel-PROGRAM.
 struct Subject {
   std::string program;
-  std::string name;   ///< in tables: of a peer, the package that it comes from
-  bool peer = true;   ///< else it is us, or the limit, which need nothing that is not needed anyway
-  int tasks_max = 0;  ///< more it cannot; 0 is without limit
+  std::string name;   ///< in tables; of a peer, the package's name
+  bool peer = true;   ///< otherwise waitpoint or the limit, which are always available
+  int tasks_max = 0;  ///< its limit of tasks; 0: none
 };
 const std::vector<Subject>& subjects();
 
-/// A bound on one figure. `against` a subject's name: the ratio of its figure to ours, at least `bound`; against the
-/// limit: of ours to it, at most. Empty: the figure itself, at most.
+/// A bound on one figure. With `against` a subject's name: the ratio of its figure to waitpoint's, at least `bound`;
+/// against the limit: of waitpoint's to it, at most. Empty: the figure itself, at most.
 struct Bound {
-  std::string answer;  ///< "ns", or what else a measuring process answers
+  std::string answer;  ///< "ns", or another answer of a measuring process
   std::string against;
   double bound;
 };
@@ -28,10 +28,10 @@ struct Case {
   std::string workload;
   int tasks;
   std::string title;
-  std::string unit;  ///< what a nanosecond figure is counted by
+  std::string unit;  ///< the unit of a nanosecond figure
   std::vector<Bound> musts, aims;
 
-  /// Whether it is measured with a watch on the kernel, too.
+  /// True if it is also measured with a watch on the kernel.
   bool has_hooks() const { return workload != "parked" && tasks <= 100'000; }
 };
 const std::vector<Case>& cases();

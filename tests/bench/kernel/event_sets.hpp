@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Event sets with nothing around them, for the limit: what the order of events costs where no task is switched to.
+// Event sets alone, for the limit: the cost of ordering events without switching tasks.
 //
 // Each task has one event. The order is exact: by time, then by insertion.
 //
-//   HeapSet       a heap with four children a node: best for few events
-//   CalendarSet   days of about three events, as lists; a day is sorted when it comes. Events beyond the year wait
-//   aside.
+//   HeapSet       a heap with four children per node: best for few events
+//   CalendarSet   days of about three events, as lists; a day is sorted when due. Events beyond the year are kept
+//                 separately.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct SetEntry {
   std::uint32_t task;
   bool before(const SetEntry& other) const {
     return time != other.time ? time < other.time
-                              : static_cast<std::int32_t>(sequence - other.sequence) < 0;  // it goes round
+                              : static_cast<std::int32_t>(sequence - other.sequence) < 0;  // wraps around
   }
 };
 
@@ -35,7 +35,7 @@ class HeapSet {
     heap_[at] = entry;
   }
   SetEntry least() const { return heap_[0]; }
-  /// In the place of the least.
+  /// Replaces the least.
   void move_least(std::int64_t time) {
     const SetEntry entry{time, sequence_++, heap_[0].task};
     const std::size_t size = heap_.size();
@@ -59,7 +59,7 @@ class HeapSet {
 
 class CalendarSet {
  public:
-  /// For `tasks` tasks whose sleeps have the given mean.
+  /// For `tasks` tasks with the given mean sleep.
   CalendarSet(std::uint32_t tasks, std::int64_t mean_ns) : next_(tasks), entries_(tasks) {
     while ((std::int64_t{1} << (shift_ + 1)) < 3 * mean_ns / tasks) ++shift_;
     std::size_t days = 16;
@@ -94,7 +94,7 @@ class CalendarSet {
       later_.push_back(entry);
     }
   }
-  // Today's events stand in the order of their coming from the back.
+  // Today's events are sorted, the next one last.
   void sort_in(const SetEntry& entry) {
     std::size_t at = due_.size();
     due_.push_back(entry);
@@ -113,10 +113,10 @@ class CalendarSet {
     first = none;
   }
 
-  int shift_ = 0;  // of a time, to its day
+  int shift_ = 0;  // from a time to its day
   std::int64_t today_ = -1;
-  std::vector<std::uint32_t> days_;  // the first task of each
-  std::vector<std::uint32_t> next_;  // of the same day, by task
+  std::vector<std::uint32_t> days_;  // the first task of each day
+  std::vector<std::uint32_t> next_;  // the next task of the same day, by task
   std::vector<SetEntry> entries_;    // by task
   std::vector<SetEntry> due_;
   std::vector<SetEntry> later_;

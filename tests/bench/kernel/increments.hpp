@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long the tasks of the timed workloads sleep, in nanoseconds of virtual time; the same for everybody.
+// Sleep times of the timed workloads' tasks, in nanoseconds of virtual time; the same for all subjects.
 //
 //   periods       each task its own period, all unequal, between 1 and 9 ms
-//   harmonic      periods of 1, 2, 4 and 8 ms: whole crowds are due at the same instant
+//   harmonic      periods of 1, 2, 4 and 8 ms: many tasks are due at the same instant
 //   exponential   mean 5 ms
 //   bimodal       nine of ten sleeps about 0.5 ms, the tenth about 45 ms
-//   far           99 of 100 sleeps about 5 ms, the last one 5 s: nine of ten tasks wait far away
+//   far           99 of 100 sleeps about 5 ms, the last one 5 s: nine of ten tasks wait in the far future
 #pragma once
 
 #include <algorithm>
@@ -30,10 +30,10 @@ inline double uniform(std::uint64_t number) { return (static_cast<double>(mixed(
 
 constexpr std::int64_t mean_sleep_ns = 5'000'000;
 
-/// Of task `i` of `tasks`: a random one of as many equal parts of the range, and a random place in it. Distinct, for
-/// the parts are: they are dealt by a multiplication that permutes them.
+/// Period of task `i` of `tasks`: a random position in a random one of `tasks` equal parts of the range. Distinct, as
+/// the parts are: a multiplication permutes them.
 inline std::int64_t period_ns(int i, int tasks) {
-  constexpr std::int64_t least = 1'000'000, range = 8'000'000, multiplier = 1'000'003;  // a prime above all tasks
+  constexpr std::int64_t least = 1'000'000, range = 8'000'000, multiplier = 1'000'003;  // a prime above any task count
   const std::int64_t part = i * multiplier % tasks, width = range / tasks;
   return least + part * width +
          static_cast<std::int64_t>(uniform(static_cast<std::uint64_t>(i)) * static_cast<double>(width));
@@ -47,9 +47,8 @@ inline bool is_of_sleepers(const std::string& workload) {
   return false;
 }
 
-/// A long list of increments that every task goes round in: drawing them costs next to nothing. A task begins at a
-/// random point of all of them laid end to end, so that the mixture of short and long sleeps is from the start what it
-/// stays.
+/// A long list of increments that all tasks cycle through: drawing them is almost free. A task starts at a random point
+/// of all increments laid end to end, so that the mixture of short and long sleeps is stationary from the start.
 class Increments {
  public:
   explicit Increments(const std::string& kind) : list_(size), ends_(size) {
@@ -58,7 +57,7 @@ class Increments {
   }
   std::int64_t mean_ns() const { return ends_.back() / static_cast<std::int64_t>(size); }
 
-  /// The first sleep of a task, and where it goes on.
+  /// The first sleep of a task, and the position of the next.
   std::int64_t first(int task, std::size_t& at) const {
     const auto point =
         static_cast<std::int64_t>(uniform(static_cast<std::uint64_t>(task)) * static_cast<double>(ends_.back()));
@@ -66,7 +65,7 @@ class Increments {
     at = static_cast<std::size_t>(end - ends_.begin()) + 1;
     return *end - point;
   }
-  /// The increment at `at`, which moves on.
+  /// The increment at `at`, which advances.
   std::int64_t next(std::size_t& at) const { return list_[at++ % size]; }
 
  private:
@@ -85,7 +84,7 @@ class Increments {
   }
 
   std::vector<std::int64_t> list_;
-  std::vector<std::int64_t> ends_;  // sums up to and with each
+  std::vector<std::int64_t> ends_;  // cumulative sums
 };
 
 }  // namespace waitpoint::bench

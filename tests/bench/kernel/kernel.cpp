@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast the kernel is, beside its peers and the limit, in one run.
+// The kernel's speed, compared with its peers and the limit, in one run.
 //
-// Each figure is the best of some measurements, each by a process of its own. Those of one workload take turns, so that
-// what disturbs the machine disturbs all alike.
+// Each figure is the best of several measurements, each in its own process. Measurements of one workload alternate
+// between subjects, so that disturbances affect all alike.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Options {
   std::string pattern;
 };
 
-/// Of one subject in one case.
+/// The result of one subject in one case.
 struct Figure {
   const Subject* subject;
   bool hooks;
@@ -138,14 +138,14 @@ class Bench {
     rows_.push_back(std::move(row));
   }
 
-  /// How the stacks are guarded, where there are so many that it is a question.
+  /// The kind of stack guards, if the number of stacks makes a difference.
   void print_guard(const Case& of, const Figure& figure) {
     const auto guard = figure.best.words.find("guard");
     if ((of.tasks < 100'000 && of.workload != "parked") || guard == figure.best.words.end()) return;
     line(of, figure.subject->name, "           stacks: " + guard->second);
   }
 
-  /// The columns "must" and "aim" of a figure, each with a mark where it is met.
+  /// The columns "must" and "aim" of a figure, with a mark if met.
   std::string judge(const Case& of, const std::string& answer, const std::string& against, double value) {
     const auto column = [&](const std::vector<Bound>& bounds, int& count, int& met) -> std::string {
       for (const Bound& bound : bounds) {

@@ -21,7 +21,7 @@ namespace {
 
 struct Child {
   pid_t id = -1;
-  int output = -1;  // its stdout and stderr
+  int output = -1;  // stdout and stderr
 };
 
 Child start(const std::vector<std::string>& words) {
@@ -46,7 +46,7 @@ Child start(const std::vector<std::string>& words) {
   return {id, ends[0]};
 }
 
-// All that it writes; false if it was still there at the end of its time.
+// Reads all output; false if the process exceeded its time limit.
 bool read_output(const Child& child, int limit_s, std::string& text) {
   using std::chrono::milliseconds;
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(limit_s);

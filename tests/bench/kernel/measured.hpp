@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a measuring process answered.
+// The result of one measuring process.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace waitpoint::bench {
 
 struct Measured {
   enum class End { answered, declined, failed } end = End::failed;
-  std::string why;                       ///< it failed
+  std::string why;                       ///< reason of a failure
   std::map<std::string, double> values;  ///< by name
   std::map<std::string, std::string> words;
 };
@@ -19,7 +19,7 @@ struct Measured {
 Measured measure_once(const std::filesystem::path& program, const std::string& workload, int tasks, int budget_ms,
                       bool hooks, int limit_s);
 
-/// Keeps the better time of both, and the greater of every other value.
+/// Keeps the smaller time of both, and the greater of every other value.
 void keep_best(Measured& best, const Measured& other);
 
 }  // namespace waitpoint::bench

@@ -11,7 +11,7 @@
 namespace waitpoint::bench {
 namespace {
 
-// The value of a line "NAME:  VALUE kB" of a file under /proc/self; 0 where there is none.
+// The value of a line "NAME:  VALUE kB" of a file under /proc/self; 0 if missing.
 std::int64_t kilobytes_of(const char* file, const char* name) {
   std::FILE* stream = std::fopen(file, "r");
   if (stream == nullptr) return 0;

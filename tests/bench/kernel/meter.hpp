@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one measuring process is asked, how it measures, and what it answers.
+// The interface of one measuring process: its request, measurement and answer.
 //
-// A process measures one workload once: it builds the tasks, lets them warm up, and then counts events until its budget
-// of time is used up. It answers in lines "NAME VALUE" on stdout and leaves by _exit: nothing is taken down.
+// A process measures one workload once: it creates the tasks, lets them warm up, and counts events until its time
+// budget is used up. It prints lines "NAME VALUE" on stdout and leaves by _exit, without teardown.
 //
-// C++17: Debian's SystemC is built for it, and links with nothing newer.
+// C++17: Debian's SystemC is built for it, and does not link with later standards.
 #pragma once
 
 #include <atomic>
@@ -17,18 +17,18 @@ struct Request {
   std::string workload;
   int tasks = 0;
   int budget_ms = 0;
-  bool hooks = false;  ///< with a watch on the kernel, where there is one
+  bool hooks = false;  ///< with a watch on the kernel, if there is one
 };
 
 /// From `PROGRAM WORKLOAD TASKS BUDGET_MS [hooks]`.
 Request parse_request(int argc, char** argv);
 
-/// Wake-ups, hand-overs, items so far. Only one thread at a time counts them up; another may look.
+/// Wake-ups, hand-overs, items so far. Written by one thread at a time; read by any.
 extern std::atomic<std::uint64_t> counted;
 inline std::uint64_t events() { return counted.load(std::memory_order_relaxed); }
 inline void count(std::uint64_t more = 1) { counted.store(events() + more, std::memory_order_relaxed); }
 
-/// Which time counts: of the processor, which other programs do not disturb, or, where threads hand over, of the wall.
+/// The measured time: of the processor, which other programs do not disturb, or the wall clock where threads hand over.
 enum class Clock { processor, wall };
 std::int64_t clock_ns(Clock clock);
 
@@ -37,16 +37,16 @@ void answer(const char* name, double value);
 void answer(const char* name, const char* value);
 
 [[noreturn]] void leave();
-/// For a workload that this program does not have.
+/// For workloads that this program does not implement.
 [[noreturn]] void decline();
 constexpr int declined = 77;  ///< its exit status
 
-/// Bytes of this process: resident in all, and in page tables.
+/// Bytes of this process: resident in total, and in page tables.
 std::int64_t resident_bytes();
 std::int64_t page_table_bytes();
 
-/// Measures from within a task that has begun the others: `sleep` lets them go on for a stretch of virtual time that
-/// holds some thousands of events. Answers "ns", the time an event. Before, each task has `warm_events` on average.
+/// Measures from a task that has started the others: `sleep` lets them run for a span of virtual time with some
+/// thousands of events. Answers "ns", the time per event. Warms up first with `warm_events` per task on average.
 template <class Sleep>
 void measure(const Request& request, Clock clock, Sleep sleep, std::uint64_t warm_events = 2) {
   constexpr std::int64_t warm_ns = 20'000'000;

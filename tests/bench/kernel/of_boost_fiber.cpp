@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The workloads on Boost.Fiber, whose scheduler a virtual clock is put under: when no fiber is ready, the one that
-// sleeps for the shortest time is. All else is the library's own.
+// The workloads on Boost.Fiber, with a virtual clock below its scheduler: when no fiber is ready, the one with the
+// earliest deadline becomes ready. All else is the library's own.
 //
-// It has no semaphores: one is a count and a condition variable, and no mutex, since only one thread runs. Timeouts are
-// the library's, in real time.
+// The library has no semaphores: one is a count and a condition variable, without a mutex, as only one thread runs.
+// Timeouts are the library's, in real time.
 #include <boost/fiber/all.hpp>
 #include <queue>
 
@@ -20,14 +20,14 @@ class VirtualClock : public fibers::algo::algorithm {
 
   void sleep(std::int64_t ns) {
     if (ready_.empty() && (sleepers_.empty() || now_ + ns < sleepers_.top().due)) {
-      now_ += ns;  // no other is due before: a fiber cannot be switched to from itself
+      now_ += ns;  // no other is due earlier: a fiber cannot switch to itself
       return;
     }
     sleepers_.push({now_ + ns, sequence_++, fibers::context::active()});
     fibers::context::active()->suspend();
   }
 
-  // The dispatcher only frees what ended and asks for the time: it is kept for when there is nothing else.
+  // The dispatcher only frees ended fibers and asks for the time: it runs when nothing else is ready.
   void awakened(fibers::context* context) noexcept override {
     if (context->is_context(fibers::type::dispatcher_context))
       dispatcher_ = context;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What no kernel of fibers can be faster than: a warm switch of Boost.Context's fcontext alone, and, for tasks that
-// sleep, the better of some event sets alone added to it.
+// A lower bound for any kernel of fibers: a warm switch of Boost.Context's fcontext alone, and, for sleeping tasks,
+// plus the better of several event sets alone.
 #include <algorithm>
 #include <boost/context/detail/fcontext.hpp>
 #include <cstdio>
@@ -19,7 +19,7 @@ void echo(context::transfer_t from) {
   for (;;) from = context::jump_fcontext(from.fctx, nullptr);
 }
 
-/// The mean over the budget of `round`, which carries out some operations and returns how many; at least `least` of
+/// The mean over the budget of `round`, which executes some operations and returns their number; at least `least` of
 /// them.
 template <class Round>
 double mean_ns(int budget_ms, std::uint64_t least, Round round) {
@@ -43,7 +43,7 @@ double switch_ns(int budget_ms) {
   });
 }
 
-/// The sleeps of tasks; a copy begins where the original stood.
+/// The sleeps of tasks; a copy continues from the original's position.
 struct Periods {
   explicit Periods(const Request& request) {
     for (int i = 0; i < request.tasks; ++i)
@@ -63,7 +63,7 @@ struct Draws {
   std::vector<std::size_t> at;
 };
 
-/// A set with its tasks.
+/// A set and its tasks.
 template <class Set, class Sleeps>
 struct Turning {
   explicit Turning(Sleeps of) : sleeps(std::move(of)), tasks(count_of(sleeps)), set(tasks, sleeps.mean()) {
@@ -72,7 +72,7 @@ struct Turning {
   static std::uint32_t count_of(const Periods& periods) { return static_cast<std::uint32_t>(periods.of.size()); }
   static std::uint32_t count_of(const Draws& draws) { return static_cast<std::uint32_t>(draws.at.size()); }
 
-  /// Takes the least event out and puts that task's next one in.
+  /// Takes the least event out and inserts that task's next one.
   std::uint32_t turn() {
     const SetEntry least = set.least();
     set.move_least(least.time + sleeps.next(least.task));

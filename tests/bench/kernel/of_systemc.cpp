@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The workloads on SystemC: threads of its kernel, sc_semaphore, sc_mutex, and events in place of condition variables.
+// The workloads on SystemC: threads of its kernel, sc_semaphore, sc_mutex, and events instead of condition variables.
 //
-// Its semaphores know no timeouts: what waits with one here is an event and a count.
+// Its semaphores have no timeouts: waits with one use an event and a count here.
 #define SC_INCLUDE_DYNAMIC_PROCESSES
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 namespace waitpoint::bench {
 namespace {
 
-// Above this its guard pages would need more mappings than a process may have, and the first that fails ends it.
+// Above this its guard pages exceed the mappings that a process may have, and the first failure ends the process.
 constexpr int guarded_tasks_max = 30'000;
 bool guarded = true;
 
@@ -84,7 +84,7 @@ void run(const Request& request) {
 }  // namespace
 }  // namespace waitpoint::bench
 
-// The library's own guard pages come through here.
+// Intercepts the library's guard pages.
 extern "C" int mprotect(void* at, size_t size, int protection) noexcept {
   if (!waitpoint::bench::guarded) return 0;
   return static_cast<int>(syscall(SYS_mprotect, at, size, protection));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The workloads on threads of the operating system. Those that sleep do so in virtual time: one thread runs at a time
-// and hands over to the one that is due next by its condition variable. The others are what anybody would write, with
-// sem_t, std::mutex and std::condition_variable, and take no notice of virtual time.
+// The workloads on system threads. Sleeping tasks use virtual time: one thread runs at a time and hands over to the
+// next due one by its condition variable. The other workloads are plain code with sem_t, std::mutex and
+// std::condition_variable, without virtual time.
 #include <semaphore.h>
 #include <unistd.h>
 
@@ -29,7 +29,7 @@ struct RealKit {
       _exit(1);
     }
   }
-  // Only the first thread sleeps, to let the others go on.
+  // Only the first thread sleeps, to let the others run.
   static void sleep(std::int64_t ns) {
     if (ns > step_ns) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -55,7 +55,7 @@ struct RealKit {
   };
 };
 
-/// A discrete-event simulation by threads: whoever runs holds the baton.
+/// A discrete-event simulation with threads: the running one holds the baton.
 struct TurnsKit : RealKit {
   struct Turn {
     std::int64_t due;
@@ -86,7 +86,7 @@ struct TurnsKit : RealKit {
   }
   static void sleep(std::int64_t ns) {
     std::unique_lock<std::mutex> lock(baton, std::adopt_lock);
-    while (turns.size() < spawned) {  // some have not come so far as to stand in the queue
+    while (turns.size() < spawned) {  // some have not reached the queue yet
       lock.unlock();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       lock.lock();

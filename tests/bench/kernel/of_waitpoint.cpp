@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The workloads on the library under test, by its installed headers alone. The digest is always on.
+// The workloads on waitpoint, by its installed headers alone. The digest is always on.
 #include <waitpoint/fibers/sync/simulation.hpp>
 #include <waitpoint/fibers/sync/threads.hpp>
 
@@ -42,7 +42,7 @@ struct Kit {
   };
 };
 
-/// As cheap as a watch can be: what is measured is that the kernel calls one.
+/// A minimal watch: measures the kernel's call.
 struct CountingWatch : kernel::Watch {
   CountingWatch() : Watch{&CountingWatch::take} {}
   static void take(kernel::Watch& watch, const kernel::EventRecord&) { ++static_cast<CountingWatch&>(watch).seen; }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The workloads, written once for all who are compared. A Kit gives the primitives of one of them:
+// The workloads, written once for all subjects. A Kit provides the primitives of one of them:
 //
-//   Kit::clock                    what time counts
+//   Kit::clock                    the measured time
 //   Kit::spawn(i, tasks, body)    task number i; from within a task
 //   Kit::sleep(ns)                of virtual time
 //   Kit::Semaphore(units)         acquire, release
-//   Kit::Signal(units)            a semaphore with acquire_for(ns), false when it timed out
+//   Kit::Signal(units)            a semaphore with acquire_for(ns), false after a timeout
 //   Kit::Mutex, Kit::Condition    lock, unlock; wait(mutex), notify
 //
-// Where tasks hand over to each other at one instant, virtual time moves on now and then, in all of them alike.
+// Where tasks hand over to each other at one instant, virtual time advances at intervals, equally in all subjects.
 #pragma once
 
 #include <algorithm>
@@ -24,10 +24,10 @@ namespace waitpoint::bench {
 /// Hand-overs, items or locks between two instants.
 constexpr int at_one_instant = 256;
 constexpr std::int64_t step_ns = 1000;
-/// Virtual time that holds some ten thousand events of the workloads that hand over.
+/// Virtual time with some ten thousand events of the hand-over workloads.
 constexpr std::int64_t many_steps_ns = 50 * step_ns;
 
-/// Tasks that sleep and wake up. Some 20 000 wake-ups pass in one stretch of the measurement.
+/// Tasks that sleep and wake up. One step of the measurement has some 20 000 wake-ups.
 template <class Kit>
 void sleepers(const Request& request) {
   const int n = request.tasks;
@@ -52,7 +52,7 @@ void sleepers(const Request& request) {
   measure(request, Kit::clock, [stretch = 20'000 * mean_sleep_ns / n] { Kit::sleep(stretch); });
 }
 
-/// Pairs that hand over to and fro, each wait with a timeout. One wait of a thousand does time out.
+/// Pairs that hand over back and forth, each wait with a timeout. One wait of a thousand does time out.
 template <class Kit>
 void timeouts(const Request& request) {
   constexpr std::int64_t timeout_ns = 100 * step_ns;
@@ -79,13 +79,13 @@ void timeouts(const Request& request) {
       }
     });
   }
-  // Timeouts that were given up may weigh on a kernel until their time has come: all must have come round once.
+  // Cancelled timeouts may burden a kernel until they expire: warm up until all have.
   constexpr std::uint64_t round_of_all = 1100;
   measure(
       request, Kit::clock, [stretch = 1 + 300 * many_steps_ns / request.tasks] { Kit::sleep(stretch); }, round_of_all);
 }
 
-/// Two tasks that hand over to and fro by semaphores.
+/// Two tasks that hand over back and forth by semaphores.
 template <class Kit>
 void handover(const Request& request) {
   static typename Kit::Semaphore there(0), back(0);
@@ -108,8 +108,8 @@ void handover(const Request& request) {
   measure(request, Kit::clock, [] { Kit::sleep(many_steps_ns); });
 }
 
-/// Tasks that want the same mutex, and sleep while they hold it. Answers also how often it was had by who had it least,
-/// as a part of an equal share, and how many times more by who had it most.
+/// Tasks that contend for a mutex, and sleep while they hold it. Also answers how often the least served task had it,
+/// relative to an equal share, and the difference between the most and the least served.
 template <class Kit>
 void mutex_with_sleep(const Request& request) {
   static typename Kit::Mutex mutex;
@@ -130,8 +130,8 @@ void mutex_with_sleep(const Request& request) {
   answer("served_apart", static_cast<double>(*most - *least));
 }
 
-/// A producer and a consumer with 16 places between them, each place guarded by the mutex and told of by a condition
-/// variable, as the textbook has it.
+/// A producer and a consumer with 16 slots between them, guarded by the mutex and signalled by a condition variable, as
+/// in textbooks.
 template <class Kit>
 void buffer(const Request& request) {
   constexpr int places = 16;
@@ -166,7 +166,7 @@ void buffer(const Request& request) {
   measure(request, Kit::clock, [] { Kit::sleep(many_steps_ns); });
 }
 
-/// A kit whose tasks are never interrupted, so that what they share needs no mutex.
+/// A kit whose tasks are never preempted, so that shared data needs no mutex.
 template <class Kit>
 struct WithoutMutex : Kit {
   struct Mutex {
@@ -176,7 +176,7 @@ struct WithoutMutex : Kit {
   using Condition = typename Kit::AnyCondition;
 };
 
-/// One task that locks and unlocks a mutex which nobody else wants.
+/// One task that locks and unlocks an uncontended mutex.
 template <class Kit>
 void free_mutex(const Request& request) {
   static typename Kit::Mutex mutex;
@@ -193,7 +193,7 @@ void free_mutex(const Request& request) {
   measure(request, Kit::clock, [] { Kit::sleep(many_steps_ns); });
 }
 
-/// What a parked task keeps resident: on its stack, in its records, in the page tables.
+/// Resident memory per parked task: on its stack, in its records, in the page tables.
 template <class Kit>
 void parked(const Request& request) {
   static typename Kit::Semaphore never(0);
@@ -204,7 +204,7 @@ void parked(const Request& request) {
   answer("page_table_bytes", static_cast<double>(page_table_bytes() - tables_before) / request.tasks);
 }
 
-/// The workload asked for, from within the first task of a kit that has virtual time and mutexes.
+/// Runs the requested workload from the first task of a kit that has virtual time and mutexes.
 template <class Kit>
 void carry_out(const Request& request) {
   const std::string& workload = request.workload;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robots drive to and fro in the office, and turn when they touch. How they went is kept; measured is who finds, step
-// by step, where they stop.
+// Robots drive back and forth in the office, and turn on contact. Their motions are recorded; the collision detection
+// is measured on them, step by step.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ using world::Outline;
 
 constexpr double step_s = 0.01, v_max_m_s = 0.9, w_max_rad_s = 0.5;
 
-/// A step, as it begins.
+/// The state at the beginning of a step.
 struct Step {
   std::vector<Outline> outlines;
   std::vector<Arc> arcs;
@@ -49,7 +49,7 @@ class Office final : public world::MeetingPlace {
     return world::separation(outline(body), obstacles_[obstacle]).distance_m;
   }
 
-  /// How all drive for so many steps; one that has touched something turns to anywhere.
+  /// Records `count` steps of all robots; one in contact turns to a random heading.
   std::vector<Step> drive(std::size_t count) {
     const RandomStream stream(1, place_.name, "ways");
     std::vector<Step> steps;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who scans: we in two ways, and the peers, each as its own users would have it scan.
+// The contenders of the scan benchmark: waitpoint in two ways, and the peers, each used as by its own users.
 #pragma once
 
 #include <memory>
@@ -12,25 +12,25 @@
 
 namespace waitpoint::bench {
 
-/// The fan that is measured: a SICK LMS at half a degree.
+/// The measured fan: a SICK LMS at half a degree.
 inline constexpr std::size_t beams = 361;
 inline constexpr double range_max_m = 30, height_m = 0.4;
 
 class Contender {
  public:
   virtual ~Contender() = default;
-  /// The robots stand there now.
+  /// Sets the robots' places.
   virtual void place(std::span<const world::Shape> robots) = 0;
-  /// A scan of half a turn about the heading of `at`, which may be the middle of robot `own`, without that.
+  /// A scan of half a turn about the heading of `at`, which may be the centre of robot `own`; that robot is ignored.
   virtual void scan(const Pose& at, std::uint32_t own, std::span<double, beams> ranges_m) = 0;
 };
 
 /// Unit vectors of the fan in the device's frame, counter-clockwise.
 const std::vector<Point>& directions();
-/// Nearer than this to its own middle nothing stands that is not the robot itself.
+/// Closer to a robot's centre than this there is only the robot itself.
 inline constexpr double own_radius_m = 0.2501;
 
-/// Who says whether a robot's disc would collide with what stands there.
+/// Tests a robot's disc for collisions with its surroundings.
 class Collider {
  public:
   virtual ~Collider() = default;

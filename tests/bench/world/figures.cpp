@@ -23,7 +23,7 @@ void Figures::add(const Figure& figure) {
   rows_.push_back({"world", figure.case_name, figure.who, figure.value, figure.unit});
   if (figure.ratio) rows_.push_back({"world", figure.case_name + ", ratio", figure.who, *figure.ratio, "times"});
   if (!figure.must) return;
-  // A row must be at least so much: of what has an upper bound, this in figures.
+  // A row's bound is a minimum: an upper bound becomes the ratio of the bound to the figure.
   if (!figure.must->at_most)
     rows_.back().must = figure.must->value;
   else

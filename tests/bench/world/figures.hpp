@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures that stand for themselves, with bounds of their own: lines of the table, and rows.
+// Single figures with their own bounds: lines of the table, and rows.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace waitpoint::bench {
 
-/// What a figure has to be: at least so much, or at most.
+/// The bound of a figure: a minimum or a maximum.
 struct Limit {
   double value;
   bool at_most = false;
@@ -22,8 +22,8 @@ struct Figure {
   std::string case_name, who;
   double value = 0;
   std::string unit;
-  std::optional<double> ratio = {};          ///< to what the case's name says
-  std::optional<Limit> must = {}, aim = {};  ///< of the ratio, or of the value where there is none
+  std::optional<double> ratio = {};          ///< to the subject named in the case
+  std::optional<Limit> must = {}, aim = {};  ///< of the ratio, or of the value without a ratio
 };
 
 class Figures {
@@ -32,7 +32,7 @@ class Figures {
   void add(const Figure& figure);
 
   const std::vector<Row>& rows() const { return rows_; }
-  /// Of musts and of aims, how many there are and how many are met.
+  /// The number of musts or aims, and of those met.
   struct Count {
     int all = 0, met = 0;
   };

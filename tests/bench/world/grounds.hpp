@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grounds of any size that are everywhere alike.
+// Uniform grounds of any size.
 #pragma once
 
 #include "tests/bench/world/places.hpp"
 
 namespace waitpoint::bench {
 
-/// So many obstacles on as many squares of that side, boxes and discs, each somewhere about the middle of its square;
-/// as many stations as wanted, spread over the corners of the squares, which are free to 0.3 m: evenly, or drawn from
-/// those that are at least `border_m` inside.
+/// `obstacles` boxes and discs on as many squares of side `square_m`, each near the middle of its square; `stations`
+/// stations on the corners of the squares, which are free within 0.3 m: spread evenly, or drawn from those at least
+/// `border_m` inside.
 Place grounds(std::size_t obstacles, double square_m, std::size_t stations, double border_m = 0);
 
 }  // namespace waitpoint::bench

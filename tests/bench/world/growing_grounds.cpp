@@ -14,7 +14,7 @@ namespace waitpoint::bench {
 
 void growing_grounds(bool quick, Figures& figures) {
   constexpr std::size_t least = 1000;
-  // Who stands near the border looks out of the place, where there is nothing to find: the more so the smaller it is.
+  // Near the border a scan leaves the place and finds nothing: the smaller the place, the more often.
   constexpr double square_m = 2, border_m = 24;
   double first_ns = 0;
   for (std::size_t obstacles = least; obstacles <= 1'000'000; obstacles *= 10) {
@@ -30,7 +30,7 @@ void growing_grounds(bool quick, Figures& figures) {
     }
     Figure figure = {fmt::format("{} obstacles, a scan", obstacles), "waitpoint", best_ns, "ns a beam"};
     if (obstacles > least) {
-      // Logarithmic: what is a thousand times larger costs twice as much at most.
+      // Logarithmic: a thousand times the size may cost twice as much.
       const double growth = std::log(static_cast<double>(obstacles)) / std::log(static_cast<double>(least));
       figure.ratio = best_ns / first_ns;
       figure.must = Limit{growth, true};

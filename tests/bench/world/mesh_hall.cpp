@@ -13,12 +13,12 @@ namespace {
 using world::SpaceVector;
 using world::TriangleMesh;
 
-constexpr std::uint32_t columns = 7, rows = 7;     // of things
-constexpr std::uint32_t sectors = 16, rings = 32;  // of each: 1 024 triangles
+constexpr std::uint32_t columns = 7, rows = 7;     // of obstacles
+constexpr std::uint32_t sectors = 16, rings = 32;  // of each obstacle: 1 024 triangles
 constexpr double square_m = 6, thing_radius_m = 1.2, thing_height_m = 2;
 constexpr std::size_t stations = 200;
 
-// A thing that stands up from the floor, rough all around.
+// An obstacle that rises from the floor, with a rough surface.
 void add_thing(TriangleMesh& mesh, Point middle, const RandomStream& draw, std::uint64_t number) {
   const auto first = static_cast<std::uint32_t>(mesh.corners.size());
   for (std::uint32_t ring = 0; ring <= rings; ++ring) {
@@ -47,7 +47,7 @@ Place mesh_hall() {
   for (std::uint32_t i = 0; i < columns * rows; ++i)
     add_thing(mesh, {square_m * (i % columns + 0.5), square_m * (i / columns + 0.5)}, draw, i);
   place.meshes.push_back({place.name, std::make_shared<const TriangleMesh>(std::move(mesh))});
-  // Along the aisles between things.
+  // Along the aisles between obstacles.
   for (std::size_t i = 0; i < stations; ++i) {
     const double along_m = 1 + (place.length_m - 2) * where.uniform(i, 0);
     const double aisle_m = square_m * (1 + std::floor((columns - 1) * where.uniform(i, 1)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Box2D: a body for each solid, a ray cast for each beam that keeps the nearest fixture.
+// Box2D: a body per solid, a ray cast per beam that keeps the nearest fixture.
 #include <box2d/box2d.h>
 
 #include "tests/bench/world/contenders.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bullet: a collision object for each solid in its dynamic tree, a ray test for each beam.
+// Bullet: a collision object per solid in its dynamic tree, a ray test per beam.
 #include <btBulletCollisionCommon.h>
 
 #include "tests/bench/world/contenders.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CGAL: all that stands in an arrangement of segments, and from each place the polygon that is visible there; a range
-// is where its beam leaves that. Discs are polygons of sixteen sides. What is visible is exact, to any distance: there
-// is no range to end at.
+// CGAL: all obstacles in an arrangement of segments, and the visibility polygon of each place; a range ends where its
+// beam leaves the polygon. Discs are polygons of sixteen sides. Visibility is exact and unlimited: there is no maximum
+// range.
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arr_trapezoid_ric_point_location.h>
 #include <CGAL/Arrangement_2.h>
@@ -47,7 +47,7 @@ class ByCgal : public Contender {
     if (face == nullptr || (*face)->is_unbounded()) return;
     seen_.clear();
     const auto polygon = visibility_.compute_visibility(eye, *face, seen_);
-    // Sides counter-clockwise as seen from the eye: each has the beams between its ends.
+    // Sides in counter-clockwise order around the eye: each has the beams between its ends.
     const auto [s, c] = exact::sincos(at.heading);
     const auto first = polygon->outer_ccb();
     auto side = first;
@@ -62,10 +62,10 @@ class ByCgal : public Contender {
     return {CGAL::to_double(p.x()) - at.x, CGAL::to_double(p.y()) - at.y};
   }
 
-  // Beams look from -90 degrees on, in the device's frame.
+  // Beams start at -90 degrees, in the device's frame.
   static void lower(Point a, Point b, std::span<double, beams> ranges_m) {
     const double across = cross(a, b);
-    if (!(across > 0)) return;  // along a beam
+    if (!(across > 0)) return;  // parallel to a beam
     constexpr double step_rad = exact::pi / (beams - 1);
     const double from = std::atan2(a.y, a.x) + 0.5 * exact::pi;
     const double to = from + std::atan2(across, dot(a, b));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Embree: the walls of the solids as triangles, rays in coherent packets of 16. Discs are prisms of 16 sides. What
-// stands and what moves are two scenes, both asked, so that a step refits the robots alone.
+// Embree: the walls of the solids as triangles, rays in coherent packets of 16. Discs are prisms of 16 sides. Static
+// and moving solids are in two scenes, both queried, so that a step refits only the robots.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class ByEmbree : public Contender {
   }
 
  private:
-  // Two vertices for each corner: at the floor and at the top.
+  // Two vertices per corner: at the floor and at the top.
   static void write(float* to, std::span<const world::Shape> shapes) {
     for (const world::Shape& shape : shapes) {
       for (const Point& corner : corners(shape)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FCL as its users have it: a dynamic tree of axis-parallel boxes, and collide() of an upright cylinder with it.
+// FCL in its usual use: a dynamic tree of axis-parallel boxes, and collide() of an upright cylinder with it.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cylinder.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Occupied cells of 5 cm, and beams that step from cell to cell (Amanatides and Woo): what most 2D simulators do.
-// Robots are drawn into the grid where they stand, and lifted out for their own scans.
+// Occupied cells of 5 cm, and beams that step from cell to cell (Amanatides and Woo): the method of most 2D simulators.
+// Robots are drawn into the grid at their places, and removed for their own scans.
 #include <algorithm>
 #include <cmath>
 
@@ -43,7 +43,7 @@ class ByGrid : public Contender {
  private:
   static int column(double x_m) { return static_cast<int>(std::floor(x_m / cell_m)) + border; }
 
-  // Counts the cells up or down whose middles the shape covers, or nearly.
+  // Adds `count` to the cells whose middles the shape covers, or nearly.
   void draw(const world::Shape& shape, int count) {
     const world::Outline outline = world::outline_of(shape);
     const world::Bounds b = world::bounds_of(outline);

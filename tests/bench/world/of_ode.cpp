@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ODE: a geometry for each solid in a quadtree, a ray geometry for each beam; what moves is in a space of its own.
+// ODE: a geometry per solid in a quadtree, a ray geometry per beam; moving solids are in a separate space.
 #include <ode/ode.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int quadtree_depth = 7;
 
-/// What a ray has met so far.
+/// The nearest hit of a ray so far.
 struct Nearest {
   dGeomID own;
   double range_m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact slice, and the walk of FCL's trees.
+// The exact slice, and the traversal of FCL's trees.
 #include "tests/bench/world/contenders.hpp"
 #include "world/fcl/mesh_tree.hpp"
 #include "world/fcl/scene.hpp"

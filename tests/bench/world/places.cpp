@@ -57,7 +57,7 @@ void outer_walls(Place& place) {
   wall(place, place.length_m, 0, place.length_m, place.width_m);
 }
 
-// Puts what `draw_one` gives where it touches nothing, until there are so many.
+// Draws solids by `draw_one` until `count` of them are in place without contact.
 template <class DrawOne>
 void furnish(Place& place, std::size_t obstacles, double gap_m, DrawOne draw_one) {
   while (place.obstacles.size() < obstacles) {

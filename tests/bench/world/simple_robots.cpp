@@ -64,7 +64,7 @@ void drive(world::World& world, world::BodyId body) {
 }
 
 struct Cost {
-  double us;  // of a robot, a simulated second
+  double us;  // per robot and simulated second
   double resident_gb;
 };
 

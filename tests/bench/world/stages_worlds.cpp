@@ -18,7 +18,7 @@ bridge::Scenario scenario_of(const std::string& world, const std::string& data) 
   return bridge::read_scenario(file, {"world.map=" + data + "/stage/benchmark/" + world + ".world"});
 }
 
-// The file has its second thousand as comments: the first, 59 m further east.
+// The file has its second thousand as comments: the first, moved 59 m east.
 void add_second_thousand(bridge::Scenario& scenario) {
   const std::vector<bridge::RobotScenario> first = scenario.robots;
   for (bridge::RobotScenario robot : first) {
@@ -46,7 +46,7 @@ void measure(const bridge::Scenario& scenario, const std::string& name, Duration
   figures.add({fmt::format("{}, {} robots", name, robots), "waitpoint", distance_m / robots, "m each"});
 }
 
-// Where Stage's files are; nothing, and said so, without them.
+// The folder of Stage's files; nothing, with a message, without them.
 std::optional<std::string> stages_files() {
   std::optional<std::string> data = test::data_folder();
   if (!data) fmt::print("left out, for there is no data folder (set WAITPOINT_DATA): a world of Stage's\n");

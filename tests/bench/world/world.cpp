@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast planar scans are, beside peers, in one run.
+// Speed of planar scans, compared with peers, in one run.
 //
-// A pass is a scan from each station of a place. Contenders take turns, pass by pass, and the fastest of each counts,
-// by the processor's time: so what disturbs the machine disturbs all alike.
+// A pass is a scan from each station of a place. Contenders alternate pass by pass, and the fastest pass of each
+// counts, in processor time: so disturbances affect all alike.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -62,7 +62,7 @@ const std::vector<Subject> subjects = {
 };
 
 struct Bounds {
-  std::map<std::string, double> musts, aims;  // times faster than whom, at least
+  std::map<std::string, double> musts, aims;  // minimum ratios to the named contender
 };
 const Bounds of_scans = {{{embree_name, 2.5}, {box2d_name, 25}, {grid, 7}}, {{embree_name, 3.5}}};
 const Bounds of_mesh_scans = {{{embree_name, 1.5}}, {{embree_name, 2.5}}};
@@ -90,7 +90,7 @@ struct Entry {
   std::string name;
   std::unique_ptr<Contender> contender;
   double best_ns = HUGE_VAL;  // a pass
-  long answers_off = 0;       // beams by more than ten centimetres, collisions by being none
+  long answers_off = 0;       // beams off by more than ten centimetres, or differing collision answers
 };
 
 class Bench {
@@ -115,7 +115,7 @@ class Bench {
     print(place.name + ", a scan", entries, "ns a beam", 1 / answers_, place.meshes.empty() ? of_scans : of_mesh_scans);
   }
 
-  /// Robots move by a centimetre, then all scan.
+  /// All robots move by a centimetre, then scan.
   void steps(const Place& place) {
     std::vector<Entry> entries = enter(place);
     std::vector<world::Shape> there = place.robots;
@@ -134,7 +134,7 @@ class Bench {
     print(place.name + ": move, scan", entries, "us a step", 1e-3, of_steps);
   }
 
-  /// Whether a robot's disc would collide, at random places.
+  /// Tests of a robot's disc for collisions, at random places.
   void collisions(const Place& place) {
     const std::vector<Point> points = anywhere(place, 20'000);
     answers_ = static_cast<double>(points.size());
@@ -154,7 +154,7 @@ class Bench {
     print(place.name + ", does a disc collide", entries, "ns a query", 1 / answers_, of_collisions);
   }
 
-  /// With those of other figures of this run.
+  /// Together with the other figures of this run.
   void print_sum(const Figures& others) const {
     fmt::print("{} of {} musts met, {} of {} aims\n", met_[0] + others.musts().met, bounds_[0] + others.musts().all,
                met_[1] + others.aims().met, bounds_[1] + others.aims().all);
@@ -234,13 +234,13 @@ class Bench {
 
   bool peers_;
   int repeats_;
-  long collisions_ = 0;                  // counted, so that they are looked for
-  double answers_ = 0;                   // of a pass
+  long collisions_ = 0;                  // counted, so that the tests are not optimised away
+  double answers_ = 0;                   // per pass
   std::array<int, 2> met_{}, bounds_{};  // of musts and of aims
   std::vector<Row> rows_;
 };
 
-/// By their names, so that only those are made that are asked for.
+/// By name, so that only the requested ones are built.
 const std::vector<std::pair<const char*, Place (*)()>> places = {
     {"office", [] { return office(0); }},
     {"warehouse", [] { return warehouse(0); }},
@@ -249,7 +249,7 @@ const std::vector<std::pair<const char*, Place (*)()>> places = {
     {"mesh", &mesh_hall},
 };
 
-/// Without peers.
+/// Figures without peers.
 const std::vector<std::pair<const char*, void (*)(bool quick, Figures&)>> figures_alone = {
     {"collisions", &collisions_of_a_hundred}, {"stage's cave", &stages_cave},  {"stage's hospital", &stages_hospital},
     {"simple robots", &simple_robots},        {"obstacles", &growing_grounds},

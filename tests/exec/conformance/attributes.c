@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can be asked of threads and told to them: names, stacks, priorities, processors.
+// Attributes of threads that can be read and set: names, stacks, priorities, processors.
 #include "tests/exec/conformance/harness.h"
 
 #include <stdatomic.h>
@@ -221,7 +221,7 @@ CASE(the_level_of_concurrency_is_read_as_it_was_written) {
   EXPECT_IS(pthread_setconcurrency(-1), EINVAL);
 }
 
-// By the numbers of threads.
+// By thread ids.
 
 CASE(scheduling_can_be_asked_for_by_number) {
   struct sched_param parameters = {7};
@@ -241,7 +241,7 @@ CASE(scheduling_can_be_asked_for_by_number) {
 }
 CASE(who_takes_turns_has_a_length_of_them) {
   const struct sched_param parameters = {.sched_priority = 1};
-  if (sched_setscheduler(0, SCHED_RR, &parameters) != 0) return;  // for want of privileges
+  if (sched_setscheduler(0, SCHED_RR, &parameters) != 0) return;  // without privileges
   struct timespec interval = {0, 0};
   EXPECT_IS(sched_rr_get_interval(0, &interval), 0);
   EXPECT(interval.tv_sec > 0 || interval.tv_nsec > 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Addresses that lead nowhere: calls of the system fail with EFAULT, whatever simulates them.
+// Bad addresses: system calls fail with EFAULT, simulated or not.
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>
@@ -21,7 +21,7 @@
 #include <sys/timerfd.h>
 #include <sys/uio.h>
 
-// Volatile: a compiler that sees it warns.
+// Volatile prevents a compiler warning.
 static void* volatile nowhere = (void*)8;
 static volatile nfds_t too_many = ~0UL;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cancellation: states and types, points, and what is cleaned up in which order.
+// Cancellation: states, types, points, and the order of cleanup.
 #include "tests/exec/conformance/harness.h"
 
 #include <semaphore.h>
@@ -29,7 +29,7 @@ static void cancel_and_expect(void* (*function)(void*), void* argument) {
 
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t condition = PTHREAD_COND_INITIALIZER;
-static sem_t semaphore;  // all zero: nothing to take, on Linux
+static sem_t semaphore;  // all zero: no units, on Linux
 static const struct timespec long_time = {5, 0};
 
 static void unlock(void* unused) {
@@ -301,7 +301,7 @@ CASE(a_cancelled_wait_takes_no_signal_from_others) {
   pthread_cond_signal(&condition);
   pthread_mutex_unlock(&mutex);
   expect_cancelled(cancelled);
-  // POSIX lets the signal go to either, but not be lost where both were there.
+  // POSIX lets the signal go to either waiter, but it must not be lost if both were waiting.
   pthread_mutex_lock(&mutex);
   pthread_cond_signal(&condition);
   pthread_mutex_unlock(&mutex);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every call at which a thread that is cancelled leaves: if it was cancelled before, and while it waits there.
-#undef _FILE_OFFSET_BITS  // names with and without a size are told apart
+// Every cancellation point: with the cancellation pending before the call, and during its wait.
+#undef _FILE_OFFSET_BITS  // distinguishes names with and without a size
 #include "tests/exec/conformance/harness.h"
 
 #include <aio.h>

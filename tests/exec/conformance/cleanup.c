@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cleanup handlers, thread-specific data, and the order in which they are let go.
+// Cleanup handlers, thread-specific data, and the order of their release.
 #include "tests/exec/conformance/harness.h"
 
 #include <limits.h>

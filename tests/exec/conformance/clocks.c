@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What clocks show.
+// Readings of clocks.
 #include "tests/exec/conformance/harness.h"
 
 #include <stdint.h>
@@ -125,7 +125,7 @@ CASE(time_tells_seconds_of_the_realtime_clock) {
   const time_t said = time(&stored);
   EXPECT_IS(stored, said);
   const time_t after = now_ns(CLOCK_REALTIME) / 1000000000;
-  EXPECT(before - 1 <= said && said <= after);  // the second may come a tick later there
+  EXPECT(before - 1 <= said && said <= after);  // the second may change a tick later there
   EXPECT(time(NULL) >= said);
 }
 CASE(gettimeofday_tells_what_is_asked_for) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes and threads that are made by clone(), and ended by the number of the call.
+// Processes and threads created by clone(), and ended by system call number.
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>

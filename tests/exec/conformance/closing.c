@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What closes descriptors beside close(): ranges of them, streams, and others put in their place.
+// Implicit closing of descriptors: ranges, streams, and replacement by others.
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>
@@ -25,7 +25,7 @@ CASE(a_range_may_be_closed_by_the_next_program_alone) {
   EXPECT_IS(fcntl(ends[0], F_GETFD), FD_CLOEXEC);
 }
 
-// One thread reads while the other closes the last end that could be written.
+// One thread reads while another closes the last write end.
 static void expect_the_end(void* (*close_it)(void*), void* argument) {
   const pthread_t closing = start(close_it, argument);
   char byte;
@@ -69,7 +69,7 @@ CASE(another_in_its_place_ends_reading) {
   expect_the_end(replace_later, NULL);
 }
 
-// A timer that is set, and what has its number after it was closed.
+// An armed timer, and the descriptor that reuses its number after it was closed.
 static int timer_due_soon(void) {
   const int timer = timerfd_create(CLOCK_MONOTONIC, 0);
   const struct itimerspec soon = {{0, 0}, {0, 1000000}};

@@ -32,7 +32,7 @@ static void* take_ticket(void* unused) {
   pthread_mutex_unlock(&mutex);
   return unused;
 }
-/// With the mutex: so many wait.
+/// Locks the mutex once `count` threads wait.
 static void lock_when_waiting(int count) {
   pthread_mutex_lock(&mutex);
   while (waiting < count) {

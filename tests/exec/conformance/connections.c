@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sockets with an address: of the internet, within the machine, and local ones.
+// Sockets with addresses: internet, loopback, and local ones.
 #include "tests/exec/conformance/sockets.h"
 
 #include <fcntl.h>

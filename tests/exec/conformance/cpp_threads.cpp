@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// C++ on these calls: the standard library's threads, and what its run-time library needs of them.
+// C++ on these calls: the standard library's threads, and the needs of its run-time library.
 #include "tests/exec/conformance/harness.h"
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals that come while a thread waits for descriptors: what ends, and what goes on.
+// Signals during waits for descriptors: which calls end, and which continue.
 #include "tests/exec/conformance/interruptions.h"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Descriptors that count: of events, and of how often a timer ran out.
+// Counting descriptors: eventfd and timerfd.
 #include "tests/exec/conformance/harness.h"
 
 #include <poll.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Locks on parts of files: of processes, and of openings.
+// Locks on file ranges, owned by processes and by open file descriptions.
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>

@@ -166,7 +166,7 @@ CASE(wake_op_changes_the_second_word_and_wakes_at_both) {
   pthread_t ids[2];
   start_waiting(ids, 1, &at_word);
   start_waiting(ids + 1, 1, &at_second);
-  // second = 7; it was 0, which is less than 1: waiters there are woken too.
+  // second = 7; it was 0, which is less than 1: its waiters are woken, too.
   EXPECT_IS(futex(&word, FUTEX_WAKE_OP, 1, number(1), &second, FUTEX_OP(FUTEX_OP_SET, 7, FUTEX_OP_CMP_LT, 1)), 2);
   EXPECT_IS(second, 7);
   join_all(ids, 2);
@@ -207,7 +207,7 @@ CASE(an_address_that_is_not_aligned_is_refused) {
 static atomic_uint lock_word;
 static int counted;
 static void* lock_and_count(void* unused) {
-  // The lock of Drepper's "Futexes are tricky": 0 free, 1 taken, 2 taken and waited for.
+  // The lock of Drepper's "Futexes are tricky": 0 free, 1 taken, 2 taken with waiters.
   for (int i = 0; i < 100; ++i) {
     unsigned state = 0;
     if (!atomic_compare_exchange_strong(&lock_word, &state, 1)) {

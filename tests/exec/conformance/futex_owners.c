@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Futexes that hold their owner's id, and waiting at several futexes at once.
+// Futexes with an owner id, and waits for several futexes at once.
 #include "tests/exec/conformance/harness.h"
 
 #include <linux/futex.h>

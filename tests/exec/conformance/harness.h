@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program of cases. Each holds a sentence of POSIX, C11 or the Linux manual pages against what the calls do:
+// A program of cases. Each compares the calls' behaviour with a sentence of POSIX, C11 or the Linux manual pages:
 //
-//   PROGRAM --list    its cases, one a line: the exit status that shows that all is as the texts say, and the name
-//   PROGRAM CASE      does one; where something else comes of it, says so and ends with status 1
+//   PROGRAM --list    its cases, one per line: the exit status that means conformance, and the name
+//   PROGRAM CASE      runs one; on a mismatch, prints it and ends with status 1
 //
-// Nothing of waitpoint is in here: the same program runs on the threads of the system and on simulated ones. What a
+// This harness does not depend on waitpoint: the same program runs on system threads and on simulated ones. A case's
+// output must be the same in each simulated run of one seed.
 // case writes to its output must be the same in each simulated run of one seed.
 #pragma once
 
@@ -47,7 +48,7 @@ static inline void expect_equal(const char* file, int line, const char* text, lo
 
 #define EXPECT(condition) expect_equal(__FILE__, __LINE__, #condition, (condition) ? 1 : 0, 1)
 #define EXPECT_IS(value, expected) expect_equal(__FILE__, __LINE__, #value, (long long)(value), (long long)(expected))
-/// Of calls that return -1 and set errno.
+/// For calls that return -1 and set errno.
 #define EXPECT_FAILS(call, number)                              \
   do {                                                          \
     errno = 0;                                                  \
@@ -61,13 +62,13 @@ static inline long long now_ns(clockid_t clock) {
   return time.tv_sec * 1000000000LL + time.tv_nsec;
 }
 
-/// How many times longer than usually the short waits of a case last: on a machine with much to do, threads come late.
+/// Factor on the short waits of a case: on a loaded machine, threads are late.
 static inline long patience(void) {
   const char* const text = getenv("CONFORMANCE_PATIENCE");
   return text != NULL ? atol(text) : 1;
 }
 
-/// So long after what the clock shows now; before it, if negative.
+/// The clock's present time plus `ms`, which may be negative.
 static inline struct timespec in_ms(clockid_t clock, long long ms) {
   const long long ns = now_ns(clock) + (ms < 1000 ? ms * patience() : ms) * 1000000;
   const struct timespec time = {ns / 1000000000, ns % 1000000000};
@@ -86,7 +87,7 @@ static inline void sleep_ms(long ms) {
   const struct timespec time = {ns / 1000000000, ns % 1000000000};
   nanosleep(&time, NULL);
 }
-/// Long enough for the other threads to come to where they wait.
+/// Long enough for the other threads to reach their waits.
 static inline void let_others_wait(void) { sleep_ms(4); }
 
 static inline pthread_t start(void* (*function)(void*), void* argument) {
@@ -101,7 +102,7 @@ static inline void* join(pthread_t id) {
   return result;
 }
 
-/// What threads of a case did, in the order in which they did it.
+/// The actions of a case's threads, in order.
 static char noted[256];
 static inline void note(const char* what) { strncat(noted, what, sizeof noted - strlen(noted) - 1); }
 static inline void expect_noted(const char* file, int line, const char* expected) {

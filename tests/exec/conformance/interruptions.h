@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What cases on interruptions have in common: a thread that disturbs the first by a signal, and then does what that one
-// waits for.
+// Shared by cases on interruptions: a thread that sends the first one a signal, and then does what the first one waits
+// for.
 #pragma once
 
 #include "tests/exec/conformance/harness.h"
@@ -25,7 +25,7 @@ static inline void act(int flags) {
   main_id = pthread_self();
 }
 
-// Sends the signal to the thread that waits, then does what it waits for.
+// Sends the signal to the waiting thread, then does what it waits for.
 static void (*then)(void);
 
 static inline void* disturb(void* unused) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loaded while threads run: it has variables of each thread, and makes one by what it finds behind itself.
+// Loaded while threads run: has thread-local variables, and creates a thread by the next pthread_create in search
+// order.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <pthread.h>

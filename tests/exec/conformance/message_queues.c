@@ -71,7 +71,7 @@ CASE(a_time_ends_waiting) {
   struct timespec deadline = in_ms(CLOCK_REALTIME, 20);
   EXPECT_FAILS(mq_timedreceive(queue, bytes, 16, NULL, &deadline), ETIMEDOUT);
   EXPECT(now_ns(CLOCK_REALTIME) >= deadline.tv_sec * 1000000000LL + deadline.tv_nsec);
-  EXPECT_IS(mq_timedsend(queue, "first", 5, 0, &deadline), 0);  // there is room: its time does not matter
+  EXPECT_IS(mq_timedsend(queue, "first", 5, 0, &deadline), 0);  // there is room: the deadline does not matter
   deadline = in_ms(CLOCK_REALTIME, 20);
   EXPECT_FAILS(mq_timedsend(queue, "second", 6, 0, &deadline), ETIMEDOUT);
   deadline = invalid_time(CLOCK_REALTIME);
@@ -162,7 +162,7 @@ CASE(a_message_may_be_notified_by_a_thread) {
   EXPECT_IS(told, 7);
   EXPECT(!pthread_equal(told_by, pthread_self()));
   EXPECT_LETTER("a", 0);
-  // Once, until it is asked for again.
+  // One notification per request.
   told = 0;
   EXPECT_IS(mq_send(queue, "a", 1, 0), 0);
   sleep_ms(5);

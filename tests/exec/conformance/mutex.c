@@ -248,7 +248,7 @@ CASE(a_locked_mutex_is_not_destroyed) {
 }
 
 CASE(memory_of_a_mutex_is_used_for_another) {
-  // As std::mutex is let go: it is never destroyed.
+  // std::mutex is never destroyed either.
   for (int i = 0; i < 20; ++i) {
     pthread_mutex_t* made = malloc(sizeof *made);
     *made = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;

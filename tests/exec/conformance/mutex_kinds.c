@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each kind of mutex says: of every type, robust ones, and such that inherit priorities.
+// Results of each kind of mutex: of every type, robust, and with priority inheritance.
 #include "tests/exec/conformance/harness.h"
 
 static pthread_mutex_t m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pipes with a name, which are opened, and locks on what is opened.
+// Named pipes: opening, and file locks.
 #include "tests/exec/conformance/harness.h"
 
 #include <stdatomic.h>
@@ -8,7 +8,7 @@
 
 static atomic_int done;
 
-// Headers give these names to others.
+// Headers redefine these names.
 extern int plain_open(const char* path, int flags, ...) __asm__("open");
 
 extern int plain_openat(int folder, const char* path, int flags, ...) __asm__("openat");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Semaphores with a name.
+// Named semaphores.
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>
@@ -10,7 +10,7 @@
 static char name[64];
 static void take_away(void) { sem_unlink(name); }
 
-/// A name that no other process has.
+/// A name unique to this process.
 static const char* own_name(void) {
   snprintf(name, sizeof name, "/conformance-%d", (int)getpid());
   sem_unlink(name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions that are called once.
+// One-time initialisation.
 #include "tests/exec/conformance/harness.h"
 
 #include <dlfcn.h>
@@ -114,7 +114,7 @@ CASE(flags_beside_each_other_are_told_apart) {
   EXPECT_IS(calls, 50);
 }
 
-// What older programs and libraries were linked with.
+// Older programs and libraries were linked with this name.
 CASE(the_older_name_of_pthread_once_means_the_same) {
   int (*const old)(pthread_once_t*, void (*)(void)) =
       (int (*)(pthread_once_t*, void (*)(void)))dlsym(RTLD_DEFAULT, "__pthread_once");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs of OpenMP, whose runtime waits by system calls of its own.
+// OpenMP programs, whose runtime waits by direct system calls.
 #include "tests/exec/conformance/harness.h"
 
 #include <omp.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Other names of calls: of the C library, and those that the compiler puts in with _FORTIFY_SOURCE.
+// Aliases of calls: of the C library, and those inserted by the compiler with _FORTIFY_SOURCE.
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>
@@ -241,7 +241,7 @@ CASE(underscored_send_and_connect) {
   EXPECT_FAILS(__connect(-1, &nowhere, sizeof nowhere), EBADF);
 }
 
-// As programs were linked with an older C library.
+// As linked with an older C library.
 #define OLDER(result, name, ...)           \
   extern result older_##name(__VA_ARGS__); \
   __asm__(".symver older_" #name ", " #name "@GLIBC_2.2.5")

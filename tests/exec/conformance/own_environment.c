@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program with functions of its own for the environment, as a shell has, which do nothing before it has begun.
+// A program that defines the environment functions itself, as shells do; they do nothing before main().
 #include "tests/exec/conformance/processes.h"
 
 static int has_begun;

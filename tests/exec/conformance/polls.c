@@ -164,7 +164,7 @@ CASE(epoll_tells_what_is_ready) {
   EXPECT_IS(epoll_wait(descriptor, events, 4, -1), 1);
   EXPECT_IS(events[0].events, EPOLLIN);
   EXPECT_IS(events[0].data.fd, one[0]);
-  EXPECT_IS(epoll_wait(descriptor, events, 4, -1), 1);  // as long as it is there
+  EXPECT_IS(epoll_wait(descriptor, events, 4, -1), 1);  // level-triggered
 }
 CASE(epoll_waits_for_any) {
   make_pipes();

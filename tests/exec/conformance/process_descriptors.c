@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Descriptors that stand for processes: pidfd_open() and what is done by them.
+// Process descriptors: pidfd_open() and its uses.
 #include "tests/exec/conformance/harness.h"
 
 #include <poll.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How processes of several threads end.
+// Ends of multi-threaded processes.
 #include "tests/exec/conformance/processes.h"
 
 static int report = -1;

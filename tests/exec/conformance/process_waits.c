@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Waiting for processes, and the signals that they send.
+// Waits for processes, and their SIGCHLD.
 #include "tests/exec/conformance/processes.h"
 
 #include <stdatomic.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes that fork, and handlers of that.
+// fork(), and its handlers.
 #include "tests/exec/conformance/processes.h"
 
 CASE(a_child_has_another_number_and_knows_its_parent) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What cases on processes have in common: how a child has ended.
+// Shared by cases on processes: the end of a child.
 #pragma once
 
 #include "tests/exec/conformance/harness.h"
@@ -21,7 +21,7 @@ static inline void expect_exit(const char* file, int line, pid_t child, int expe
 
 #define EXPECT_EXIT(child, expected) expect_exit(__FILE__, __LINE__, child, expected)
 
-/// Memory that a child shares.
+/// Memory shared with children.
 static inline volatile int* shared(void) {
   volatile int* const word = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   EXPECT(word != MAP_FAILED);

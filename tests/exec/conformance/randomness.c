@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers of the system. They are written out: the same seed must give the same.
+// System random numbers. They are printed: equal seeds must give equal output.
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>
@@ -76,7 +76,7 @@ CASE(arc4random_uniform_of_nothing_is_zero) {
   EXPECT_IS(arc4random_uniform(1), 0);
 }
 
-// Not random, but different in each native run.
+// Not random, but natively different in each run.
 CASE(clocks_repeat_with_the_seed) {
   struct timespec time;
   struct tms ticks;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Robust mutexes: what follows when their owner ends.
+// Robust mutexes: behaviour after the death of the owner.
 #include "tests/exec/conformance/harness.h"
 
 #include <stdint.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Semaphores without a name.
+// Unnamed semaphores.
 #include "tests/exec/conformance/harness.h"
 
 #include <limits.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What processes share that fork() made: primitives in memory that they share, named semaphores.
+// Objects shared by forked processes: primitives in shared memory, named semaphores.
 #include <fcntl.h>
 #include <linux/futex.h>
 #include <sched.h>
@@ -24,7 +24,7 @@ static void join_child(pid_t child) {
   EXPECT_IS(status, 0);
 }
 
-// By which a child says that the parent may go on.
+// With it a child lets the parent continue.
 static sem_t* step(void) {
   sem_t* const semaphore = shared_memory(sizeof *semaphore);
   EXPECT_IS(sem_init(semaphore, 1, 0), 0);
@@ -140,7 +140,7 @@ CASE(named_semaphore_of_a_child_is_there_after_it) {
   EXPECT_IS(sem_unlink(name), 0);
 }
 
-// Four processes add to a number: what one reads it writes back before another reads it.
+// Four processes increment a number: each must write it back before another reads it.
 CASE(mutex_keeps_processes_apart) {
   pthread_mutex_t* const mutex = shared_mutex(PTHREAD_MUTEX_NORMAL, PTHREAD_MUTEX_STALLED);
   volatile int* const number = shared_memory(sizeof *number);
@@ -277,7 +277,7 @@ CASE(condition_is_waited_for_until_a_deadline) {
   EXPECT_IS(pthread_mutex_lock(mutex), 0);
   EXPECT_IS(pthread_cond_timedwait(condition, mutex, &past), ETIMEDOUT);
   EXPECT_IS(pthread_mutex_unlock(mutex), 0);
-  // Nobody waits: that is lost.
+  // Without waiters, the signal is lost.
   EXPECT_IS(pthread_cond_signal(condition), 0);
   EXPECT_IS(pthread_mutex_lock(mutex), 0);
   EXPECT_IS(pthread_cond_timedwait(condition, mutex, &past), ETIMEDOUT);

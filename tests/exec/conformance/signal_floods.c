@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals that another process sends: thousands at once, and to a thread that computes.
+// Signals from another process: thousands at once, and to a computing thread.
 #include "tests/exec/conformance/signals.h"
 
 #include <setjmp.h>
@@ -7,7 +7,7 @@
 
 enum { signals = 2000 };
 
-/// Numbers them.
+/// Numbers the signals.
 static pid_t begin_sender(int signal) {
   const pid_t here = getpid(), child = fork();
   EXPECT(child >= 0);
@@ -17,7 +17,7 @@ static pid_t begin_sender(int signal) {
     if (sigqueue(here, signal, value) == 0)
       ++i;
     else
-      usleep(1000);  // as many as there may be of all processes
+      usleep(1000);  // the limit of all processes together
   }
   _exit(0);
 }
@@ -56,7 +56,7 @@ static pid_t begin_late_sender(int signal) {
   _exit(kill(here, signal));
 }
 
-// Calls of the C library that take nearly all of the time.
+// C library calls take nearly all of the time.
 static void* (*volatile fill)(void*, int, size_t) = memset;
 static long double (*volatile number)(const char*, char**) = strtold;
 enum { size = 16 << 20 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Masks of signals, and what pends.
+// Signal masks, and pending signals.
 #include "tests/exec/conformance/signals.h"
 
 static void note_signal(int signal) {

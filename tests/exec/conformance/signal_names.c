@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The calls of System V and BSD on signals, and names that headers give to others.
+// Signal calls of System V and BSD, and names that headers redefine.
 #include "tests/exec/conformance/signals.h"
 
 #include <dlfcn.h>
@@ -7,7 +7,7 @@
 
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 
-// No header has it any more.
+// No longer declared in any header.
 extern void (*bsd_signal(int signal, void (*handler)(int)))(int);
 
 static sigjmp_buf back;
@@ -78,7 +78,7 @@ CASE(sysv_signal_has_another_name) {
   EXPECT_IS(handled, 1);
 }
 CASE(sigpause_of_bsd_takes_a_mask) {
-  static const char name[] = "\0sigpause";  // not the end of the other one
+  static const char name[] = "\0sigpause";  // not the tail of the other name
   int (*const plain)(int) = named(name + 1);
   int (*const other)(int, int) = named("__sigpause");
   act(SIGUSR1, handle, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jumps out of handlers, stacks for them, faults, and abort().
+// Jumps out of handlers, alternate stacks, faults, and abort().
 #include "tests/exec/conformance/signals.h"
 
 #include <setjmp.h>

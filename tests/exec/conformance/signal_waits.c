@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals among threads, and waiting for signals.
+// Signals between threads, and waits for signals.
 #include "tests/exec/conformance/signals.h"
 
 #include <fcntl.h>
@@ -124,7 +124,7 @@ CASE(sigtimedwait_ends_at_its_time) {
   raise(SIGUSR1);
   siginfo_t information;
   EXPECT_IS(sigtimedwait(&set, &information, &none), SIGUSR1);
-  EXPECT_IS(information.si_code, SI_USER);  // so the C library says it here
+  EXPECT_IS(information.si_code, SI_USER);  // the C library sets it so here
 }
 
 static void* send_USR2_to_main(void* unused) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals: sent, handled, ignored, and what they do by default.
+// Signals: sending, handling, ignoring, and default actions.
 #include "tests/exec/conformance/signals.h"
 
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 
-// No header has it any more.
+// No longer declared in any header.
 extern void (*bsd_signal(int signal, void (*handler)(int)))(int);
 
 CASE(raise_is_handled_before_it_returns) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What cases on signals have in common: a handler that counts, and what is done with masks.
+// Shared by cases on signals: a counting handler, and operations on masks.
 #pragma once
 
 #include "tests/exec/conformance/harness.h"
@@ -9,7 +9,7 @@
 
 static atomic_int handled, last;
 
-// Volatile: of the calls that send, the compiler knows that they touch nothing of this file.
+// Volatile: the compiler assumes that the sending calls do not modify objects of this file.
 static volatile siginfo_t told;
 
 static volatile pthread_t handled_by;

@@ -82,7 +82,7 @@ static void* sleep_a_second(void* unused) {
 }
 CASE(sleep_sleeps_for_seconds) {
   start(sleep_a_second, NULL);
-  sleep_ms(20);  // and no less: else it would have ended the process
+  sleep_ms(20);  // no earlier: it would have ended the process
 }
 
 static void* sleep_and_note(void* ms) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of several parts, several messages by one call, and waiting for all that was asked for.
+// Messages in several parts, several messages per call, and waits for complete requests.
 #include "tests/exec/conformance/sockets.h"
 
 CASE(several_messages_are_sent_and_received_by_one_call) {

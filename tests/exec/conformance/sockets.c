@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of sockets: streams, datagrams, their times, and their ends.
+// Socket pairs: streams, datagrams, timeouts, and ends.
 #include "tests/exec/conformance/sockets.h"
 
 #include <signal.h>
@@ -131,7 +131,7 @@ CASE(what_is_no_socket_is_refused) {
   EXPECT_FAILS(accept(ends[0], NULL, NULL), EINVAL);
 }
 
-// Noticed at once, not when all have nothing else to do.
+// Noticed at once, not only when all threads are idle.
 static long long told_at_ns;
 
 static void* receive_end(void* unused) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What cases on sockets have in common: a pair, and much to be sent by it.
+// Shared by cases on sockets: a pair, and bulk data.
 #pragma once
 
 #include "tests/exec/conformance/harness.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls that move what is in pipes without the program having it, and counters read and written by their own calls.
+// Calls that move pipe contents without copying to the program, and eventfd_read() and eventfd_write().
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes that become programs, and calls that start them.
+// exec, and calls that start programs.
 #include "tests/exec/conformance/processes.h"
 
 #include <fcntl.h>
@@ -57,7 +57,7 @@ CASE(what_is_not_there_cannot_be_executed) {
   EXPECT_FAILS(execv("/nonexistent/program", say_11), ENOENT);
   EXPECT_FAILS(execvp("no-such-program-anywhere", say_11), ENOENT);
   EXPECT_FAILS(execve("/etc/passwd", say_11, environment), EACCES);
-  sleep_ms(1);  // threads go on
+  sleep_ms(1);  // threads continue
 }
 CASE(a_program_inherits_what_is_blocked_and_ignored) {
   sigset_t set;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thread-local storage: of the program, and of libraries that are loaded while threads run.
+// Thread-local storage: of the program, and of libraries loaded while threads run.
 #include "tests/exec/conformance/harness.h"
 
 #include <ctype.h>

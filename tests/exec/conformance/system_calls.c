@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls of the system by their numbers, through syscall(): those of the C library of the same names are simulated.
+// System calls by number, through syscall(): those whose C library functions are simulated.
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// System V's semaphores, shared memory and message queues between a process and those that it forks.
+// System V semaphores, shared memory and message queues shared by a process and its children.
 #include "tests/exec/conformance/harness.h"
 
 #include <signal.h>
@@ -48,7 +48,7 @@ CASE(a_parent_gives_what_its_child_waits_for) {
   if (child == 0) _exit(change(0, -1, 0) == 0 ? 3 : 1);
   while (semctl(semaphores, 0, GETNCNT) == 0) sleep_ms(1);
   EXPECT_IS(change(0, 1, 0), 0);
-  EXPECT_IS(semctl(semaphores, 0, GETVAL), 0);  // it was handed over
+  EXPECT_IS(semctl(semaphores, 0, GETVAL), 0);  // handed over
   expect_end_of(child, 3);
   remove_all();
 }

@@ -84,7 +84,7 @@ CASE(attaching_takes_the_address_that_is_asked_for) {
   errno = 0;
   EXPECT(shmat(segment, room + 1, 0) == failed && errno == EINVAL);
   errno = 0;
-  EXPECT(shmat(segment, room + 8192, 0) == failed && errno == EINVAL);  // somebody is there
+  EXPECT(shmat(segment, room + 8192, 0) == failed && errno == EINVAL);  // already mapped
   EXPECT(shmat(segment, room + 8192, SHM_REMAP) == room + 8192);
   EXPECT_IS(shmdt(room + 8192), 0);
   EXPECT_IS(shmdt(room + 20480), 0);

@@ -15,7 +15,7 @@ static int make(int size) {
 }
 static int unmake(void) { return semctl(set, 0, IPC_RMID); }
 
-// The kernel does not initialise them for those who ask by the standard's union.
+// With the standard's union, the kernel leaves these uninitialised.
 static int set_to(int number, int value) { return semctl(set, number, SETVAL, value); }
 static int value_of(int number) { return semctl(set, number, GETVAL); }
 
@@ -167,7 +167,7 @@ CASE(taking_waits_for_giving) {
   EXPECT_IS(semctl(set, 0, GETNCNT), 1);
   EXPECT_IS(semctl(set, 0, GETZCNT), 0);
   EXPECT_IS(change(0, 1, 0), 0);
-  EXPECT_IS(value_of(0), 0);  // whoever waited has it
+  EXPECT_IS(value_of(0), 0);  // a waiter has taken it
   EXPECT_IS(semctl(set, 0, GETNCNT), 0);
   join(id);
   unmake();
@@ -332,7 +332,7 @@ CASE(undo_counts_within_its_range) {
   EXPECT_IS(change(0, -20000, 0), 0);
   EXPECT_FAILS(change(0, 20000, SEM_UNDO), ERANGE);
   EXPECT_IS(value_of(0), 0);
-  // Setting the value forgets what is to be undone.
+  // SETVAL clears the undo values.
   EXPECT_IS(set_to(0, 0), 0);
   EXPECT_IS(change(0, 20000, SEM_UNDO), 0);
   EXPECT_IS(value_of(0), 20000);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a thread begins with: what its attributes ask for, and what it inherits.
+// Initial state of a thread: from its attributes, and inherited.
 #include "tests/exec/conformance/harness.h"
 
 #include <limits.h>
@@ -185,7 +185,7 @@ CASE(stack_of_the_program) {
 }
 CASE(default_stack_takes_7_mb) { join(start(recursive, (void*)1700)); }
 CASE_ENDING_WITH(-SIGSEGV, overflow_of_a_stack_is_a_fault) { join(start(recursive, (void*)100000)); }
-/// As some runtimes guard the low end of a stack, and leave it so.
+/// Some runtimes protect the low end of a stack like this, and leave it so.
 static void* protecting(void* p) {
   pthread_attr_t b;
   size_t z;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A thread's life: made, joined, detached, ended.
+// Life of a thread: creation, join, detachment, end.
 #include "tests/exec/conformance/harness.h"
 
 #include <stdatomic.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Timers with dates that are past, what they missed, and what clocks and sleeps refuse.
+// Timers with past dates, their overruns, and arguments rejected by clocks and sleeps.
 #include "tests/exec/conformance/harness.h"
 
 #include <semaphore.h>

@@ -173,7 +173,7 @@ CASE(a_timer_may_have_a_date) {
   EXPECT_IS(timer_settime(timer, TIMER_ABSTIME, &time, NULL), 0);
   EXPECT_FAILS(pause(), EINTR);
   EXPECT_IS(handled, 1);
-  // What is past already comes at once.
+  // A past date expires at once.
   time.it_value.tv_sec -= 100;
   EXPECT_IS(timer_settime(timer, TIMER_ABSTIME, &time, NULL), 0);
   sleep_ms(10);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// datagrams send PORT: ten datagrams with the time, one each 100 ms, every second in two parts; datagrams receive PORT:
-// prints how late each came.
+// datagrams send PORT: sends ten datagrams with the time, one each 100 ms, every second one in two parts; datagrams
+// receive PORT: prints the delay of each.
 #include <netinet/in.h>
 #include <stdio.h>
 #include <stdlib.h>

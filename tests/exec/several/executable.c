@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Counts its arguments, as a program of its own or among others.
+// Counts its arguments, as a program of its own or one of several.
 #include <stdio.h>
 #include <unistd.h>
 

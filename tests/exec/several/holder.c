@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// holder KEY: waits for the only unit of a semaphore, and ends without giving it back. The system does, by SEM_UNDO.
+// holder KEY: takes the only unit of a semaphore, and ends without releasing it. The system releases it, by SEM_UNDO.
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/ipc.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// instance NUMBER [WAY]: counts to 3 in variables of its own, of every kind that a program has, by two threads; prints
-// NUMBER and what it counted. Then it ends in the way that is named.
+// instance NUMBER [WAY]: counts to 3 in its own variables, of every storage kind, with two threads; prints NUMBER and
+// the counts. Then ends in the given way.
 #include <pthread.h>
 #include <unistd.h>
 
@@ -15,9 +15,9 @@
 #include <thread>
 
 int counter = 0;             // exported
-inline int one_for_all = 0;  // unique to a process, says the compiler
+inline int one_for_all = 0;  // the compiler marks it unique per process
 static int* in_order = nullptr;
-const char* error = "mine";  // the C library has a function of this name
+const char* error = "mine";  // the C library has a function with this name
 
 struct Made {
   Made() : at(new int(0)) { in_order = at; }

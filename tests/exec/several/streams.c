@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// streams send PORT: five records with the time, one each 100 ms, in different ways; then a million bytes, and the end.
-// streams receive PORT: prints how late each came, and how late the end; it reads slowly, and checks what it reads.
-// streams leave PORT: asks, waits for the answer, says how late that is, writes once more, and ends at once.
-// streams meet PORT: answers, and prints how late the question, the last word and the end came.
+// streams send PORT: sends five records with the time, one each 100 ms, in different ways; then a million bytes and the
+// end.
+// streams receive PORT: prints the delay of each record and of the end; reads slowly, and checks the bytes.
+// streams leave PORT: asks, waits for the answer, prints its delay, writes once more, and ends at once.
+// streams meet PORT: answers, and prints the delays of the question, the last message and the end.
 #include <netinet/in.h>
 #include <stdio.h>
 #include <stdlib.h>

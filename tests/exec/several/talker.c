@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// talker serve NAME: says how late it is to the first who calls, and ends without a word.
-// talker call NAME: calls until somebody answers, and listens to the end.
+// talker serve NAME: tells the time to the first caller, and ends without closing.
+// talker call NAME: calls until a server answers, and reads to the end.
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -12,7 +12,7 @@
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   struct sockaddr_un address = {.sun_family = AF_UNIX};
-  strncpy(address.sun_path + 1, argv[2], sizeof address.sun_path - 2);  // a name that is in no folder
+  strncpy(address.sun_path + 1, argv[2], sizeof address.sun_path - 2);  // an abstract name, in no folder
   const socklen_t size = (socklen_t)(sizeof address.sun_family + 1 + strlen(argv[2]));
   const int socket_of_all = socket(AF_UNIX, SOCK_STREAM, 0);
   if (strcmp(argv[1], "serve") == 0) {
