@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atomicity violations: an operation meant as one step consists of several.
+// Operations intended to be atomic that consist of several steps.
 #include <array>
 #include <mutex>
 #include <shared_mutex>
@@ -29,7 +29,7 @@ void lost_update() {
   check(ticks.load() == 2, "a tick is lost");
 }
 
-// Two motions check that the battery suffices, each in one critical section, and draw from it in another.
+// Two motions check the battery's charge in one critical section, and take it in another.
 template <bool mended>
 void check_then_act() {
   mutex battery;
@@ -49,7 +49,7 @@ void check_then_act() {
   check(charge >= 0, "more is taken than there is");
 }
 
-// The map has a lock; the resizing thread takes another lock.
+// The map has a lock; the resizing thread takes a different one.
 template <bool mended>
 void wrong_lock() {
   mutex map, goals;
@@ -68,8 +68,8 @@ void wrong_lock() {
   crew.join();
 }
 
-// The first value is published in one critical section and the value derived from it in the next; a reader between them
-// sees one without the other. `idle` other threads only take the lock.
+// The first value is published in one critical section and the derived one in the next; a reader between them sees an
+// inconsistent pair. `idle` other threads only pass through.
 template <bool mended, int idle>
 void two_stage() {
   mutex first_lock, second_lock;
@@ -98,7 +98,7 @@ void two_stage() {
   crew.join();
 }
 
-// Lazy initialisation: the flag is set before all parts are initialised.
+// Lazy initialisation: the flag is set before everything is initialised.
 template <bool mended>
 void double_checked_locking() {
   mutex making;
@@ -120,7 +120,7 @@ void double_checked_locking() {
   crew.join();
 }
 
-// Two counters add each other's values: only perfect alternation reaches the limit.
+// Two counters advance by each other's value, in turns: only perfect alternation reaches the limit.
 template <bool mended>
 void alternation() {
   constexpr int rounds = 3;
@@ -138,7 +138,7 @@ void alternation() {
   check(i.load() < 21 && j.load() < 21, "the gain is higher than any controller can bear");
 }
 
-// A reader that needs to write unlocks, locks for writing, and does not check again.
+// A reader that needs to write releases the read lock for the write lock, and does not check again.
 template <bool mended>
 void lock_upgrade() {
   shared_mutex table;
@@ -157,7 +157,7 @@ void lock_upgrade() {
   check(entries == 1, "entered twice");
 }
 
-// The last user frees the object; two users see themselves as the last, or none does.
+// The last user switches off the light; two consider themselves the last, or none.
 template <bool mended>
 void reference_count() {
   atomic<int> users(3), freed(0);
@@ -172,7 +172,7 @@ void reference_count() {
   check(freed.load() == 1, "freed twice");
 }
 
-// Two drivers of one bus: selecting the device and writing to it are two calls, each with its own critical section.
+// Two drivers of one bus: selecting the device and writing to it are two calls, each locked by itself.
 template <bool mended>
 void wrong_device() {
   mutex bus, session;

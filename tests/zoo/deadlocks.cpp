@@ -14,7 +14,7 @@
 namespace waitpoint::zoo {
 namespace {
 
-// A crossing without a rule: each robot holds its own cell of the floor and waits for the cell ahead.
+// A crossing without a rule: each robot holds its own cell of the floor and waits for the one ahead.
 template <bool mended, std::size_t robots>
 void crossing() {
   std::array<mutex, robots> cells;
@@ -29,7 +29,7 @@ void crossing() {
   crew.join();
 }
 
-// Philosophers who take both forks several times; mended, a butler admits all but one.
+// Philosophers who take both forks several times; mended, a butler seats all but one.
 template <bool mended>
 void philosophers() {
   constexpr std::size_t seats = 5;
@@ -51,7 +51,7 @@ void philosophers() {
   crew.join();
 }
 
-// The planner notifies its listeners while it holds its lock; a listener calls the planner while it holds its own.
+// The planner notifies its listeners while it holds its lock; a listener queries the planner while it holds its own.
 template <bool mended>
 void callback_under_lock() {
   mutex planner, display;
@@ -76,7 +76,7 @@ void callback_under_lock() {
   crew.join();
 }
 
-// A thread joins the worker while it holds the lock that the worker takes once more at its end.
+// The stopping thread joins the worker while it holds a lock that the worker takes at its end.
 template <bool mended>
 void join_under_lock() {
   mutex statistics;
@@ -97,8 +97,8 @@ void join_under_lock() {
   worker.join();
 }
 
-// A nested monitor: waiting for the gripper releases the gripper's lock, but not the arm's, which the thread that would
-// open the gripper needs.
+// A nested monitor: the wait for the gripper releases the gripper's lock, but not the arm's, which the thread that
+// would open the gripper needs.
 template <bool mended>
 void nested_monitor() {
   mutex arm, gripper;
@@ -121,7 +121,7 @@ void nested_monitor() {
   crew.join();
 }
 
-// Three locks, in the wrong order only on the path for a low battery.
+// Three locks with a wrong order only on the path for a low battery.
 template <bool mended>
 void rare_path() {
   mutex map, path, log;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Endings during pending work: stops, cancellations, results, last messages.
+// Ends during ongoing work: stops, cancellations, results, last messages.
 #include <array>
 #include <deque>
 #include <mutex>
@@ -15,8 +15,8 @@
 namespace waitpoint::zoo {
 namespace {
 
-// The worker finds no message, then the stop request: the last message came in between. Mended, it checks the stop
-// request first.
+// The worker finds no message, and then that it should stop: the last message arrived in between. Mended, it checks the
+// stop first.
 template <bool mended>
 void last_message() {
   constexpr int messages = 3;
@@ -51,7 +51,7 @@ void last_message() {
   check(handled == messages, "the last message is lost");
 }
 
-// A stop request between the test of the token and the wait wakes no thread. Mended, it takes the lock.
+// A stop requested between the check of the token and the wait wakes no one. Mended, the stopper takes the lock.
 template <bool mended>
 void stop_between() {
   mutex lock;
@@ -71,7 +71,7 @@ void stop_between() {
   crew.join();
 }
 
-// Two answers to one request: each thread checks whether there is one already.
+// Two answers to one request: each checks for an earlier one.
 template <bool mended>
 void promise_kept_twice() {
   promise<int> answer;
@@ -88,7 +88,7 @@ void promise_kept_twice() {
   (void)answer.get_future().get();
 }
 
-// A request completes while its client cancels it: both finish it, and its buffer is released twice.
+// A request is completed while its client cancels it: both finish it, and its buffer is returned twice.
 template <bool mended>
 void cancel_against_complete() {
   enum State { pending, running, completed, cancelled };
@@ -113,8 +113,7 @@ void cancel_against_complete() {
   check(given_back.load() == 1, "the buffer is given back twice");
 }
 
-// Readers register after they have read the address of the current table; the old one is freed when no reader is
-// registered.
+// Readers register after they have read the table in use; the old table is freed when no reader is registered.
 template <bool mended>
 void freed_in_use() {
   std::array<atomic<bool>, 2> freed;
@@ -140,7 +139,7 @@ void freed_in_use() {
   crew.join();
 }
 
-// A pool closes as soon as no job is open; a job that starts another one closes itself first.
+// A pool closes when no job is open; a job that creates another closes itself first.
 template <bool mended>
 void closed_too_early() {
   atomic<int> open(1);

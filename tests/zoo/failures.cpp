@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stores failures that another program, built from the same code, replays: `./dev test --replays`.
+// Stores failures, or replays those stored by another program built from the same code: `./dev test --replays`.
 //
-//   zoo-failures store FILE [SEEDS]    the portfolio's failures of each specimen, for SEEDS seeds (default: 15)
+//   zoo-failures store FILE [SEEDS]    stores the portfolio's failures of each specimen, for SEEDS seeds (default: 15)
+//   zoo-failures replay FILE           counts the replays equal to the stored runs; status 1 unless all are
 //
-//   zoo-failures replay FILE           replays them and prints how many give the same run; status 1 if not all do
-//
-// A line is "TOKEN DIGEST NAME": once with seed and number, and once, if it fits into a token, with the choices alone.
+// A line is "TOKEN DIGEST NAME": one with seed and number, and one with the choices, if they fit into a token.
 #include <cinttypes>
 #include <cstdio>
 #include <fstream>

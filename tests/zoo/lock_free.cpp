@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lock-free stacks, queues, flags and counters with small errors.
+// Lock-free code: stacks, queues, flags and counters that are nearly correct.
 #include <array>
 
 #include "fibers/explore/explore.hpp"
@@ -9,8 +9,8 @@
 namespace waitpoint::zoo {
 namespace {
 
-// A stack of free buffers, numbered from 1: the ABA problem. Between a pop's read of the second and its exchange of the
-// first, other threads take both and return the first. Mended, each exchange advances a tag.
+// A stack of free buffers, numbered from 1. Between a pop's read of the second and its exchange of the first, others
+// take both and return the first. Mended, each exchange advances a tag.
 template <bool mended>
 void aba_stack() {
   constexpr std::uint32_t tag = 16;
@@ -101,7 +101,7 @@ void sequence_lock() {
   crew.join();
 }
 
-// A lock of one flag: test and set in two steps.
+// A lock of one flag that is tested and set in two steps.
 template <bool mended>
 void spin_flag() {
   atomic<bool> taken(false);
@@ -142,7 +142,8 @@ void petersons_lock() {
   crew.join();
 }
 
-// Two alternating buffers: the reader uses one for any time, the writer returns to it with its second frame.
+// Two buffers in alternation: the reader keeps one as long as it needs, and the writer reuses it with its second frame
+// from then.
 template <bool mended>
 void double_buffer() {
   struct Frame {
@@ -177,7 +178,7 @@ void double_buffer() {
   crew.join();
 }
 
-// A three-bit sequence number: a reader that is delayed for eight messages takes the ninth for the first.
+// A three-bit sequence number: a reader delayed by eight messages takes the ninth for the first.
 template <bool mended>
 void sequence_wrap() {
   constexpr int wrap = mended ? 1000 : 8;

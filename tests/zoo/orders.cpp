@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Events assumed to come in one order, among 3 to 100 threads.
+// Events assumed to occur in one order, among 3 to 100 threads.
 #include <mutex>
 
 #include "fibers/explore/explore.hpp"
@@ -11,8 +11,8 @@
 namespace waitpoint::zoo {
 namespace {
 
-// Robots open a door and then report it; the supervisor finds an open door without a report if it checks after the
-// first has opened it and before any has reported it.
+// Robots that open a door and then announce it; a supervisor sees an open door that no robot has announced: it checks
+// after one has opened it and before one has announced it.
 template <bool mended, int robots>
 void reorder() {
   mutex both;
@@ -34,8 +34,7 @@ void reorder() {
   crew.join();
 }
 
-// The first thread creates the table that the last one uses after reading its parameters, which usually takes long
-// enough.
+// The first thread creates the table that the last one uses after reading its parameters: usually there is time enough.
 template <bool mended, int threads>
 void last_before_first() {
   constexpr int parameters = 12;
@@ -55,7 +54,7 @@ void last_before_first() {
   crew.join();
 }
 
-// A convoy whose rearguard is assumed to report after the others, since it was sent after them.
+// A convoy whose rearguard is assumed to report after the others, as it was sent after them.
 template <bool mended, int robots>
 void convoy() {
   atomic<int> reported(0);
@@ -73,7 +72,7 @@ void convoy() {
   crew.join();
 }
 
-// The subscriber starts after the first messages, which are not stored for it.
+// The subscriber comes after the first messages, which are not kept for it.
 template <bool mended>
 void late_subscriber() {
   constexpr int messages = 15;
@@ -96,7 +95,7 @@ void late_subscriber() {
   check(received > 0, "no message at all is received");
 }
 
-// A follower that starts in the middle of the route takes its second half for all of it. Any other part of the route
+// A follower that starts in the middle of the route takes the second half for all of it. All, nearly all or nothing
 // would be noticed.
 template <bool mended>
 void half_the_route() {

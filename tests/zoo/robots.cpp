@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bugs between the modules of a robot: posters, commands, emergency stops, sensors' buffers.
+// Bugs between the modules of a robot: posters, commands, emergency stops, sensor buffers.
 #include <array>
 #include <mutex>
 
@@ -12,8 +12,8 @@
 namespace waitpoint::zoo {
 namespace {
 
-// Motion reads the position from its poster, prepares, and starts from a position that is eight updates old. Mended, it
-// reads the position after preparing.
+// Motion reads the position from its poster, prepares, and drives off from a position that is eight updates old.
+// Mended, it reads the position when it is prepared.
 template <bool mended>
 void stale_poster() {
   constexpr int updates = 12, tolerated = 8;
@@ -39,8 +39,7 @@ void stale_poster() {
   crew.join();
 }
 
-// The goal refers to a frame that is published before it. A reader of the frame first may get the goal of the next
-// frame.
+// The goal refers to a frame that is published before it. A reader of the frame first may get the goal of the next.
 template <bool mended>
 void goal_of_the_next_frame() {
   atomic<int> frame(0), goal(0);
@@ -59,7 +58,7 @@ void goal_of_the_next_frame() {
   crew.join();
 }
 
-// The control loop reads the command and clears it in two steps.
+// The control loop reads and clears the command in two steps.
 template <bool mended>
 void lost_command() {
   atomic<int> command(0);
@@ -89,7 +88,7 @@ void lost_command() {
   check((executed & 2) != 0, "a command is dropped");
 }
 
-// Resuming after a stop clears a second stop that was pressed meanwhile. Mended, stops are counted.
+// Resuming after a stop clears the stop that was pressed again meanwhile. Mended, stops are counted.
 template <bool mended>
 void emergency_stop() {
   atomic<int> pressed(0), handled(0);
@@ -114,7 +113,7 @@ void emergency_stop() {
   check(stopped.load() || pressed.load() == handled.load(), "the robot drives with the button pressed");
 }
 
-// A ring of eight scans: the writer overtakes the reader while it copies one. Mended, the reader checks for that.
+// A ring of eight scans: the reader is overtaken while it copies one. Mended, it checks for that.
 template <bool mended>
 void lapped_reader() {
   constexpr int slots = 8, scans = 12;
@@ -161,7 +160,7 @@ void limited_patience() {
   crew.join();
 }
 
-// The planner counts its steps since the last heartbeat of the base; after ten it takes the base for dead. Mended, it
+// The planner counts its steps since the base's last heartbeat; after ten it considers the base dead. Mended, it
 // measures time, which has not passed.
 template <bool mended>
 void heartbeat() {
@@ -186,7 +185,7 @@ void heartbeat() {
   check(alive, "the base is taken for dead");
 }
 
-// An object is handed over: the giver opens its gripper as soon as the taker announces that it will close its own.
+// A handover: the giver opens its gripper when the taker announces that it will close its own.
 template <bool mended>
 void handover() {
   atomic<bool> gives(true), takes(false);
@@ -205,7 +204,7 @@ void handover() {
   crew.join();
 }
 
-// Six modules must be initialised, in a chain, before the robot moves; each assumes that its predecessor is.
+// Six modules must be initialised in a chain before the robot moves; each assumes that its predecessor is.
 template <bool mended>
 void initialised_in_a_chain() {
   constexpr std::size_t modules = 6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A specimen under many schedules, as in explore(), without the report of a failure.
+// Explores a specimen as explore() does, without the analysis of a failure.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 namespace waitpoint::zoo {
 
 struct Found {
-  std::uint64_t schedules;  ///< tried, including that one
+  std::uint64_t schedules;  ///< tried, including this one
   exploration::Failure failure;
 };
 
@@ -22,7 +22,7 @@ class Search {
 
   /// The outcome of the default order.
   const exploration::Outcome& usual() const { return usual_; }
-  /// The first failure among `most` schedules of `strategy`; nothing if there is none, or all have been tried.
+  /// The first failure among `most` schedules of `strategy`; nothing if there is none, or an exhaustive search ended.
   std::optional<Found> find(const std::string& strategy, std::uint64_t seed, std::uint64_t most);
   /// The run of that token.
   exploration::Outcome play(const exploration::Token& token) { return exploration::play(body_, token, profile_); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lost or misdirected notifications, and wrong conclusions from one.
+// Signals without a waiter, to the wrong one, or with less meaning than assumed.
 #include <deque>
 #include <mutex>
 
@@ -13,7 +13,7 @@
 namespace waitpoint::zoo {
 namespace {
 
-// The flag is set and notified without the lock: between the test of the flag and the wait.
+// The flag is set and the signal sent without the lock: between the check of the flag and the wait.
 template <bool mended>
 void lost_wake_up() {
   mutex lock;
@@ -33,8 +33,8 @@ void lost_wake_up() {
   crew.join();
 }
 
-// A bounded buffer whose producers and consumers wait on one condition variable, of which one is woken: it may be of
-// the same kind.
+// A bounded buffer whose producers and consumers wait on one condition variable, of whom one is woken: it may be of the
+// same kind.
 template <bool mended>
 void one_condition() {
   mutex lock;
@@ -59,7 +59,7 @@ void one_condition() {
   crew.join();
 }
 
-// A woken thread assumes that there is an item: another thread may have taken it.
+// The woken thread assumes a letter: another may have taken it.
 template <bool mended>
 void if_in_place_of_while() {
   mutex lock;
@@ -84,8 +84,8 @@ void if_in_place_of_while() {
   crew.join();
 }
 
-// A barrier that the last thread to leave resets. The next round begins when the first has left: it may reach the
-// barrier while others have still to leave, which then find a count that is too high, and wait without end.
+// A barrier that the last thread to leave resets. The next round begins when the first is out: it may reach the barrier
+// again while others have yet to leave, which then find a count that is too high, and wait forever.
 template <bool mended>
 void barrier_reuse() {
   constexpr int members = 3;
@@ -118,7 +118,7 @@ void barrier_reuse() {
   crew.join();
 }
 
-// A token goes round; all threads wait on one condition variable, and the one that is woken need not be the next.
+// A token ring: all wait on one condition variable, and the woken thread need not be the next.
 template <bool mended>
 void token_ring() {
   constexpr int stations = 4;
@@ -152,7 +152,7 @@ void one_permit_too_many() {
   crew.join();
 }
 
-// The start signal is an event without memory: of four workers one that is not waiting yet never starts.
+// The start signal is an event without memory: a worker that does not wait yet never starts.
 template <bool mended>
 void start_signal() {
   mutex lock;
@@ -177,7 +177,7 @@ void start_signal() {
   crew.join();
 }
 
-// A mailbox of two letters: the test for room precedes the lock.
+// A mailbox of two letters: the check for room precedes the lock.
 template <bool mended>
 void mailbox_full() {
   constexpr int room = 2;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the table of docs/zoo.md: the number of schedules that each strategy needs for each specimen, the median of 20
-// seeds.
+// Writes the table of docs/zoo.md: schedules that each strategy needs for each specimen, the median of 20 seeds.
 //
-//   zoo-table [--seed=N] [NAME ...]    of those specimens alone, with the seeds from N on (default: 1)
+//   zoo-table [--seed=N] [NAME ...]    only these specimens, with seeds from N (default: 1)
 //
-// Below the table: the number of the portfolio's failures that gave the same digest when their choices were replayed.
+// Below it: the number of the portfolio's failures whose choices replay to the same digest.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -30,7 +29,7 @@ bool is_repeated(waitpoint::zoo::Search& search, const waitpoint::exploration::F
   return search.body().run(rest, {.deviations = deviations}).digest == failure.outcome.digest;
 }
 
-// "median (found by so many seeds)"; exhaustive strategies have no seed.
+// "median (number of successful seeds)"; exhaustive strategies have no seed.
 std::string cell(waitpoint::zoo::Search& search, const std::string& strategy, std::uint64_t first, Repeats& repeats) {
   std::vector<std::uint64_t> needed;
   std::uint64_t found = 0;

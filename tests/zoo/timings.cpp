@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Timing bugs: they need computations that take less, or more, than usual, and events at one instant. In the default
-// order each computation takes its longest time.
+// Bugs of time: they need computations that take less or more than usual, and events that coincide. In the default
+// order each computation takes its maximum.
 #include <array>
 #include <deque>
 #include <mutex>
@@ -51,7 +51,7 @@ void missed_period() {
 }
 
 // A request that timed out is repeated, and the answer to the first is taken for that to the second. Mended, answers
-// have the numbers of their requests.
+// have the number of their request.
 template <bool mended>
 void timeout_race() {
   mutex lock;
@@ -80,7 +80,7 @@ void timeout_race() {
       return;
     }
     guard.unlock();
-    compute(1ms, 6ms);  // other work before it asks again
+    compute(1ms, 6ms);  // its work before the repetition
     guard.lock();
     answer = 0;
     asked = 2;
@@ -91,7 +91,7 @@ void timeout_race() {
   crew.join();
 }
 
-// The wait ends at its deadline, and at that very instant the letter arrives: the reader leaves without it.
+// The wait ends at its deadline, and at that instant the letter arrives: the reader leaves without it.
 template <bool mended>
 void deadline_tie() {
   mutex lock;
@@ -114,8 +114,7 @@ void deadline_tie() {
   crew.join();
 }
 
-// Priority inversion, as on Mars Pathfinder: an urgent thread waits for the bus, whose holder does not get the
-// processor.
+// As on Mars: an urgent task waits for the bus, held by a thread that does not get the processor.
 template <bool mended>
 void priority_inversion() {
   processor board;
@@ -138,8 +137,8 @@ void priority_inversion() {
   for (thread* each : {&low, &middle, &high}) each->join();
 }
 
-// The watchdog reads the kick, writes its log and then clears it: kicks in between are lost. Three lost in a row stop
-// the robot. Mended, it clears only the kicks that it has read.
+// The watchdog reads the kick, writes its log and then clears it: kicks in between are lost. Three in a row stop the
+// robot. Mended, it clears what it has read.
 template <bool mended>
 void watchdog_against_kick() {
   constexpr int rounds = 5, tolerated = 2;
@@ -165,8 +164,8 @@ void watchdog_against_kick() {
   crew.join();
 }
 
-// Measurements are applied by arrival: one that is delayed arrives after another that was taken three later. Three such
-// jumps, and the robot is lost. Mended, measurements older than the estimate are ignored.
+// Measurements are applied in order of arrival: one with a long delay arrives after another that was taken three later.
+// Three such jumps, and the robot is lost. Mended, measurements older than the estimate are left out.
 template <bool mended>
 void late_measurement() {
   constexpr int measurements = 6, tolerated = 2;
@@ -176,7 +175,7 @@ void late_measurement() {
   for (int i = 1; i <= measurements; ++i)
     crew.add("camera", [&, i] {
       this_thread::sleep_until(Time() + Duration(5ms) * i);
-      compute(1ms, 20ms);  // image recognition
+      compute(1ms, 20ms);  // recognition in the image
       const std::lock_guard guard(lock);
       if (mended && i < estimate) return;
       jumps += estimate - i > tolerated;

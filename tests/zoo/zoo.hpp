@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The zoo: small programs with one planted bug each, of the kinds found in robot software and in the known suites of
-// concurrency bugs, and their mended twins. The strength of the exploration is measured by them.
+// concurrency bugs, and their mended twins. They measure the exploration.
 //
-// A specimen is a template with a parameter that selects the mended twin, which differs in those lines only. Each
-// passes in the default order. Their threads interact by primitives and atomics alone, so that no instrumented code is
-// needed to find the bugs.
+// A specimen is a template with a parameter `mended`: its twin differs only in those lines. Each passes in the default
+// order. Its threads interact at primitives and atomics only, so that no instrumented code is needed to find the bug.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +19,14 @@ struct Specimen {
   const char* name;
   void (*buggy)();
   void (*correct)();
-  std::uint32_t switches;  ///< the least number of switches away from the default order that show it
+  std::uint32_t switches;  ///< the minimum of switches away from the default order
   const char* kind;
 };
 
-/// All of them, by kind.
+/// All specimens, by kind.
 const std::vector<Specimen>& specimens();
 
-// One function for each kind, for specimens().
+// One list per kind, for specimens().
 using Specimens = std::vector<Specimen>;
 Specimens deadlocks();
 Specimens atomicities();
@@ -38,7 +37,7 @@ Specimens endings();
 Specimens robots();
 Specimens timings();
 
-/// The threads of a specimen; to be joined before it ends.
+/// The threads of a specimen; join before its end.
 class Crew {
  public:
   template <class Function>

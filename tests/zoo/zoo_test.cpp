@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exploration finds, minimises and repeats each bug of the zoo, and the specimens are as declared.
+// Each specimen has its stated properties, and exploration finds, minimises and repeats its failure.
 #include "tests/zoo/zoo.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(Zoo, NoCorrectTwinIsReported) {
   }
 }
 
-// Nine of ten failures need at most one switch more than the least number.
+// For nine of ten, at most one switch more than the minimum.
 TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
   std::uint32_t failures = 0, longer = 0;
   for (const Specimen& specimen : specimens()) {
@@ -78,7 +78,7 @@ TEST(Zoo, WhatWasChosenRepeatsTheFailure) {
   }
 }
 
-// By a token, in a campaign of its own; only some specimens, since each failure is explained.
+// Replays the token in a separate campaign; only for some, as each failure is explained.
 TEST(Zoo, ATokenRepeatsTheFailure) {
   constexpr std::size_t every = 6;
   for (std::size_t i = 0; i < specimens().size(); i += every) {

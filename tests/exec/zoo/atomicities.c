@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was meant to be one step, and is several.
+// Operations intended to be atomic that consist of several steps.
 #include <stdatomic.h>
 #include <stdbool.h>
 
@@ -23,7 +23,7 @@ static void run_lost_update(int threads) {
   check(ticks == threads, "a tick is lost");
 }
 
-// Two motions ask whether the battery holds enough for them, each in one critical section, and take it in another.
+// Two motions check the battery's charge in one critical section, and take it in another.
 static pthread_mutex_t battery = PTHREAD_MUTEX_INITIALIZER;
 static int charge = 10;
 
@@ -45,7 +45,7 @@ static void run_check_then_act(int threads) {
   check(charge >= 0, "more is taken than there is");
 }
 
-// The map has a lock; the one who resizes it takes the lock of something else.
+// The map has a lock; the resizing thread takes a different one.
 static pthread_mutex_t map = PTHREAD_MUTEX_INITIALIZER, goals = PTHREAD_MUTEX_INITIALIZER;
 static int width = 4, cells = 16;
 
@@ -53,7 +53,7 @@ static void* resize_map(void* unused) {
   pthread_mutex_t* const lock = mended ? &map : &goals;
   pthread_mutex_lock(lock);
   width = 8;
-  atomic_signal_fence(memory_order_seq_cst);  // the compiler keeps their order
+  atomic_signal_fence(memory_order_seq_cst);  // keeps the order of the stores in the compiler
   cells = 64;
   pthread_mutex_unlock(lock);
   return unused;
@@ -73,8 +73,8 @@ static void run_wrong_lock(int threads) {
   join_all();
 }
 
-// The first value is published in one critical section and what follows from it in the next; a reader between both
-// sees one without the other. Others only pass through.
+// The first value is published in one critical section and the derived one in the next; a reader between them sees an
+// inconsistent pair. Other threads only pass through.
 static pthread_mutex_t first_lock = PTHREAD_MUTEX_INITIALIZER, second_lock = PTHREAD_MUTEX_INITIALIZER;
 static int first, second;
 
@@ -113,7 +113,7 @@ static void run_two_stage(int threads) {
   join_all();
 }
 
-// Lazily made: the flag says so before all of it is there.
+// Lazy initialisation: the flag is set before everything is initialised.
 static pthread_mutex_t making = PTHREAD_MUTEX_INITIALIZER;
 static atomic_bool is_made;
 static atomic_int calibration[3];
@@ -137,7 +137,7 @@ static void run_double_checked_locking(int threads) {
   join_all();
 }
 
-// Two counters advance by what the other has, in turns: only perfect alternation gets this far.
+// Two counters advance by each other's value, in turns: only perfect alternation reaches the limit.
 static pthread_mutex_t both = PTHREAD_MUTEX_INITIALIZER;
 static atomic_int gains[2] = {1, 1};
 
@@ -155,7 +155,7 @@ static void run_alternation(int threads) {
   check(gains[0] < 21 && gains[1] < 21, "the gain is higher than any controller can bear");
 }
 
-// Who holds a reader's lock and finds that it has to write gives it up for the writer's, and does not look again.
+// A reader that needs to write releases the read lock for the write lock, and does not check again.
 static pthread_rwlock_t register_lock = PTHREAD_RWLOCK_INITIALIZER;
 static int entries;
 
@@ -177,7 +177,7 @@ static void run_lock_upgrade(int threads) {
   check(entries == 1, "entered twice");
 }
 
-// Two drivers of one bus: selecting the device and writing to it are two calls, each of which is locked.
+// Two drivers of one bus: selecting the device and writing to it are two calls, each locked by itself.
 static pthread_mutex_t bus = PTHREAD_MUTEX_INITIALIZER, session = PTHREAD_MUTEX_INITIALIZER;
 static int selected;
 
@@ -201,7 +201,7 @@ static void run_wrong_device(int threads) {
   join_all();
 }
 
-// The last one out switches off the light; two see themselves as the last.
+// The last user switches off the light; two consider themselves the last.
 static atomic_int users, switched_off;
 
 static void* leave(void* unused) {

@@ -7,10 +7,10 @@
 
 enum { crew_max = 100 };
 
-// A thread of this body, which is given its number in the order of their making: see number_of().
+// Starts a thread, which is given its number in order of creation: see number_of().
 void start(void* (*body)(void*));
 int number_of(void* argument);
-// Waits for the end of all.
+// Joins all threads.
 void join_all(void);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads that wait for each other in a circle.
+// Threads that wait for each other in a cycle.
 #include <semaphore.h>
 #include <stdbool.h>
 
@@ -32,7 +32,7 @@ static void run_crossing(int threads) {
   join_all();
 }
 
-// Philosophers who take both forks several times; mended, there is a butler who seats all but one.
+// Philosophers who take both forks several times; mended, a butler seats all but one.
 static struct {
   pthread_mutex_t forks[5];
   sem_t butler;
@@ -60,7 +60,7 @@ static void run_philosophers(int threads) {
   join_all();
 }
 
-// The planner tells its listeners while it holds its lock; a listener asks the planner while it holds its own.
+// The planner notifies its listeners while it holds its lock; a listener queries the planner while it holds its own.
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER, display = PTHREAD_MUTEX_INITIALIZER;
 static int plan, shown;
 
@@ -91,7 +91,7 @@ static void run_callback_under_lock(int threads) {
   join_all();
 }
 
-// Who stops the worker joins it with the lock in hand that the worker takes once more at its end.
+// The stopping thread joins the worker while it holds a lock that the worker takes at its end.
 static pthread_mutex_t statistics = PTHREAD_MUTEX_INITIALIZER;
 static sem_t finished;
 static int jobs;
@@ -120,8 +120,8 @@ static void run_join_under_lock(int threads) {
   if (!mended) pthread_mutex_unlock(&statistics);
 }
 
-// A nested monitor: who waits for the gripper releases the gripper's lock, but not the arm's, which the one who would
-// open the gripper needs.
+// A nested monitor: the wait for the gripper releases the gripper's lock, but not the arm's, which the thread that
+// would open the gripper needs.
 static pthread_mutex_t arm = PTHREAD_MUTEX_INITIALIZER, gripper = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t opened = PTHREAD_COND_INITIALIZER;
 static bool is_open;
@@ -154,7 +154,7 @@ static void run_nested_monitor(int threads) {
   join_all();
 }
 
-// Three locks, of which the order is wrong only on the path that is taken when the battery is low.
+// Three locks with a wrong order only on the path for a low battery.
 static pthread_mutex_t map = PTHREAD_MUTEX_INITIALIZER, path = PTHREAD_MUTEX_INITIALIZER,
                        logbook = PTHREAD_MUTEX_INITIALIZER, gauge = PTHREAD_MUTEX_INITIALIZER;
 static int battery = 3;

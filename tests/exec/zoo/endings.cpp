@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends that come while something is still under way: stops, cancellations, results, last messages.
+// Ends during ongoing work: stops, cancellations, results, last messages.
 #include <array>
 #include <atomic>
 #include <condition_variable>
@@ -13,8 +13,8 @@
 namespace zoo {
 namespace {
 
-// The worker finds no message, and then that it shall stop: the last one came in between. Mended, it looks for the stop
-// first.
+// The worker finds no message, and then that it should stop: the last message arrived in between. Mended, it checks the
+// stop first.
 template <bool mended>
 void last_message(int) {
   constexpr int messages = 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Without locks: stacks, queues, flags and counters that are nearly right.
+// Lock-free code: stacks, queues, flags and counters that are nearly correct.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -9,8 +9,8 @@
 namespace zoo {
 namespace {
 
-// A stack of free buffers, numbered from 1. Between a pop's look at the second and its exchange of the first, others
-// take both and give the first back. Mended, each exchange advances a tag.
+// A stack of free buffers, numbered from 1. Between a pop's read of the second and its exchange of the first, others
+// take both and return the first. Mended, each exchange advances a tag.
 template <bool mended>
 class Stack {
  public:
@@ -145,8 +145,8 @@ void petersons_lock(int) {
   crew.join();
 }
 
-// Two buffers in turn: the reader has one as long as it needs, the writer comes round to it with its second frame
-// after.
+// Two buffers in alternation: the reader keeps one as long as it needs, and the writer reuses it with its second frame
+// from then.
 template <bool mended>
 void double_buffer(int) {
   struct Frame {

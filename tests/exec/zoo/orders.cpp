@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Events that were thought to come in one order, among 2 to 100 threads.
+// Events assumed to occur in one order, among 2 to 100 threads.
 #include <atomic>
 #include <latch>
 #include <mutex>
@@ -9,8 +9,8 @@
 namespace zoo {
 namespace {
 
-// Robots that open a door and then say so; a supervisor sees an open door that no robot has told it of: it looks when
-// one has opened it and none has said so yet. None begins before all are made.
+// Robots that open a door and then announce it; a supervisor sees an open door that no robot has announced: it checks
+// after one has opened it and before one has announced it. None begins before all are created.
 template <bool mended>
 void reorder(int threads) {
   std::mutex beginning, both;
@@ -37,8 +37,7 @@ void reorder(int threads) {
   crew.join();
 }
 
-// The first thread makes the table that the last one uses, which has to read its parameters before: there is time
-// enough, usually.
+// The first thread creates the table that the last one uses after reading its parameters: usually there is time enough.
 template <bool mended>
 void last_before_first(int threads) {
   constexpr int parameters = 8;
@@ -68,8 +67,8 @@ void last_before_first(int threads) {
   crew.join();
 }
 
-// A convoy whose rearguard is thought to report behind the others, as it was sent behind them. None reports before all
-// are made.
+// A convoy whose rearguard is assumed to report after the others, as it was sent after them. None reports before all
+// are created.
 template <bool mended>
 void convoy(int threads) {
   std::mutex lock;

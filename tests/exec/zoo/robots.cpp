@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes wrong between the modules of a robot: posters, commands, emergency stops, sensors' buffers.
+// Bugs between the modules of a robot: posters, commands, emergency stops, sensor buffers.
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -11,8 +11,8 @@
 namespace zoo {
 namespace {
 
-// Motion takes the position from its poster, prepares, and drives off from a position that is eight updates old.
-// Mended, it takes the position when it is prepared.
+// Motion reads the position from its poster, prepares, and drives off from a position that is eight updates old.
+// Mended, it reads the position when it is prepared.
 template <bool mended>
 void stale_poster(int) {
   constexpr int updates = 12, tolerated = 8;
@@ -155,8 +155,8 @@ void limited_patience(int) {
   crew.join();
 }
 
-// The planner counts its steps since the last heartbeat of the base; after ten it takes the base for dead. Mended, it
-// looks at a clock, on which no time has passed.
+// The planner counts its steps since the base's last heartbeat; after ten it considers the base dead. Mended, it
+// measures time, which has not passed.
 template <bool mended>
 void heartbeat(int) {
   using namespace std::chrono_literals;
@@ -182,8 +182,7 @@ void heartbeat(int) {
   check(alive, "the base is taken for dead");
 }
 
-// The object is handed over: the giver opens its gripper as soon as the taker says that it is about to close its
-// own.
+// A handover: the giver opens its gripper when the taker announces that it is about to close its own.
 template <bool mended>
 void handover(int) {
   std::mutex object;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals that nobody waits for yet, that reach the wrong one, or that say less than was understood.
+// Signals without a waiter, to the wrong one, or with less meaning than assumed.
 #include <semaphore.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -9,7 +9,7 @@
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-// The flag is set, and the signal given, without the lock: between the look at the flag and the wait.
+// The flag is set and the signal sent without the lock: between the check of the flag and the wait.
 static pthread_cond_t arrived = PTHREAD_COND_INITIALIZER;
 static atomic_bool is_there;
 
@@ -35,8 +35,8 @@ static void run_lost_wake_up(int threads) {
   join_all();
 }
 
-// A bounded buffer whose makers and users wait on one condition variable, of whom one is woken: it may be of the same
-// kind.
+// A bounded buffer whose producers and consumers wait on one condition variable, of whom one is woken: it may be of the
+// same kind.
 static pthread_cond_t changed = PTHREAD_COND_INITIALIZER;
 static int items;
 
@@ -60,7 +60,7 @@ static void run_one_condition(int threads) {
   join_all();
 }
 
-// Who was woken takes it for granted that there is something: another one may have come before.
+// The woken thread assumes a letter: another may have taken it.
 static pthread_cond_t filled = PTHREAD_COND_INITIALIZER;
 static int letters;
 
@@ -90,8 +90,8 @@ static void run_if_in_place_of_while(int threads) {
   join_all();
 }
 
-// A barrier that the last one to leave resets. The next round begins when the first is out: it may come round to the
-// barrier while others are still to leave, who then find a count that is too high, and wait for ever.
+// A barrier that the last thread to leave resets. The next round begins when the first is out: it may reach the barrier
+// again while others have yet to leave, which then find a count that is too high, and wait forever.
 static struct {
   pthread_cond_t full;
   sem_t out, next_round;
@@ -131,7 +131,7 @@ static void run_barrier_reuse(int threads) {
   join_all();
 }
 
-// A token goes round; all wait on one condition variable, and the one that is woken need not be the next.
+// A token ring: all wait on one condition variable, and the woken thread need not be the next.
 static pthread_cond_t passed = PTHREAD_COND_INITIALIZER;
 static int holder;
 
@@ -177,7 +177,7 @@ static void run_one_permit_too_many(int threads) {
   join_all();
 }
 
-// The signal of a start is an event without memory: of four workers the one that is not there yet never starts.
+// The start signal is an event without memory: of four workers, one that does not wait yet never starts.
 static pthread_cond_t begin = PTHREAD_COND_INITIALIZER;
 static bool has_begun;
 
@@ -203,7 +203,7 @@ static void run_start_signal(int threads) {
   join_all();
 }
 
-// A mailbox of two letters: whether there is room is asked before the lock is taken.
+// A mailbox of two letters: the check for room precedes the lock.
 static atomic_int mailbox;
 
 static void* send_letter(void* unused) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bugs of time: two things happen at one instant, and come in the order that nobody thought of. Computing is a sleep.
+// Bugs of time: two events coincide, and occur in the unexpected order. Computing is a sleep.
 #include <errno.h>
 #include <stdbool.h>
 #include <time.h>
@@ -65,8 +65,8 @@ static void run_missed_period(int threads) {
   check(dropped == 0, "a command is dropped");
 }
 
-// A request that timed out is repeated, and the answer to the first taken for that to the second. Mended, answers have
-// the number of their question.
+// A request that timed out is repeated, and the answer to the first is taken for that to the second. Mended, answers
+// have the number of their request.
 static int asked, answered, answer;
 
 static void* serve(void* unused) {
@@ -115,7 +115,7 @@ static void run_timeout_race(int threads) {
   join_all();
 }
 
-// The wait ends at its deadline, and at that very instant the letter comes: the reader leaves without it.
+// The wait ends at its deadline, and at that instant the letter arrives: the reader leaves without it.
 static bool has_letter;
 
 static void* write_letter(void* unused) {
@@ -146,8 +146,8 @@ static void run_deadline_tie(int threads) {
   join_all();
 }
 
-// The watchdog looks at the kick and then clears it: kicks that come in between are lost. Three in a row stop the
-// robot. Mended, it looks and clears in one.
+// The watchdog reads the kick and then clears it: kicks in between are lost. Three in a row stop the robot. Mended, it
+// reads and clears in one step.
 static bool is_kicked;
 enum { rounds = 5, missed_max = 2 };
 
@@ -185,8 +185,8 @@ static void run_watchdog_against_kick(int threads) {
   join_all();
 }
 
-// What is recognised in six images comes at one instant, and is applied as it comes: some behind what was taken three
-// later. Three such jumps, and the robot is lost. Mended, what is older than the estimate is left out.
+// Results of six images arrive at one instant, and are applied in order of arrival: some after a result taken three
+// later. Three such jumps, and the robot is lost. Mended, results older than the estimate are left out.
 static int estimate, jumps;
 
 static void* measure(void* argument) {

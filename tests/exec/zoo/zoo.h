@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The zoo as programs: the planted bugs of tests/zoo against the threads of the C library and of C++ alone, which know
-// of no simulation.
+// The zoo as programs: the planted bugs of tests/zoo with the threads of the C library and of C++, independent of the
+// simulation.
 //
-//   PROGRAM                   the names, each behind what it needs to be found
-//   PROGRAM NAME [mended]     runs one: 0 if what it checks holds, 1 with a line on standard error if not
+//   PROGRAM                   lists the names, each after the switch points needed to find it
+//   PROGRAM NAME [mended]     runs one: 0 if its checks hold, otherwise 1 with a line on standard error
 //
-// Each passes if a thread goes on until it waits, and threads follow each other in the order of their making.
+// Each passes if a thread runs until it blocks, and threads run in order of creation.
 #ifndef WAITPOINT_TESTS_EXEC_ZOO_H
 #define WAITPOINT_TESTS_EXEC_ZOO_H
 
@@ -16,22 +16,22 @@ extern "C" {
 struct specimen {
   const char* name;
   const char* needs;
-  int threads;  // that it starts
+  int threads;  // number of threads started
   void (*run)(int threads);
 };
 
-// What switches of threads must come at: calls of the library alone, or accesses to variables too.
+// The switch points needed: library calls only, or also accesses to variables.
 #define SYNCHRONIZATION "synchronization"
 #define MEMORY "memory"
 
-// One table a file, each up to a specimen without a name; and of these, up to one that is null.
+// One table per file, terminated by a specimen without a name; the list of tables is terminated by null.
 extern const struct specimen deadlocks[], atomicities[], signals[], timings[];
 extern const struct specimen lock_free[], orders[], endings[], robots[];
 extern const struct specimen* const tables[];
 
 extern int mended;
 
-// Ends the program with status 1, and those words on standard error, unless it holds.
+// Unless `holds`, ends the program with status 1 and prints `otherwise` on standard error.
 void check(int holds, const char* otherwise);
 
 #ifdef __cplusplus
