@@ -8,6 +8,9 @@
 #include "fibers/sync/mutex.hpp"
 #include "tests/zoo/zoo.hpp"
 
+// Needs the primitives declared above.
+#include "tests/zoo/shared/orders.hpp"
+
 namespace waitpoint::zoo {
 namespace {
 
@@ -72,54 +75,6 @@ void convoy() {
   crew.join();
 }
 
-// The subscriber comes after the first messages, which are not kept for it.
-template <bool mended>
-void late_subscriber() {
-  constexpr int messages = 15;
-  mutex topic;
-  int received = 0, kept = 0;
-  bool subscribed = false;
-  Crew crew;
-  crew.add("subscriber", [&] {
-    const std::lock_guard guard(topic);
-    subscribed = true;
-    if (mended) received += kept;
-  });
-  crew.add("publisher", [&] {
-    for (int i = 0; i < messages; ++i) {
-      const std::lock_guard guard(topic);
-      (subscribed ? received : kept) += 1;
-    }
-  });
-  crew.join();
-  check(received > 0, "no message at all is received");
-}
-
-// A follower that starts in the middle of the route takes the second half for all of it. All, nearly all or nothing
-// would be noticed.
-template <bool mended>
-void half_the_route() {
-  constexpr int points = 14;
-  mutex route;
-  int sent = 0, heard = 0;
-  bool follows = false;
-  Crew crew;
-  crew.add("follower", [&] {
-    const std::lock_guard guard(route);
-    follows = true;
-    if (mended) heard = sent;
-  });
-  crew.add("planner", [&] {
-    for (int i = 0; i < points; ++i) {
-      const std::lock_guard guard(route);
-      ++sent;
-      if (follows) ++heard;
-    }
-  });
-  crew.join();
-  check(heard != points / 2, "half the route ends in the river");
-}
-
 }  // namespace
 
 Specimens orders() {
@@ -134,7 +89,7 @@ Specimens orders() {
           {"convoy of 50", convoy<false, 50>, convoy<true, 50>, 1, "order"},
           {"convoy of 100", convoy<false, 100>, convoy<true, 100>, 1, "order"},
           {"late subscriber", late_subscriber<false>, late_subscriber<true>, 1, "order"},
-          {"half the route", half_the_route<false>, half_the_route<true>, 2, "order"}};
+          {"half the route", half_the_route<false, 14>, half_the_route<true, 14>, 2, "order"}};
 }
 
 }  // namespace waitpoint::zoo

@@ -6,7 +6,10 @@
 
 #include "tests/exec/zoo/crew.hpp"
 
-namespace zoo {
+// Needs the primitives declared above.
+#include "tests/zoo/shared/lock_free.hpp"
+
+namespace waitpoint::zoo {
 namespace {
 
 // A stack of free buffers, numbered from 1. Between a pop's read of the second and its exchange of the first, others
@@ -57,94 +60,6 @@ void aba_stack(int) {
   crew.join();
 }
 
-// A work-stealing queue: the owner takes at the tail, a thief at the head; for the last job both must agree.
-template <bool mended>
-void work_stealing(int) {
-  constexpr int jobs = 3;
-  std::atomic<int> head = 0, tail = jobs;
-  std::array<std::atomic<int>, jobs> done{};
-  Crew crew;
-  crew.add([&] {
-    for (;;) {
-      const int last = tail.fetch_sub(1) - 1;
-      int first = head.load();
-      if (first > last) break;
-      if (mended && first == last && !head.compare_exchange_strong(first, first + 1)) break;
-      check(done[static_cast<std::size_t>(last)].fetch_add(1) == 0, "a job is done twice");
-      if (first == last) break;
-    }
-  });
-  crew.add([&] {
-    for (int i = 0; i < 2; ++i) {
-      int first = head.load();
-      if (first >= tail.load()) break;
-      if (head.compare_exchange_strong(first, first + 1))
-        check(done[static_cast<std::size_t>(first)].fetch_add(1) == 0, "a job is done twice");
-    }
-  });
-  crew.join();
-}
-
-// A sequence lock whose reader looks whether a write is under way before it reads, and not once more behind.
-template <bool mended>
-void sequence_lock(int) {
-  std::atomic<int> sequence = 0, x = 0, y = 0;
-  Crew crew;
-  crew.add([&] {
-    for (int i = 1; i <= 3; ++i) {
-      sequence.fetch_add(1);
-      x.store(i);
-      y.store(i);
-      sequence.fetch_add(1);
-    }
-  });
-  crew.add([&] {
-    const int before = sequence.load();
-    if (before % 2 != 0) return;
-    const int seen_x = x.load(), seen_y = y.load();
-    if (mended && sequence.load() != before) return;
-    check(seen_x == seen_y, "half a position");
-  });
-  crew.join();
-}
-
-// A lock of one flag: tested first, set then.
-template <bool mended>
-void spin_flag(int threads) {
-  std::atomic<bool> taken = false;
-  std::atomic<int> inside = 0;
-  Crew crew;
-  for (int i = 0; i < threads; ++i)
-    crew.add([&] {
-      while (mended ? taken.exchange(true) : taken.load()) std::this_thread::yield();
-      if (!mended) taken.store(true);
-      check(inside.fetch_add(1) == 0, "two are inside");
-      inside.fetch_sub(1);
-      taken.store(false);
-    });
-  crew.join();
-}
-
-// Peterson's lock with its two first stores swapped.
-template <bool mended>
-void petersons_lock(int) {
-  std::array<std::atomic<bool>, 2> wants{};
-  std::atomic<std::size_t> turn = 0;
-  std::atomic<int> inside = 0;
-  Crew crew;
-  for (std::size_t i = 0; i < 2; ++i)
-    crew.add([&, i] {
-      if (mended) wants[i].store(true);
-      turn.store(1 - i);
-      if (!mended) wants[i].store(true);
-      while (wants[1 - i].load() && turn.load() != i) std::this_thread::yield();
-      check(inside.fetch_add(1) == 0, "two are inside");
-      inside.fetch_sub(1);
-      wants[i].store(false);
-    });
-  crew.join();
-}
-
 // Two buffers in alternation: the reader keeps one as long as it needs, and the writer reuses it with its second frame
 // from then.
 template <bool mended>
@@ -179,33 +94,10 @@ void double_buffer(int) {
   crew.join();
 }
 
-// A three-bit sequence number: a reader that is held up for eight messages takes the ninth for the first.
-template <bool mended>
-void sequence_wrap(int) {
-  constexpr int wrap = mended ? 1000 : 8;
-  std::atomic<int> sequence = 0, value = 0;
-  Crew crew;
-  crew.add([&] {
-    for (int i = 1; i <= 10; ++i) {
-      sequence.store(-1);
-      value.store(i);
-      sequence.store(i % wrap);
-    }
-  });
-  crew.add([&] {
-    const int before = sequence.load();
-    if (before == -1) return;
-    const int first = value.load();
-    const int second = value.load();
-    check(sequence.load() != before || first == second, "a message has become another one");
-  });
-  crew.join();
-}
-
 }  // namespace
-}  // namespace zoo
+}  // namespace waitpoint::zoo
 
-using namespace zoo;
+using namespace waitpoint::zoo;
 
 const specimen lock_free[] = {
     {"ABA stack", MEMORY, 2, either<aba_stack<false>, aba_stack<true>>},

@@ -6,7 +6,10 @@
 
 #include "tests/exec/zoo/crew.hpp"
 
-namespace zoo {
+// Needs the primitives declared above.
+#include "tests/zoo/shared/orders.hpp"
+
+namespace waitpoint::zoo {
 namespace {
 
 // Robots that open a door and then announce it; a supervisor sees an open door that no robot has announced: it checks
@@ -93,58 +96,10 @@ void convoy(int threads) {
   crew.join();
 }
 
-// The subscriber comes when the first messages are gone, which nobody keeps for it.
-template <bool mended>
-void late_subscriber(int) {
-  constexpr int messages = 15;
-  std::mutex topic;
-  int received = 0, kept = 0;
-  bool subscribed = false;
-  Crew crew;
-  crew.add([&] {
-    const std::lock_guard guard(topic);
-    subscribed = true;
-    if (mended) received += kept;
-  });
-  crew.add([&] {
-    for (int i = 0; i < messages; ++i) {
-      const std::lock_guard guard(topic);
-      (subscribed ? received : kept) += 1;
-    }
-  });
-  crew.join();
-  check(received > 0, "no message at all is received");
-}
-
-// Who follows from the middle of the route on takes its second half for all of it. All or nearly all, or nothing, would
-// be noticed.
-template <bool mended>
-void half_the_route(int) {
-  constexpr int points = 10;
-  std::mutex route;
-  int sent = 0, heard = 0;
-  bool follows = false;
-  Crew crew;
-  crew.add([&] {
-    const std::lock_guard guard(route);
-    follows = true;
-    if (mended) heard = sent;
-  });
-  crew.add([&] {
-    for (int i = 0; i < points; ++i) {
-      const std::lock_guard guard(route);
-      ++sent;
-      if (follows) ++heard;
-    }
-  });
-  crew.join();
-  check(heard != points / 2, "half the route ends in the river");
-}
-
 }  // namespace
-}  // namespace zoo
+}  // namespace waitpoint::zoo
 
-using namespace zoo;
+using namespace waitpoint::zoo;
 
 const specimen orders[] = {
     {"reorder 3", MEMORY, 3, either<reorder<false>, reorder<true>>},
@@ -158,6 +113,6 @@ const specimen orders[] = {
     {"convoy of 50", SYNCHRONIZATION, 50, either<convoy<false>, convoy<true>>},
     {"convoy of 100", SYNCHRONIZATION, 100, either<convoy<false>, convoy<true>>},
     {"late subscriber", SYNCHRONIZATION, 2, either<late_subscriber<false>, late_subscriber<true>>},
-    {"half the route", SYNCHRONIZATION, 2, either<half_the_route<false>, half_the_route<true>>},
+    {"half the route", SYNCHRONIZATION, 2, either<half_the_route<false, 10>, half_the_route<true, 10>>},
     {},
 };
