@@ -147,7 +147,7 @@ TEST(Battery, ThatIsEmptyLeavesTheRobotStandingAndItsPostersGrowOld) {
   const bridge::RunResult result = run.result();
   ASSERT_TRUE(result.robots[0].battery.has_value());
   EXPECT_NEAR(result.robots[0].battery->empty_at->seconds(), 7.2, 0.02);
-  EXPECT_NE(tools::summary_text(result).find(": battery empty at 7.2 s, off from there on\n"), std::string::npos);
+  EXPECT_NE(tools::summary_text(result).find(": battery empty at 7.2 s, off since then\n"), std::string::npos);
 }
 
 TEST(Battery, IsLowByItsChargeToo) {

@@ -37,7 +37,7 @@ std::string unreached_goals(const RobotResult& robot) {
 std::string late_tasks(const RobotResult& robot) {
   std::string text;
   for (const bridge::LateTask& task : robot.late_tasks)
-    text += fmt::format("  {}: task {} missed {}, and so {} of {:g} ms; at most {:g} ms late\n", robot.name, task.name,
+    text += fmt::format("  {}: task {} missed {} and {} of {:g} ms; at most {:g} ms late\n", robot.name, task.name,
                         counted(task.missed_deadlines, "deadline"), counted(task.missed_periods, "period"),
                         task.period.seconds() * 1e3, task.greatest_lateness.seconds() * 1e3);
   return text;
@@ -46,7 +46,7 @@ std::string late_tasks(const RobotResult& robot) {
 std::string battery(const RobotResult& robot) {
   if (!robot.battery) return "";
   if (robot.battery->empty_at)
-    return fmt::format("  {}: battery empty at {:.1f} s, off from there on\n", robot.name,
+    return fmt::format("  {}: battery empty at {:.1f} s, off since then\n", robot.name,
                        robot.battery->empty_at->seconds());
   return fmt::format("  {}: battery {:.1f} % full, {:.2f} V\n", robot.name, 100 * robot.battery->charge,
                      robot.battery->volts);

@@ -57,7 +57,7 @@ TEST(SummaryJson, has_the_batteries_that_count) {
   EXPECT_FALSE(Json::parse(summary_json(sample_result())).at("robots")[0].contains("battery_charge"));
   const std::string text = summary_text(result);
   EXPECT_NE(text.find("one: battery 25.0 % full, 23.50 V\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("second: battery empty at 7.2 s, off from there on\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("second: battery empty at 7.2 s, off since then\n"), std::string::npos) << text;
 }
 
 TEST(SummaryJson, of_several_runs_is_a_list) {
@@ -129,7 +129,7 @@ TEST(Summary, tells_the_tasks_that_missed_deadlines_and_only_them) {
   EXPECT_FALSE(Json::parse(summary_json(result)).at("robots").at(0).contains("late_tasks"));
   result.robots[1].late_tasks = {{"segloc.slam", std::chrono::milliseconds(20), 12, 3, Duration::from_ns(1'500'000)}};
   const std::string text = summary_text(result);
-  EXPECT_NE(text.find("second: task segloc.slam missed 12 deadlines, and so 3 periods of 20 ms; at most 1.5 ms late\n"),
+  EXPECT_NE(text.find("second: task segloc.slam missed 12 deadlines and 3 periods of 20 ms; at most 1.5 ms late\n"),
             std::string::npos)
       << text;
   const Json task = Json::parse(summary_json(result)).at("robots").at(1).at("late_tasks").at(0);
