@@ -46,7 +46,7 @@ void tell_run(Target& target, const Plan& plan, const Finding& least, FailureRep
   report.text += told->details;
   if (!told->told.empty()) report.text += "switches away from the default order:\n" + told->told;
   if (!told->last_events.empty())
-    report.text += "last events of the tasks (*: of a task that preempted another):\n" + told->last_events;
+    report.text += "last events of the tasks (*: switch away from the default order):\n" + told->last_events;
   report.trace = told->trace;
 }
 

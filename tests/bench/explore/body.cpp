@@ -5,7 +5,7 @@
 
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
-#include "fibers/sync/unseen.hpp"
+#include "fibers/sync/ignored_accesses.hpp"
 
 namespace waitpoint::bench {
 

@@ -4,4 +4,4 @@
 
 #include <filesystem>
 
-#include "standard.hpp"
+#include "tools/dev/precompiled/standard.hpp"

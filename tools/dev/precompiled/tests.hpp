@@ -7,4 +7,4 @@
 #include <mutex>
 #include <set>
 
-#include "standard.hpp"
+#include "tools/dev/precompiled/standard.hpp"
