@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "fibers/sync/ignored_accesses.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
-#include "fibers/sync/ignored_accesses.hpp"
 
 namespace waitpoint::bench {
 
