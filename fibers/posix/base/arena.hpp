@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of what explores a program, apart from the program's own: however much a strategy keeps, the program's
-// addresses are the same. It lies in the file that the program shares with who started it, at one address in both, so
-// that a schedule can be read however the run has ended.
+// An allocator for the explorer's data, apart from the program's heap, so that the program's addresses do not depend on
+// how much a strategy stores. It is part of the file shared by the program and `waitpoint`, mapped at one address in
+// both: a schedule can be read however the run has ended.
 #pragma once
 
 #include <bit>
@@ -34,14 +34,14 @@ class Arena {
     return piece + head_bytes;
   }
 
-  /// Back for others of its size.
+  /// For reuse by pieces of the same class.
   void give(void* memory) {
     if (memory == nullptr) return;
     const std::size_t number = *reinterpret_cast<std::size_t*>(static_cast<char*>(memory) - head_bytes);
     free_[number] = new (memory) Free{free_[number]};
   }
 
-  /// So far it reaches.
+  /// The end of the memory in use.
   const void* top() const { return next_; }
 
  private:
@@ -49,7 +49,7 @@ class Arena {
     Free* next;
   };
   static constexpr std::size_t classes = 40;     // powers of two
-  static constexpr std::size_t head_bytes = 16;  // in front of each piece: of which class it is
+  static constexpr std::size_t head_bytes = 16;  // in front of each piece: its class
 
   char* next_ = nullptr;
   char* end_ = nullptr;

@@ -14,12 +14,12 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr int no_change = 1000;  // what to do with the mask: nothing that the system knows
+constexpr int no_change = 1000;  // an operation on the mask that the kernel does not know
 constexpr long mask_size = 8;
 
 }  // namespace
 
-// The new mask is read before it turns out that nothing is to be done with it.
+// The kernel reads the new mask before it rejects the operation.
 bool can_be_read(const void* address) {
   const ErrorNumberKept kept;
   if (address == nullptr) return false;

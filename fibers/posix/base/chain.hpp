@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records that hang together by their `next`, from a first one on; null ends them.
+// Singly linked lists through the member `next` of their records; null ends them.
 #pragma once
 
 namespace waitpoint::posix {
 
-/// Hangs `added` behind all of them.
+/// Appends `added`.
 template <class Record>
 void append(Record*& first, Record& added) {
   Record** link = &first;
@@ -13,7 +13,7 @@ void append(Record*& first, Record& added) {
   added.next = nullptr;
 }
 
-/// Takes out the first that is meant; null if none is.
+/// Removes and returns the first record for which `is_meant` is true; null without one.
 template <class Record, class IsMeant>
 Record* take_first(Record*& first, IsMeant is_meant) {
   Record** link = &first;
@@ -23,7 +23,7 @@ Record* take_first(Record*& first, IsMeant is_meant) {
   return taken;
 }
 
-/// Takes `gone` out, if it is among them.
+/// Removes `gone`, if the list has it.
 template <class Record>
 void remove(Record*& first, const Record& gone) {
   (void)take_first(first, [&](const Record& each) { return &each == &gone; });

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// errno, as calls of the C library leave it.
+// errno, set and restored as the C library's calls do.
 #pragma once
 
 #include <cerrno>
 
 namespace waitpoint::posix {
 
-/// What a call returns that failed, with errno set.
+/// Sets errno; returns the result of a failed call.
 inline int fail(int error) {
   errno = error;
   return -1;
 }
 
-/// While it lives, what is done in a call beside what was asked for; errno is not to tell of that.
+/// Restores errno at the end of its scope, for internal calls whose errors the program must not see.
 class ErrorNumberKept {
  public:
   ErrorNumberKept() = default;

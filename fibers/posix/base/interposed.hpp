@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands before the C library in a program that `waitpoint exec` runs.
+// Functions that replace the C library's in a program that `waitpoint exec` runs.
 //
-// The library is preloaded, so that the program's calls of these names come here; the C library's calls of its own do
-// not. It shares nothing with the program's C++ runtime: it throws nothing, registers nothing at exit, has no guarded
-// statics, and only the names marked here are seen from outside.
+// The library is preloaded: the program's calls to these names reach it, the C library's internal calls do not. It
+// shares nothing with the program's C++ runtime: it throws nothing, registers nothing at exit, has no guarded statics,
+// and exports only the names marked here.
 #pragma once
 
 #include <dlfcn.h>
 
 #include "core/error.hpp"
 
-/// In front of a definition that takes the place of the C library's.
+/// Marks a definition that replaces the C library's.
 #define WAITPOINT_INTERPOSED extern "C" [[gnu::visibility("default")]]
 
 namespace waitpoint::posix {
 
-/// The function of this name behind ours.
+/// The replaced function of this name: the next one in the search order of the libraries.
 template <class Function>
 Function next(Function& known, const char* name) {
   if (known == nullptr) known = reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
@@ -23,7 +23,7 @@ Function next(Function& known, const char* name) {
   return known;
 }
 
-/// The C library's own, whatever library has one too: see lookups.cpp.
+/// The C library's own function, even if another library defines the name too: see lookups.cpp.
 template <class Function>
 Function of_c_library(Function, const char* name) {
   return reinterpret_cast<Function>(dlsym(dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD), name));
@@ -31,7 +31,7 @@ Function of_c_library(Function, const char* name) {
 
 }  // namespace waitpoint::posix
 
-/// A call of the C library's own function of this name.
+/// The replaced function `name`, looked up once.
 #define WAITPOINT_NEXT(name)                                \
   (::waitpoint::posix::next(                                \
       []() -> decltype(&::name)& {                          \

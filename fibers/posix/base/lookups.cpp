@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// dlsym(): a library that has a pthread_create() of its own looks for the one behind it, to call that. Allocators and
-// profilers do. Behind the program's libraries only the C library has one, and what that makes would be a thread of the
-// system: what is found is ours.
+// dlsym(): a library that wraps pthread_create(), as allocators and profilers do, looks up the next definition. Behind
+// the program's libraries that would be the C library's, which makes a system thread; the lookup returns ours instead.
 #include <dlfcn.h>
 #include <pthread.h>
 
@@ -10,7 +9,7 @@
 
 #include "fibers/posix/base/interposed.hpp"
 
-// Whose call it is, dlsym() sees by where it returns to, so that no function of C++ can stand in front of it.
+// dlsym() identifies its caller by the return address, so it can be wrapped only by a tail call, not by a C++ function.
 asm(R"(
   .text
   .globl dlsym
@@ -60,7 +59,7 @@ extern "C" {
   return reinterpret_cast<void*>(&pthread_create);
 }
 
-// By its version it is found without itself.
+// dlvsym() finds it by its version, without a call to dlsym().
 [[gnu::visibility("hidden"), gnu::used]] void* waitpoint_own_dlsym() {
   static constinit void* known = nullptr;
   for (const char* const version : {"GLIBC_2.34", "GLIBC_2.2.5"})

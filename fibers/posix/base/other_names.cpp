@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Other names by which programs call what is simulated: those that the compiler puts in with _FORTIFY_SOURCE, where it
-// knows the room that the program has, and those that the C library's own parts and older programs use.
+// Aliases of simulated calls: those emitted by the compiler for _FORTIFY_SOURCE, where it knows the size of a buffer,
+// and those used within the C library and by older programs.
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
@@ -15,7 +15,7 @@
 
 #include "fibers/posix/base/interposed.hpp"
 
-extern "C" [[noreturn]] void __chk_fail();  // of the C library: says so, and aborts
+extern "C" [[noreturn]] void __chk_fail();  // of the C library: reports the overflow and aborts
 
 namespace {
 
@@ -83,7 +83,7 @@ WAITPOINT_INTERPOSED ssize_t __send(int descriptor, const void* bytes, std::size
 }
 WAITPOINT_INTERPOSED int __nanosleep(const timespec* time, timespec* remaining) { return nanosleep(time, remaining); }
 WAITPOINT_INTERPOSED int __sched_yield() { return sched_yield(); }
-// The header gives this name to the other.
+// The header redirects pthread_yield() to sched_yield(), so this name must be given to the assembler.
 extern "C" [[gnu::visibility("default"), gnu::alias("__sched_yield")]] int waitpoint_pthread_yield() __asm__(
     "pthread_yield");
 WAITPOINT_INTERPOSED int __sigsuspend(const sigset_t* set) { return sigsuspend(set); }

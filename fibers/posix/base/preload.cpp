@@ -9,7 +9,7 @@
 namespace waitpoint::posix {
 namespace {
 
-// By the C library's own functions: a program that has others of these names, as shells do, need not have begun.
+// Through the C library's own functions: a program may define these names, as shells do, and be uninitialised yet.
 void take_first_away(const char* variable) {
   const char* const all = WAITPOINT_NEXT(getenv)(variable);
   const char* const others = all == nullptr ? nullptr : std::strchr(all, ':');

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is put in front of the libraries of a process.
+// The environment variables by which this library was loaded, undone for the programs that the process starts.
 #pragma once
 
 namespace waitpoint::posix {
 
-/// Programs that this one starts are not simulated: this library, the first of those that they would preload, is taken
-/// away.
+/// Removes this library, the first of LD_PRELOAD: programs that this one starts are not simulated.
 void leave_preload();
-/// The same of the first folder that they would look for libraries in.
+/// Removes the first folder of LD_LIBRARY_PATH.
 void leave_library_path();
 
 }  // namespace waitpoint::posix

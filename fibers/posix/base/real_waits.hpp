@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the process itself waits, in real time, with no thread of the program's running.
+// Waits of the process itself, in real time, while none of the program's threads runs.
 #pragma once
 
 #include <atomic>
 
 namespace waitpoint::posix {
 
-/// While it is true, a signal that comes is only kept: whoever waits sees to it.
+/// While true, incoming signals are only queued; the code that waits handles them.
 extern std::atomic<bool> waits_really;
 
 class RealWait {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calling a function on another stack: one that the program gave to a thread, or to handlers of signals.
+// Calls a function on another stack: one that the program provided for a thread or for signal handlers.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace waitpoint::posix {
 
-/// Calls `function(argument)` with its frames at the high end of those bytes, and comes back to this stack.
+/// Calls `function(argument)` with its frames at the high end of these bytes; returns to the present stack.
 inline void call_on(void* low, std::size_t size, void (*function)(void*), void* argument) {
   char* top = static_cast<char*>(low) + size;
   top -= reinterpret_cast<std::uintptr_t>(top) % 16;

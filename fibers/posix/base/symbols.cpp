@@ -16,13 +16,13 @@
 
 #include "fibers/posix/base/interposed.hpp"
 
-// Of the C++ runtime: demangles without memory of its own; 0 if it could.
+// Of the C++ runtime: demangles without allocating; 0 on success.
 extern "C" int __gcclibcxx_demangle_callback(const char* name, void (*add)(const char*, std::size_t, void*), void*);
 
 namespace waitpoint::posix {
 namespace {
 
-// A module's file in memory; the last one that was asked for stays.
+// A module's file, mapped. The last one is cached.
 struct File {
   char name[512] = {};
   const char* bytes = nullptr;
@@ -57,7 +57,7 @@ const File& open_file(const char* name) {
 
 struct Found {
   const char* name;
-  std::uint64_t offset;  ///< of the address from the variable's
+  std::uint64_t offset;  ///< of the address within the variable
 };
 
 bool look_up(const File& file, std::uint64_t address, Found& found) {
@@ -78,7 +78,7 @@ bool look_up(const File& file, std::uint64_t address, Found& found) {
   return false;
 }
 
-// What is returned is written here, one behind the other.
+// The strings returned, one after the other.
 class Pool {
  public:
   void add(const char* text, std::size_t length) {
@@ -119,7 +119,7 @@ const char* symbol_at(const void* address) {
   const bool is_program = std::strcmp(info.dli_fname, program_invocation_name) == 0;
   const File& file = open_file(is_program ? "/proc/self/exe" : info.dli_fname);
   const auto head = file.at<Elf64_Ehdr>(0, sizeof(Elf64_Ehdr));
-  // A program at fixed addresses has these in its symbols.
+  // The symbols of a program linked at fixed addresses hold absolute addresses.
   const bool is_fixed = !head.empty() && head[0].e_type == ET_EXEC;
   const auto* const base = static_cast<const char*>(is_fixed ? nullptr : info.dli_fbase);
   Found found{};

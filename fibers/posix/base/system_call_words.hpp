@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of a system call that a program makes by its number, and calls of functions with them.
+// The arguments of a system call made by number, as words, and calls of functions with them.
 #pragma once
 
 #include <type_traits>
@@ -15,7 +15,7 @@ T as(long word) {
     return static_cast<T>(word);
 }
 
-/// The words of a call.
+/// A call's six arguments.
 struct CallWords {
   long at[6];
 
@@ -38,7 +38,7 @@ struct CallWords {
   }
 };
 
-/// What has sets of signals, with their size behind them: as the system's calls, of these numbers.
+/// System calls that take signal sets with their size, by number.
 long call_about_signals(long number, const CallWords& words);
 
 }  // namespace waitpoint::posix
