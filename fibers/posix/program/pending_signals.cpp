@@ -6,7 +6,7 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr int first_queued = 32;  // of the kernel's real-time signals
+constexpr int first_queued = 32;  // the first real-time signal of the kernel
 
 void let_go(PendingSignal& signal) {
   if (signal.taken != nullptr)
@@ -45,12 +45,12 @@ PendingSignal& PendingSignals::take_out_behind(PendingSignal* before) {
 int PendingSignals::take(SignalSet set, siginfo_t& information) {
   const SignalSet among = set_ & set;
   if (among == 0) return 0;
-  // What the processor raises comes first.
+  // Faults first.
   const int number = __builtin_ctzll((among & faults) != 0 ? among & faults : among) + 1;
   PendingSignal* before = nullptr;
   for (PendingSignal* each = first_; each->information.si_signo != number; each = each->next) before = each;
   PendingSignal& found = take_out_behind(before);
-  // A timer says then how often it has run out meanwhile.
+  // A timer adds its overruns at this point.
   if (found.taken != nullptr) found.taken(found);
   information = found.information;
   if (found.taken == nullptr) std::free(&found);

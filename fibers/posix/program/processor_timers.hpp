@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Timers that count processor time, of the process or of a thread: looked at whenever some is spent.
+// Timers on processor time, of the process or of a thread: checked whenever some is spent.
 #pragma once
 
 #include "core/time.hpp"
@@ -7,7 +7,7 @@
 namespace waitpoint::posix {
 
 struct ProcessorTimer {
-  const Duration* spent = nullptr;  ///< what it counts; null: it is not set
+  const Duration* spent = nullptr;  ///< the processor time it measures; null: it is not set
   Duration due;
   void (*ring)(ProcessorTimer&, const Duration& spent) = nullptr;
   ProcessorTimer* next = nullptr;
@@ -15,10 +15,10 @@ struct ProcessorTimer {
 
 extern ProcessorTimer* first_processor_timer;
 
-/// From now on it rings when so much is spent; it sets itself again if it is to.
+/// Sets it to ring once `spent` reaches `due`. A periodic timer sets itself again when it rings.
 void set_processor_timer(ProcessorTimer& timer, const Duration& spent, Duration due);
 void unset_processor_timer(ProcessorTimer& timer);
-/// Those that are due ring.
+/// Rings the timers that are due.
 void look_at_processor_timers();
 
 }  // namespace waitpoint::posix

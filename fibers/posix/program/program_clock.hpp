@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the code of a program's threads costs in virtual time. A program declares nothing: a segment of a thread, from
-// one call that is simulated to the next, costs a time of an interval, or what the machine measures.
+// The cost of a thread's own code in virtual time. Programs declare none: a segment, from one simulated call to the
+// next, costs a time drawn from an interval, or its measured time.
 #pragma once
 
 #include "fibers/clocks/task_clock.hpp"
@@ -10,7 +10,7 @@ namespace waitpoint::posix {
 /// Part of a thread.
 class ProgramClock {
  public:
-  /// Of kind `fixed` or `interval` each segment costs from `least` to `greatest`, scaled; of the others see there.
+  /// For kinds `fixed` and `interval` each segment costs from `least` to `greatest`, scaled; for others see TaskClock.
   explicit ProgramClock(const kernel::ClockOptions& options);
 
   kernel::LocalClock& local() { return clock_; }

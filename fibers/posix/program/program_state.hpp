@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the threads of a program have in common.
+// The state shared by the threads of a program.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 namespace waitpoint::posix {
 
 struct Program {
-  kernel::Robot* robot = nullptr;  ///< whose tasks its threads are
-  const char* label = "";          ///< what the names of its tasks begin with
+  kernel::Robot* robot = nullptr;  ///< to which its threads belong, as tasks
+  const char* label = "";          ///< prefix of the names of its tasks
   bool is_service = false;         ///< it does not keep the run alive
   bool is_member = false;          ///< it is one of several: a Member
-  /// Called by each thread that is about to end; null: not. The last one's ends the program.
+  /// Called, unless null, by each thread about to end; in the last one it ends the program.
   void (*thread_ends)() = nullptr;
   std::uint32_t threads_made = 0;
-  std::uint64_t numbers_drawn = 0;  ///< random ones, from the system's
-  /// What the uses of primitives and clocks of all its threads have cost: its processor time.
+  std::uint64_t numbers_drawn = 0;  ///< random numbers, in place of the system's
+  /// Its processor time: the cost of its threads' uses of primitives and clocks.
   Duration spent;
 };
 

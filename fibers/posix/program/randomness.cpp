@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Random numbers that programs ask the system for: a stream of the seed, the same in every run of it.
+// System random numbers: a stream that follows from the seed, the same in every run.
 #include "fibers/posix/program/randomness.hpp"
 
 #include <sys/auxv.h>
@@ -24,7 +24,7 @@ std::uint64_t drawn_before_main = 0;
 
 }  // namespace
 
-// Each program has a stream of its own.
+// Each program has its own stream.
 std::uint64_t draw_random() {
   constexpr std::uint64_t of_the_system = 0x67657472616E646F;  // "getrando": no other stream has these numbers
   std::uint64_t stream = of_the_system;
@@ -76,10 +76,10 @@ WAITPOINT_INTERPOSED std::uint32_t arc4random_uniform(std::uint32_t bound) noexc
   return static_cast<std::uint32_t>((draw_random() >> 32) * bound >> 32);
 }
 
-// libstdc++'s std::random_device, which asks the processor: unsigned random_device::_M_getval().
+// libstdc++'s std::random_device, which reads the processor's generator: unsigned random_device::_M_getval().
 WAITPOINT_INTERPOSED unsigned _ZNSt13random_device9_M_getvalEv(void*) {
   return static_cast<unsigned>(draw_random() >> 32);
 }
 
-// Our own copy of the C++ runtime names it where it makes strings, and would bring its own of the above along.
+// Our static C++ runtime refers to it from the code of strings, and would link its own definition of the above.
 extern "C" [[gnu::visibility("hidden")]] void _ZNSt13random_device7_M_initEPKcm(void*, const char*, std::size_t) {}

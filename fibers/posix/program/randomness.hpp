@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers of the seed, where the system would give others to each run.
+// Random numbers derived from the seed, in place of the system's, which differ in each run.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace waitpoint::posix {
 
 std::uint64_t draw_random();
 void fill_with_random(void* buffer, std::size_t size);
-/// What the system has put into each new process (AT_RANDOM): drawn again.
+/// Redraws the kernel's random bytes for a new process (AT_RANDOM).
 void draw_random_bytes_of_the_process();
 
 }  // namespace waitpoint::posix

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `waitpoint exec` and the program that it runs share: a file in memory that both map, at one address.
+// The memory shared by `waitpoint exec` and the program that it runs: a memory file mapped by both at one address.
 //
-// The digest and the scheduler's counts are kept in it, and where its schedule is explored that too, so that they are
-// known up to the last event however the program ends, killed or not.
+// It holds the digest, the scheduler's counters and, in an exploration, the schedule, so that they are known up to the
+// last event however the program ends, even if it is killed.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace waitpoint::posix {
 
-/// The environment variable with the number of its descriptor.
+/// The environment variable with the file's descriptor number.
 inline constexpr char record_variable[] = "WAITPOINT_EXEC";
 
-/// Exit statuses of a simulated program that are not its own.
+/// Exit statuses set by the layer, not by the program.
 inline constexpr int status_of_deadlock = 124, status_of_own_errors = 125;
 
-/// Where the file is mapped: in no program is anything else there. Its pages are taken as they are used.
+/// The file's address, which no program uses. Its pages are allocated on first use.
 inline constexpr std::uintptr_t record_address = 0x2a00'0000'0000;
 inline constexpr std::size_t record_bytes = std::size_t{1} << 34;
 
@@ -37,19 +37,19 @@ struct Settings {
   Time until = Time::max();  ///< the run is cut off then
   bool has_clock = false;    ///< threads have a clock; else computing takes no time
   kernel::ClockOptions clock;
-  bool isolate = false;             ///< what leaves the machine is forbidden
+  bool isolate = false;             ///< traffic beyond this machine is rejected
   bool trap_rdtsc = false;          ///< reading the processor's counter shows virtual time
-  bool traced = false;              ///< all events are written down
-  const Asked* asked = nullptr;     ///< how the schedule is explored, in Order::explored
-  std::uint32_t looks_at_once = 1;  ///< so many uses of clocks and of giving way are paid for together
+  bool traced = false;              ///< all events are recorded
+  const Asked* asked = nullptr;     ///< the exploration's request, in Order::explored
+  std::uint32_t looks_at_once = 1;  ///< uses of clocks and of sched_yield() that are charged together
   bool instrumented = false;        ///< the program is compiled with -fsanitize=thread
-  bool trap_library = false;        ///< what the C library waits for within itself is simulated
-  bool simulates_started = false;   ///< programs that are started are simulations too
-  bool is_started = false;          ///< this is one of those
-  int server = -1;                  ///< a socket: runs are asked for there, see fork_server.hpp
+  bool trap_library = false;        ///< waits within the C library are simulated
+  bool simulates_started = false;   ///< programs that it starts are simulations too
+  bool is_started = false;          ///< it was started by a simulated program
+  int server = -1;                  ///< a socket on which runs are requested, see fork_server.hpp
 };
 
-/// How a run ended that did not end as the program would have.
+/// How a run ended: `own` as the program ends by itself.
 enum class Ending : std::uint8_t { own, deadlock, no_progress, cut_off };
 
 /// One of several programs in one process.
@@ -68,21 +68,21 @@ struct Record {
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
-  /// Where the process is several programs, they: in the order of their names. None: it is one program.
+  /// Of a process with several programs, in the order of their names. None: it is one program.
   ProgramRecord* programs = nullptr;
   std::uint32_t program_count = 0;
 
   // Written by the program.
-  bool began = false;  ///< the scheduler is there
+  bool began = false;  ///< the scheduler exists
   Ending ending = Ending::own;
   Explored* explored = nullptr;
   Trace* trace = nullptr;
   RaceLog* race_log = nullptr;  ///< of an instrumented program
-  Arena arena;                  ///< behind this record
+  Arena arena;                  ///< the rest of the file, behind this record
   std::uint32_t threads_made = 0;
   std::uint32_t threads_most = 0;          ///< at once
-  kernel::Task* const* running = nullptr;  ///< in the program: where it keeps its running task
-  kernel::Robot robot;                     ///< the program, where it is the only one
+  kernel::Task* const* running = nullptr;  ///< the program's kernel::running
+  kernel::Robot robot;                     ///< of the program, if it is the only one
   union {
     kernel::Scheduler scheduler;
   };
@@ -95,11 +95,11 @@ struct Record {
   }
   std::span<ProgramRecord> several() const { return {programs, program_count}; }
 
-  /// Wherever it is made, it is to be used at the record's address.
+  /// Its pointers are valid at the record's address, wherever it is constructed.
   Record() {
     arena.start(reinterpret_cast<Record*>(record_address) + 1, reinterpret_cast<char*>(record_address + record_bytes));
   }
-  ~Record() {}  // the scheduler is never taken down: the process ends around it
+  ~Record() {}  // the scheduler is never destroyed: the process ends first
 };
 
 }  // namespace waitpoint::posix

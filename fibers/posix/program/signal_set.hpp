@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets of signals, as words: bit n is signal n + 1.
+// Signal sets as words: bit n is signal n + 1.
 #pragma once
 
 #include <csignal>
@@ -10,18 +10,18 @@ namespace waitpoint::posix {
 
 using SignalSet = std::uint64_t;
 
-inline constexpr int signals_end = 65;  ///< behind the greatest
+inline constexpr int signals_end = 65;  ///< one past the greatest
 
 constexpr SignalSet only(int signal) { return SignalSet{1} << (signal - 1); }
 constexpr bool contains(SignalSet set, int signal) { return (set & only(signal)) != 0; }
 constexpr bool is_signal(int number) { return number > 0 && number < signals_end; }
 
-/// What cannot be blocked or handled; 32 and 33 are the C library's own.
+/// Signals that cannot be blocked or handled; 32 and 33 are the C library's own.
 inline constexpr SignalSet unblockable = only(SIGKILL) | only(SIGSTOP) | only(32) | only(33);
-/// What the processor raises.
+/// Raised by the processor.
 inline constexpr SignalSet faults =
     only(SIGSEGV) | only(SIGBUS) | only(SIGFPE) | only(SIGILL) | only(SIGTRAP) | only(SIGSYS);
-/// What does nothing where nobody asked for it, and what stops the process.
+/// Ignored by default, and those that stop the process.
 inline constexpr SignalSet ignored_by_default = only(SIGCHLD) | only(SIGURG) | only(SIGWINCH) | only(SIGCONT);
 inline constexpr SignalSet stopping = only(SIGSTOP) | only(SIGTSTP) | only(SIGTTIN) | only(SIGTTOU);
 

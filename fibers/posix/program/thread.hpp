@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A thread of the program: a task of the simulation, with what the C library keeps of a thread.
+// A thread of the program: a task of the simulation, with the C library's attributes of a thread.
 #pragma once
 
 #include <pthread.h>
@@ -12,7 +12,7 @@
 
 namespace waitpoint::posix {
 
-/// How the function of a thread is called.
+/// The start routine of a thread.
 union StartRoutine {
   void* (*posix)(void*);
   int (*c11)(void*);
@@ -37,33 +37,33 @@ struct Thread {
   bool ended = false;
   void* argument = nullptr;
   void* result = nullptr;
-  /// A stack that was asked for; null: that of its task will do.
+  /// A stack of the program's address or size; null: its task's stack is used.
   char* stack = nullptr;
   std::size_t stack_size = 0;
   bool owns_stack = false;  ///< the program gave only its size
-  /// What is told of it: less than that of its task, if that was asked for.
+  /// The size reported: less than that of its task's stack, if the program asked for less.
   std::size_t told_stack_size = 0, guard_size = 4096;
-  bool knows_stack = false;  ///< the program was told where it is, and may have protected some of its pages
-  int id = 0;                ///< what gettid() says
+  bool knows_stack = false;  ///< the program was told the address, and may have protected some of its pages
+  int id = 0;                ///< of gettid()
   kernel::Object end{"thread"};
-  /// What is zero, and whoever waits for it woken, when it has ended: as set_tid_address() says.
+  /// Set to zero, and its waiters woken, when the thread has ended: see set_tid_address(2).
   std::uint32_t* cleared_at_end = nullptr;
 
-  // What programs may write and read again; it changes nothing.
+  // Attributes that programs may write and read; they have no effect.
   char name[16] = {};
   int policy = SCHED_OTHER;
   int priority = 0;
-  int niceness = 0;  ///< added to that of the process, which is its first thread's
+  int niceness = 0;  ///< added to the niceness of the process, which is its first thread's
   cpu_set_t processors{};
-  bool has_processors = false;  ///< of its own: else those of the process
+  bool has_processors = false;  ///< of its own; else the process's
 
-  /// What its uses of primitives and clocks have cost: its processor time.
+  /// Its processor time: the cost of its uses of primitives and clocks.
   Duration spent;
-  /// What its own code takes, where it has a clock.
+  /// The cost of its own code; null: none.
   ProgramClock* clock = nullptr;
 
   // Cancellation.
-  bool cancelled = false;  ///< it is to leave at its next cancellation point
+  bool cancelled = false;  ///< it is to exit at its next cancellation point
   bool cancel_disabled = false;
   bool cancel_at_once = false;
   bool in_cancellation_point = false;
@@ -71,46 +71,43 @@ struct Thread {
 
   // Signals: see signals.hpp.
   SignalSet blocked = 0;        ///< its mask
-  SignalSet blocked_after = 0;  ///< with a temporary mask: the one that comes after a handler
-  SignalSet awaited = 0;        ///< what it waits for by sigwait() and its kin
+  SignalSet blocked_after = 0;  ///< with a temporary mask: the mask after a handler
+  SignalSet awaited = 0;        ///< waited for by sigwait() and similar calls
   PendingSignals pending;
   stack_t alternate{nullptr, SS_DISABLE, 0};
   bool has_temporary_mask = false;
-  bool in_wait = false;  ///< that a signal ends
+  bool in_wait = false;  ///< that a signal interrupts
   bool woken_by_signal = false;
-  bool delivery_due = false;              ///< told of a signal when its wait had ended otherwise
+  bool delivery_due = false;              ///< notified of a signal after its wait had ended otherwise
   std::uintptr_t library_returns_to = 0;  ///< see library_return.hpp
 
-  /// Primitives used, and looks at clocks and turns given away, since virtual time was last moved for that: see
-  /// waiting.hpp.
-  ///
-  /// With the bit of those that are in the kernel: it has not begun, or is within a call of the kernel's, which may
-  /// show an event to whoever watches. What that calls is not simulated.
+  /// Uses of primitives since virtual time last advanced for them: see waiting.hpp. The bit `in_kernel` is set before
+  /// the thread begins, and within calls of the kernel, which may show an event to a watch: calls made by that are not
+  /// simulated.
   std::uint32_t operations = in_kernel;
-  std::uint32_t looks = 0;
-  std::uint32_t clock_readings = 0;  ///< the same of clocks, since others had their turn
-  /// Of a wait on a futex: which wake-ups are for it.
-  std::uint32_t futex_mask = 0;
-  SharedFutex* shared_futex = nullptr;  ///< and where it waits, if other processes may wake it
+  std::uint32_t looks = 0;              ///< the same for readings of clocks and sched_yield()
+  std::uint32_t clock_readings = 0;     ///< since other tasks had a turn
+  std::uint32_t futex_mask = 0;         ///< of a wait on a futex: the wake-ups that end it
+  SharedFutex* shared_futex = nullptr;  ///< on which it waits, if other processes may wake it
 };
 
-/// What a task of a thread executes: its body.
+/// The entry of a thread's task: calls its body.
 void run_thread(void* thread);
 
-/// Of a task that is a thread's.
+/// `task` must be a thread's.
 inline Thread& thread_of(const kernel::Task& task) { return *static_cast<Thread*>(task.argument); }
-/// Of the running task.
+/// The running thread.
 inline Thread& this_thread() { return thread_of(*kernel::running); }
 inline Program& this_program() { return *this_thread().program; }
 
-/// Whether a task is a thread of a program.
+/// True if the task is a thread of a program.
 inline bool is_thread(const kernel::Task& task) { return task.entry == run_thread; }
-/// Whether the code is that of a simulated thread: before main() there is none.
+/// True if the caller is code of a simulated thread; false before main().
 inline bool is_simulated() {
   return kernel::running != nullptr && is_thread(*kernel::running) && !this_thread().is_in_kernel();
 }
 
-/// While it lives, the running thread is within the kernel.
+/// Marks the running thread as within the kernel.
 class InKernel {
  public:
   InKernel() : thread_(this_thread()) { thread_.enter_kernel(); }
@@ -121,7 +118,7 @@ class InKernel {
  private:
   Thread& thread_;
 };
-/// The other way round: the kernel calls what is the program's.
+/// The opposite: the kernel calls code of the program.
 class OutOfKernel {
  public:
   OutOfKernel() : thread_(this_thread()) { thread_.leave_kernel(); }
@@ -136,16 +133,17 @@ class OutOfKernel {
 /// The thread with this id; null if it is none of ours.
 Thread* find(pthread_t id);
 
-/// The same, if it has not ended; else null.
+/// The same, but null for a thread that has ended.
 inline Thread* find_running(pthread_t id) {
   Thread* const thread = find(id);
   return thread != nullptr && thread->task != nullptr ? thread : nullptr;
 }
 
-/// The processor time of the thread with this gettid(); none if it has ended.
+/// The processor time of the thread with this gettid(); zero if it has ended.
 Duration spent_by(int id);
 
-/// Makes a thread; an error number. Defined in threads/, above all rooms whose waits a thread's end puts in order.
+/// Makes a thread; returns an error number or 0. Defined in threads/, above all rooms whose waits the end of a thread
+/// cleans up.
 int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument);
 
 }  // namespace waitpoint::posix

@@ -6,12 +6,12 @@
 
 #include "fibers/switch/thread_pointer.hpp"
 
-// Of the dynamic linker and the C library, for the thread libraries that they are made with.
+// Exported by the dynamic linker and the C library for thread libraries and debuggers.
 extern "C" {
 void* _dl_allocate_tls(void* block);
 void _dl_deallocate_tls(void* area, bool free_block);
 extern char _rtld_global[];
-/// {bits, count, offset} of a field.
+/// {bits, count, offset} of a member.
 extern const std::uint32_t _thread_db_pthread_tid[3];
 extern const std::uint32_t _thread_db_pthread_list[3];
 extern const std::uint32_t _thread_db_rtld_global__dl_stack_user[3];
@@ -20,7 +20,7 @@ extern const std::uint32_t _thread_db_rtld_global__dl_stack_user[3];
 namespace waitpoint::posix {
 namespace {
 
-// The ABI's head of the control block. The word of the thread is one that the C library keeps unused.
+// The head of the thread control block, fixed by the ABI, and behind it a word that the C library leaves unused.
 struct Head {
   void* pointer;
   void* vector;
@@ -57,7 +57,7 @@ void* make_thread_area(int thread_id) {
   head.stack_guard = own.stack_guard;
   head.pointer_guard = own.pointer_guard;
   field<int>(area, _thread_db_pthread_tid) = thread_id;
-  // The dynamic linker goes through this list when a library that is loaded later has variables of its own here.
+  // The dynamic linker walks this list when a library loaded later has thread-local variables.
   Link& all = field<Link>(_rtld_global, _thread_db_rtld_global__dl_stack_user);
   Link& link = field<Link>(area, _thread_db_pthread_list);
   link = {all.next, &all};
@@ -74,7 +74,7 @@ void free_thread_area(void* area) {
 }
 
 void set_stack_guard(void* area, std::uint64_t word) {
-  // The byte of least weight is zero, as the C library has it: so no string goes over it.
+  // The lowest byte is zero, as in the C library, so that overrunning strings end there.
   head_of(area).stack_guard = word & ~std::uintptr_t{0xFF};
 }
 

@@ -18,15 +18,15 @@ union Cell {
 };
 
 Cell* first_free = nullptr;
-std::size_t cells_left = 0;  // of the piece of memory taken last
+std::size_t cells_left = 0;  // of the memory allocated last
 Cell* next_cell = nullptr;
 
-// Buckets by address; as many as there are waitables, at least.
+// A hash table by address, with at least one bucket for each waitable.
 Waitable** buckets = nullptr;
 std::size_t bucket_count = 0;
 std::size_t kept = 0;
 
-// Where in no program anything else is: not in holes that a program has made for something of its own.
+// An address that no program uses: holes may be reserved by the program.
 std::uintptr_t next_pages = 0x2b00'0000'0000;
 
 void* pages(std::size_t bytes) {
@@ -97,7 +97,7 @@ void* fresh_cell(const void* address) {
   Waitable* found = bucket_of(address);
   while (found != nullptr && found->address != address) found = found->next_of_bucket;
   if (found != nullptr && found->idle()) return found;
-  // Somebody still holds or waits for what was there: it stays, and is not found any more.
+  // A primitive there is still held or waited for: it remains, but is not found any more.
   if (found != nullptr) unlink(*found);
   Waitable*& bucket = bucket_of(address);
   auto* made = new (take_cell()) Waitable(Waitable::Kind::word, "", address);

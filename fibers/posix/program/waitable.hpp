@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the kernel needs to know of a primitive of the program, beside the primitive's own bytes.
+// The kernel's state of a primitive of the program.
 //
-// These are too few for it: they hold a pointer to it, null where they are all zero, as static initialisers leave them.
-// Objects of four bytes (futexes, spin locks, once flags) have no room even for that, and are found by their address.
-// As programs let mutexes go without destroying them (std::mutex does), what was at an address is taken again by the
-// next object there.
+// The primitive's own bytes are too few for it: they hold a pointer, null where they are zero, as static initialisers
+// leave them. Objects of four bytes (futexes, spin locks, once flags) have no room for a pointer, and are found by
+// address. Programs abandon mutexes without destroying them (std::mutex does), so the next object at the same address
+// reuses the state.
 #pragma once
 
 #include <cstddef>
@@ -27,19 +27,19 @@ struct Waitable {
   Waitable* next_of_bucket = nullptr;
 };
 
-/// Room for any kind.
+/// Enough for any kind.
 inline constexpr std::size_t waitable_bytes_max = 256;
 
 /// The waitable of this kind kept for `address`; null if there is none.
 Waitable* find_waitable(const void* address, Waitable::Kind kind);
-/// A cell for a new waitable at `address`, which is found there from now on.
+/// A cell for a new waitable, entered in the table under `address`.
 void* fresh_cell(const void* address);
-/// Gives up the cell of a primitive that is destroyed.
+/// Frees the cell of a destroyed primitive.
 void forget(Waitable& waitable);
-/// Whose object it is, for reports; null if it is of no primitive.
+/// The waitable of an object, for reports; null if the object belongs to no primitive.
 const Waitable* waitable_of(const kernel::Object& object);
 
-/// Whether a run is told in words, with the names of the program's variables.
+/// True if the run is reported in words, with the names of the program's variables.
 extern bool names_waitables;
 void label(Waitable& waitable);
 
@@ -54,14 +54,14 @@ T& make_waitable(const void* address) {
   return *made;
 }
 
-/// What `slot`, a word of the primitive at `address`, points to: made at its first use.
+/// The waitable that `slot`, a word of the primitive at `address`, points to; made at the first use.
 template <class T>
 T& waitable_at(T*& slot, const void* address) {
   if (__builtin_expect(slot == nullptr, 0)) slot = &make_waitable<T>(address);
   return *slot;
 }
 
-/// The same for a primitive without room for a word.
+/// The same for a primitive without room for a pointer.
 template <class T>
 T& waitable_at(const void* address) {
   if (Waitable* found = find_waitable(address, T::kind_of_all); found != nullptr) return *static_cast<T*>(found);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Waitpoints of a program's threads.
 //
-// A program declares no computing times, so its threads are at one instant until one sleeps. But loops that poll must
-// end: reading a clock and giving way take a little virtual time, and so do some hundred uses of primitives. Where
-// schedules are explored, some dozen readings pass before any does: threads that read clocks are to stay at one instant
-// with the others.
+// A program declares no computing times, so its threads are at one instant until one sleeps. But polling loops must
+// end: reading a clock and yielding take a little virtual time, and so do some hundred uses of primitives. In an
+// exploration some dozen readings are charged together, so that threads that read clocks stay at one instant with the
+// others.
 #pragma once
 
 #include "fibers/kernel/local_clock.hpp"
@@ -15,13 +15,13 @@
 namespace waitpoint::posix {
 
 inline constexpr std::uint32_t operations_at_one_instant = 512;
-/// After so many, others whose time has come have their turn.
+/// After as many, other tasks due at this instant get a turn.
 inline constexpr std::uint32_t clock_readings_at_most = 100;
 inline constexpr Duration cost_of_operations = Duration(std::chrono::microseconds(1));
 inline constexpr Duration cost_of_clock_reading = Duration(std::chrono::nanoseconds(50));
 inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microseconds(1));
 
-/// The running thread computes for so long.
+/// The running thread computes for `cost`.
 inline void spend(Duration cost) {
   kernel::Task& task = *kernel::running;
   Thread& thread = thread_of(task);
@@ -31,7 +31,7 @@ inline void spend(Duration cost) {
   if (__builtin_expect(first_processor_timer != nullptr, 0)) look_at_processor_timers();
 }
 
-/// The same for what loops do that poll, which is paid for now or after some more of it.
+/// The same for the operations of polling loops, charged singly or `looks_at_once` together.
 inline void spend_for_look(Duration cost) {
   Thread& thread = this_thread();
   const std::uint32_t looks = record->settings.looks_at_once;
@@ -40,7 +40,7 @@ inline void spend_for_look(Duration cost) {
   spend(cost * looks);
 }
 
-/// The running thread's event at its place in the order of all; returns when it is the least.
+/// The running thread's waitpoint: returns when its event is the least.
 inline void pass(kernel::Operation operation, kernel::Object* object) {
   kernel::Task& task = *kernel::running;
   Thread& thread = thread_of(task);
@@ -52,26 +52,26 @@ inline void pass(kernel::Operation operation, kernel::Object* object) {
   task.scheduler->waitpoint(operation, object);
 }
 
-/// The same of `task`, which is running, where nothing can come between, which takes no more than a count; else false,
-/// with nothing done.
+/// The same for the running `task` if no other event can come first: then only a count is needed. Else false, with no
+/// effect.
 [[gnu::always_inline]] inline bool pass_at_once(kernel::Task* task, kernel::Operation operation,
                                                 kernel::Object& object) {
   if (task == nullptr || !is_thread(*task)) return false;
   Thread& thread = thread_of(*task);
   const std::uint32_t operations = thread.operations + 1;
-  if (operations >= operations_at_one_instant) return false;  // or in the kernel
+  if (operations >= operations_at_one_instant) return false;  // also if in the kernel
   if (!kernel::try_fast_waitpoint(operation, object)) return false;
   thread.operations = operations;
   return true;
 }
 
-/// Blocks the running thread on `object`; false if the deadline came first. Signals wait until it goes on.
+/// Blocks the running thread on `object`; false at the deadline. Signals stay pending until it continues.
 inline bool block(kernel::Object& object, Time deadline) {
   const InKernel within;
   return kernel::running->scheduler->block(object, deadline) == kernel::Wake::woken;
 }
 
-/// Wakes one of those that wait, of the chooser's choice; null if there is none.
+/// Wakes a waiter selected by the chooser; null without one.
 inline kernel::Task* wake_one(kernel::Object& object) { return kernel::running->scheduler->wake_one(object); }
 
 }  // namespace waitpoint::posix

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who waits at an address: for primitives of four bytes, which have no room for more than their value.
+// The waitable of a primitive of four bytes, found by address since it has room for nothing but its value.
 #pragma once
 
 #include "fibers/posix/program/waitable.hpp"
