@@ -10,7 +10,7 @@ namespace waitpoint::posix {
 
 namespace {
 
-// Whom a sleeping thread waits for: nobody ever comes but a cancellation.
+// The object of sleeping threads: only a cancellation or a signal wakes them.
 kernel::Object sleepers{"sleep"};
 
 }  // namespace

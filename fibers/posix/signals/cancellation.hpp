@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cancellation points: calls in which a thread that is cancelled leaves, as POSIX lists them.
+// Cancellation points, as listed by POSIX: the calls in which a cancelled thread exits.
 #pragma once
 
 #include "fibers/posix/program/waiting.hpp"
@@ -7,12 +7,12 @@
 
 namespace waitpoint::posix {
 
-/// Whether `thread` was cancelled, does not forbid it, and is not on its way out.
+/// True if `thread` was cancelled, has cancellation enabled, and is not exiting already.
 inline bool is_to_leave(const Thread& thread) { return thread.cancelled && !thread.cancel_disabled && !thread.exiting; }
 
-/// Leaves the running thread, if it was cancelled and does not forbid it.
+/// Exits the running thread, if is_to_leave().
 void leave_if_cancelled();
-/// The same at the beginning of a call that does not wait; nothing before main().
+/// The same at the beginning of a call that does not wait; no effect before main().
 inline void pass_cancellation_point() {
   if (is_simulated() && is_to_leave(this_thread())) leave_if_cancelled();
 }
@@ -22,10 +22,10 @@ auto at_cancellation_point(Call call) {
   return call();
 }
 
-/// A call that waits and is a cancellation point, while it lasts: pthread_cancel() ends the wait.
+/// Scope of a waiting call that is a cancellation point: pthread_cancel() ends the wait.
 class CancellationPoint {
  public:
-  /// Leaves the thread if it was cancelled before.
+  /// Exits the thread if it was cancelled before.
   CancellationPoint() {
     if (!is_simulated()) return;
     leave_if_cancelled();
@@ -37,18 +37,17 @@ class CancellationPoint {
   CancellationPoint(const CancellationPoint&) = delete;
   CancellationPoint& operator=(const CancellationPoint&) = delete;
 
-  /// Whether the wait that has just ended was ended by a cancellation: what the call has to put right comes first, then
-  /// leave_if_cancelled().
+  /// True if a cancellation ended the wait: the call cleans up, then calls leave_if_cancelled().
   bool was_cancelled() const { return is_to_leave(this_thread()); }
-  /// As wait_on(), but does not begin to wait if the thread was cancelled at its waitpoint.
+  /// As wait_on(), but does not wait if the thread was cancelled at its waitpoint.
   Wait block(kernel::Object& object, Time deadline) const {
     return was_cancelled() ? Wait::interrupted : wait_on(object, deadline);
   }
-  /// Sleeps, and leaves the thread if it is cancelled meanwhile; false if a signal's handler ended it.
+  /// Sleeps; exits the thread if it is cancelled meanwhile. False if a signal handler interrupted the sleep.
   bool wait_until(Time time) const;
 };
 
-/// While it lasts, a call is no cancellation point, whatever it does.
+/// Scope in which no call is a cancellation point.
 class CancellationDisabled {
  public:
   CancellationDisabled() : thread_(is_simulated() ? &this_thread() : nullptr) {

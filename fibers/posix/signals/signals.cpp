@@ -33,7 +33,7 @@ bool wants(const Thread& thread, int signal) {
   return thread.task != nullptr && (!contains(thread.blocked, signal) || contains(thread.awaited, signal));
 }
 
-// As in Linux the first thread is asked first; of several programs, one of that which sends.
+// The first thread that accepts it, as in Linux; of several programs, only threads of the sender's.
 Thread* taker_of(int signal) {
   const Program* const of = is_simulated() ? &this_program() : nullptr;
   for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
@@ -54,14 +54,14 @@ void tell(Thread& thread) {
 
 void send_on(PendingSignal& signal, Thread* to) {
   const int number = signal.information.si_signo;
-  // Stopping and going on take each other back.
+  // Stop signals and SIGCONT cancel each other.
   const SignalSet opposite = number == SIGCONT ? stopping : contains(stopping, number) ? only(SIGCONT) : 0;
   if (opposite != 0) {
     signals_of_program.pending.drop(opposite);
     if (to != nullptr) to->pending.drop(opposite);
   }
   Thread* const taker = to != nullptr ? to : taker_of(number);
-  // What is ignored is not even kept, but where it is blocked: then the action may still change.
+  // An ignored signal is discarded unless it is blocked, since its action may still change.
   const bool is_kept = taker == nullptr || contains(taker->blocked, number) || !is_discarded(number);
   PendingSignals& pending = to != nullptr ? to->pending : signals_of_program.pending;
   if (!is_kept) {
@@ -76,7 +76,7 @@ void send_on(PendingSignal& signal, Thread* to) {
   note_pending_changed();
 }
 
-/// A handler's stack and what it is called with.
+/// A call of a handler.
 struct Call {
   const struct sigaction* action;
   siginfo_t* information;
@@ -106,8 +106,7 @@ void run_handler(Thread& thread, const struct sigaction& action, siginfo_t& info
     call_handler(&call);
 }
 
-// As Linux lays frames of handlers on the stack: what can be delivered beside a signal has its handler run before that
-// one's handler begins.
+// In the order of Linux, which stacks the frames of all deliverable signals: the handler of the last one runs first.
 void handle_all(Thread& thread, Handled& handled) {
   siginfo_t information;
   while (const int signal = take_pending(~thread.blocked, information)) {
@@ -165,7 +164,7 @@ Handled handle_signals() {
   thread.delivery_due = false;
   Handled handled;
   if (deliverable(thread) == 0) return handled;
-  // What handlers do has waits of its own.
+  // Handlers may wait, too.
   const bool in_wait = thread.in_wait, in_point = thread.in_cancellation_point;
   const SignalSet awaited = thread.awaited;
   thread.in_wait = thread.in_cancellation_point = false;
@@ -190,7 +189,7 @@ bool is_interrupted(Restart restart) {
 
 int take_pending(SignalSet set, siginfo_t& information) {
   Thread& thread = this_thread();
-  // Of one's own first, but the least number of both.
+  // The least number; the thread's own signal first if both have it.
   const SignalSet own = thread.pending.set() & set, all = signals_of_program.pending.set() & set;
   const bool from_all = own == 0 || (all != 0 && __builtin_ctzll(all) < __builtin_ctzll(own));
   const int signal = (from_all ? signals_of_program.pending : thread.pending).take(set, information);
@@ -231,7 +230,7 @@ void forget_pending_signals() {
   if (is_simulated()) this_thread().pending.drop(~SignalSet{0});
 }
 
-// In a thread with attention::signal set, at its waitpoint; in one that waits, its call lets handlers run.
+// At a waitpoint of a thread with attention::signal set. If it waits, its call runs the handlers.
 void deliver_signals(kernel::Task& task) {
   Thread& thread = thread_of(task);
   if (thread.in_wait) {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals of the program: sent between its threads and by its timers without the system's doing, and delivered at
-// waitpoints.
+// Signals of the program: sent between its threads and by its timers without the system, and delivered at waitpoints.
 //
-// Each thread has a mask of its own; to the system, nothing is blocked. What comes from outside (another process, the
-// terminal) is caught, kept, and sent on at the next occasion. What the processor raises is handled on the spot.
+// Each thread has its own mask; for the system, nothing is blocked. Signals from outside (another process, the
+// terminal) are caught, queued, and sent on at the next occasion. Faults, raised by the processor, are handled at once.
 //
-//   send() -> pending, of the thread or the process -> a thread that does not block it is told: woken from a wait that
-//   a signal ends, or asked to look at its next waitpoint -> handle_signals(), in that thread, calls handlers
+//   send() -> pending, of the thread or the process -> notify a thread that does not block it: wake it from an
+//   interruptible wait, or mark it for its next waitpoint -> handle_signals(), in that thread, calls the handlers
 //
-// A wait that a signal ends comes back to its call with Wait::interrupted; the call puts in order what it has to (a
-// handler may leave by siglongjmp()), lets handlers run, and then ends with EINTR or waits again.
+// An interrupted wait returns Wait::interrupted to its call, which cleans up (a handler may leave by siglongjmp()),
+// runs the handlers, and then fails with EINTR or waits again.
 #pragma once
 
 #include "fibers/posix/program/pending_signals.hpp"
@@ -21,80 +20,80 @@ struct SignalsOfProgram {
   struct sigaction actions[signals_end];  ///< by number
   PendingSignals pending;                 ///< sent to the process
   SignalSet blocked_before_main = 0;
-  SignalSet ever_blocked = 0;  ///< by any thread: caught although nothing handles them
+  SignalSet ever_blocked = 0;  ///< by any thread: caught even if not handled
 };
 extern SignalsOfProgram signals_of_program;
 
 /// How a wait ended.
 enum class Wait : std::uint8_t { came, timed_out, interrupted };
 
-/// Blocks the running thread on `object`. A signal that the thread does not block ends the wait.
+/// Blocks the running thread on `object`, interruptible by the signals that it does not block.
 Wait wait_on(kernel::Object& object, Time deadline);
 
-/// What handlers were run.
+/// The handlers that were run.
 struct Handled {
   bool any = false;
-  bool restart = true;  ///< all of them by SA_RESTART
+  bool restart = true;  ///< all of them have SA_RESTART
 };
 
-/// What `thread` would handle now.
+/// The pending signals that `thread` does not block.
 inline SignalSet deliverable(const Thread& thread) {
   return (thread.pending.set() | signals_of_program.pending.set()) & ~thread.blocked;
 }
 
-/// What the kernel calls in a thread with signals to be handled.
+/// Called by the kernel in a thread with signals to be handled.
 void deliver_signals(kernel::Task& task);
 
-/// Called after each change of what pends; null: not. Descriptors that signals are read from set it.
+/// Called, unless null, after each change of the pending signals. Set by the descriptors from which signals are read.
 extern void (*after_pending_changed)();
 
-/// Sends to a thread, or to the process where it is null; false if there is no memory to keep it.
+/// Sends to a thread, or to the process if `to` is null; false without memory.
 bool send(const siginfo_t& information, Thread* to);
-/// The same for a signal that somebody keeps, as timers do; it must not be pending.
+/// The same for a signal owned by the caller, as by timers; it must not be pending.
 void send(PendingSignal& signal, Thread* to);
-/// A signal with what is told of one that the program sends itself.
+/// The information of a signal that the program sends to itself.
 siginfo_t from_here(int signal, int code);
 
-/// Sends to the process, or to the thread with this gettid(), what the program itself says of a signal: an error
-/// number.
+/// Sends to the process, or to the thread with this gettid(), a signal with information provided by the program;
+/// returns an error number or 0.
 int send_as_told(const siginfo_t& information);
 int send_as_told(const siginfo_t& information, int id);
 
 /// The running thread handles all that it does not block.
 Handled handle_signals();
-/// Whether a call whose wait was ended by a signal ends with EINTR; if not, it waits again.
+/// Handles the signals that ended a call's wait. True: the call fails with EINTR; false: it waits again.
 enum class Restart : std::uint8_t { never, if_asked };
 bool is_interrupted(Restart restart);
 
-/// What pends for the running thread among `set`: taken; 0 if there is none.
+/// Removes a signal of `set` pending for the running thread, and returns its number; 0 without one.
 int take_pending(SignalSet set, siginfo_t& information);
-/// The mask of the running thread, from now on. Whoever else may take what it blocks is told.
+/// Sets the mask of the running thread. Other threads are notified of the signals that it blocks now.
 void set_blocked(SignalSet blocked);
-/// Tells somebody of each signal of the process that is pending.
+/// Notifies a thread of each pending signal of the process.
 void find_takers();
-/// A thread ends: what pends for it is dropped.
+/// Drops the pending signals of a thread that ends.
 void drop_signals(Thread& thread);
-/// In a child: nothing pends.
+/// In a child: no signal is pending.
 void forget_pending_signals();
 
-/// By which processes of a family ring for each other (family.hpp): nobody else sends it with that address.
+/// The signal by which the processes of a family notify each other (family.hpp), identified by its address.
 inline constexpr int bell = SIGURG;
-/// It is looked for from now on.
+/// Catches it from now on.
 void install_bell();
 
-/// What came from outside is sent on; whether there was anything.
+/// Sends on the signals that came from outside; true if there were any.
 bool take_in_signals_from_outside();
-/// Whether something has come. Quick.
+/// True if there are any. Fast.
 bool has_come_from_outside();
-/// A signal that the system sends for what a call of the program's does (SIGIO, what mq_notify() asked for) comes
-/// within the call, and its handler is to have run when that returns. `errno` stays.
+/// A signal sent by the system because of a call of the program (SIGIO, a notification of mq_notify()) comes within the
+/// call; its handler must have run when the call returns. Keeps `errno`.
 void handle_what_came_with_a_call();
-/// The system is told what to do with a signal: as `signals_of_program` says.
+/// Installs the system's action for a signal, according to `signals_of_program`.
 void install(int signal);
-/// Ends or stops the process as the system does by default.
+/// Ends or stops the process by the default action.
 void do_default(int signal);
 
-/// Before main(): what the program inherited.
+/// Before main(): reads the actions and the mask that the process inherited.
 void inherit_signals();
 
 }  // namespace waitpoint::posix

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mask of signals for as long as a call waits: sigsuspend(), ppoll() and their kin.
+// A signal mask for the duration of a call: sigsuspend(), ppoll() and similar.
 #pragma once
 
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
 
-/// A handler that ends the wait begins with it, and leaves the mask that was before.
+/// A handler that interrupts the wait starts with this mask and returns to the previous one.
 class TemporaryMask {
  public:
   explicit TemporaryMask(SignalSet blocked) {
@@ -23,7 +23,7 @@ class TemporaryMask {
     thread.has_temporary_mask = false;
     set_blocked(thread.blocked_after);
   }
-  /// Whether a handler has run since.
+  /// True if a handler has run since.
   bool was_left() const { return !this_thread().has_temporary_mask; }
   TemporaryMask(const TemporaryMask&) = delete;
   TemporaryMask& operator=(const TemporaryMask&) = delete;
