@@ -25,19 +25,19 @@ namespace {
 
 constexpr int processes_max = 1024;
 constexpr std::uintptr_t address = record_address + record_bytes;
-constexpr std::size_t bytes_max = std::size_t{1} << 34;  // taken as they are used
+constexpr std::size_t bytes_max = std::size_t{1} << 34;  // allocated on first use
 constexpr std::size_t page = 4096;
 
-constexpr pid_t expected = -1;  // a child that is about to be made
+constexpr pid_t expected = -1;  // of a child about to be made
 
 struct Process {
-  std::atomic<pid_t> id;  ///< 0: nobody
+  std::atomic<pid_t> id;  ///< 0: the entry is free
   std::atomic<bool> waits;
-  std::atomic<pid_t> waits_for;  ///< who holds a lock on a file; 0: nobody
+  std::atomic<pid_t> waits_for;  ///< the holder of a file lock; 0: none
 };
 
 struct Family {
-  std::atomic<pid_t> within;  ///< who is in a section; 0: nobody
+  std::atomic<pid_t> within;  ///< the process in a Section; 0: none
   Process processes[processes_max];
   void* parts[static_cast<int>(Part::count)];
   Arena arena;
@@ -53,7 +53,7 @@ Family& joined() {
   return *family;
 }
 
-// A process that ended without a word leaves its place to the next.
+// Entries of processes that were killed are reused.
 Process* free_place() {
   for (Process& process : joined().processes) {
     pid_t id = process.id.load();
@@ -116,7 +116,7 @@ bool lives(pid_t process) {
   const ssize_t size = WAITPOINT_NEXT(read)(file, text, sizeof text - 1);
   WAITPOINT_NEXT(close)(file);
   text[size > 0 ? size : 0] = '\0';
-  // Behind the name, which may have anything in it.
+  // The state follows the name, which may contain any character.
   const char* const behind = std::strrchr(text, ')');
   return behind != nullptr && behind[1] == ' ' && behind[2] != 'Z' && behind[2] != 'X';
 }
@@ -148,7 +148,7 @@ void* common(Part part, std::size_t bytes) {
 
 void give(void* memory) { family->arena.give(memory); }
 
-// In front of the first page is, in the page before it, where the piece of the arena begins.
+// The word in front of the first page holds the address of the arena's piece.
 void* take_pages(std::size_t bytes) {
   auto* const piece = static_cast<char*>(joined().arena.take(bytes + 2 * page));
   if (piece == nullptr) return nullptr;
@@ -165,7 +165,7 @@ void give_pages(void* pages, std::size_t bytes) {
 
 Section::Section(bool needed) : entered_(needed) {
   if (!entered_) return;
-  // Sections are short: who is in one for a second was killed there.
+  // Sections are short: a process in one for a second was killed there.
   constexpr int patience = 1'000'000;
   for (int tried = 0;; ++tried) {
     pid_t nobody = 0;

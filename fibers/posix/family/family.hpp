@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The processes of a program: the one that was started, and those that it and its children fork.
 //
-// Each is a simulation of its own, with its own order of its own threads. What they may share are primitives in memory
-// that they share, and named semaphores. Such an object keeps its state in its own bytes, changed only within a
-// Section, where no other process of the family is; and a process that changes one rings for those that wait. To these
-// it is something from outside: see descriptors.hpp.
+// Each is its own simulation, with its own schedule. They can share primitives in shared memory, and named semaphores.
+// Such an object holds its state in its own bytes, which change only within a Section, exclusive among the family; a
+// process that changes one rings the processes that wait. For these the change comes from outside: see descriptors.hpp.
 #pragma once
 
 #include <signal.h>
@@ -14,40 +13,38 @@
 
 namespace waitpoint::posix::family {
 
-/// A run begins, in this process: it is a family of its own.
+/// Starts a family with this process alone, at the beginning of a run.
 void begin();
-/// A child is about to be made; it was made, or, with -1, was not.
+/// Before a child is made, and after; -1 if that failed.
 void expect_child();
 void note_child(pid_t child);
 /// In the child.
 void begin_as_child();
 
-/// Whether any other process of the family lives.
+/// True if another process of the family is alive.
 bool has_others();
-/// Whether one may have lived.
+/// True if there may have been another.
 bool had_others();
-/// Whether the process lives: one that has ended and was not waited for does not.
+/// True if the process is alive; a zombie is not.
 bool lives(pid_t process);
-/// Its number; asking the system takes longer.
+/// getpid(), without the system call.
 pid_t this_process();
 
-/// Memory at one address in all of them, zeroed; null without any. Within a Section.
+/// Zeroed memory at the same address in all processes; null if exhausted. Within a Section.
 void* take(std::size_t bytes);
 void give(void* memory);
-/// The same of whole pages, which nobody has touched: for as many as it was asked for, to be given back with their
-/// count.
+/// The same in whole pages, untouched; to be given back with the same size.
 void* take_pages(std::size_t bytes);
 void give_pages(void* pages, std::size_t bytes);
 
-/// What parts of the layer keep there, zeroed when it is first asked for with a size; null without it. Within a
-/// Section.
+/// The shared state of a part of the layer, zeroed at the first call with a size; before that null. Within a Section.
 enum class Part { names, futexes, semaphores, memory, messages, count };
 void* common(Part part, std::size_t bytes);
 
-/// While it lives, no other process of the family is in one. Not to be nested, and nothing in it waits.
+/// A critical section, exclusive among the processes of the family. Not to be nested; no waits within.
 class Section {
  public:
-  /// Nothing, if not `needed`.
+  /// No effect if not `needed`.
   explicit Section(bool needed = true);
   ~Section();
   Section(const Section&) = delete;
@@ -57,14 +54,14 @@ class Section {
   const bool entered_;
 };
 
-/// Threads of this process wait for what others of the family do, or do no longer.
+/// Threads of this process wait, or no longer wait, for other processes of the family.
 void note_waiting(bool waiting);
-/// This process waits for what `holder` has, or for nothing, with 0; false if that process waits for this one in turn,
-/// directly or by others.
+/// This process waits for a file lock of `holder`; with 0, for none. False if `holder` waits for this process, directly
+/// or through others.
 bool note_waiting_for(pid_t holder);
-/// After a change: the processes that wait look again.
+/// After a change: makes the processes that wait check again.
 void ring();
-/// Whether a signal is that of another process.
+/// True if a signal is the ring of another process.
 bool is_ring(const siginfo_t& information);
 
 }  // namespace waitpoint::posix::family
