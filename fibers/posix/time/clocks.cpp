@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
-// How much later, or earlier, the program has set the date.
+// The offset by which the program has set the date.
 std::int64_t set_by_ns = 0;
 
 std::int64_t begin_ns(clockid_t clock) {
@@ -38,13 +38,13 @@ std::int64_t begin_ns(clockid_t clock) {
 
 Duration spent_by_program() { return is_simulated() ? this_program().spent : Duration(); }
 
-// Before main(), time stands still at the start of the run.
+// Before main(), it is the start of the run.
 Time now() { return is_simulated() ? read_clock() : Time(); }
 
 }  // namespace
 
-// Of processor time: as glibc and the kernel number those of others, the complement of a process, or of a thread, above
-// three bits.
+// Clocks of the processor time of other processes and threads are numbered by glibc and the kernel: the complement of
+// the id, above three bits.
 bool is_clock(clockid_t clock) {
   if (clock >= 0) return clock <= CLOCK_TAI && clock != 10;
   const int of = ~(clock >> 3);
@@ -109,14 +109,14 @@ Time read_clock() {
 using namespace waitpoint;
 using namespace waitpoint::posix;
 
-// For the kernel's clocks that measure what the machine takes: the linker sends its calls here.
+// For the clocks of fibers/clocks that measure real time: the linker redirects their calls here.
 extern "C" [[gnu::visibility("hidden")]] int __wrap_clock_gettime(clockid_t clock, timespec* time) noexcept {
   return WAITPOINT_NEXT(clock_gettime)(clock, time);
 }
 
 WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept {
   if (is_host_code()) return WAITPOINT_NEXT(clock_gettime)(clock, time);
-  // The others' readings are no business of the system's, which does not look at addresses then.
+  // In Linux only these clocks need a system call, which checks the address.
   if ((clock == CLOCK_PROCESS_CPUTIME_ID || clock == CLOCK_THREAD_CPUTIME_ID) && !can_be_written(time))
     return fail(EFAULT);
   return posix::read_clock(clock, *time);
@@ -148,7 +148,7 @@ WAITPOINT_INTERPOSED int clock_getres(clockid_t clock, timespec* resolution) noe
 WAITPOINT_INTERPOSED int gettimeofday(timeval* __restrict time, void* __restrict zone) noexcept {
   if (is_host_code()) return WAITPOINT_NEXT(gettimeofday)(time, zone);
   const timespec read = to_timespec(reading_ns(CLOCK_REALTIME, posix::now()));
-  // The headers promise that there is one, Linux does not ask for it.
+  // The header declares it nonnull, Linux accepts null.
   timeval* const volatile asked = time;
   if (timeval* const to = asked; to != nullptr) *to = {read.tv_sec, read.tv_nsec / 1000};
   if (zone != nullptr) *static_cast<struct timezone*>(zone) = {};

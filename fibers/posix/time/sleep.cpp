@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Calls that sleep: virtual time passes, and no other.
+// Calls that sleep, in virtual time.
 #include <sched.h>
 #include <unistd.h>
 
@@ -21,7 +21,7 @@ bool sleep_until(Time time) {
   return point.wait_until(time);
 }
 
-// What is left when a signal's handler ends it; else nothing.
+// Returns the time left if a signal handler interrupts the sleep; else zero.
 timespec sleep_for(Duration span) {
   const Time end = later(kernel::local_time(*kernel::running), span);
   if (sleep_until(end)) return {};
@@ -71,7 +71,7 @@ WAITPOINT_INTERPOSED int thrd_sleep(const timespec* time, timespec* remaining) {
   return error == 0 ? 0 : error == EINTR ? -1 : -2;
 }
 
-// No cancellation point; but a thread that may be cancelled anywhere is.
+// Not a cancellation point, but a thread with asynchronous cancellation may be cancelled anywhere.
 WAITPOINT_INTERPOSED int sched_yield() {
   if (!is_simulated()) return 0;
   spend_for_look(cost_of_giving_way);
