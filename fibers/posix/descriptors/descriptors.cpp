@@ -24,10 +24,10 @@ namespace {
 constexpr int known_max = known_descriptors_max;
 std::uint64_t inside[known_max / 64];
 std::uint64_t waited_in_vain[known_max / 64];  // for a reader
-const Program* owners[known_max];              // of those that share a process
-int owned_end = 0;                             // behind the greatest that was
+const Program* owners[known_max];              // among several programs of a process
+int owned_end = 0;                             // one past the greatest ever owned
 
-/// A thread that waits: on its own stack.
+/// A waiting thread; on its own stack.
 struct Waiter {
   kernel::Task* task;
   pollfd* descriptors;
@@ -35,14 +35,14 @@ struct Waiter {
   bool outside;
   bool (*is_ready)(const void*) = nullptr;  // null: one of the descriptors
   const void* what = nullptr;
-  bool shared = false;  ///< for what another process of the family may do, if there is one
+  bool shared = false;  ///< on an object that another process of the family may change
   Waiter* next = nullptr;
   Waiter* previous = nullptr;
 };
 Waiter* first = nullptr;
 Waiter* last = nullptr;
 int waiting_outside = 0;
-int waiting_for_no_descriptor = 0;  // of which nothing tells but asking
+int waiting_for_no_descriptor = 0;  // these must be polled
 int waiting_for_family = 0;
 
 kernel::Object descriptors_object{"descriptor"};
@@ -77,7 +77,7 @@ void remove(Waiter& waiter) {
   if (waiter.outside) count_outside(waiter, -1);
 }
 
-// Shared objects are waited for outside while there is a family, and inside without one: then all can be stuck.
+// Waits on shared objects are outside while the family has other processes, else inside: then a deadlock is possible.
 void take_shared_outside() {
   for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
     if (!waiter->shared || waiter->outside) continue;
@@ -86,30 +86,30 @@ void take_shared_outside() {
   }
 }
 
-// The others of the family have ended: whoever waits for them looks once more, and waits inside.
+// After the other processes of the family have ended: threads waiting for them check again, and wait inside.
 void wake_shared() {
   for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
     if (waiter->shared && waiter->outside && waiter->task->state == kernel::TaskState::blocked)
       waiter->task->scheduler->wake(*waiter->task);
 }
 
-// Those whose descriptors are ready go on.
+// Wakes the threads whose descriptors are ready.
 bool wake_ready(bool outside_too) {
   bool any = false;
   for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
     if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too)) continue;
-    if (waiter->shared && !waiter->outside) continue;  // who changes that wakes it
+    if (waiter->shared && !waiter->outside) continue;  // woken by the thread that changes the object
     const bool is_ready = waiter->is_ready != nullptr ? waiter->is_ready(waiter->what)
                                                       : poll_now(waiter->descriptors, waiter->count) != 0;
     if (!is_ready) continue;
-    // To find out may have woken it already.
+    // is_ready() may have woken it.
     if (waiter->task->state == kernel::TaskState::blocked) waiter->task->scheduler->wake(*waiter->task);
     any = true;
   }
   return any;
 }
 
-// As poll(), for as long as it takes; also until a signal comes, which is kept from coming before the wait begins.
+// As ppoll(), or until a signal comes; a signal that comes before the wait begins is not missed.
 void poll_until_a_signal(pollfd* descriptors, nfds_t count, const timespec* longest) {
   const ErrorNumberKept kept;
   const RealWait real;
@@ -120,7 +120,7 @@ void poll_until_a_signal(pollfd* descriptors, nfds_t count, const timespec* long
   WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &before, nullptr);
 }
 
-// Waits in real time for any of all descriptors that threads wait for.
+// Waits in real time for any descriptor that a thread waits for.
 void wait_really(Duration longest) {
   nfds_t count = 0;
   for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) count += waiter->count;
@@ -200,7 +200,7 @@ void forget_waiter(const kernel::Task& task) {
 int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) {
   kernel::Task& task = *kernel::running;
   bool outside = false;
-  // A host does not look outside at the end of its instants: guests find what is there when one of them does something.
+  // A host does not look outside at the end of its instants: descriptors are checked when a guest acts on one.
   for (nfds_t i = 0; i < count && !has_host; ++i)
     if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) outside = true;
   if (!outside)
@@ -210,11 +210,11 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) 
     task.scheduler->enter(descriptors_object);
     Waiter waiter{&task, descriptors, count, outside};
     add(waiter);
-    // The run comes out at the end of each instant while somebody waits outside.
+    // While a thread waits outside, the run pauses at the end of each instant.
     if (outside) task.scheduler->pause();
     const Wait ended = wait_on(descriptors_object, deadline);
     remove(waiter);
-    // What was ready for several may have been taken by another.
+    // Another thread may have taken the data.
     if (const int ready = poll_now(descriptors, count); ready != 0) return ready;
     if (thread_of(task).in_cancellation_point && is_to_leave(thread_of(task))) return 0;
     if (ended == Wait::interrupted && is_interrupted(restart)) return fail(EINTR);
@@ -253,8 +253,8 @@ Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(cons
   waiter.shared = true;
   add(waiter);
   if (waiter.outside) task.scheduler->pause();
-  // From here on other processes ring; what was changed before is seen now, and what the last of them did that has just
-  // ended, or its end.
+  // From here on other processes ring. Earlier changes are seen by is_ready(), also those by the last process that has
+  // ended, and its end.
   const Wait ended = family::had_others() && is_ready(what) ? Wait::came : wait_on(object, deadline);
   remove(waiter);
   return ended;
@@ -263,10 +263,10 @@ Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(cons
 bool wait_for_reader(int descriptor, int patience_ms) {
   pollfd one{descriptor, POLLOUT, 0};
   if (poll_now(&one, 1) > 0) return true;
-  // A thread that waits for what is there already may be the reader.
+  // A thread whose descriptors are ready may be the reader.
   for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
     if (waiter->count > 0 && poll_now(waiter->descriptors, waiter->count) > 0) return false;
-  // Nor is anybody outside who did not read the last time.
+  // An outside reader that did not read last time is not waited for again.
   const bool is_known = descriptor < known_max;
   std::uint64_t none = 0;
   std::uint64_t& word = is_known ? waited_in_vain[descriptor / 64] : none;

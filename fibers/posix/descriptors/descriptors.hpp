@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Waiting for descriptors. What is behind them is real (pipes, sockets, files), so that dup, fork and exec keep
-// working; only who waits, for how long and in which order is simulated: a call that would block its thread waits here
-// until the descriptor is ready, and is made then.
+// Waiting for descriptors. The pipes, sockets and files behind them are real, so that dup, fork and exec keep working;
+// simulated are the waits, their duration and order: a call that would block its thread waits here until the descriptor
+// is ready, and is made then.
 //
-// A descriptor is inside as long as only this program has its ends: then it becomes ready by what a thread of this
-// program does, and is looked at when one has done something. All others are outside: whether something has come there
-// depends on the real time, so that they are looked at only when no thread can go on at the present instant, and waited
-// for in real time only when none can at all.
+// A descriptor is inside while only this program has its ends: it becomes ready by an action of one of its threads, and
+// is checked after such actions. All others are outside: their state depends on real time, so they are checked only
+// when no thread can continue at the present instant, and waited for in real time only when none can continue at all.
 #pragma once
 
 #include <poll.h>
@@ -20,38 +19,37 @@ namespace waitpoint::posix {
 
 struct Program;
 
-/// Threads that wait now: they are ready when the system says so of any of their descriptors.
+/// True if a thread waits for something outside.
 bool anybody_waits_outside();
 
-/// Descriptors from this on are taken for outside ones.
+/// Descriptors from this number on count as outside.
 inline constexpr int known_descriptors_max = 65536;
-/// A descriptor was made by this program for itself, or is another name of such a one; it is closed.
+/// Inside: made by this program for itself, or a duplicate of such a descriptor. Not inside: closed, or shared.
 void note_inside(int descriptor, bool inside);
 bool is_inside(int descriptor);
-/// The running program has it from now on.
+/// Makes the running program the owner, if it is one of several in the process.
 void note_owner(int descriptor);
-/// The first descriptor from `from` on that a program shares with the process's others, and whose it is; -1 without
-/// one.
+/// The first descriptor, from `from` on, with an owner among several programs; -1 without one.
 int next_owned(int from, const Program*& owner);
-/// It is no program's any more.
+/// Removes its owner.
 void disown(int descriptor);
-/// A child has copies of all of them: nothing is inside any more. Nor is what threads wait for on shared objects.
+/// Before a fork: the child has copies, so that no descriptor is inside any more. Nor are waits on shared objects.
 void note_fork();
-/// The same of a program that is started: it has no copies of those that are closed then.
+/// Before a program is started: the same, but it has no copies of close-on-exec descriptors.
 void note_start();
-/// In the child: nobody waits there.
+/// In the child: no thread waits.
 void forget_waiters();
-/// The task is not there any more.
+/// The task no longer exists.
 void forget_waiter(const kernel::Task& task);
 
-/// The running thread waits until any of the descriptors is ready or `deadline` comes. As poll(): how many are, which
-/// is in their `revents`; 0 at the deadline, or if the thread was cancelled; -1 with EINTR if a signal ended the wait.
-/// Where all are inside it goes on at once if one is ready.
+/// The running thread waits until any of the descriptors is ready. As poll(), returns how many are ready, with their
+/// `revents`; 0 at the deadline or if the thread was cancelled; -1 with EINTR if a signal interrupted the wait. If all
+/// are inside, it returns at once if one is ready.
 int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart);
 /// For one descriptor.
 int wait_for(int descriptor, short events, Time deadline, Restart restart);
 
-/// While it lives, the running thread waits for something outside that is no descriptor: a signal.
+/// Scope in which the running thread waits for a signal from outside.
 class WaitsOutside {
  public:
   WaitsOutside();
@@ -60,27 +58,26 @@ class WaitsOutside {
   WaitsOutside& operator=(const WaitsOutside&) = delete;
 };
 
-/// Waits in real time until `descriptor` can be written, and lets no other thread go on meanwhile; false if it cannot
-/// after so long.
+/// Waits in real time until `descriptor` is writable, while no thread runs; false after `patience_ms`.
 bool wait_for_reader(int descriptor, int patience_ms);
 
-/// Called before each look at descriptors; null: not. A reader may have made room for what is on its way to it.
+/// Called, unless null, before each check of descriptors: a reader may have made room for data under way to it.
 extern void (*before_look)();
-/// Something was done with a descriptor that others may wait for.
+/// After an action on a descriptor: wakes the threads whose descriptors are ready.
 void look_at_descriptors();
 
-/// The running thread waits for something outside that is no descriptor, until `is_ready` says so: 1; 0 if the thread
-/// was cancelled; -1 with EINTR if a signal ended the wait.
+/// The running thread waits for a condition outside that is no descriptor. 1 once `is_ready` is true; 0 if the thread
+/// was cancelled; -1 with EINTR if a signal interrupted the wait.
 int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart);
 
-/// The running thread waits as wait_on() does. While there are other processes of its family, until `is_ready` too:
-/// what it waits for may be done by one of them.
+/// As wait_on(). While the family has other processes, it also ends when `is_ready` is true: one of them may change the
+/// object.
 Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(const void*), const void* what);
 
-/// From outside all threads, at the end of an instant: looks at what threads wait for, and waits in real time if
-/// `may_wait`. Whether one of them goes on.
+/// At the end of an instant, outside all threads: checks the conditions of waiting threads, and waits in real time if
+/// `may_wait`. True if a thread may continue.
 bool look_outside(bool may_wait);
-/// Waits in real time for anything that threads wait for, but no longer than so; whether something may have come.
+/// Waits in real time for anything that threads wait for, at most `longest`; true if something may have come.
 bool wait_outside_for(Duration longest);
 
 }  // namespace waitpoint::posix

@@ -20,16 +20,16 @@ namespace {
 
 pid_t* children = nullptr;
 std::size_t child_count = 0, child_room = 0;
-pid_t parent = 0;  // 0: none that is a simulation too
+pid_t parent = 0;  // 0: none that is a simulation
 
-// Where virtual time and the real one were together.
+// A virtual time, and the real time that corresponds to it.
 Time virtual_begin;
 std::int64_t real_begin_ns = 0;
 bool has_begun = false;
 
 std::int64_t real_ns() {
   timespec now{};
-  // By the system itself: the C library's way may read the processor's counter, which may be trapped.
+  // By a system call: the C library may read the processor's counter, which may be trapped.
   WAITPOINT_NEXT(syscall)(SYS_clock_gettime, CLOCK_MONOTONIC, &now);
   return now.tv_sec * 1'000'000'000 + now.tv_nsec;
 }
@@ -53,7 +53,7 @@ struct Look {
   kernel::Object object{"pace"};
 } next_look;
 
-// The run comes out at the end of each instant from now on.
+// From now on the run pauses at the end of each instant.
 void prepare_to_look() {
   next_look.event.fire = look;
   kernel::running->scheduler->enter(next_look.object);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// While a program has children, or is one of another's, its virtual time goes no faster than the real one: processes
-// that wait for each other by sleeping for a while have only that in common.
+// While a program has children, or is a child of a simulation, its virtual time is no faster than real time: processes
+// that wait for each other by sleeping have no other time in common.
 //
-// Otherwise virtual time does not wait for anything. What comes from outside while it waits comes at the virtual time
-// that it has waited for.
+// Otherwise virtual time does not wait. Input that arrives while it waits is dated by the virtual time reached.
 #pragma once
 
 #include <sys/types.h>
@@ -17,12 +16,12 @@ void note_child(pid_t child);
 /// This is a new child, or a program that another simulation has started.
 void note_parent();
 
-/// Whether virtual time has to wait.
+/// True if virtual time must wait for real time.
 bool is_paced();
-/// The real time that is left until `time` may come, at least a nanosecond; none if it may now.
+/// The real time left until the virtual time `time`; zero if it is past.
 Duration left_until(Time time);
-/// What has come from outside is looked at by an event at the virtual time that is now, if that is before `next`; it is
-/// due before what is returned.
+/// Schedules an event that checks for input from outside, at the virtual time of the present real time, and returns
+/// that time; if it is not before `next`, returns `next`.
 Time look_at_pace(kernel::Scheduler& scheduler, Time next);
 
 }  // namespace waitpoint::posix

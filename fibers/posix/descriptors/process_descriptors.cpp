@@ -9,7 +9,7 @@
 #include <cstring>
 
 extern "C" {
-#include <sys/pidfd.h>  // says nothing of C++
+#include <sys/pidfd.h>  // lacks extern "C"
 }
 
 #include "fibers/posix/base/error_number.hpp"
@@ -19,7 +19,7 @@ extern "C" {
 
 namespace waitpoint::posix {
 
-// What the system tells of a descriptor has a line for it.
+// A line of /proc/self/fdinfo has it.
 pid_t process_of(int descriptor) {
   const ErrorNumberKept kept;
   char path[40], text[512];

@@ -34,7 +34,7 @@ SignalDescriptor* find_descriptor(int descriptor) {
   return each;
 }
 
-// Of any thread: whoever reads takes what pends for itself.
+// For any thread: a reader takes the signals pending for itself.
 SignalSet pending_anywhere() {
   SignalSet set = signals_of_program.pending.set();
   for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
@@ -122,7 +122,7 @@ WAITPOINT_INTERPOSED int signalfd(int descriptor, const sigset_t* set, int flags
       std::free(known);
       return -1;
     }
-    // What it tells may come from outside.
+    // Its signals may come from outside.
     note_inside(known->descriptor, false);
     known->next = first;
     first = known;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// signalfd(): descriptors that signals are read from. Beneath each is an eventfd, which can be read as long as one of
-// its signals pends, so that poll() and epoll work.
+// signalfd(): descriptors from which signals are read. Each is an eventfd, readable while one of its signals is
+// pending, so that poll() and epoll work.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace waitpoint::posix {
 
-/// What can be read from each is what pends now.
+/// Makes each readable or not, according to the pending signals.
 void show_signal_descriptors();
-/// It is closed, if it is one.
+/// After the close of a descriptor; no effect on other kinds.
 void forget_signal_descriptor(int descriptor);
 bool is_signal_descriptor(int descriptor);
-/// Reads what pends for the running thread: as read(), EAGAIN without anything.
+/// Reads signals pending for the running thread: as read(), EAGAIN without any.
 ssize_t read_signals(int descriptor, void* bytes, std::size_t size);
 
 }  // namespace waitpoint::posix
