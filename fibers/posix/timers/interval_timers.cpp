@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// setitimer() and alarm(): a signal to the process, on virtual time or on the processor time that it has spent.
+// setitimer() and alarm(): signals to the process, on virtual time or on its processor time.
 #include "fibers/posix/timers/interval_timers.hpp"
 
 #include <sys/time.h>
@@ -24,7 +24,7 @@ constexpr int microsecond_ns = 1000;
 
 void ring(SignalTimer& timer, std::uint64_t);
 
-// By ITIMER_REAL, ITIMER_VIRTUAL, ITIMER_PROF.
+// Indexed by ITIMER_REAL, ITIMER_VIRTUAL, ITIMER_PROF.
 SignalTimer timers[3] = {SignalTimer(ring), SignalTimer(ring), SignalTimer(ring)};
 
 void ring(SignalTimer& timer, std::uint64_t) {
@@ -97,7 +97,7 @@ WAITPOINT_INTERPOSED unsigned alarm(unsigned seconds) noexcept {
   itimerval old{};
   const itimerval to{{0, 0}, {static_cast<time_t>(seconds), 0}};
   setitimer(ITIMER_REAL, &to, &old);
-  // Rounded, but never to none.
+  // Rounded, but never to zero.
   if (old.it_value.tv_usec >= 500'000 || (old.it_value.tv_sec == 0 && old.it_value.tv_usec > 0)) ++old.it_value.tv_sec;
   return static_cast<unsigned>(old.it_value.tv_sec);
 }

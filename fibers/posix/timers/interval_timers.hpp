@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a child that is forked does not have of the timers of the program it was made by.
+// Timers that a forked child does not inherit.
 #pragma once
 
 namespace waitpoint::posix {
 
-/// Those of setitimer() and alarm() are not set any more.
+/// Stops those of setitimer() and alarm().
 void forget_interval_timers();
-/// Those of timer_create() are not there any more.
+/// Deletes those of timer_create().
 void forget_timers();
 
 }  // namespace waitpoint::posix

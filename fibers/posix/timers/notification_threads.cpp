@@ -11,7 +11,7 @@
 
 namespace waitpoint::posix {
 
-/// All of them.
+/// The list of all.
 struct Notices {
   static Notice* first;
 
@@ -46,7 +46,7 @@ kernel::Object starter_object{"notification"};
 bool has_starter = false;
 int expected_from_outside = 0;
 
-// What a thread calls.
+// A notification function and its argument.
 struct Told {
   void (*function)(sigval);
   sigval value;
@@ -82,7 +82,7 @@ void start_notification(const sigevent& event) {
   *told = {event.sigev_notify_function, event.sigev_value};
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
-  // Whatever else was asked for, nobody can join it.
+  // Always detached: no thread can join it.
   if (event.sigev_notify_attributes != nullptr) attributes = *event.sigev_notify_attributes;
   pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
   if (!start_blocking_signals(tell, told, &attributes)) std::free(told);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads that are started to tell of something: SIGEV_THREAD, of timers, message queues and asynchronous input and
-// output. As in the C library, a thread of the layer's own makes them; they, and it, block all signals at first.
+// Notification threads: SIGEV_THREAD, of timers, message queues and asynchronous input and output. As in the C library,
+// a thread of the layer starts them; all of these begin with all signals blocked.
 #pragma once
 
 #include <pthread.h>
@@ -8,13 +8,13 @@
 
 namespace waitpoint::posix {
 
-/// A thread of the layer's own; false without memory.
+/// Starts a thread of the layer; false without memory.
 bool start_blocking_signals(void* (*start)(void*), void* argument, const pthread_attr_t* attributes);
 
-/// A thread that tells, started by the running one.
+/// Starts a notification thread from the running one.
 void start_notification(const sigevent& event);
 
-/// What is told by threads, a thread each time that it is rung.
+/// A source of notifications: each ring() starts a thread.
 class Notice {
  public:
   Notice();
@@ -22,24 +22,24 @@ class Notice {
   Notice(const Notice&) = delete;
   Notice& operator=(const Notice&) = delete;
 
-  /// As the program asks for it; false without memory.
+  /// Sets the program's event; false without memory.
   bool prepare(const sigevent& event);
-  /// By an event too.
+  /// Callable from an event, too.
   void ring();
 
  private:
   friend struct Notices;
   sigevent event_{};
-  unsigned due_ = 0;  ///< threads that are to be started
+  unsigned due_ = 0;  ///< threads to be started
   Notice* next_ = nullptr;
 };
 
-/// Another process, or the system, may ring a notice, by the signal `bell` with its address: so much more, or less, of
-/// them. Then the program is not at its end when no thread of its own can go on.
+/// Changes the number of notices that another process or the system may ring, by the signal `bell` with the notice's
+/// address. While there are any, the run does not end when none of its threads can continue.
 void expect_ring_from_outside(int by);
-/// Whether a signal is such a ring, which was done.
+/// If a signal is such a ring, rings the notice and returns true.
 bool ring_by_signal(const siginfo_t& information);
-/// In a child: nothing is told of there.
+/// In a child: there are no notices.
 void forget_notices();
 
 }  // namespace waitpoint::posix

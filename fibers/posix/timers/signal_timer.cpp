@@ -24,7 +24,7 @@ void SignalTimer::start(Time due, Duration interval, Duration late) {
   if (late > Duration() && interval > Duration()) {
     missed_ = static_cast<std::uint64_t>(late.ns() / interval.ns());
     const Time now = kernel::local_time(*kernel::running);
-    // Its last turn was not longer ago than the interval.
+    // The latest expiration was less than an interval ago.
     due_ = Time::from_ns(now.ns() - late.ns() % interval.ns());
   }
   await();
@@ -59,7 +59,7 @@ void SignalTimer::expire(kernel::EventNode& node) {
   std::uint64_t count = 1 + timer.missed_;
   timer.missed_ = 0;
   if (timer.interval_ > Duration()) {
-    // All that should have been: a thread may have started it late.
+    // All expirations up to now: a thread may have started it late.
     const std::int64_t more = (now - timer.due_).ns() / timer.interval_.ns();
     count += static_cast<std::uint64_t>(more);
     timer.due_ = later(timer.due_, Duration::from_ns((more + 1) * timer.interval_.ns()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A timer of the program's that sends a signal, or does something else, when it runs out: once or again and again, on
-// virtual time or on processor time.
+// A timer of the program, on virtual or processor time, one-shot or periodic; sends a signal or calls another function
+// when it expires.
 #pragma once
 
 #include "fibers/kernel/event.hpp"
@@ -11,7 +11,7 @@ namespace waitpoint::posix {
 
 class SignalTimer {
  public:
-  /// Whether any is set on virtual time: its signal may end what nothing else does.
+  /// True if any is set on virtual time: its signal may end a wait that nothing else ends.
   static bool any_is_set() { return set_count_ > 0; }
 
   using Ring = void (*)(SignalTimer&, std::uint64_t expirations);
@@ -24,15 +24,15 @@ class SignalTimer {
   SignalTimer(const SignalTimer&) = delete;
   SignalTimer& operator=(const SignalTimer&) = delete;
 
-  /// Runs out at `due` first, then at each interval; an interval of zero: once.
-  /// Before now by `late`, it has run out for each interval since.
+  /// Expires at `due`, then after each interval; once if that is zero. If `due` was `late` before now, expirations
+  /// since then are counted.
   void start(Time due, Duration interval, Duration late = Duration());
-  /// The same when `spent` has come to `due`.
+  /// Expires when `spent` reaches `due`.
   void start(const Duration& spent, Duration due, Duration interval);
   void stop();
 
   bool is_set() const { return due_ != Time::max() || processor_.spent != nullptr; }
-  /// Until it runs out; zero if it is not set.
+  /// The time until it expires; zero if it is not set.
   Duration left() const;
   Duration interval() const { return interval_; }
 
@@ -53,7 +53,7 @@ class SignalTimer {
   Ring ring_;
   Time due_ = Time::max();
   Duration interval_;
-  std::uint64_t missed_ = 0;  ///< how often it had run out before it was started
+  std::uint64_t missed_ = 0;  ///< expirations before it was started
 };
 
 }  // namespace waitpoint::posix

@@ -29,8 +29,8 @@ struct TimerDescriptor {
   kernel::EventNode event;  // the node is its first member
   int descriptor;
   clockid_t clock;
-  Time due = Time::max();  ///< the next expiration that is not counted
-  Duration interval;       ///< zero: once
+  Time due = Time::max();  ///< the next expiration not counted yet
+  Duration interval;       ///< zero: one-shot
   kernel::Object object{"timer"};
   TimerDescriptor* next;
 };
@@ -129,7 +129,7 @@ WAITPOINT_INTERPOSED int timerfd_settime(int descriptor, int flags, const itimer
     return fail(EINVAL);
   pass(kernel::Operation::timer_start, nullptr);
   if (old != nullptr) *old = {to_timespec(timer->interval.ns()), left_of(*timer)};
-  // What had expired before and was not read is forgotten.
+  // Earlier expirations that were not read are dropped.
   pollfd one{descriptor, POLLIN, 0};
   if (WAITPOINT_NEXT(poll)(&one, 1, 0) == 1) {
     eventfd_t forgotten = 0;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// timerfd: descriptors that become readable at a virtual time. Underneath each is an eventfd, into which the count of
-// expirations is written when the first comes; those after it are counted when the program reads, so that a timer which
-// nobody reads does not keep the run going.
+// timerfd: descriptors that become readable at a virtual time. Each is an eventfd. The first expiration is written into
+// it by an event; later ones are added when the program reads, so that a timer that is never read does not keep the run
+// alive.
 #pragma once
 
 namespace waitpoint::posix {
 
-/// It is closed: its timer, if it had one, is over.
+/// After the close of a descriptor: frees its timer, if it has one.
 void forget_timer_descriptor(int descriptor);
-/// Before it is read: all expirations up to now are in its count, and the next one is awaited.
+/// Before a read: adds all expirations up to now to its count, and schedules the next one.
 void bring_up_to_date(int descriptor);
 
 bool is_timer_descriptor(int descriptor);

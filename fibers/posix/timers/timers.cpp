@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// timer_create() and its kin. A signal of a timer pends once at most; how often the timer has run out meanwhile is told
-// when it is taken.
+// timer_create() and related calls. A timer's signal is pending once at most; further expirations are reported as its
+// overrun when it is taken.
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -31,16 +31,16 @@ struct Timer : PendingSignal, SignalTimer {
   Timer();
 
   clockid_t clock = CLOCK_REALTIME;
-  const Duration* spent = nullptr;  // by which it goes, on a clock of processor time
+  const Duration* spent = nullptr;  // the processor time that it measures, on such a clock
   sigevent notification{};
   Notice notice;         // of SIGEV_THREAD
   Thread* to = nullptr;  // of SIGEV_THREAD_ID
   bool pends = false;
-  std::uint64_t overrun = 0;  // since it pends
-  int told = 0;               // of the signal that was taken last
+  std::uint64_t overrun = 0;  // since it is pending
+  int told = 0;               // the overrun of the signal taken last
 };
 
-// By their numbers; grown as needed.
+// By number; grows as needed.
 Timer** timers = nullptr;
 std::size_t timers_end = 0;
 
@@ -76,7 +76,7 @@ Timer* find_timer(timer_t id) {
   return number < timers_end ? timers[number] : nullptr;
 }
 
-// An error, or 0.
+// Returns an error number or 0.
 int prepare(Timer& timer, sigevent* event) {
   if (event == nullptr) {
     timer.notification.sigev_notify = SIGEV_SIGNAL;
