@@ -19,7 +19,7 @@
 namespace waitpoint::posix {
 namespace {
 
-/// On its way: the socket that sent it, by a descriptor of our own, and the bytes behind it.
+/// A datagram under way; its bytes follow the record. `descriptor` is our duplicate of the sending socket's.
 struct Datagram {
   int descriptor;
   SocketAddress to;
@@ -42,7 +42,7 @@ void drop(void* message) {
   std::free(message);
 }
 
-// Where it goes to; false if that is nowhere.
+// The destination; false without one.
 bool take_target(int descriptor, const sockaddr* to, socklen_t length, SocketAddress& address) {
   if (to == nullptr) return take_peers_address(descriptor, address);
   if (length > sizeof address.bytes) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Datagrams between programs of different robots: what one sends to a socket of the other goes over the link between
-// the two robots, and arrives when the link says so, or never.
+// Datagrams between programs of different robots: they go over the link between the two robots, which decides when they
+// arrive, or that they are lost.
 #pragma once
 
 #include <sys/socket.h>
@@ -9,10 +9,10 @@
 
 namespace waitpoint::posix {
 
-/// Whether a datagram that the running thread sends is on its way over a link: to the address, or with null to where
-/// the socket is connected to. Else it is to be sent as any.
+/// Sends a datagram over a link: to the address, or with null to the socket's peer. False if none leads there: then the
+/// system sends it.
 bool send_over_link(int descriptor, const void* bytes, std::size_t size, const sockaddr* to, socklen_t length);
-/// The same of one in parts, which takes nothing along beside its bytes; `size` is that of all.
+/// The same for a datagram in parts, without ancillary data; sets `size` to the sum of the parts.
 bool send_over_link(int descriptor, const msghdr& message, std::size_t& size);
 
 }  // namespace waitpoint::posix

@@ -13,16 +13,16 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr int longest_queue = 4096;  // of connections; the system has none that is longer
-// Bytes. What is sent and not acknowledged fits into what is received and not read, and is few segments: so the system
-// has no occasion to measure, and to adapt how much it sends at once.
+constexpr int longest_queue = 4096;  // of connections; the system's maximum
+// Bytes. The data sent and not acknowledged fits into the receive buffer, and is few segments, so that the system never
+// measures the speed and adapts the amount sent at once.
 constexpr int sent_most = 1 << 15, received_most = 1 << 16;
 
 struct Stream {
-  bool is_at_once : 1;  ///< the system puts nothing off
-  bool asked_for : 1;   ///< by the program itself
+  bool is_at_once : 1;  ///< the system delays nothing
+  bool asked_for : 1;   ///< TCP_NODELAY as set by the program
 };
-// By descriptor.
+// Indexed by descriptor.
 constinit Stream streams[known_descriptors_max]{};
 
 bool is_known(int descriptor) { return descriptor >= 0 && descriptor < known_descriptors_max; }

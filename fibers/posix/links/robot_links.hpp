@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sockets of programs of different robots: what carries between them, and whose is at the other end.
+// Sockets of programs of different robots: the carrier, and the program at the other end.
 #pragma once
 
 #include <sys/socket.h>
@@ -10,9 +10,9 @@ namespace waitpoint::posix {
 
 struct Program;
 
-/// Of the run's; null for none: then streams are to be forgotten (stream_links.hpp).
+/// Sets the run's carrier. Before null, at the run's end, forget_streams() must be called (stream_links.hpp).
 void set_carrier(const Carrier* carrier);
-/// By which the running thread's program reaches those of other robots; null if it is on its own.
+/// The carrier from the running thread's program to those of other robots; null without one.
 const Carrier* carrier_here();
 
 struct SocketAddress {
@@ -20,16 +20,16 @@ struct SocketAddress {
   socklen_t length = sizeof bytes;
   sockaddr* get() { return reinterpret_cast<sockaddr*>(&bytes); }
 };
-/// False if it has none.
+/// False without an address. `address` must be new: its length is the capacity.
 bool take_own_address(int descriptor, SocketAddress& address);
 bool take_peers_address(int descriptor, SocketAddress& address);
-/// What is bound to any address of the machine is met at each.
+/// True if a socket bound to `bound` is reached at `address`: INADDR_ANY matches every address.
 bool is_at(const SocketAddress& bound, const SocketAddress& address);
 
-/// SOCK_STREAM, SOCK_DGRAM and so on; -1 of what is no socket.
+/// SOCK_STREAM, SOCK_DGRAM etc.; -1 if the descriptor is no socket.
 int type_of_socket(int descriptor);
-/// The program of another robot with a socket at this address, of this type; if `peer` is given, one that is connected
-/// to that, or listens. Null without one.
+/// The program of another robot with a socket of this type at this address; with `peer`, one that is connected to it or
+/// listens. Null without one.
 const Program* program_at(const SocketAddress& address, int type, const SocketAddress* peer);
 
 }  // namespace waitpoint::posix

@@ -20,34 +20,34 @@
 namespace waitpoint::posix {
 namespace {
 
-/// What one stream may have under way, and what goes as one message.
+/// Bytes that a stream may have under way, and of one message.
 constexpr std::size_t most_under_way = 256 * 1024, most_of_a_piece = 16 * 1024;
-/// What each piece takes beside its bytes.
+/// Bytes charged for each piece in addition to its data.
 constexpr std::size_t around_a_piece = 64;
 
-/// What is under way from a socket.
+/// A sending socket with the data under way from it.
 struct Stream {
   explicit Stream(int of) : descriptor(of) {}
-  int descriptor;                     ///< by which the program knows it; -1 once it is closed
-  int own = -1;                       ///< a descriptor of ours for it
+  int descriptor;                     ///< the program's; -1 once it is closed
+  int own = -1;                       ///< our duplicate
   const Program* receiver = nullptr;  ///< null: it goes over no link
   std::size_t under_way = 0;
   struct Piece* first_arrived = nullptr;
   struct Piece* last_arrived = nullptr;
-  int pieces = 0;  ///< that know it
+  int pieces = 0;  ///< references: its pieces, and calls in progress
   bool has_ended = false;
-  kernel::Object object{"stream"};  ///< at which who writes waits for room
+  kernel::Object object{"stream"};  ///< of writers waiting for room
   Stream* next = nullptr;
 };
 Stream* first = nullptr;
-int arrived_count = 0;  // pieces for which there was no room
+int arrived_count = 0;  // pieces that have arrived and are not written yet, for lack of room
 
-/// Of a stream, with the bytes behind it; its end has none.
+/// A piece of a stream; its bytes follow the record. The end of the stream is a piece without bytes.
 struct Piece {
   Stream* stream;
   std::size_t size;
   bool has_arrived = false;
-  bool is_kept = true;  ///< by the link
+  bool is_kept = true;  ///< the link refers to it
   std::size_t taken = 0;
   Piece* next = nullptr;
   char* bytes() { return reinterpret_cast<char*>(this + 1); }
@@ -62,7 +62,7 @@ void free_if_unused(Stream& stream) {
   std::free(&stream);
 }
 
-// It is under way no longer; the link may keep it for a while.
+// It is no longer under way; freed here unless the link refers to it.
 void let_go(Piece& piece) {
   Stream& stream = *piece.stream;
   stream.under_way -= piece.size + around_a_piece;
@@ -72,7 +72,7 @@ void let_go(Piece& piece) {
   free_if_unused(stream);
 }
 
-// Writes what it takes; whether it has taken all. What the other end does not want is gone.
+// Writes as much as the socket accepts; true if that is all. Data that the other end rejects is dropped.
 bool is_taken(Piece& piece) {
   const int own = piece.stream->own;
   if (piece.size == 0) {
@@ -88,9 +88,9 @@ bool is_taken(Piece& piece) {
   return true;
 }
 
-// What has arrived, in its order, as far as there is room.
+// Writes the pieces that have arrived, in order, while there is room.
 void deliver(Stream& stream) {
-  ++stream.pieces;  // it stays until it is done with
+  ++stream.pieces;  // a reference: it must outlive the loop
   while (Piece* const piece = stream.first_arrived) {
     if (!is_taken(*piece)) break;
     stream.first_arrived = piece->next;
@@ -116,7 +116,7 @@ void arrive(void* message) {
   look_at_descriptors();
 }
 
-// What has arrived is the stream's until it is taken.
+// A piece that has arrived belongs to the stream until it is written.
 void drop(void* message) {
   auto& piece = *static_cast<Piece*>(message);
   const ErrorNumberKept kept;
@@ -140,7 +140,7 @@ Stream* known(int descriptor) {
   return nullptr;
 }
 
-// That of a connected socket; null without memory, or if it is none.
+// The stream of a connected socket; null without memory, or if it is not connected.
 Stream* stream_of(int descriptor) {
   if (Stream* const found = known(descriptor); found != nullptr) return found;
   SocketAddress peer;
@@ -155,7 +155,7 @@ Stream* stream_of(int descriptor) {
   return first = stream;
 }
 
-// A piece on its way; false if there is no memory or no link.
+// Sends a piece; false without memory or link.
 bool launch(Stream& stream, const Carrier& carrier, const void* bytes, std::size_t size) {
   void* const memory = std::malloc(sizeof(Piece) + size);
   if (memory == nullptr) return false;
@@ -171,13 +171,13 @@ bool launch(Stream& stream, const Carrier& carrier, const void* bytes, std::size
   return false;
 }
 
-// The system tells of a stream that has failed; what is written to it fails by the system's call.
+// True if the system reports an error of the stream: then writing to it fails by the system's call.
 bool has_failed(int descriptor) {
   pollfd one{descriptor, 0, 0};
   return WAITPOINT_NEXT(poll)(&one, 1, 0) > 0;
 }
 
-// Until there is room for some more, whether the socket blocks or not; false, with EINTR, if a signal ended that.
+// Waits for room, even if the socket is non-blocking; false, with EINTR, if a signal interrupted the wait.
 bool wait_for_room(Stream& stream) {
   const CancellationPoint point;
   kernel::running->scheduler->enter(stream.object);
@@ -204,7 +204,7 @@ ssize_t send_stream_over_link(int descriptor, const void* bytes, std::size_t siz
   std::size_t sent = 0;
   pass(kernel::Operation::send, nullptr);
   while (sent < size) {
-    ++stream.pieces;  // another thread may close it meanwhile
+    ++stream.pieces;  // a reference: another thread may close it meanwhile
     const bool has_room = wait_for_room(stream);
     --stream.pieces;
     const bool is_closed = stream.descriptor < 0;
@@ -245,7 +245,7 @@ void deliver_streams() {
   }
 }
 
-// What is on the link goes with that.
+// Pieces on the link are dropped with the link.
 void forget_streams() {
   for (Stream *stream = first, *next = nullptr; stream != nullptr; stream = next) {
     next = stream->next;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Streams of the internet's protocols between programs of different robots: what one writes goes over the link between
-// the two robots, and is written into the socket when it arrives there; so do its end and its closing. Nothing is lost.
+// Streams of the internet protocols between programs of different robots: data goes over the link between the two
+// robots, and is written into the socket when it arrives; so do the ends of streams. Nothing is lost.
 //
-//   write() --> under way: on the link, or arrived where the reader has left no room --> the socket
+//   write() --> under way: on the link, or arrived but without room at the reader --> the socket
 //
-// Who has as much under way as a stream may have waits until some of it has been taken.
+// A writer with the maximum under way waits until some of it has been written.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,17 @@
 
 namespace waitpoint::posix {
 
-/// Whether what the running thread writes to a socket goes over a link.
+/// True if data that the running thread writes to the socket goes over a link.
 bool goes_over_link(int descriptor);
-/// To such a one: as send().
+/// As send(), for a socket that goes over a link.
 ssize_t send_stream_over_link(int descriptor, const void* bytes, std::size_t size);
-/// Nothing more is written to it: the other end learns of that behind what is under way. False: it goes over no link.
+/// Ends the stream: the other end learns of it after the data under way. False if it goes over no link.
 bool end_stream_over_link(int descriptor);
-/// It is about to be closed, if it is one: as the end, whatever becomes of the descriptor.
+/// Before the close of a descriptor: ends its stream, if it has one.
 void close_stream_over_link(int descriptor);
-/// A reader may have made room.
+/// Writes arrived data: a reader may have made room.
 void deliver_streams();
-/// All of them: what is under way never arrives.
+/// Frees all streams: data under way never arrives.
 void forget_streams();
 
 }  // namespace waitpoint::posix
