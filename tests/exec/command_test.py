@@ -99,7 +99,7 @@ class Options(ExecCase):
     def test_an_isolated_program_reaches_nothing_outside(self):
         found, told = self.output("connect", "--isolate")
         self.assertEqual(found, ["0", "1"])
-        self.assertEqual(told, "waitpoint: exec: what leaves this machine is forbidden by --isolate\n")
+        self.assertEqual(told, "waitpoint: exec: --isolate: traffic beyond this machine is rejected (EACCES)\n")
         self.assertEqual(self.output("connect")[0][0], "0")
 
     def test_the_random_bytes_of_a_process_are_of_the_seed(self):

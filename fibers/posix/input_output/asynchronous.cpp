@@ -28,7 +28,7 @@ struct Queued {
   Queued* next;
 };
 
-/// What is to be done with a descriptor; the first is being done, once its worker runs.
+/// The requests of a descriptor; the first is in progress, once its worker runs.
 struct Queue {
   int descriptor;
   Queued* first;
@@ -101,7 +101,7 @@ bool start_worker(Queue& queue) {
   return is_made;
 }
 
-// Behind those that are as urgent; not before what is being done.
+// After the requests of equal urgency; not before the one in progress.
 void insert(Queue& queue, Queued& request) {
   Queued** link = &queue.first;
   if (queue.is_begun && *link != nullptr) link = &(*link)->next;
@@ -116,7 +116,7 @@ int refuse(aiocb& block, int error) {
   return fail(error);
 }
 
-// Those from `from` on end without being done.
+// Cancels the requests from `from` on.
 void cancel_from(Queued** from) {
   Queued* each = *from;
   *from = nullptr;

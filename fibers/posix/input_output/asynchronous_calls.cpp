@@ -22,7 +22,7 @@ namespace {
 
 int error_of(const aiocb& block) { return __atomic_load_n(&block.__error_code, __ATOMIC_ACQUIRE); }
 
-/// Requests of which any is waited for.
+/// True if any of the requests is done.
 bool is_any_done(const aiocb* const* blocks, int count) {
   for (int i = 0; i < count; ++i)
     if (blocks[i] != nullptr && error_of(*blocks[i]) != EINPROGRESS) return true;
@@ -36,7 +36,7 @@ bool are_all_done(aiocb* const* blocks, int count) {
   return true;
 }
 
-// Of a list: 0, or -1 if it could not be asked for.
+// Submits a request of a list; returns 0, or -1 if it was rejected.
 int submit_one(aiocb& block, RequestBatch* batch) {
   if (block.aio_lio_opcode == LIO_READ) return submit(block, Request::read, batch);
   if (block.aio_lio_opcode == LIO_WRITE) return submit(block, Request::write, batch);
@@ -45,7 +45,7 @@ int submit_one(aiocb& block, RequestBatch* batch) {
   return fail(EINVAL);
 }
 
-// Until a signal's handler has run, or all are done.
+// Waits until all are done or a signal handler has run.
 int wait_for_all(aiocb* const* blocks, int count) {
   while (!are_all_done(blocks, count))
     if (wait_for_any_request(Time::max()) == Wait::interrupted && is_interrupted(Restart::never)) return fail(EINTR);
@@ -54,7 +54,7 @@ int wait_for_all(aiocb* const* blocks, int count) {
   return 0;
 }
 
-// The batch is counted down for each, and is there for as long as any is left.
+// The batch is counted down by each request, and freed with the last one.
 int start_all(aiocb* const* blocks, int count, const sigevent* event) {
   void* const memory = std::malloc(sizeof(RequestBatch));
   if (memory == nullptr) return fail(EAGAIN);
@@ -83,7 +83,7 @@ int start_all(aiocb* const* blocks, int count, const sigevent* event) {
 using namespace waitpoint;
 using namespace waitpoint::posix;
 
-// By the names of the C library: with files of any size, the header gives those without a size to the others.
+// Under the C library's names: with 64-bit offsets, the header redirects the names without a size to the others.
 #define WAITPOINT_BOTH(result, name, arguments, ...)                                                           \
   extern "C" [[gnu::visibility("default")]] result waitpoint_##name arguments __VA_ARGS__ __asm__(#name "64"); \
   extern "C" [[gnu::visibility("default"),                                                                     \
@@ -105,7 +105,7 @@ WAITPOINT_BOTH(int, aio_fsync, (int operation, aiocb* block), noexcept) {
   return submit(*block, operation == O_SYNC ? Request::sync : Request::sync_data, nullptr);
 }
 
-// A loop that asks is to end.
+// It takes time, so that a polling loop ends.
 WAITPOINT_BOTH(int, aio_error, (const aiocb* block), noexcept) {
   const int error = error_of(*block);
   if (error == EINPROGRESS && is_simulated()) sched_yield();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// Calls that make, duplicate and close descriptors: they note which of them only this program has.
 #include "fibers/posix/input_output/descriptor_table.hpp"
 
-//
-// Calls that make descriptors, copy them and close them: which of them only this program has.
 #include <fcntl.h>
 #include <linux/close_range.h>
 #include <sys/epoll.h>
@@ -52,7 +52,7 @@ void forget(int closed) {
   note_inside(closed, false);
 }
 
-// What was there is closed.
+// The descriptor `to` was closed.
 int replaced(int from, int to, int made) {
   if (made < 0 || from == to || !is_simulated()) return copy(from, made);
   forget(to);
@@ -101,7 +101,7 @@ WAITPOINT_INTERPOSED int socket(int domain, int type, int protocol) noexcept {
 WAITPOINT_INTERPOSED int eventfd(unsigned count, int flags) noexcept {
   return one(WAITPOINT_NEXT(eventfd)(count, flags));
 }
-// What it watches decides: an outside one makes it one.
+// It becomes an outside one if it watches an outside one.
 WAITPOINT_INTERPOSED int epoll_create1(int flags) noexcept { return one(WAITPOINT_NEXT(epoll_create1)(flags)); }
 WAITPOINT_INTERPOSED int epoll_create(int size) noexcept { return one(WAITPOINT_NEXT(epoll_create)(size)); }
 WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, epoll_event* event) noexcept {

@@ -6,7 +6,7 @@
 
 namespace waitpoint::posix {
 
-/// Closes what a program has left open that has ended before its process does: who is at the other end waits no longer.
+/// Closes the descriptors left open by a program that ends before its process: the other ends must not wait any longer.
 void close_descriptors_of(const Program& program);
 
 }  // namespace waitpoint::posix

@@ -18,14 +18,14 @@
 namespace waitpoint::posix {
 namespace {
 
-/// A thread that has opened a pipe to read, or is to open it to write, and waits for the other side.
+/// A thread that waits for the other side of a pipe: a reader, which has opened it, or a writer, which cannot yet.
 struct Opening {
   dev_t device;
   ino_t inode;
   const char* path;
   int folder, flags;
   int descriptor;  // -1: not open yet
-  bool is_met;     // of a reader: somebody has opened the pipe to write
+  bool is_met;     // of a reader: the pipe was opened for writing
   Opening* next;
 };
 Opening* first = nullptr;
@@ -42,7 +42,7 @@ int open_at_once(const Opening& opening) {
   return WAITPOINT_NEXT(openat)(opening.folder, opening.path, opening.flags | O_NONBLOCK);
 }
 
-// Readers that wait are met by who opens to write, in this process; of another, what it writes is seen.
+// A writer of this process releases the waiting readers; one of another process is noticed by its data.
 void meet_readers(const Opening& writer) {
   for (Opening* each = first; each != nullptr; each = each->next)
     if (each != &writer && each->inode == writer.inode && each->device == writer.device) each->is_met = true;
@@ -77,7 +77,7 @@ int open_fifo(int folder, const char* path, int flags) {
   const bool reads = (flags & O_ACCMODE) == O_RDONLY;
   opening.descriptor = open_at_once(opening);
   if (opening.descriptor < 0 && (reads || errno != ENXIO)) return -1;
-  // A writer that waits for this reader is there already.
+  // A writer may be waiting for this reader.
   for (const Opening* each = first; each != nullptr && reads; each = each->next)
     if (each->inode == of.st_ino && each->device == of.st_dev && (each->flags & O_ACCMODE) != O_RDONLY)
       opening.is_met = true;
@@ -105,7 +105,7 @@ using namespace waitpoint::posix;
 
 namespace {
 
-// It is told only where a file may be made.
+// Passed only if the call may create a file.
 mode_t mode_of(int flags, va_list more) {
   return (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE ? va_arg(more, mode_t) : 0;
 }
@@ -119,7 +119,7 @@ int open_at(int folder, const char* path, int flags, va_list more) {
 
 }  // namespace
 
-// By the names of the C library: headers give some of them to others.
+// Under the C library's names: its headers redirect some of them.
 extern "C" {
 [[gnu::visibility("default")]] int waitpoint_open(const char* path, int flags, ...) __asm__("open");
 [[gnu::visibility("default")]] int waitpoint_open64(const char* path, int flags, ...) __asm__("open64");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Named pipes: who opens one end waits until somebody has the other.
+// Named pipes: opening one end waits until the other is open.
 #pragma once
 
 #include <sys/types.h>
 
 namespace waitpoint::posix {
 
-/// Whether opening `path` so may wait for somebody else.
+/// True if opening `path` with these flags may wait for the other end.
 bool is_fifo_to_wait_for(int folder, const char* path, int flags);
 /// As openat(), for such a path.
 int open_fifo(int folder, const char* path, int flags);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Calls on files that wait for nothing of ours, but are cancellation points.
+// Calls on files that wait for nothing simulated, but are cancellation points.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/uio.h>
@@ -13,7 +13,7 @@
 
 using namespace waitpoint::posix;
 
-// By the names of the C library: headers give those without a size to the others.
+// Under the C library's names: its headers redirect those without a size to the others.
 #define WAITPOINT_SAME_AS(name) extern "C" [[gnu::visibility("default"), gnu::alias(#name)]]
 
 WAITPOINT_INTERPOSED ssize_t pread64(int descriptor, void* bytes, std::size_t size, off64_t at) {
@@ -36,7 +36,7 @@ WAITPOINT_INTERPOSED ssize_t pwritev64(int descriptor, const iovec* pieces, int 
 }
 WAITPOINT_SAME_AS(pwritev64) ssize_t waitpoint_pwritev(int, const iovec*, int, off64_t) __asm__("pwritev");
 
-// At -1 they go on where the last one ended, which a pipe or a socket can do too.
+// An offset of -1 is the file's position: then pipes and sockets are possible, too.
 WAITPOINT_INTERPOSED ssize_t preadv64v2(int descriptor, const iovec* pieces, int count, off64_t at, int flags) {
   const bool may_block = at == -1 && (flags & RWF_NOWAIT) == 0;
   return receive(descriptor, may_block,

@@ -16,7 +16,7 @@
 namespace waitpoint::posix {
 namespace {
 
-/// What a thread tries again and again.
+/// A lock that a waiting thread tries to take repeatedly.
 struct Locking {
   int descriptor;
   int operation;             ///< of flock(), or a command of fcntl()
@@ -24,7 +24,7 @@ struct Locking {
   int result, error;
 };
 
-// Processes that wait for each other's locks are told so by the system; it does not see that ours wait.
+// The system reports deadlocks among processes that wait for locks; it does not know that ours wait.
 bool closes_a_cycle(const Locking& locking) {
   if (locking.operation != F_SETLK) return false;
   struct flock holder = *locking.lock;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Locks on files, which another process may have, or another thread by another opening of the file.
+// File locks, held by another process, or by another thread through another open file description.
 #pragma once
 
 #include <fcntl.h>

@@ -16,12 +16,10 @@
 namespace waitpoint::posix {
 namespace {
 
-// Whoever reads outside what is written mostly needs nothing but time, which is none of ours. But it may wait for
-// another thread of this program.
+// An outside reader mostly needs only real time. But it may wait for another thread of this program.
 constexpr int patience_with_readers_ms = 1000;
 
-// Until when a socket is waited for: it may have been given a time for that. A signal's handler ends such a wait in any
-// case.
+// The deadline of a wait for a socket, from SO_RCVTIMEO or SO_SNDTIMEO. With a timeout, SA_RESTART has no effect.
 struct Patience {
   Time deadline = Time::max();
   Restart restart = Restart::if_asked;
@@ -61,7 +59,7 @@ bool may_wait_for(int descriptor, short events) {
 bool prepare(int descriptor, DescriptorClass of, kernel::Operation operation, short events, bool may_block) {
   const CancellationPoint point;
   pass(operation, nullptr);
-  // Of a stream over the loopback the reader is a thread, mostly, which has to have its turn.
+  // The reader of a loopback stream is mostly a thread, which needs a turn.
   const int patience_ms = sends_at_once(descriptor) ? 0 : patience_with_readers_ms;
   if (may_block && events == POLLOUT && !is_inside(descriptor) && wait_for_reader(descriptor, patience_ms)) return true;
   bool is_ready = true;

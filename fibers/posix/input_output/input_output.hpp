@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What reading, writing, sending and receiving have in common: where the system would block the thread, it waits for
-// the descriptor first, and the call is made then.
+// Common parts of reading, writing, sending and receiving: where the system would block the thread, it first waits for
+// the descriptor, then makes the call.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +16,21 @@ namespace waitpoint::posix {
 
 enum class DescriptorClass : std::uint8_t { file, pipe, socket, other };
 
-/// Files are always ready, and their use is no event. Before main() all are taken for such.
+/// Files are always ready, and their use is no event. Before main() all descriptors count as files.
 DescriptorClass class_of(int descriptor);
-/// Whether calls on it wait: without O_NONBLOCK.
+/// True without O_NONBLOCK.
 bool blocks(int descriptor);
-/// The same of a direction: not if it fails at once, as the end of a pipe that is for the other one.
+/// The same for one direction: false if the descriptor is not open for it, so that the call fails at once.
 bool may_wait_for(int descriptor, short events);
 
-/// Before a call that may block on `descriptor`: its event, and the wait. False, with errno set, if the call has
-/// failed.
+/// Before a call that may block on `descriptor`: its event and the wait. False, with errno set, if the call fails.
 bool prepare(int descriptor, DescriptorClass of, kernel::Operation operation, short events, bool may_block);
 
-/// All that is sent and received, to whoever looks for races: what was sent happens before what follows its reception,
-/// and whose it was, the system knows.
+/// The object of all transfers for race detectors: a sending happens before the code after its reception. One object
+/// for all, since only the system knows which descriptors are connected.
 inline constexpr char all_descriptors = 0;
 
-/// The call, and a look at who may go on by it.
+/// Makes the call, and wakes the threads that can continue after it.
 template <class Call>
 auto done(Call call) {
   if (kernel::sanitizer::present) kernel::sanitizer::release(&all_descriptors);
@@ -60,8 +59,8 @@ auto send_all_at_once(int descriptor, bool may_block, Call call) {
   return done(call);
 }
 
-/// A pipe or a stream that can take something may not be able to take all: piece by piece, as much as it takes.
-/// `take(bytes, size)` gives it some without waiting; how much it took, or -1.
+/// Writes in pieces, since a pipe or a stream that is ready may not have room for all. `take(bytes, size)` writes
+/// without waiting and returns how much, or -1.
 template <class Take>
 std::ptrdiff_t write_all(int descriptor, DescriptorClass of, const char* bytes, std::size_t size, Take take) {
   std::size_t written = 0;

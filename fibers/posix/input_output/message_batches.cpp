@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Several messages by one call: one after the other, as many as go.
+// Several messages in one call: one after the other, until one fails.
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -25,7 +25,7 @@ WAITPOINT_INTERPOSED int sendmmsg(int descriptor, mmsghdr* messages, unsigned co
   return static_cast<int>(count);
 }
 
-// The time is looked at behind each message, as Linux does: who waits for the first may wait longer.
+// The timeout is checked after each message, as in Linux: the wait for the first may be longer.
 WAITPOINT_INTERPOSED int recvmmsg(int descriptor, mmsghdr* messages, unsigned count, int flags, timespec* timeout) {
   if (!is_simulated()) return WAITPOINT_NEXT(recvmmsg)(descriptor, messages, count, flags, timeout);
   if (timeout != nullptr && !can_be_read(timeout)) return fail(EFAULT);

@@ -27,16 +27,16 @@ Time deadline_in_ms(int timeout_ms) {
 }
 
 int wait(pollfd* descriptors, nfds_t count, Time deadline) {
-  // What the system refuses, it refuses at once: descriptors that cannot be read, and too many.
+  // Errors are reported at once: unreadable arrays, too many descriptors.
   if (WAITPOINT_NEXT(poll)(descriptors, count, 0) < 0) return -1;
   const CancellationPoint point;
   const bool has_temporary_mask = this_thread().has_temporary_mask;
   pass(kernel::Operation::poll, nullptr);
   if (has_temporary_mask && !this_thread().has_temporary_mask) return fail(EINTR);
   const int ready = wait_for(descriptors, count, deadline, Restart::never);
-  // What pended before comes first, even if no time was waited.
+  // Signals that were pending interrupt the call even with a timeout of zero.
   if (ready == 0 && deliverable(this_thread()) != 0 && is_interrupted(Restart::never)) return fail(EINTR);
-  // A loop that asks without waiting is to end.
+  // It takes time, so that a polling loop ends.
   if (ready == 0) read_clock();
   leave_if_cancelled();
   return ready;
@@ -44,13 +44,13 @@ int wait(pollfd* descriptors, nfds_t count, Time deadline) {
 
 bool is_none_or_readable(const void* address) { return address == nullptr || can_be_read(address); }
 
-// 0, or what is wrong with it.
+// Returns an error number or 0.
 int error_of(const timespec* timeout) {
   if (!is_none_or_readable(timeout)) return EFAULT;
   return timeout == nullptr || (is_valid(*timeout) && timeout->tv_sec >= 0) ? 0 : EINVAL;
 }
 
-// The descriptors of three sets, as poll() has them.
+// The descriptors of three sets, in the form of poll().
 class Sets {
  public:
   Sets(int count, fd_set* readable, fd_set* writable, fd_set* urgent)
@@ -65,7 +65,7 @@ class Sets {
   pollfd* polled() { return polled_; }
   nfds_t size() const { return size_; }
 
-  /// Leaves in the sets what is ready, and returns how many bits that are; -1 where there is no such descriptor.
+  /// Reduces the sets to the ready descriptors, and returns the number of bits; -1 if a descriptor is not open.
   int keep_ready() {
     for (nfds_t i = 0; i < size_; ++i)
       if ((polled_[i].revents & POLLNVAL) != 0) return fail(EBADF);
@@ -100,7 +100,7 @@ int select_before(int count, fd_set* readable, fd_set* writable, fd_set* urgent,
   return sets.keep_ready();
 }
 
-// An epoll descriptor is itself ready when one of those it watches is.
+// An epoll descriptor is ready when one that it watches is.
 int epoll_before(int descriptor, epoll_event* events, int most, Time deadline, const sigset_t* mask) {
   if (most <= 0) return fail(EINVAL);
   pollfd one{descriptor, POLLIN, 0};
@@ -108,7 +108,7 @@ int epoll_before(int descriptor, epoll_event* events, int most, Time deadline, c
   for (bool is_first = true;; is_first = false) {
     if (!is_first && wait(&one, 1, deadline) < 0) return -1;
     if (is_first) pass(kernel::Operation::poll, nullptr);
-    // What was ready may have been taken by another thread; what is no epoll descriptor is told at once.
+    // Another thread may have taken the events. A descriptor that is no epoll's fails at once.
     const int ready = WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, 0, nullptr);
     if (ready != 0 || (!is_first && deadline <= kernel::running->local_time)) return ready;
   }
@@ -138,7 +138,7 @@ WAITPOINT_INTERPOSED int select(int count, fd_set* __restrict readable, fd_set* 
   if (!is_none_or_readable(timeout)) return fail(EFAULT);
   if (count < 0 || (timeout != nullptr && (timeout->tv_sec < 0 || timeout->tv_usec < 0))) return fail(EINVAL);
   if (timeout == nullptr) return select_before(count, readable, writable, urgent, Time::max());
-  // Linux leaves in it the time that was not waited.
+  // Linux stores the remaining time in it.
   const Time deadline = deadline_in(span({timeout->tv_sec, timeout->tv_usec * 1000}));
   const int ready = select_before(count, readable, writable, urgent, deadline);
   const std::int64_t left_ns = (deadline - kernel::running->local_time).ns();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// read(), write() and those of several pieces.
+// read(), write() and their vectored forms.
 #include <limits.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -41,7 +41,7 @@ WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size)
   if (is_simulated()) bring_up_to_date(descriptor);
   if (is_simulated() && is_signal_descriptor(descriptor))
     return receive(descriptor, true, [&] { return read_signals(descriptor, bytes, size); });
-  // Nothing is there at once.
+  // A read of size zero does not wait.
   return receive(descriptor, size > 0, [&] { return WAITPOINT_NEXT(read)(descriptor, bytes, size); });
 }
 
@@ -53,14 +53,14 @@ WAITPOINT_INTERPOSED ssize_t readv(int descriptor, const iovec* pieces, int coun
 
 WAITPOINT_INTERPOSED ssize_t write(int descriptor, const void* bytes, std::size_t size) {
   const DescriptorClass of = class_of(descriptor);
-  // What is an eventfd beneath is none to the program.
+  // The underlying eventfd is not visible to the program.
   if (of == DescriptorClass::other && (is_timer_descriptor(descriptor) || is_signal_descriptor(descriptor)))
     return fail(EINVAL);
   if (size > 0 && of == DescriptorClass::socket && is_stream(descriptor))
     return send_to_stream(descriptor, bytes, size, 0);
   if (size > 0 && of == DescriptorClass::pipe && may_wait_for(descriptor, POLLOUT))
     return write_all(descriptor, of, static_cast<const char*>(bytes), size, [&](const char* at, std::size_t left) {
-      // What is ready takes as much as is atomic.
+      // A pipe that is ready has room for PIPE_BUF bytes.
       return WAITPOINT_NEXT(write)(descriptor, at, left > PIPE_BUF ? PIPE_BUF : left);
     });
   return send_all_at_once(descriptor, true, [&] { return WAITPOINT_NEXT(write)(descriptor, bytes, size); });

@@ -33,7 +33,7 @@ int option_of(int descriptor, int option) {
   return getsockopt(descriptor, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
 }
 
-// What leaves the machine: anything of the internet but its loopback.
+// True for internet addresses beyond this machine's loopback.
 bool leaves(const sockaddr* address) {
   if (address == nullptr) return false;
   if (address->sa_family == AF_INET) {
@@ -49,17 +49,17 @@ bool leaves(const sockaddr* address) {
   return false;
 }
 
-// Told once.
+// Reports the first rejection only.
 bool is_forbidden(const sockaddr* address) {
   static bool is_told = false;
   if (!is_simulated() || !record->settings.isolate || !leaves(address)) return false;
-  if (!is_told) std::fprintf(stderr, "waitpoint: exec: what leaves this machine is forbidden by --isolate\n");
+  if (!is_told) std::fprintf(stderr, "waitpoint: exec: --isolate: traffic beyond this machine is rejected (EACCES)\n");
   is_told = true;
   errno = EACCES;
   return true;
 }
 
-// All that was asked for, of a stream, or up to its end.
+// Receives `size` bytes of a stream, or up to its end.
 ssize_t receive_all(int descriptor, char* bytes, std::size_t size, int flags) {
   std::size_t received = 0;
   while (received < size) {
@@ -77,7 +77,7 @@ ssize_t receive_all(int descriptor, char* bytes, std::size_t size, int flags) {
   return received > 0 || size == 0 ? static_cast<ssize_t>(received) : -1;
 }
 
-// The same into the parts of a message; what goes beside the bytes comes with the first, or ends it.
+// The same into the parts of a message. Ancillary data comes with the first part; if there is any, the call returns.
 ssize_t receive_all_parts(int descriptor, msghdr& message, int flags) {
   ssize_t received = -1;
   for (std::size_t i = 0; i < message.msg_iovlen; ++i) {
@@ -104,7 +104,7 @@ ssize_t receive_all_parts(int descriptor, msghdr& message, int flags) {
   return received < 0 ? 0 : received;
 }
 
-// What is no socket is refused at once, and for what is beside the stream nobody waits.
+// Calls fail at once for a descriptor that is no socket, and never wait for out-of-band data or the error queue.
 bool may_block(int descriptor, int flags) {
   return (flags & (MSG_DONTWAIT | MSG_OOB | MSG_ERRQUEUE)) == 0 && class_of(descriptor) == DescriptorClass::socket;
 }
@@ -114,8 +114,8 @@ bool waits_for_all(int descriptor, int flags) {
          class_of(descriptor) == DescriptorClass::socket && is_stream(descriptor) && blocks(descriptor);
 }
 
-// A message is taken whole. A socket that is not connected does not say whether the one it sends to has room: then it
-// is tried again after a while.
+// Sends a message as a whole. An unconnected socket does not show whether the receiver has room: then the call is
+// repeated after a pause.
 template <class Call>
 ssize_t send_message(int descriptor, int flags, Call call) {
   const DescriptorClass of = class_of(descriptor);
@@ -145,7 +145,7 @@ ssize_t send_parts_over_link(int descriptor, const msghdr& message) {
   return all;
 }
 
-// Piece by piece of its parts; what goes beside the bytes goes with the first.
+// Sends the parts in pieces; ancillary data goes with the first.
 ssize_t send_parts(int descriptor, const msghdr& message, int flags) {
   ssize_t all = 0;
   bool is_first = true;
@@ -177,7 +177,7 @@ bool has_bytes(const msghdr& message) {
   return false;
 }
 
-// The system's call, without waiting, whatever the socket's mode.
+// The system's call without waiting, even on a blocking socket.
 int connect_at_once(int descriptor, const sockaddr* address, socklen_t length) {
   const int flags = WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL);
   WAITPOINT_NEXT(fcntl)(descriptor, F_SETFL, flags | O_NONBLOCK);
@@ -193,14 +193,14 @@ int connect_and_wait(int descriptor, const sockaddr* address, socklen_t length) 
     const int result = done([&] { return connect_at_once(descriptor, address, length); });
     if (result == 0 || (errno != EINPROGRESS && errno != EAGAIN)) return result;
     if (errno == EINPROGRESS) break;
-    // Of a local socket: whoever listens has no room for one more.
+    // EAGAIN, of a local socket: the listener's queue is full.
     if (!point.wait_until(later(kernel::local_time(*kernel::running), std::chrono::microseconds(100))))
       return fail(EINTR);
   }
   const int ready = wait_for(descriptor, POLLOUT, Time::max(), Restart::if_asked);
   leave_if_cancelled();
   if (ready < 0) return -1;
-  // What has become of it is told as to who waited, and the socket is as if that one had.
+  // A second call reports the result, and leaves the socket as a blocking connect() does.
   return done([&] { return connect_at_once(descriptor, address, length); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is particular of sockets.
+// Operations on stream sockets.
 #pragma once
 
 #include <sys/types.h>
@@ -8,7 +8,7 @@
 
 namespace waitpoint::posix {
 
-/// Whether what is sent is a stream, of which a part may be taken.
+/// True for a stream socket, which may accept a part of the data.
 bool is_stream(int descriptor);
 /// As send(), for a stream.
 ssize_t send_to_stream(int descriptor, const void* bytes, std::size_t size, int flags);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Calls that move what is in a pipe, or into one, without the program having it. They wait for both ends.
+// Calls that move data from or into a pipe without copying it to the program. They wait for both ends.
 #include <fcntl.h>
 #include <limits.h>
 #include <sys/eventfd.h>
@@ -24,7 +24,7 @@ bool prepare_end(int descriptor, short events, bool may_block) {
   return prepare(descriptor, of, operation, events, may_block);
 }
 
-// What is refused is refused at once: so many of both are pipes.
+// False if the call fails at once: `pipes` of the two descriptors must be pipes.
 bool can_move(int from, int to, int pipes) {
   const ErrorNumberKept kept;
   const bool are_open = WAITPOINT_NEXT(fcntl)(to, F_GETFL) >= 0 && WAITPOINT_NEXT(fcntl)(from, F_GETFL) >= 0;
@@ -32,7 +32,7 @@ bool can_move(int from, int to, int pipes) {
   return are_open && found >= pipes;
 }
 
-/// `call` is made without waiting, once both ends are ready; again if another thread was quicker.
+/// Makes `call` without waiting once both ends are ready; repeats it if another thread was faster.
 template <class Call>
 ssize_t move_between(int from, int to, int pipes, unsigned flags, Call call) {
   if (!is_simulated()) return call(flags);
@@ -62,7 +62,7 @@ WAITPOINT_INTERPOSED ssize_t tee(int from, int to, std::size_t size, unsigned fl
   return move_between(from, to, 2, flags, [&](unsigned how) { return WAITPOINT_NEXT(tee)(from, to, size, how); });
 }
 
-// Into a pipe; out of one, by its other end.
+// Into the write end of a pipe, or out of its read end.
 WAITPOINT_INTERPOSED ssize_t vmsplice(int pipe, const iovec* pieces, std::size_t count, unsigned flags) {
   const auto call = [&](unsigned how) { return WAITPOINT_NEXT(vmsplice)(pipe, pieces, count, how); };
   const int mode = WAITPOINT_NEXT(fcntl)(pipe, F_GETFL);
@@ -70,7 +70,7 @@ WAITPOINT_INTERPOSED ssize_t vmsplice(int pipe, const iovec* pieces, std::size_t
   return move_between(-1, pipe, 1, flags, call);
 }
 
-// A pipe takes what it has room for; a socket all, a piece at a time.
+// A pipe accepts as much as it has room for; a socket all, in pieces.
 WAITPOINT_INTERPOSED ssize_t sendfile64(int to, int from, off64_t* at, std::size_t size) noexcept {
   if (goes_over_link(to)) return fail(EINVAL);
   const DescriptorClass of = class_of(to);
