@@ -19,7 +19,7 @@ namespace waitpoint::posix {
 template <class Function>
 Function next(Function& known, const char* name) {
   if (known == nullptr) known = reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
-  WAITPOINT_CHECK(known != nullptr, "the C library lacks a function that stands behind a simulated one");
+  WAITPOINT_CHECK(known != nullptr, "the C library lacks a function that the layer replaces");
   return known;
 }
 

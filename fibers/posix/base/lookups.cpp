@@ -64,7 +64,7 @@ extern "C" {
   static constinit void* known = nullptr;
   for (const char* const version : {"GLIBC_2.34", "GLIBC_2.2.5"})
     if (known == nullptr) known = dlvsym(RTLD_NEXT, "dlsym", version);
-  WAITPOINT_CHECK(known != nullptr, "the C library has no dlsym() of a known version");
+  WAITPOINT_CHECK(known != nullptr, "the C library has no dlsym() of a version known here");
   return known;
 }
 }

@@ -77,7 +77,7 @@ void join() {
 void begin() {
   void* const memory = mmap(reinterpret_cast<void*>(address), bytes_max, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0);
-  if (memory == MAP_FAILED) refuse("there is no address space for what processes share");
+  if (memory == MAP_FAILED) refuse("there is no address space for the memory shared by processes");
   family = new (memory) Family();
   family->arena.start(family + 1, static_cast<char*>(memory) + bytes_max);
   own = child = nullptr;
