@@ -16,6 +16,7 @@ namespace {
 
 constexpr int no_change = 1000;  // an operation on the mask that the kernel does not know
 constexpr long mask_size = 8;
+static_assert(mask_size == (_NSIG - 1) / 8, "the kernel's set of signals has a bit for each");
 
 }  // namespace
 
@@ -33,6 +34,7 @@ bool can_be_written(void* address) {
 }
 
 bool can_be_written(void* address, std::size_t size) {
+  WAITPOINT_CHECK(size > 0, "an address is to be checked for no bytes");
   const ErrorNumberKept kept;
   return WAITPOINT_NEXT(syscall)(SYS_getrandom, address, size, GRND_INSECURE) == static_cast<long>(size);
 }

@@ -2,13 +2,16 @@
 // Singly linked lists through the member `next` of their records; null ends them.
 #pragma once
 
+#include "core/error.hpp"
+
 namespace waitpoint::posix {
 
 /// Appends `added`.
 template <class Record>
 void append(Record*& first, Record& added) {
   Record** link = &first;
-  while (*link != nullptr) link = &(*link)->next;
+  for (; *link != nullptr; link = &(*link)->next)
+    WAITPOINT_FAST_CHECK(*link != &added, "a record is appended to a list that has it");
   *link = &added;
   added.next = nullptr;
 }

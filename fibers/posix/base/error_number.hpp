@@ -4,10 +4,13 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
+
 namespace waitpoint::posix {
 
 /// Sets errno; returns the result of a failed call.
 inline int fail(int error) {
+  WAITPOINT_CHECK(error > 0, "a call fails without an error");
   errno = error;
   return -1;
 }

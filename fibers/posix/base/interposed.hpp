@@ -26,7 +26,11 @@ Function next(Function& known, const char* name) {
 /// The C library's own function, even if another library defines the name too: see lookups.cpp.
 template <class Function>
 Function of_c_library(Function, const char* name) {
-  return reinterpret_cast<Function>(dlsym(dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD), name));
+  void* const library = dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD);
+  WAITPOINT_CHECK(library != nullptr, "the process has no C library of the expected name");
+  const auto found = reinterpret_cast<Function>(dlsym(library, name));
+  WAITPOINT_CHECK(found != nullptr, "the C library lacks a function that the layer calls");
+  return found;
 }
 
 }  // namespace waitpoint::posix

@@ -4,6 +4,8 @@
 
 #include <atomic>
 
+#include "core/error.hpp"
+
 namespace waitpoint::posix {
 
 /// While true, incoming signals are only queued; the code that waits handles them.
@@ -11,8 +13,14 @@ extern std::atomic<bool> waits_really;
 
 class RealWait {
  public:
-  RealWait() { waits_really.store(true); }
-  ~RealWait() { waits_really.store(false); }
+  RealWait() {
+    WAITPOINT_CHECK(!waits_really.load(), "a wait in real time begins within another");
+    waits_really.store(true);
+  }
+  ~RealWait() {
+    WAITPOINT_CHECK(waits_really.load(), "a wait in real time was ended by code within it");
+    waits_really.store(false);
+  }
   RealWait(const RealWait&) = delete;
   RealWait& operator=(const RealWait&) = delete;
 };

@@ -82,11 +82,13 @@ bool look_up(const File& file, std::uint64_t address, Found& found) {
 class Pool {
  public:
   void add(const char* text, std::size_t length) {
+    WAITPOINT_CHECK(end_ < sizeof bytes_, "the strings of symbols exceed their memory");
     if (length >= sizeof bytes_ - end_) length = sizeof bytes_ - end_ - 1;
     std::memcpy(bytes_ + end_, text, length);
     end_ += length;
   }
   const char* finish() {
+    WAITPOINT_CHECK(begin_ <= end_ && end_ < sizeof bytes_, "the string of a symbol is outside its memory");
     const char* const text = bytes_ + begin_;
     bytes_[end_] = '\0';
     if (end_ + 1 < sizeof bytes_) ++end_;

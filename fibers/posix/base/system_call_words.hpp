@@ -5,10 +5,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace waitpoint::posix {
 
 template <class T>
 T as(long word) {
+  static_assert(sizeof(T) <= sizeof word, "an argument of a system call is a word");
   if constexpr (std::is_pointer_v<T>)
     return reinterpret_cast<T>(word);
   else
@@ -25,12 +28,14 @@ struct CallWords {
   }
   template <class T>
   T word(int number) const {
+    WAITPOINT_FAST_CHECK(number >= 0 && number < 6, "a system call has six arguments");
     return as<T>(at[number]);
   }
 
  private:
   template <class Result, class... Arguments, std::size_t... Numbers>
   long call_with(Result (*function)(Arguments...), std::index_sequence<Numbers...>) const {
+    static_assert(sizeof...(Arguments) <= 6, "a system call has six arguments");
     if constexpr (std::is_pointer_v<Result>)
       return reinterpret_cast<long>(function(as<Arguments>(at[Numbers])...));
     else
