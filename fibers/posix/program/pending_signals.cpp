@@ -3,10 +3,13 @@
 
 #include <cstdlib>
 
+#include "core/error.hpp"
+
 namespace waitpoint::posix {
 namespace {
 
 constexpr int first_queued = 32;  // the first real-time signal of the kernel
+static_assert(SIGSYS < first_queued, "the kernel's real-time signals follow the others");
 
 void let_go(PendingSignal& signal) {
   if (signal.taken != nullptr)
@@ -19,6 +22,9 @@ void let_go(PendingSignal& signal) {
 
 bool PendingSignals::add(PendingSignal& signal) {
   const int number = signal.information.si_signo;
+  WAITPOINT_CHECK((first_ == nullptr) == (last_ == nullptr) && (first_ == nullptr) == (set_ == 0),
+                  "the list of pending signals and its set disagree");
+  WAITPOINT_CHECK(last_ == nullptr || (last_->next == nullptr && last_ != &signal), "a pending signal is sent again");
   if (number < first_queued && contains(set_, number)) {
     let_go(signal);
     return false;
@@ -32,13 +38,17 @@ bool PendingSignals::add(PendingSignal& signal) {
 
 PendingSignal& PendingSignals::take_out_behind(PendingSignal* before) {
   PendingSignal*& link = before == nullptr ? first_ : before->next;
+  WAITPOINT_CHECK(link != nullptr, "a pending signal is to be removed from behind the last one");
   PendingSignal& found = *link;
+  WAITPOINT_CHECK(contains(set_, found.information.si_signo), "a pending signal is not in the set");
   link = found.next;
   if (last_ == &found) last_ = before;
   const int number = found.information.si_signo;
   const PendingSignal* other = first_;
   while (other != nullptr && other->information.si_signo != number) other = other->next;
   if (other == nullptr) set_ &= ~only(number);
+  WAITPOINT_CHECK((first_ == nullptr) == (last_ == nullptr) && (first_ == nullptr) == (set_ == 0),
+                  "the list of pending signals and its set disagree");
   return found;
 }
 
@@ -48,7 +58,8 @@ int PendingSignals::take(SignalSet set, siginfo_t& information) {
   // Faults first.
   const int number = __builtin_ctzll((among & faults) != 0 ? among & faults : among) + 1;
   PendingSignal* before = nullptr;
-  for (PendingSignal* each = first_; each->information.si_signo != number; each = each->next) before = each;
+  for (PendingSignal* each = first_; each != nullptr && each->information.si_signo != number; each = each->next)
+    before = each;
   PendingSignal& found = take_out_behind(before);
   // A timer adds its overruns at this point.
   if (found.taken != nullptr) found.taken(found);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/program/processor_timers.hpp"
 
+#include "core/error.hpp"
+
 namespace waitpoint::posix {
 
 ProcessorTimer* first_processor_timer = nullptr;
 
 void set_processor_timer(ProcessorTimer& timer, const Duration& spent, Duration due) {
+  WAITPOINT_CHECK(timer.ring != nullptr, "a processor timer has no function to call");
   unset_processor_timer(timer);
   timer.spent = &spent;
   timer.due = due;
@@ -14,17 +17,18 @@ void set_processor_timer(ProcessorTimer& timer, const Duration& spent, Duration 
 }
 
 void unset_processor_timer(ProcessorTimer& timer) {
-  for (ProcessorTimer** link = &first_processor_timer; *link != nullptr; link = &(*link)->next)
-    if (*link == &timer) {
-      *link = timer.next;
-      break;
-    }
+  ProcessorTimer** link = &first_processor_timer;
+  while (*link != nullptr && *link != &timer) link = &(*link)->next;
+  WAITPOINT_CHECK((*link == &timer) == (timer.spent != nullptr),
+                  "a processor timer is in the list, but not set, or not");
+  if (*link == &timer) *link = timer.next;
   timer.spent = nullptr;
 }
 
 void look_at_processor_timers() {
   for (ProcessorTimer *timer = first_processor_timer, *next = nullptr; timer != nullptr; timer = next) {
     next = timer->next;
+    WAITPOINT_CHECK(timer->spent != nullptr, "a processor timer in the list is not set");
     if (*timer->spent < timer->due) continue;
     const Duration& spent = *timer->spent;
     unset_processor_timer(*timer);

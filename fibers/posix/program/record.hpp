@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <new>
 #include <span>
+#include <type_traits>
 
 #include "core/digest.hpp"
+#include "core/error.hpp"
 #include "fibers/clocks/clock_options.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/posix/base/arena.hpp"
@@ -93,7 +95,10 @@ struct Record {
     for (const ProgramRecord& program : several()) all.add(program.robot.digest.value());
     return all;
   }
-  std::span<ProgramRecord> several() const { return {programs, program_count}; }
+  std::span<ProgramRecord> several() const {
+    WAITPOINT_CHECK((programs == nullptr) == (program_count == 0), "the record's programs and their number disagree");
+    return {programs, program_count};
+  }
 
   /// Its pointers are valid at the record's address, wherever it is constructed.
   Record() {
@@ -101,5 +106,10 @@ struct Record {
   }
   ~Record() {}  // the scheduler is never destroyed: the process ends first
 };
+static_assert(record_address % 4096 == 0 && record_bytes % 4096 == 0, "the record's file is mapped in whole pages");
+static_assert(sizeof(Record) % Arena::alignment == 0, "the arena begins behind the record");
+static_assert(std::is_trivially_copyable_v<Settings> && std::is_trivially_copyable_v<ProgramRecord> &&
+                  std::is_trivially_copyable_v<Arena>,
+              "a fork copies the record bytewise");
 
 }  // namespace waitpoint::posix

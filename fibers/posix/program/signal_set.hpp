@@ -6,15 +6,22 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/error.hpp"
+
 namespace waitpoint::posix {
 
 using SignalSet = std::uint64_t;
 
 inline constexpr int signals_end = 65;  ///< one past the greatest
+static_assert(signals_end - 1 == 8 * sizeof(SignalSet), "a set has a bit for each signal");
+static_assert(sizeof(SignalSet) <= sizeof(sigset_t), "a set is the first word of a sigset_t");
 
-constexpr SignalSet only(int signal) { return SignalSet{1} << (signal - 1); }
-constexpr bool contains(SignalSet set, int signal) { return (set & only(signal)) != 0; }
 constexpr bool is_signal(int number) { return number > 0 && number < signals_end; }
+constexpr SignalSet only(int signal) {
+  WAITPOINT_FAST_CHECK(is_signal(signal), "a set is made of a signal without a number");
+  return SignalSet{1} << (signal - 1);
+}
+constexpr bool contains(SignalSet set, int signal) { return (set & only(signal)) != 0; }
 
 /// Signals that cannot be blocked or handled; 32 and 33 are the C library's own.
 inline constexpr SignalSet unblockable = only(SIGKILL) | only(SIGSTOP) | only(32) | only(33);

@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include "core/error.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/posix/program/pending_signals.hpp"
 #include "fibers/posix/program/program_clock.hpp"
@@ -23,8 +24,14 @@ struct SharedFutex;
 struct Thread {
   static constexpr std::uint32_t in_kernel = 1U << 31;
   bool is_in_kernel() const { return (operations & in_kernel) != 0; }
-  void enter_kernel() { operations |= in_kernel; }
-  void leave_kernel() { operations &= ~in_kernel; }
+  void enter_kernel() {
+    WAITPOINT_FAST_CHECK(!is_in_kernel(), "a thread enters the kernel from within");
+    operations |= in_kernel;
+  }
+  void leave_kernel() {
+    WAITPOINT_FAST_CHECK(is_in_kernel(), "a thread leaves the kernel from outside");
+    operations &= ~in_kernel;
+  }
 
   kernel::Task* task = nullptr;  ///< null once it has ended
   Program* program = nullptr;
@@ -94,14 +101,17 @@ struct Thread {
 /// The entry of a thread's task: calls its body.
 void run_thread(void* thread);
 
+/// True if the task is a thread of a program.
+inline bool is_thread(const kernel::Task& task) { return task.entry == run_thread; }
 /// `task` must be a thread's.
-inline Thread& thread_of(const kernel::Task& task) { return *static_cast<Thread*>(task.argument); }
+inline Thread& thread_of(const kernel::Task& task) {
+  WAITPOINT_FAST_CHECK(is_thread(task), "a task of another kind is taken for a thread");
+  return *static_cast<Thread*>(task.argument);
+}
 /// The running thread.
 inline Thread& this_thread() { return thread_of(*kernel::running); }
 inline Program& this_program() { return *this_thread().program; }
 
-/// True if the task is a thread of a program.
-inline bool is_thread(const kernel::Task& task) { return task.entry == run_thread; }
 /// True if the caller is code of a simulated thread; false before main().
 inline bool is_simulated() {
   return kernel::running != nullptr && is_thread(*kernel::running) && !this_thread().is_in_kernel();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/error.hpp"
 #include "fibers/switch/thread_pointer.hpp"
 
 // Exported by the dynamic linker and the C library for thread libraries and debuggers.
@@ -32,15 +33,21 @@ struct Head {
   std::uintptr_t pointer_guard;
   Thread* thread;
 };
+static_assert(offsetof(Head, pointer) == 0 && offsetof(Head, self) == 0x10,
+              "%fs:0 and %fs:0x10 are the thread pointer");
 static_assert(offsetof(Head, stack_guard) == 0x28 && offsetof(Head, pointer_guard) == 0x30);
+static_assert(offsetof(Head, thread) == 0x38 && sizeof(Head) == 0x40, "the unused word is the first behind the guards");
 
 struct Link {
   Link* next;
   Link* previous;
 };
+static_assert(sizeof(Link) == 16, "the C library's list_t is two pointers");
 
 template <class T>
 T& field(void* base, const std::uint32_t (&description)[3]) {
+  WAITPOINT_CHECK(description[0] == 8 * sizeof(T) && description[1] == 1, "a member of the C library has another size");
+  WAITPOINT_CHECK(description[2] % alignof(T) == 0, "a member of the C library is not aligned");
   return *reinterpret_cast<T*>(static_cast<char*>(base) + description[2]);
 }
 
@@ -53,6 +60,8 @@ void* make_thread_area(int thread_id) {
   if (area == nullptr) return nullptr;
   Head& head = head_of(area);
   const Head& own = head_of(own_thread_area());
+  WAITPOINT_CHECK(head.thread == nullptr, "the C library uses the word of the control block that holds the thread");
+  WAITPOINT_CHECK(own.self == &own, "the thread pointer does not point to a control block");
   head.pointer = head.self = area;
   head.stack_guard = own.stack_guard;
   head.pointer_guard = own.pointer_guard;
@@ -60,6 +69,7 @@ void* make_thread_area(int thread_id) {
   // The dynamic linker walks this list when a library loaded later has thread-local variables.
   Link& all = field<Link>(_rtld_global, _thread_db_rtld_global__dl_stack_user);
   Link& link = field<Link>(area, _thread_db_pthread_list);
+  WAITPOINT_CHECK(all.next->previous == &all, "the C library's list of threads is broken");
   link = {all.next, &all};
   all.next->previous = &link;
   all.next = &link;
@@ -68,6 +78,8 @@ void* make_thread_area(int thread_id) {
 
 void free_thread_area(void* area) {
   const Link& link = field<Link>(area, _thread_db_pthread_list);
+  WAITPOINT_CHECK(link.next->previous == &link && link.previous->next == &link,
+                  "a thread's area is not in the C library's list");
   link.previous->next = link.next;
   link.next->previous = link.previous;
   _dl_deallocate_tls(area, true);

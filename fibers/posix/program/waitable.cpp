@@ -3,9 +3,12 @@
 
 #include <sys/mman.h>
 
+#include <bit>
+
 #include "core/digest.hpp"
 #include "core/error.hpp"
 #include "fibers/posix/base/symbols.hpp"
+#include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -16,6 +19,7 @@ union Cell {
   Cell* next_free;
   char bytes[waitable_bytes_max];
 };
+static_assert(sizeof(Cell) == waitable_bytes_max && sizeof(Waitable) <= waitable_bytes_max);
 
 Cell* first_free = nullptr;
 std::size_t cells_left = 0;  // of the memory allocated last
@@ -27,13 +31,15 @@ std::size_t bucket_count = 0;
 std::size_t kept = 0;
 
 // An address that no program uses: holes may be reserved by the program.
-std::uintptr_t next_pages = 0x2b00'0000'0000;
+constexpr std::uintptr_t first_pages = 0x2b00'0000'0000;
+static_assert(first_pages >= record_address + 2 * record_bytes, "they begin behind the record and the family's memory");
+std::uintptr_t next_pages = first_pages;
 
 void* pages(std::size_t bytes) {
   void* memory =
       mmap(reinterpret_cast<void*>(next_pages), bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   next_pages += (bytes + 4095) / 4096 * 4096;
-  WAITPOINT_CHECK(memory != MAP_FAILED, "no memory for the program's primitives");
+  if (memory == MAP_FAILED) refuse("there is no memory for the program's primitives");
   return memory;
 }
 
@@ -46,11 +52,13 @@ Cell* take_cell() {
     next_cell = static_cast<Cell*>(pages(cells_at_once * sizeof(Cell)));
     cells_left = cells_at_once;
   }
+  WAITPOINT_CHECK(next_cell != nullptr, "cells are left of no memory");
   --cells_left;
   return next_cell++;
 }
 
 Waitable*& bucket_of(const void* address) {
+  WAITPOINT_FAST_CHECK(std::has_single_bit(bucket_count), "the number of buckets is no power of two");
   return buckets[Digest::mix(reinterpret_cast<std::uintptr_t>(address)) & (bucket_count - 1)];
 }
 
@@ -59,13 +67,16 @@ void grow() {
   const std::size_t old_count = bucket_count;
   bucket_count = old_count == 0 ? 1024 : 2 * old_count;
   buckets = static_cast<Waitable**>(pages(bucket_count * sizeof(Waitable*)));
+  std::size_t moved = 0;
   for (std::size_t i = 0; i < old_count; ++i)
     for (Waitable *w = old[i], *next = nullptr; w != nullptr; w = next) {
       next = w->next_of_bucket;
       Waitable*& bucket = bucket_of(w->address);
       w->next_of_bucket = bucket;
       bucket = w;
+      ++moved;
     }
+  WAITPOINT_CHECK(moved == kept && kept < bucket_count, "the table of primitives and its count disagree");
   if (old != nullptr) munmap(old, old_count * sizeof(Waitable*));
 }
 
@@ -73,6 +84,7 @@ void unlink(Waitable& waitable) {
   Waitable** link = &bucket_of(waitable.address);
   while (*link != nullptr && *link != &waitable) link = &(*link)->next_of_bucket;
   if (*link == nullptr) return;
+  WAITPOINT_CHECK(kept > 0, "a primitive is removed from an empty table");
   *link = waitable.next_of_bucket;
   --kept;
 }
@@ -111,6 +123,7 @@ void forget(Waitable& waitable) {
   unlink(waitable);
   if (!waitable.idle()) return;
   Cell* const cell = reinterpret_cast<Cell*>(&waitable);
+  WAITPOINT_CHECK(cell != first_free, "the cell of a primitive is freed twice");
   cell->next_free = first_free;
   first_free = cell;
 }

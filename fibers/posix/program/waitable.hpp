@@ -45,7 +45,7 @@ void label(Waitable& waitable);
 
 template <class T>
 T& make_waitable(const void* address) {
-  static_assert(sizeof(T) <= waitable_bytes_max);
+  static_assert(sizeof(T) <= waitable_bytes_max && waitable_bytes_max % alignof(T) == 0, "T fits into a cell");
   void* const cell = fresh_cell(address);
   Waitable* const next = static_cast<Waitable*>(cell)->next_of_bucket;
   T* const made = new (cell) T(address);

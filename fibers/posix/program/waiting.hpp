@@ -15,6 +15,7 @@
 namespace waitpoint::posix {
 
 inline constexpr std::uint32_t operations_at_one_instant = 512;
+static_assert(operations_at_one_instant < Thread::in_kernel, "a thread in the kernel never passes at once");
 /// After as many, other tasks due at this instant get a turn.
 inline constexpr std::uint32_t clock_readings_at_most = 100;
 inline constexpr Duration cost_of_operations = Duration(std::chrono::microseconds(1));
@@ -23,6 +24,7 @@ inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microsecond
 
 /// The running thread computes for `cost`.
 inline void spend(Duration cost) {
+  WAITPOINT_FAST_CHECK(cost >= Duration(), "a thread computes for less than no time");
   kernel::Task& task = *kernel::running;
   Thread& thread = thread_of(task);
   thread.spent += cost;
@@ -35,6 +37,7 @@ inline void spend(Duration cost) {
 inline void spend_for_look(Duration cost) {
   Thread& thread = this_thread();
   const std::uint32_t looks = record->settings.looks_at_once;
+  WAITPOINT_FAST_CHECK(looks > 0 && thread.looks < looks, "uses of clocks were not charged when due");
   if (++thread.looks < looks) return;
   thread.looks = 0;
   spend(cost * looks);
