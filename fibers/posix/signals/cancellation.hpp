@@ -2,6 +2,7 @@
 // Cancellation points, as listed by POSIX: the calls in which a cancelled thread exits.
 #pragma once
 
+#include "core/error.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
@@ -56,7 +57,9 @@ class CancellationDisabled {
     thread_->cancel_disabled = true;
   }
   ~CancellationDisabled() {
-    if (thread_ != nullptr) thread_->cancel_disabled = before_;
+    if (thread_ == nullptr) return;
+    WAITPOINT_CHECK(thread_ == &this_thread(), "a scope of one thread ends in another");
+    thread_->cancel_disabled = before_;
   }
   CancellationDisabled(const CancellationDisabled&) = delete;
   CancellationDisabled& operator=(const CancellationDisabled&) = delete;

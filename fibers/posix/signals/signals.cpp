@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -43,6 +44,7 @@ Thread* taker_of(int signal) {
 }
 
 void tell(Thread& thread) {
+  WAITPOINT_CHECK(thread.task != nullptr, "a thread that has ended is notified of a signal");
   kernel::Task& task = *thread.task;
   if (task.state == kernel::TaskState::blocked && thread.in_wait) {
     thread.woken_by_signal = true;
@@ -54,6 +56,7 @@ void tell(Thread& thread) {
 
 void send_on(PendingSignal& signal, Thread* to) {
   const int number = signal.information.si_signo;
+  WAITPOINT_CHECK(is_signal(number), "a signal without a number is sent");
   // Stop signals and SIGCONT cancel each other.
   const SignalSet opposite = number == SIGCONT ? stopping : contains(stopping, number) ? only(SIGCONT) : 0;
   if (opposite != 0) {
@@ -157,7 +160,10 @@ bool send(const siginfo_t& information, Thread* to) {
   return true;
 }
 
-void send(PendingSignal& signal, Thread* to) { send_on(signal, to); }
+void send(PendingSignal& signal, Thread* to) {
+  WAITPOINT_CHECK(signal.taken != nullptr, "a signal owned by its sender would be freed when it is taken");
+  send_on(signal, to);
+}
 
 Handled handle_signals() {
   Thread& thread = this_thread();
@@ -220,6 +226,7 @@ void set_blocked(SignalSet blocked) {
 }
 
 void drop_signals(Thread& thread) {
+  WAITPOINT_CHECK(thread.ended, "the signals of a thread are dropped before its end");
   thread.pending.drop(~SignalSet{0});
   thread.awaited = 0;
   find_takers();
@@ -232,6 +239,7 @@ void forget_pending_signals() {
 
 // At a waitpoint of a thread with attention::signal set. If it waits, its call runs the handlers.
 void deliver_signals(kernel::Task& task) {
+  WAITPOINT_CHECK(&task == kernel::running && is_thread(task), "signals are delivered in another task than their own");
   Thread& thread = thread_of(task);
   if (thread.in_wait) {
     thread.delivery_due = true;
@@ -247,9 +255,11 @@ Wait wait_on(kernel::Object& object, Time deadline) {
   if (has_come_from_outside()) take_in_signals_from_outside();
   if ((deliverable(thread) | ((thread.pending.set() | signals_of_program.pending.set()) & thread.awaited)) != 0)
     return Wait::interrupted;
+  WAITPOINT_CHECK(!thread.in_wait, "a thread begins to wait within a wait");
   thread.woken_by_signal = thread.delivery_due = false;
   thread.in_wait = true;
   const bool woken = block(object, deadline);
+  WAITPOINT_CHECK(thread.in_wait, "a wait was ended by code within it");
   thread.in_wait = false;
   if (thread.woken_by_signal) return Wait::interrupted;
   if (thread.delivery_due) task.scheduler->attend(task, kernel::attention::signal, true);

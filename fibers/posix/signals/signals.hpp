@@ -78,6 +78,7 @@ void forget_pending_signals();
 
 /// The signal by which the processes of a family notify each other (family.hpp), identified by its address.
 inline constexpr int bell = SIGURG;
+static_assert(contains(ignored_by_default, bell), "the bell harms no process that does not listen");
 /// Catches it from now on.
 void install_bell();
 
