@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/arena.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -27,6 +28,10 @@ constexpr int processes_max = 1024;
 constexpr std::uintptr_t address = record_address + record_bytes;
 constexpr std::size_t bytes_max = std::size_t{1} << 34;  // allocated on first use
 constexpr std::size_t page = 4096;
+static_assert(address % page == 0 && bytes_max % page == 0, "the family's memory is mapped in whole pages");
+static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+              "locks of this process would not protect memory shared with others");
+static_assert(sizeof(siginfo_t) == 128, "the system's call copies a siginfo_t as the kernel defines it");
 
 constexpr pid_t expected = -1;  // of a child about to be made
 
@@ -42,6 +47,7 @@ struct Family {
   void* parts[static_cast<int>(Part::count)];
   Arena arena;
 };
+static_assert(sizeof(Family) % Arena::alignment == 0, "the arena begins behind the family's record");
 
 Family* family = nullptr;
 Process* own = nullptr;
@@ -78,6 +84,7 @@ void begin() {
   void* const memory = mmap(reinterpret_cast<void*>(address), bytes_max, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0);
   if (memory == MAP_FAILED) refuse("there is no address space for the memory shared by processes");
+  WAITPOINT_CHECK(memory == reinterpret_cast<void*>(address), "the family's memory is at another address than agreed");
   family = new (memory) Family();
   family->arena.start(family + 1, static_cast<char*>(memory) + bytes_max);
   own = child = nullptr;
@@ -141,15 +148,22 @@ void* take(std::size_t bytes) {
 }
 
 void* common(Part part, std::size_t bytes) {
+  WAITPOINT_CHECK(part < Part::count, "a part of the layer has no place in the family's memory");
   void*& memory = joined().parts[static_cast<int>(part)];
   if (memory == nullptr && bytes > 0) memory = take(bytes);
   return memory;
 }
 
-void give(void* memory) { family->arena.give(memory); }
+void give(void* memory) {
+  WAITPOINT_CHECK(family != nullptr, "memory is given back to a family that has not begun");
+  WAITPOINT_CHECK(memory == nullptr || (memory > family && memory < family->arena.top()),
+                  "memory given back is not the family's");
+  family->arena.give(memory);
+}
 
 // The word in front of the first page holds the address of the arena's piece.
 void* take_pages(std::size_t bytes) {
+  if (bytes > bytes_max) return nullptr;
   auto* const piece = static_cast<char*>(joined().arena.take(bytes + 2 * page));
   if (piece == nullptr) return nullptr;
   char* const pages = reinterpret_cast<char*>((reinterpret_cast<std::uintptr_t>(piece) / page + 2) * page);
@@ -159,8 +173,12 @@ void* take_pages(std::size_t bytes) {
 }
 
 void give_pages(void* pages, std::size_t bytes) {
+  WAITPOINT_CHECK(reinterpret_cast<std::uintptr_t>(pages) % page == 0, "memory given back begins no page");
+  void* const piece = static_cast<void**>(pages)[-1];
+  WAITPOINT_CHECK(piece < pages && piece >= static_cast<char*>(pages) - 2 * page,
+                  "the word in front of pages given back is no longer the address of their piece");
   madvise(pages, bytes, MADV_REMOVE);
-  give(static_cast<void**>(pages)[-1]);
+  give(piece);
 }
 
 Section::Section(bool needed) : entered_(needed) {
