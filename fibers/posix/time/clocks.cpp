@@ -17,6 +17,12 @@ namespace waitpoint::posix {
 namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
+// Linux keeps the last 30 years of its range for the time that follows.
+constexpr std::int64_t last_date_s = INT64_MAX / second_ns - std::int64_t{30} * 365 * 24 * 3600;
+static_assert(first_date_s < last_date_s, "the program begins at a date that can be set");
+static_assert(CLOCK_REALTIME == 0 && CLOCK_TAI == 11, "the kernel's clocks are numbered from 0 to 11; 10 is unused");
+static_assert(CLOCKS_PER_SEC == 1'000'000, "clock() counts microseconds");
+static_assert(sizeof(time_t) == sizeof(std::int64_t), "seconds of a clock do not end in 2038");
 
 // The offset by which the program has set the date.
 std::int64_t set_by_ns = 0;
@@ -125,7 +131,7 @@ WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept
 // The simulation's own date, not the machine's.
 WAITPOINT_INTERPOSED int clock_settime(clockid_t clock, const timespec* time) noexcept {
   if (clock != CLOCK_REALTIME) return fail(EINVAL);
-  if (!is_valid(*time) || time->tv_sec < 0) return fail(EINVAL);
+  if (!is_valid(*time) || time->tv_sec < 0 || time->tv_sec > last_date_s) return fail(EINVAL);
   if (geteuid() != 0) return fail(EPERM);
   set_by_ns += time->tv_sec * second_ns + time->tv_nsec - reading_ns(CLOCK_REALTIME, posix::now());
   return 0;

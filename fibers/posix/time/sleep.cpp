@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -23,6 +24,7 @@ bool sleep_until(Time time) {
 
 // Returns the time left if a signal handler interrupts the sleep; else zero.
 timespec sleep_for(Duration span) {
+  WAITPOINT_CHECK(span >= Duration(), "a thread sleeps for less than no time");
   const Time end = later(kernel::local_time(*kernel::running), span);
   if (sleep_until(end)) return {};
   const std::int64_t left_ns = (end - kernel::local_time(*kernel::running)).ns();
