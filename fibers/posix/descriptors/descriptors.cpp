@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
@@ -22,6 +23,7 @@ namespace waitpoint::posix {
 namespace {
 
 constexpr int known_max = known_descriptors_max;
+static_assert(known_max % 64 == 0, "the sets of descriptors are whole words");
 std::uint64_t inside[known_max / 64];
 std::uint64_t waited_in_vain[known_max / 64];  // for a reader
 const Program* owners[known_max];              // among several programs of a process
@@ -58,12 +60,17 @@ int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
 void count_outside(const Waiter& waiter, int by) {
   waiting_outside += by;
   if (waiter.count == 0) waiting_for_no_descriptor += by;
+  WAITPOINT_CHECK(waiting_for_no_descriptor >= 0 && waiting_outside >= waiting_for_no_descriptor,
+                  "the counts of threads that wait outside disagree");
   if (!waiter.shared) return;
   waiting_for_family += by;
+  WAITPOINT_CHECK(waiting_for_family >= 0, "more waits for the family have ended than begun");
   family::note_waiting(waiting_for_family > 0);
 }
 
 void add(Waiter& waiter) {
+  WAITPOINT_CHECK(last == nullptr ? first == nullptr : last->next == nullptr && last != &waiter,
+                  "the end of the list of waiting threads is broken");
   waiter.next = nullptr;
   waiter.previous = last;
   (last == nullptr ? first : last->next) = &waiter;
@@ -72,6 +79,9 @@ void add(Waiter& waiter) {
 }
 
 void remove(Waiter& waiter) {
+  WAITPOINT_CHECK((waiter.previous == nullptr ? first : waiter.previous->next) == &waiter &&
+                      (waiter.next == nullptr ? last : waiter.next->previous) == &waiter,
+                  "a thread that ends its wait is not in the list of waiting threads");
   (waiter.previous == nullptr ? first : waiter.previous->next) = waiter.next;
   (waiter.next == nullptr ? last : waiter.next->previous) = waiter.previous;
   if (waiter.outside) count_outside(waiter, -1);
@@ -129,6 +139,7 @@ void wait_really(Duration longest) {
   nfds_t at = 0;
   for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
     if (waiter->count == 0) continue;
+    WAITPOINT_CHECK(waiter->count <= count - at, "the descriptors waited for exceed their number");
     std::memcpy(all + at, waiter->descriptors, waiter->count * sizeof(pollfd));
     at += waiter->count;
   }
@@ -162,12 +173,17 @@ void note_owner(int descriptor) {
 }
 
 int next_owned(int from, const Program*& owner) {
+  WAITPOINT_CHECK(from >= 0 && owned_end <= known_max, "the table of owners is read outside its range");
   for (int descriptor = from; descriptor < owned_end; ++descriptor)
     if ((owner = owners[descriptor]) != nullptr) return descriptor;
   return -1;
 }
 
-void disown(int descriptor) { owners[descriptor] = nullptr; }
+void disown(int descriptor) {
+  WAITPOINT_CHECK(descriptor >= 0 && descriptor < owned_end && owners[descriptor] != nullptr,
+                  "a descriptor without an owner is disowned");
+  owners[descriptor] = nullptr;
+}
 
 bool is_inside(int descriptor) {
   return descriptor >= 0 && descriptor < known_max && (inside[descriptor / 64] >> (descriptor % 64) & 1) != 0;
@@ -230,7 +246,10 @@ WaitsOutside::WaitsOutside() {
   ++waiting_outside;
   kernel::running->scheduler->pause();
 }
-WaitsOutside::~WaitsOutside() { --waiting_outside; }
+WaitsOutside::~WaitsOutside() {
+  WAITPOINT_CHECK(waiting_outside > waiting_for_no_descriptor, "more waits for signals have ended than begun");
+  --waiting_outside;
+}
 
 int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart) {
   kernel::Task& task = *kernel::running;
@@ -261,6 +280,7 @@ Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(cons
 }
 
 bool wait_for_reader(int descriptor, int patience_ms) {
+  WAITPOINT_CHECK(descriptor >= 0, "a reader is waited for at no descriptor");
   pollfd one{descriptor, POLLOUT, 0};
   if (poll_now(&one, 1) > 0) return true;
   // A thread whose descriptors are ready may be the reader.

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -63,6 +64,9 @@ void prepare_to_look() {
 }  // namespace
 
 void note_child(pid_t child) {
+  WAITPOINT_CHECK(child > 0, "a child without an id is noted");
+  WAITPOINT_CHECK(child_count <= child_room && (children != nullptr) == (child_room > 0),
+                  "the table of children exceeds its memory");
   if (child_count == child_room) {
     const std::size_t room = 2 * child_room + 16;
     auto* const more = static_cast<pid_t*>(std::realloc(children, room * sizeof(pid_t)));
@@ -93,12 +97,14 @@ bool is_paced() {
 }
 
 Duration left_until(Time time) {
+  WAITPOINT_CHECK(has_begun, "virtual time is compared with real time before both were read");
   const std::int64_t passed_ns = real_ns() - real_begin_ns;
   const std::int64_t left_ns = (time - virtual_begin).ns() - passed_ns;
   return Duration::from_ns(left_ns > 0 ? left_ns : 0);
 }
 
 Time look_at_pace(kernel::Scheduler& scheduler, Time next) {
+  WAITPOINT_CHECK(has_begun && scheduler.has_entered(next_look.object), "the check for input is not prepared");
   Time now = later(virtual_begin, Duration::from_ns(real_ns() - real_begin_ns));
   if (now < scheduler.global_time()) now = scheduler.global_time();
   if (now >= next) return next;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -42,7 +43,10 @@ SignalSet pending_anywhere() {
   return set;
 }
 
+static_assert(sizeof(signalfd_siginfo) == 128, "programs read records of the kernel's size");
+
 signalfd_siginfo to_record(const siginfo_t& from) {
+  WAITPOINT_CHECK(is_signal(from.si_signo), "a signal without a number is read");
   signalfd_siginfo to{};
   to.ssi_signo = static_cast<std::uint32_t>(from.si_signo);
   to.ssi_errno = from.si_errno;
@@ -93,6 +97,8 @@ void forget_signal_descriptor(int descriptor) {
 
 ssize_t read_signals(int descriptor, void* bytes, std::size_t size) {
   const SignalDescriptor* const known = find_descriptor(descriptor);
+  if (known == nullptr) return fail(EBADF);  // another thread has closed it meanwhile
+  WAITPOINT_CHECK((known->set & unblockable) == 0, "a descriptor reads signals that nothing can block");
   if (size < sizeof(signalfd_siginfo)) return fail(EINVAL);
   auto* to = static_cast<signalfd_siginfo*>(bytes);
   std::size_t count = 0;
