@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <iterator>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -26,8 +28,11 @@ void ring(SignalTimer& timer, std::uint64_t);
 
 // Indexed by ITIMER_REAL, ITIMER_VIRTUAL, ITIMER_PROF.
 SignalTimer timers[3] = {SignalTimer(ring), SignalTimer(ring), SignalTimer(ring)};
+static_assert(std::size(timers) == std::size(signal_of), "each timer has a signal");
+static_assert(ITIMER_REAL == 0 && ITIMER_VIRTUAL == 1 && ITIMER_PROF == 2, "the timers are indexed by these");
 
 void ring(SignalTimer& timer, std::uint64_t) {
+  WAITPOINT_CHECK(&timer >= timers && &timer < std::end(timers), "a timer of another kind rings as setitimer()'s");
   siginfo_t information{};
   information.si_signo = signal_of[&timer - timers];
   information.si_code = SI_KERNEL;
@@ -46,6 +51,7 @@ bool is_valid_time(const timeval& time) { return time.tv_sec >= 0 && time.tv_use
 itimerval state_of(const SignalTimer& timer) { return {to_timeval(timer.interval()), to_timeval(timer.left())}; }
 
 void start(int which, Duration first, Duration interval) {
+  WAITPOINT_CHECK(which >= 0 && which < std::ssize(timers), "a timer that does not exist is started");
   SignalTimer& timer = timers[which];
   if (first == Duration())
     timer.stop();

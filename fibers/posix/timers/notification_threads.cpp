@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "core/error.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -59,8 +60,10 @@ void* tell(void* argument) {
   return nullptr;
 }
 
+// Other threads run while it is made: they must not make another.
 bool make_starter() {
   if (has_starter) return true;
+  has_starter = true;
   kernel::running->scheduler->enter(starter_object);
   return has_starter = start_blocking_signals(Notices::start_all, nullptr, nullptr);
 }
@@ -113,12 +116,15 @@ bool Notice::prepare(const sigevent& event) {
 }
 
 void Notice::ring() {
+  WAITPOINT_CHECK(Notices::has(this), "a notice rings that is not prepared");
+  WAITPOINT_CHECK(starter_object.robot != nullptr, "a notice rings before the thread that starts others is made");
   ++due_;
   starter_object.robot->scheduler->wake_all(starter_object);
 }
 
 void expect_ring_from_outside(int by) {
   expected_from_outside += by;
+  WAITPOINT_CHECK(expected_from_outside >= 0, "more notices rang from outside than were expected");
   install_bell();
   kernel::running->scheduler->wake_all(starter_object);
 }

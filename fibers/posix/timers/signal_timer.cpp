@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/timers/signal_timer.hpp"
 
+#include "core/error.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -18,6 +19,7 @@ void SignalTimer::await() {
 }
 
 void SignalTimer::start(Time due, Duration interval, Duration late) {
+  WAITPOINT_CHECK(interval >= Duration() && late >= Duration(), "a timer is started with a negative time");
   stop();
   due_ = due;
   interval_ = interval;
@@ -31,6 +33,7 @@ void SignalTimer::start(Time due, Duration interval, Duration late) {
 }
 
 void SignalTimer::start(const Duration& spent, Duration due, Duration interval) {
+  WAITPOINT_CHECK(interval >= Duration(), "a timer is started with a negative interval");
   stop();
   interval_ = interval;
   set_processor_timer(processor_, spent, due);
@@ -39,6 +42,7 @@ void SignalTimer::start(const Duration& spent, Duration due, Duration interval) 
 void SignalTimer::stop() {
   if (node_.event.in_list()) object_.robot->scheduler->cancel(node_.event);
   if (processor_.spent != nullptr) unset_processor_timer(processor_);
+  WAITPOINT_CHECK(due_ == Time::max() || set_count_ > 0, "more timers are stopped than are set");
   if (due_ != Time::max()) --set_count_;
   due_ = Time::max();
   interval_ = Duration();
@@ -56,6 +60,8 @@ void SignalTimer::expire(kernel::EventNode& node) {
   SignalTimer& timer = *reinterpret_cast<Node&>(node).timer;
   kernel::Scheduler& scheduler = *timer.object_.robot->scheduler;
   const Time now = scheduler.global_time();
+  WAITPOINT_CHECK(&timer.node_.event == &node, "an event of another kind is taken for a timer's");
+  WAITPOINT_CHECK(timer.due_ <= now && set_count_ > 0, "a timer expires that is not due or not set");
   std::uint64_t count = 1 + timer.missed_;
   timer.missed_ = 0;
   if (timer.interval_ > Duration()) {
@@ -63,16 +69,20 @@ void SignalTimer::expire(kernel::EventNode& node) {
     const std::int64_t more = (now - timer.due_).ns() / timer.interval_.ns();
     count += static_cast<std::uint64_t>(more);
     timer.due_ = later(timer.due_, Duration::from_ns((more + 1) * timer.interval_.ns()));
-    scheduler.schedule(timer.node_.event, timer.due_, timer.object_);
   } else {
     timer.due_ = Time::max();
-    --set_count_;
   }
+  if (timer.due_ != Time::max())
+    scheduler.schedule(timer.node_.event, timer.due_, timer.object_);
+  else
+    --set_count_;
   timer.ring_(timer, count);
 }
 
 void SignalTimer::expire_by_processor(ProcessorTimer& processor, const Duration& spent) {
   SignalTimer& timer = *static_cast<Processor&>(processor).timer;
+  WAITPOINT_CHECK(&timer.processor_ == &processor, "a timer on processor time belongs to another");
+  WAITPOINT_CHECK(spent >= processor.due, "a timer on processor time expires before it is due");
   std::uint64_t count = 1;
   if (timer.interval_ > Duration()) {
     count += static_cast<std::uint64_t>((spent - processor.due).ns() / timer.interval_.ns());

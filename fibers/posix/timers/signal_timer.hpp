@@ -3,6 +3,8 @@
 // when it expires.
 #pragma once
 
+#include <cstddef>
+
 #include "fibers/kernel/event.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/program/processor_timers.hpp"
@@ -46,6 +48,7 @@ class SignalTimer {
     kernel::EventNode event;  // the node is its first member
     SignalTimer* timer = nullptr;
   } node_;
+  static_assert(offsetof(Node, event) == 0, "an event leads to its node");
   struct Processor : ProcessorTimer {
     SignalTimer* timer = nullptr;
   } processor_;

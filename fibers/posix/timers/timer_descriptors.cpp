@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -34,6 +36,7 @@ struct TimerDescriptor {
   kernel::Object object{"timer"};
   TimerDescriptor* next;
 };
+static_assert(offsetof(TimerDescriptor, event) == 0, "an event leads to its timer");
 TimerDescriptor* first = nullptr;
 
 TimerDescriptor* timer_of(int descriptor) {
@@ -58,6 +61,7 @@ void count(TimerDescriptor& timer, Time now) {
 
 void expire(kernel::EventNode& node) {
   auto& timer = reinterpret_cast<TimerDescriptor&>(node);
+  WAITPOINT_CHECK(timer.event.fire == expire && timer.object.robot != nullptr, "an event is no timer descriptor's");
   count(timer, timer.object.robot->scheduler->global_time());
   look_at_descriptors();
 }
@@ -66,6 +70,7 @@ void await(TimerDescriptor& timer) {
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   if (timer.event.in_list()) scheduler.cancel(timer.event);
   if (timer.due == Time::max()) return;
+  WAITPOINT_CHECK(timer.interval >= Duration(), "a timer descriptor has a negative interval");
   scheduler.enter(timer.object);
   const Time now = kernel::running->local_time;
   scheduler.schedule(timer.event, timer.due > now ? timer.due : now, timer.object);
@@ -121,13 +126,14 @@ WAITPOINT_INTERPOSED int timerfd_create(clockid_t clock, int flags) noexcept {
 }
 
 WAITPOINT_INTERPOSED int timerfd_settime(int descriptor, int flags, const itimerspec* to, itimerspec* old) noexcept {
-  TimerDescriptor* const timer = timer_of(descriptor);
-  if (timer == nullptr) return WAITPOINT_NEXT(timerfd_settime)(descriptor, flags, to, old);
+  if (timer_of(descriptor) == nullptr) return WAITPOINT_NEXT(timerfd_settime)(descriptor, flags, to, old);
   if (!can_be_read(to) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);
   if ((flags & ~(TFD_TIMER_ABSTIME | TFD_TIMER_CANCEL_ON_SET)) != 0) return fail(EINVAL);
   if (!is_valid(to->it_value) || !is_valid(to->it_interval) || to->it_value.tv_sec < 0 || to->it_interval.tv_sec < 0)
     return fail(EINVAL);
   pass(kernel::Operation::timer_start, nullptr);
+  TimerDescriptor* const timer = timer_of(descriptor);
+  if (timer == nullptr) return fail(EBADF);  // another thread has closed it meanwhile
   if (old != nullptr) *old = {to_timespec(timer->interval.ns()), left_of(*timer)};
   // Earlier expirations that were not read are dropped.
   pollfd one{descriptor, POLLIN, 0};

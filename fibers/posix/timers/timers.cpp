@@ -13,6 +13,7 @@
 #include <ctime>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -48,12 +49,14 @@ int capped(std::uint64_t count) { return count > INT_MAX ? INT_MAX : static_cast
 
 void note_taken(PendingSignal& signal) {
   auto& timer = static_cast<Timer&>(signal);
+  WAITPOINT_CHECK(timer.pends, "the signal of a timer is taken that is not pending");
   timer.pends = false;
   timer.told = signal.information.si_overrun = capped(timer.overrun);
 }
 
 void ring(SignalTimer& expired, std::uint64_t count) {
   auto& timer = static_cast<Timer&>(expired);
+  WAITPOINT_CHECK(count > 0, "a timer rings without an expiration");
   switch (timer.notification.sigev_notify) {
     case SIGEV_NONE: return;
     case SIGEV_THREAD: timer.notice.ring(); return;
@@ -116,6 +119,7 @@ bool can_count(clockid_t clock) {
 itimerspec state_of(const Timer& timer) { return {to_timespec(timer.interval().ns()), to_timespec(timer.left().ns())}; }
 
 void free_timer(std::size_t number) {
+  WAITPOINT_CHECK(number < timers_end && timers[number] != nullptr, "a timer that does not exist is freed");
   Timer* const timer = timers[number];
   timer->stop();
   signals_of_program.pending.remove(*timer);
@@ -141,14 +145,17 @@ WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t*
   if (!is_simulated()) return WAITPOINT_NEXT(timer_create)(clock, event, id);
   if ((event != nullptr && !can_be_read(event)) || !can_be_written(id)) return fail(EFAULT);
   if (!can_count(clock)) return fail(is_clock(clock) ? ENOTSUP : EINVAL);
-  const int number = number_for_new();
-  void* const memory = number >= 0 ? std::malloc(sizeof(Timer)) : nullptr;
+  void* const memory = std::malloc(sizeof(Timer));
   if (memory == nullptr) return fail(EAGAIN);
   auto* const timer = new (memory) Timer();
   timer->clock = clock;
   if (clock == CLOCK_PROCESS_CPUTIME_ID) timer->spent = &this_program().spent;
   if (clock == CLOCK_THREAD_CPUTIME_ID) timer->spent = &this_thread().spent;
-  if (const int error = prepare(*timer, event); error != 0) {
+  // Other threads may run meanwhile, and make timers.
+  int error = prepare(*timer, event);
+  const int number = error == 0 ? number_for_new() : -1;
+  if (error == 0 && number < 0) error = EAGAIN;
+  if (error != 0) {
     timer->~Timer();
     std::free(memory);
     return fail(error);
@@ -160,6 +167,7 @@ WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t*
     timer->information.si_value = event->sigev_value;
   else
     timer->information.si_int = number;
+  WAITPOINT_CHECK(timers[number] == nullptr, "the number of a new timer is another's");
   timers[number] = timer;
   *id = reinterpret_cast<timer_t>(static_cast<std::uintptr_t>(number));
   return 0;
@@ -171,9 +179,10 @@ WAITPOINT_INTERPOSED int timer_settime(timer_t id, int flags, const itimerspec* 
   if (!can_be_read(to) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);
   if (!is_valid(to->it_value) || to->it_value.tv_sec < 0 || !is_valid(to->it_interval) || to->it_interval.tv_sec < 0)
     return fail(EINVAL);
-  Timer* const timer = find_timer(id);
-  if (timer == nullptr) return fail(EINVAL);
+  if (find_timer(id) == nullptr) return fail(EINVAL);
   pass(kernel::Operation::timer_start, nullptr);
+  Timer* const timer = find_timer(id);
+  if (timer == nullptr) return fail(EINVAL);  // another thread has deleted it meanwhile
   const itimerspec before = state_of(*timer);
   const Duration first = span(to->it_value), interval = span(to->it_interval);
   const bool is_date = (flags & TIMER_ABSTIME) != 0;
@@ -210,6 +219,7 @@ WAITPOINT_INTERPOSED int timer_delete(timer_t id) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timer_delete)(id);
   if (find_timer(id) == nullptr) return fail(EINVAL);
   pass(kernel::Operation::timer_stop, nullptr);
+  if (find_timer(id) == nullptr) return fail(EINVAL);  // so has another thread meanwhile
   free_timer(reinterpret_cast<std::uintptr_t>(id));
   return 0;
 }

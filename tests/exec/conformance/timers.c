@@ -369,3 +369,35 @@ CASE(signalfd_can_be_given_another_set) {
   EXPECT_FAILS(signalfd(1000, &set, 0), EBADF);
   EXPECT_FAILS(signalfd(-1, &set, 77), EINVAL);
 }
+
+static timer_t shared_timer;
+static atomic_int deleted;
+static void* delete_timer(void* unused) {
+  (void)unused;
+  if (timer_delete(shared_timer) == 0) atomic_fetch_add(&deleted, 1);
+  return NULL;
+}
+CASE(a_timer_is_deleted_once) {
+  EXPECT_IS(timer_create(CLOCK_MONOTONIC, NULL, &shared_timer), 0);
+  pthread_t threads[2];
+  for (int i = 0; i < 2; ++i) EXPECT_IS(pthread_create(&threads[i], NULL, delete_timer, NULL), 0);
+  for (int i = 0; i < 2; ++i) EXPECT_IS(pthread_join(threads[i], NULL), 0);
+  EXPECT_IS(deleted, 1);
+}
+static void do_nothing(union sigval value) { (void)value; }
+static void* make_timer(void* to) {
+  struct sigevent event;
+  memset(&event, 0, sizeof event);
+  event.sigev_notify = SIGEV_THREAD;
+  event.sigev_notify_function = do_nothing;
+  EXPECT_IS(timer_create(CLOCK_MONOTONIC, &event, to), 0);
+  return NULL;
+}
+CASE(timers_of_two_threads_are_two) {
+  timer_t timers[2];
+  pthread_t threads[2];
+  for (int i = 0; i < 2; ++i) EXPECT_IS(pthread_create(&threads[i], NULL, make_timer, &timers[i]), 0);
+  for (int i = 0; i < 2; ++i) EXPECT_IS(pthread_join(threads[i], NULL), 0);
+  EXPECT(timers[0] != timers[1]);
+  for (int i = 0; i < 2; ++i) EXPECT_IS(timer_delete(timers[i]), 0);
+}
