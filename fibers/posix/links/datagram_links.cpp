@@ -10,6 +10,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -18,6 +19,9 @@
 
 namespace waitpoint::posix {
 namespace {
+
+/// Larger ones are left to the system, which rejects them.
+constexpr std::size_t largest_datagram = std::size_t{1} << 30;
 
 /// A datagram under way; its bytes follow the record. `descriptor` is our duplicate of the sending socket's.
 struct Datagram {
@@ -29,6 +33,8 @@ struct Datagram {
 
 void arrive(void* message) {
   auto& datagram = *static_cast<Datagram*>(message);
+  WAITPOINT_CHECK(datagram.descriptor >= 0 && datagram.to.length <= sizeof datagram.to.bytes,
+                  "a datagram arrives without a socket or a destination");
   const ErrorNumberKept kept;
   WAITPOINT_NEXT(sendto)
   (datagram.descriptor, datagram.bytes(), datagram.size, MSG_DONTWAIT | MSG_NOSIGNAL, datagram.to.get(),
@@ -63,7 +69,8 @@ bool send_over_link(int descriptor, const msghdr& message, std::size_t& size) {
   const Program* const receiver = program_at(address, SOCK_DGRAM, nullptr);
   if (receiver == nullptr) return false;
   size = 0;
-  for (std::size_t i = 0; i < message.msg_iovlen; ++i) size += message.msg_iov[i].iov_len;
+  for (std::size_t i = 0; i < message.msg_iovlen; ++i)
+    if (__builtin_add_overflow(size, message.msg_iov[i].iov_len, &size) || size > largest_datagram) return false;
   auto* const memory = static_cast<Datagram*>(std::malloc(sizeof(Datagram) + size));
   const int copy = WAITPOINT_NEXT(fcntl)(descriptor, F_DUPFD_CLOEXEC, 0);
   if (memory == nullptr || copy < 0) {
@@ -76,6 +83,7 @@ bool send_over_link(int descriptor, const msghdr& message, std::size_t& size) {
     std::memcpy(at, message.msg_iov[i].iov_base, message.msg_iov[i].iov_len);
     at += message.msg_iov[i].iov_len;
   }
+  WAITPOINT_CHECK(at == datagram->bytes() + size, "the parts of a datagram have another size than their sum");
   pass(kernel::Operation::send, nullptr);
   if (carrier->carry(carrier->network, *this_program().robot, *receiver->robot, size, arrive, drop, datagram))
     return true;

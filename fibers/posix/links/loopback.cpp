@@ -17,6 +17,7 @@ constexpr int longest_queue = 4096;  // of connections; the system's maximum
 // Bytes. The data sent and not acknowledged fits into the receive buffer, and is few segments, so that the system never
 // measures the speed and adapts the amount sent at once.
 constexpr int sent_most = 1 << 15, received_most = 1 << 16;
+static_assert(sent_most < received_most, "the receiver has room for all data that is not acknowledged");
 
 struct Stream {
   bool is_at_once : 1;  ///< the system delays nothing

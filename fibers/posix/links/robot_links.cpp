@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/program/thread.hpp"
@@ -35,16 +36,21 @@ const Carrier* carrier_here() {
 }
 
 bool take_own_address(int descriptor, SocketAddress& address) {
+  WAITPOINT_CHECK(address.length == sizeof address.bytes, "an address is read into one in use");
   const ErrorNumberKept kept;
   return getsockname(descriptor, address.get(), &address.length) == 0;
 }
 
 bool take_peers_address(int descriptor, SocketAddress& address) {
+  WAITPOINT_CHECK(address.length == sizeof address.bytes, "an address is read into one in use");
   const ErrorNumberKept kept;
   return getpeername(descriptor, address.get(), &address.length) == 0;
 }
 
+static_assert(sizeof(sockaddr_in) <= sizeof(sockaddr_storage) && alignof(sockaddr_in) <= alignof(sockaddr_storage));
+
 bool is_at(const SocketAddress& bound, const SocketAddress& address) {
+  WAITPOINT_CHECK(address.length <= sizeof address.bytes, "an address is longer than its memory");
   if (bound.bytes.ss_family != address.bytes.ss_family) return false;
   if (address.bytes.ss_family != AF_INET)
     return bound.length == address.length && std::memcmp(&bound.bytes, &address.bytes, address.length) == 0;

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -24,6 +25,8 @@ namespace {
 constexpr std::size_t most_under_way = 256 * 1024, most_of_a_piece = 16 * 1024;
 /// Bytes charged for each piece in addition to its data.
 constexpr std::size_t around_a_piece = 64;
+static_assert(most_of_a_piece + around_a_piece <= most_under_way,
+              "a stream with nothing under way has room for a piece");
 
 /// A sending socket with the data under way from it.
 struct Stream {
@@ -55,8 +58,10 @@ struct Piece {
 
 void free_if_unused(Stream& stream) {
   if (stream.descriptor >= 0 || stream.pieces > 0) return;
+  WAITPOINT_CHECK(stream.first_arrived == nullptr && stream.under_way == 0, "a stream with data under way is freed");
   Stream** link = &first;
-  while (*link != &stream) link = &(*link)->next;
+  while (*link != nullptr && *link != &stream) link = &(*link)->next;
+  WAITPOINT_CHECK(*link == &stream, "a stream to be freed is not in the list");
   *link = stream.next;
   if (stream.own >= 0) WAITPOINT_NEXT(close)(stream.own);
   std::free(&stream);
@@ -64,7 +69,10 @@ void free_if_unused(Stream& stream) {
 
 // It is no longer under way; freed here unless the link refers to it.
 void let_go(Piece& piece) {
+  WAITPOINT_CHECK(piece.stream != nullptr, "a piece of a stream is freed twice");
   Stream& stream = *piece.stream;
+  WAITPOINT_CHECK(stream.under_way >= piece.size + around_a_piece && stream.pieces > 0,
+                  "a stream has less under way than the size of a piece");
   stream.under_way -= piece.size + around_a_piece;
   --stream.pieces;
   piece.stream = nullptr;
@@ -75,6 +83,8 @@ void let_go(Piece& piece) {
 // Writes as much as the socket accepts; true if that is all. Data that the other end rejects is dropped.
 bool is_taken(Piece& piece) {
   const int own = piece.stream->own;
+  WAITPOINT_CHECK(own >= 0 && piece.taken <= piece.size,
+                  "a piece of a stream has no socket, or was written beyond its end");
   if (piece.size == 0) {
     WAITPOINT_NEXT(shutdown)(own, SHUT_WR);
     return true;
@@ -93,6 +103,7 @@ void deliver(Stream& stream) {
   ++stream.pieces;  // a reference: it must outlive the loop
   while (Piece* const piece = stream.first_arrived) {
     if (!is_taken(*piece)) break;
+    WAITPOINT_CHECK(piece->stream == &stream && arrived_count > 0, "a piece of another stream has arrived");
     stream.first_arrived = piece->next;
     if (piece->next == nullptr) stream.last_arrived = nullptr;
     --arrived_count;
@@ -106,7 +117,10 @@ void deliver(Stream& stream) {
 void arrive(void* message) {
   auto& piece = *static_cast<Piece*>(message);
   const ErrorNumberKept kept;
+  WAITPOINT_CHECK(piece.stream != nullptr && !piece.has_arrived, "a piece of a stream arrives twice");
   Stream& stream = *piece.stream;
+  WAITPOINT_CHECK((stream.first_arrived == nullptr) == (stream.last_arrived == nullptr),
+                  "the ends of a stream's list of arrived pieces disagree");
   piece.has_arrived = true;
   (stream.last_arrived == nullptr ? stream.first_arrived : stream.last_arrived->next) = &piece;
   stream.last_arrived = &piece;
@@ -120,6 +134,7 @@ void arrive(void* message) {
 void drop(void* message) {
   auto& piece = *static_cast<Piece*>(message);
   const ErrorNumberKept kept;
+  WAITPOINT_CHECK(piece.is_kept, "the link drops a piece of a stream twice");
   piece.is_kept = false;
   if (piece.stream == nullptr)
     std::free(&piece);
@@ -157,6 +172,8 @@ Stream* stream_of(int descriptor) {
 
 // Sends a piece; false without memory or link.
 bool launch(Stream& stream, const Carrier& carrier, const void* bytes, std::size_t size) {
+  WAITPOINT_CHECK(size <= most_of_a_piece && stream.receiver != nullptr && stream.own >= 0,
+                  "a piece is too large, or of a stream that goes over no link");
   void* const memory = std::malloc(sizeof(Piece) + size);
   if (memory == nullptr) return false;
   auto* const piece = new (memory) Piece{&stream, size};
@@ -198,22 +215,21 @@ bool goes_over_link(int descriptor) {
 }
 
 ssize_t send_stream_over_link(int descriptor, const void* bytes, std::size_t size) {
-  Stream& stream = *stream_of(descriptor);
+  Stream* const found = stream_of(descriptor);
+  if (found == nullptr || found->receiver == nullptr) return fail(EBADF);  // closed between the parts of a message
+  Stream& stream = *found;
   if (stream.has_ended) return fail(EPIPE);
   const char* const from = static_cast<const char*>(bytes);
   std::size_t sent = 0;
+  ++stream.pieces;  // a reference: another thread may close it meanwhile
   pass(kernel::Operation::send, nullptr);
-  while (sent < size) {
-    ++stream.pieces;  // a reference: another thread may close it meanwhile
-    const bool has_room = wait_for_room(stream);
-    --stream.pieces;
-    const bool is_closed = stream.descriptor < 0;
-    if (is_closed) free_if_unused(stream);
-    if (!has_room || is_closed) break;
+  while (sent < size && stream.descriptor >= 0 && wait_for_room(stream) && stream.descriptor >= 0) {
     const std::size_t piece = size - sent < most_of_a_piece ? size - sent : most_of_a_piece;
     if (!launch(stream, *carrier_here(), from + sent, piece)) break;
     sent += piece;
   }
+  --stream.pieces;
+  free_if_unused(stream);
   if (sent > 0) return static_cast<ssize_t>(sent);
   return errno == EINTR ? -1 : fail(ENOBUFS);
 }
@@ -251,6 +267,7 @@ void forget_streams() {
     next = stream->next;
     ++stream->pieces;
     while (Piece* const piece = stream->first_arrived) {
+      WAITPOINT_CHECK(arrived_count > 0, "more pieces of streams have arrived than were counted");
       stream->first_arrived = piece->next;
       --arrived_count;
       let_go(*piece);
