@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
@@ -47,6 +48,7 @@ Queue* queue_of(int descriptor) {
 }
 
 void remove(Queue& queue) {
+  WAITPOINT_CHECK(queue_of(queue.descriptor) == &queue, "a descriptor has another queue of requests");
   posix::remove(queues, queue);
   std::free(&queue);
 }
@@ -56,6 +58,7 @@ void finish(Queued* request, ssize_t result, int error) {
   __atomic_store_n(&request->block->__error_code, error, __ATOMIC_RELEASE);
   const sigevent event = request->block->aio_sigevent;
   RequestBatch* const batch = request->batch;
+  WAITPOINT_CHECK(batch == nullptr || batch->left > 0, "a batch has fewer requests than are done");
   std::free(request);
   kernel::running->scheduler->wake_all(done_object);
   tell_by(event);
@@ -84,6 +87,7 @@ void* work(void* argument) {
     const ssize_t result = perform(*request->block, request->request);
     const int error = result < 0 ? errno : 0;
     pass(kernel::Operation::release, &done_object);
+    WAITPOINT_CHECK(queue.first == request && queue.is_begun, "another request has taken the place of one in progress");
     queue.first = request->next;
     queue.is_begun = false;
     finish(request, result, error);
@@ -104,6 +108,7 @@ bool start_worker(Queue& queue) {
 // After the requests of equal urgency; not before the one in progress.
 void insert(Queue& queue, Queued& request) {
   Queued** link = &queue.first;
+  WAITPOINT_CHECK(!queue.is_begun || queue.first != nullptr, "a request in progress is not in its queue");
   if (queue.is_begun && *link != nullptr) link = &(*link)->next;
   while (*link != nullptr && (*link)->block->aio_reqprio <= request.block->aio_reqprio) link = &(*link)->next;
   request.next = *link;
@@ -188,6 +193,7 @@ int cancel_requests(int descriptor) {
   Queue* const queue = queue_of(descriptor);
   if (queue == nullptr || queue->first == nullptr) return AIO_ALLDONE;
   const bool is_begun = queue->is_begun;
+  WAITPOINT_CHECK(!is_begun || queue->worker != nullptr, "a request is in progress without a worker");
   cancel_from(is_begun ? &queue->first->next : &queue->first);
   return is_begun ? AIO_NOTCANCELED : AIO_CANCELED;
 }

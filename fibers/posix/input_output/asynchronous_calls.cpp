@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/input_output/asynchronous.hpp"
@@ -67,9 +69,11 @@ int start_all(aiocb* const* blocks, int count, const sigevent* event) {
     if (blocks[i] == nullptr || blocks[i]->aio_lio_opcode == LIO_NOP) continue;
     ++batch->left;
     if (submit_one(*blocks[i], batch) == 0) continue;
+    WAITPOINT_CHECK(batch->left > 1, "a rejected request was counted as done");
     --batch->left;
     result = fail(EIO);
   }
+  WAITPOINT_CHECK(batch->left > 0, "a batch was freed while requests were added to it");
   if (--batch->left > 0) return result;
   const ErrorNumberKept kept;
   tell_by(batch->event);
@@ -84,6 +88,9 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 // Under the C library's names: with 64-bit offsets, the header redirects the names without a size to the others.
+static_assert(sizeof(aiocb) == sizeof(aiocb64) && offsetof(aiocb, aio_offset) == offsetof(aiocb64, aio_offset) &&
+                  offsetof(aiocb, __error_code) == offsetof(aiocb64, __error_code),
+              "both names of a call take the same record");
 #define WAITPOINT_BOTH(result, name, arguments, ...)                                                           \
   extern "C" [[gnu::visibility("default")]] result waitpoint_##name arguments __VA_ARGS__ __asm__(#name "64"); \
   extern "C" [[gnu::visibility("default"),                                                                     \

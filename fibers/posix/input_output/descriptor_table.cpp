@@ -13,6 +13,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -54,12 +55,15 @@ void forget(int closed) {
 
 // The descriptor `to` was closed.
 int replaced(int from, int to, int made) {
+  WAITPOINT_CHECK(made < 0 || made == to, "the system has duplicated a descriptor to another number");
   if (made < 0 || from == to || !is_simulated()) return copy(from, made);
   forget(to);
   copy(from, made);
   look_at_descriptors();
   return made;
 }
+
+static_assert(sizeof(struct flock) == sizeof(struct flock64), "fcntl() and fcntl64() take the same record");
 
 int control(int descriptor, int command, void* argument) {
   if (is_simulated() && (command == F_SETLKW || command == F_OFD_SETLKW) && can_be_read(argument))
@@ -76,6 +80,7 @@ void close_descriptors_of(const Program& program) {
   const Program* owner = nullptr;
   for (int descriptor = next_owned(0, owner); descriptor >= 0; descriptor = next_owned(descriptor + 1, owner)) {
     if (owner != &program) continue;
+    WAITPOINT_CHECK(owner->is_member, "a program that is alone in its process owns a descriptor");
     disown(descriptor);
     forget_timer_descriptor(descriptor);
     close_stream_over_link(descriptor);

@@ -14,6 +14,7 @@
 using namespace waitpoint::posix;
 
 // Under the C library's names: its headers redirect those without a size to the others.
+static_assert(sizeof(off_t) == sizeof(off64_t), "both names of a call take the same offsets");
 #define WAITPOINT_SAME_AS(name) extern "C" [[gnu::visibility("default"), gnu::alias(#name)]]
 
 WAITPOINT_INTERPOSED ssize_t pread64(int descriptor, void* bytes, std::size_t size, off64_t at) {

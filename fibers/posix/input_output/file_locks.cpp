@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -34,6 +35,9 @@ bool closes_a_cycle(const Locking& locking) {
 
 bool try_lock(const void* what) {
   auto& locking = *static_cast<Locking*>(const_cast<void*>(what));
+  WAITPOINT_CHECK(locking.lock != nullptr ? locking.operation == F_SETLK || locking.operation == F_OFD_SETLK
+                                          : (locking.operation & LOCK_NB) != 0,
+                  "a lock is tried by a call that blocks the process");
   const ErrorNumberKept kept;
   locking.result = locking.lock != nullptr ? WAITPOINT_NEXT(fcntl)(locking.descriptor, locking.operation, locking.lock)
                                            : WAITPOINT_NEXT(flock)(locking.descriptor, locking.operation);

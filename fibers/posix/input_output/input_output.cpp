@@ -8,6 +8,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -57,6 +58,8 @@ bool may_wait_for(int descriptor, short events) {
 }
 
 bool prepare(int descriptor, DescriptorClass of, kernel::Operation operation, short events, bool may_block) {
+  WAITPOINT_CHECK(of != DescriptorClass::file && descriptor >= 0, "a file is to be waited for, or no descriptor");
+  WAITPOINT_CHECK(events == POLLIN || events == POLLOUT, "a transfer has no direction");
   const CancellationPoint point;
   pass(operation, nullptr);
   // The reader of a loopback stream is mostly a thread, which needs a turn.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/error.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/links/loopback.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -69,6 +70,7 @@ std::ptrdiff_t write_all(int descriptor, DescriptorClass of, const char* bytes, 
     const std::ptrdiff_t count = done([&] { return take(bytes + written, size - written); });
     if (count < 0 && errno == EAGAIN) continue;
     if (count < 0) break;
+    WAITPOINT_CHECK(static_cast<std::size_t>(count) <= size - written, "more was written than there was");
     written += static_cast<std::size_t>(count);
     if (written == size) return static_cast<std::ptrdiff_t>(written);
   } while (true);

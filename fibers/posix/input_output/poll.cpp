@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -28,6 +29,7 @@ Time deadline_in_ms(int timeout_ms) {
 
 int wait(pollfd* descriptors, nfds_t count, Time deadline) {
   // Errors are reported at once: unreadable arrays, too many descriptors.
+  WAITPOINT_FAST_CHECK(!this_thread().in_wait, "a thread waits for descriptors within another wait");
   if (WAITPOINT_NEXT(poll)(descriptors, count, 0) < 0) return -1;
   const CancellationPoint point;
   const bool has_temporary_mask = this_thread().has_temporary_mask;
@@ -73,11 +75,13 @@ class Sets {
     for (int i = 0; i < 3; ++i) {
       if (sets_[i] == nullptr) continue;
       FD_ZERO(sets_[i]);
-      for (nfds_t k = 0; k < size_; ++k)
+      for (nfds_t k = 0; k < size_; ++k) {
+        WAITPOINT_FAST_CHECK(polled_[k].fd >= 0 && polled_[k].fd < FD_SETSIZE, "a set has a descriptor beyond its end");
         if ((polled_[k].events & asked[i]) != 0 && (polled_[k].revents & answered[i]) != 0) {
           FD_SET(polled_[k].fd, sets_[i]);
           ++bits;
         }
+      }
     }
     return bits;
   }

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -77,6 +78,7 @@ WAITPOINT_INTERPOSED ssize_t writev(int descriptor, const iovec* pieces, int cou
     if (pieces[i].iov_len == 0) continue;
     const ssize_t written = write(descriptor, pieces[i].iov_base, pieces[i].iov_len);
     if (written < 0) return all > 0 ? all : -1;
+    WAITPOINT_CHECK(static_cast<std::size_t>(written) <= pieces[i].iov_len, "more was written than there was");
     all += written;
     if (static_cast<std::size_t>(written) < pieces[i].iov_len) break;
   }

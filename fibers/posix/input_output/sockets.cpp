@@ -12,6 +12,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -71,6 +72,7 @@ ssize_t receive_all(int descriptor, char* bytes, std::size_t size, int flags) {
     if (count < 0 && errno == EAGAIN) continue;
     if (count < 0) break;
     if (count == 0) return static_cast<ssize_t>(received);
+    WAITPOINT_CHECK(static_cast<std::size_t>(count) <= size - received, "more was received than there is room for");
     acknowledge(descriptor);
     received += static_cast<std::size_t>(count);
   }
@@ -94,6 +96,7 @@ ssize_t receive_all_parts(int descriptor, msghdr& message, int flags) {
       message.msg_iovlen = count;
       if (received <= 0 || message.msg_controllen > 0) return received;
       filled = static_cast<std::size_t>(received);
+      WAITPOINT_CHECK(filled <= part.iov_len, "more was received than the first part has room for");
       if (filled == part.iov_len) continue;
     }
     const std::size_t left = part.iov_len - filled;
@@ -239,6 +242,7 @@ WAITPOINT_INTERPOSED ssize_t recvfrom(int descriptor, void* __restrict bytes, st
   });
   if (!waits || received <= 0 || static_cast<std::size_t>(received) == size) return received;
   const auto before = static_cast<std::size_t>(received);
+  WAITPOINT_CHECK(before < size, "more was received than there is room for");
   const ssize_t more = receive_all(descriptor, static_cast<char*>(bytes) + before, size - before, flags);
   return more > 0 ? received + more : received;
 }

@@ -8,6 +8,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
@@ -35,6 +36,7 @@ bool can_move(int from, int to, int pipes) {
 /// Makes `call` without waiting once both ends are ready; repeats it if another thread was faster.
 template <class Call>
 ssize_t move_between(int from, int to, int pipes, unsigned flags, Call call) {
+  WAITPOINT_CHECK(pipes == 1 || pipes == 2, "data is moved between none or more than two pipes");
   if (!is_simulated()) return call(flags);
   if (goes_over_link(to)) return fail(EINVAL);
   const bool may_block = (flags & SPLICE_F_NONBLOCK) == 0 && can_move(from >= 0 ? from : to, to, pipes);
@@ -88,6 +90,7 @@ WAITPOINT_INTERPOSED ssize_t sendfile64(int to, int from, off64_t* at, std::size
     const ssize_t count = done([&] { return WAITPOINT_NEXT(sendfile64)(to, from, at, piece); });
     if (count < 0) break;
     if (count == 0) return static_cast<ssize_t>(sent);
+    WAITPOINT_CHECK(static_cast<std::size_t>(count) <= piece, "more was sent than was asked for");
     sent += static_cast<std::size_t>(count);
   }
   return sent > 0 || size == 0 ? static_cast<ssize_t>(sent) : -1;
