@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/program/thread_area.hpp"
 
+#include <unistd.h>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -53,11 +55,23 @@ T& field(void* base, const std::uint32_t (&description)[3]) {
 
 Head& head_of(void* area) { return *static_cast<Head*>(area); }
 
+Link& all_areas() { return field<Link>(_rtld_global, _thread_db_rtld_global__dl_stack_user); }
+
+bool is_in_list(const Link& link) {
+  const Link& all = all_areas();
+  const Link* each = all.next;
+  while (each != &all && each != &link) each = each->next;
+  return each == &link;
+}
+
+pid_t maker = 0;  // the process that made the first area
+
 }  // namespace
 
 void* make_thread_area(int thread_id) {
   void* area = _dl_allocate_tls(nullptr);
   if (area == nullptr) return nullptr;
+  if (maker == 0) maker = getpid();
   Head& head = head_of(area);
   const Head& own = head_of(own_thread_area());
   WAITPOINT_CHECK(head.thread == nullptr, "the C library uses the word of the control block that holds the thread");
@@ -67,7 +81,7 @@ void* make_thread_area(int thread_id) {
   head.pointer_guard = own.pointer_guard;
   field<int>(area, _thread_db_pthread_tid) = thread_id;
   // The dynamic linker walks this list when a library loaded later has thread-local variables.
-  Link& all = field<Link>(_rtld_global, _thread_db_rtld_global__dl_stack_user);
+  Link& all = all_areas();
   Link& link = field<Link>(area, _thread_db_pthread_list);
   WAITPOINT_CHECK(all.next->previous == &all, "the C library's list of threads is broken");
   link = {all.next, &all};
@@ -78,10 +92,13 @@ void* make_thread_area(int thread_id) {
 
 void free_thread_area(void* area) {
   const Link& link = field<Link>(area, _thread_db_pthread_list);
-  WAITPOINT_CHECK(link.next->previous == &link && link.previous->next == &link,
-                  "a thread's area is not in the C library's list");
-  link.previous->next = link.next;
-  link.next->previous = link.previous;
+  // In a child of fork() the C library has emptied the list; in one of clone() it has not.
+  if (getpid() == maker || is_in_list(link)) {
+    WAITPOINT_CHECK(link.next->previous == &link && link.previous->next == &link,
+                    "a thread's area is not in the C library's list");
+    link.previous->next = link.next;
+    link.next->previous = link.previous;
+  }
   _dl_deallocate_tls(area, true);
 }
 

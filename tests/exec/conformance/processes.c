@@ -189,3 +189,22 @@ CASE(a_mutex_can_be_kept_free_for_children) {
   }
   join(id);
 }
+
+static void* do_nothing(void* argument) { return argument; }
+static void make_threads(int count) {
+  for (int i = 0; i < count; ++i) {
+    pthread_t thread;
+    EXPECT_IS(pthread_create(&thread, NULL, do_nothing, NULL), 0);
+    EXPECT_IS(pthread_join(thread, NULL), 0);
+  }
+}
+CASE(a_child_makes_threads_after_its_parent_has) {
+  make_threads(3);
+  const pid_t child = fork();
+  if (child == 0) {
+    make_threads(5);
+    _exit(5);
+  }
+  EXPECT_EXIT(child, 5);
+  make_threads(3);
+}
