@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// pthread_barrier_t: its counts are in its own bytes.
+// pthread_barrier_t: the counts are kept in the program's object.
 #include <limits.h>
 #include <pthread.h>
 
@@ -22,13 +22,13 @@ struct Barrier : Waitable {
 
 struct Bytes : SharedBytes<Barrier> {
   unsigned count, arrived;
-  std::uint32_t opened;  // how often all had arrived
+  std::uint32_t opened;  // number of completed rounds
 };
 static_assert(sizeof(Bytes) <= sizeof(pthread_barrier_t));
 
 Bytes& bytes_of(pthread_barrier_t* barrier) { return *reinterpret_cast<Bytes*>(barrier); }
 
-// Whether all others have.
+// True for the last thread of a round.
 bool arrive(Bytes& bytes, std::uint32_t& opened) {
   const family::Section section(bytes.is_shared());
   opened = bytes.opened;
@@ -53,7 +53,7 @@ WAITPOINT_INTERPOSED int pthread_barrier_init(pthread_barrier_t* barrier, const 
   Bytes& bytes = bytes_of(barrier);
   bytes.count = count;
   if (sharing == PTHREAD_PROCESS_SHARED) bytes.mark = mark_of_shared;
-  // What was at this address may still be waited for.
+  // An object that was at this address before may still have waiters.
   if (!bytes.is_shared()) bytes.known = &make_waitable<Barrier>(barrier);
   return 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// pthread_cond_t: in its own bytes a word that leads to what is known of it, and the clock of its deadlines.
+// pthread_cond_t: the program's object holds a pointer to the waitable, and the clock of the deadlines.
 #include <pthread.h>
 
 #include <cerrno>
@@ -25,7 +25,7 @@ struct Condition : Waitable {
 
 struct Bytes : SharedBytes<Condition> {
   clockid_t clock;  // 0: CLOCK_REALTIME
-  // Of one that processes share: who waits has a ticket, and those below `released` go on.
+  // If processes share it: each waiter has a ticket, and those below `released` continue.
   std::uint64_t next_ticket;
   std::uint64_t released;
   std::uint32_t changes;
@@ -39,8 +39,8 @@ std::uint64_t take_ticket(Bytes& bytes) {
   return bytes.next_ticket++;
 }
 
-// Whose wait ends otherwise leaves a ticket that nobody waits with. The others go on too, unless it is the last: for
-// nothing, as POSIX lets them, and no signal is lost.
+// A wait that ends without a signal leaves an unused ticket. Unless that is the newest, all waiters wake: spuriously,
+// as POSIX allows, but no signal is lost.
 void give_ticket_back(Bytes& bytes, std::uint64_t ticket) {
   const family::Section section;
   if (ticket < bytes.released) return;
@@ -88,11 +88,12 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   const CancellationPoint point;
   pass(kernel::Operation::wait, &known.object);
   if (!is_mine(*bytes) && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP) return EPERM;
-  // Unlocked and waiting in one step, without a waitpoint between: nothing else tells what happened before it.
+  // Unlock and wait are one step, without a waitpoint between, so the happens-before edge is reported here.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);
   const std::uint64_t ticket = words.is_shared() ? take_ticket(words) : 0;
   const std::uint32_t depth = release(*bytes);
-  // A handler is no reason to wait on: who signals meanwhile does not find it waiting. It comes back as if signalled.
+  // After a signal handler the wait is not resumed, as a pthread_cond_signal() meanwhile would miss this thread: the
+  // call returns as if signalled.
   Wait ended = Wait::came;
   if (words.is_shared())
     ended = wait_shared(known, words, ticket, deadline, point);

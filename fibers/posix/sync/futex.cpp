@@ -20,16 +20,16 @@
 namespace waitpoint::posix {
 namespace {
 
-/// Whose threads wait at a word: those of this process, or of all of its family.
+/// The threads that wait at a word: of this process, or of all processes of the family.
 enum class Of : bool { process, family };
 
-// Blocks the running thread; other processes may have to do with that.
+// Blocks the running thread; other processes may wake it.
 Wait wait_at(Word& word, Time deadline) {
   const Thread& thread = this_thread();
   if (thread.shared_futex == nullptr) return wait_on(word.object, deadline);
   for (;;) {
     const Wait ended = wait_on_shared(word.object, deadline, has_woken, &thread.shared_futex);
-    // Another thread of this process may have been quicker to take what one of another's gave.
+    // Another thread of this process may have taken the wake-up from another process first.
     if (ended != Wait::came || thread.futex_mask == 0 || has_woken(&thread.shared_futex)) return ended;
   }
 }
@@ -53,7 +53,7 @@ long wait(std::uint32_t* address, std::uint32_t expected, Time deadline, std::ui
   }
 }
 
-// Who is woken by a thread of its own process knows it by its mask.
+// A zero mask tells a thread that its own process woke it.
 void note_woken(const kernel::Task& task) { thread_of(task).futex_mask = 0; }
 
 std::uint32_t count_waiters(const Word& word) {
@@ -86,8 +86,8 @@ long wake(std::uint32_t* address, std::uint32_t most, std::uint32_t mask, Of of)
   return woken;
 }
 
-// Of those that are left after some were woken, at most so many wait at another address from now on. Returns how many
-// were woken or moved.
+// Wakes some waiters and moves at most `most_moved` of the others to another address. Returns the number of threads
+// woken or moved.
 long requeue(std::uint32_t* from, std::uint32_t most_woken, std::uint32_t most_moved, std::uint32_t* to) {
   long count = wake(from, most_woken, FUTEX_BITSET_MATCH_ANY, Of::process);
   if (count < 0 || from == to) return count;

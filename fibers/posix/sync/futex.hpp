@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Futexes: std::atomic::wait, latches, futures, guards of static variables and many libraries stand on them.
+// Futexes: std::atomic::wait, latches, futures, guards of static variables and many libraries use them.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace waitpoint::posix {
 
-/// As the system's call.
+/// As the system call.
 long futex(std::uint32_t* address, int operation, std::uint32_t value, const timespec* timeout, std::uint32_t* second,
            std::uint32_t third);
 

@@ -22,7 +22,7 @@ void give(std::uint32_t* address, std::uint32_t id, const Word& word) {
   __atomic_store_n(address, word.object.first_waiter != nullptr ? id | FUTEX_WAITERS : id, __ATOMIC_SEQ_CST);
 }
 
-// Takes what is free: true. Else whether it may be waited for, as an error number or 0.
+// True if the word was free, and is taken now. Else `error` is 0 if waiting is allowed, or an error number.
 bool take(std::uint32_t* address, const Word& word, int& error) {
   const std::uint32_t owner = owner_of(address);
   error = owner == own_id() ? EDEADLK : owner != 0 && thread_with_id(static_cast<int>(owner)) == nullptr ? ESRCH : 0;
@@ -41,7 +41,7 @@ long lock_owned(std::uint32_t* address, Time deadline) {
     if (deadline <= kernel::running->local_time) return fail(ETIMEDOUT);
     __atomic_fetch_or(address, FUTEX_WAITERS, __ATOMIC_SEQ_CST);
     const Wait ended = wait_on(word.object, deadline);
-    if (owner_of(address) == own_id()) return 0;  // who unlocked it handed it over
+    if (owner_of(address) == own_id()) return 0;  // handed over by the previous owner
     if (ended == Wait::interrupted) handle_signals();
   }
   return 0;

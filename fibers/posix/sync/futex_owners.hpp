@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Futexes that hold the gettid() of their owner: FUTEX_LOCK_PI and its kin, among the threads of this process. As on
-// Linux, an unlocked word is zero, a bit says that somebody waits, and who unlocks hands over. There are no priorities
-// to be inherited.
+// Linux, an unlocked word is zero, a bit says that there are waiters, and unlocking hands the word over to one of them.
+// Priorities are not inherited: there are none.
 #pragma once
 
 #include <cstdint>

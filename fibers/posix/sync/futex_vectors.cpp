@@ -18,12 +18,12 @@ namespace {
 constexpr std::uint32_t most_at_once = 128;
 constexpr std::uint32_t of_32_bits = 2;
 
-/// A thread that waits: on its own stack.
+/// A waiting thread, on its own stack.
 struct Vector {
   kernel::Task* task;
   const futex_waitv* words;
   std::uint32_t count;
-  int woken = -1;  ///< which
+  int woken = -1;  ///< index of the word
   Vector* next = nullptr;
 };
 Vector* first = nullptr;
@@ -34,7 +34,7 @@ const std::uint32_t* address_of(const futex_waitv& word) {
   return reinterpret_cast<const std::uint32_t*>(static_cast<std::uintptr_t>(word.uaddr));
 }
 
-// 0, or what the system says of them.
+// 0, or the error number of the system call.
 int error_of(const futex_waitv* words, std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!can_be_read(&words[i])) return EFAULT;

@@ -10,12 +10,13 @@ namespace waitpoint::posix {
 
 struct CallWords;
 
-/// As the system's call: which of them was woken, or -1 with errno.
+/// As the system call: the index of the word that was woken, or -1 with errno.
 long wait_for_any_futex(const CallWords& words);
-/// Wakes at most so many of those that wait at this address among others; how many.
+/// Wakes at most `most` threads that wait at this address among others; returns their number.
 std::uint32_t wake_vectors(const void* address, std::uint32_t most);
-/// In a child: nobody waits so. And: the task is not there any more.
+/// In a child process: drops all waiters.
 void forget_vectors();
+/// Drops the waiter of a task that has ended.
 void forget_vector(const kernel::Task& task);
 
 }  // namespace waitpoint::posix

@@ -24,7 +24,7 @@ void hand_on(Mutex& mutex) {
   }
 }
 
-// Its owner gives it up; one that was not put right is lost.
+// Its owner unlocks it; if it is still inconsistent, it becomes unrecoverable.
 void give_up(Mutex& mutex) {
   if (mutex.robust_state != Mutex::RobustState::inconsistent) return hand_on(mutex);
   mutex.robust_state = Mutex::RobustState::unrecoverable;
@@ -32,14 +32,14 @@ void give_up(Mutex& mutex) {
   kernel::running->scheduler->wake_all(mutex.object);
 }
 
-// What the new owner is told.
+// The result of the new owner's lock.
 int enter(Mutex& mutex) {
   if (mutex.robust_state != Mutex::RobustState::owner_died) return 0;
   mutex.robust_state = Mutex::RobustState::inconsistent;
   return EOWNERDEAD;
 }
 
-// What locking again comes to for the owner, unless it waits for itself: -1.
+// The result of a second lock by the owner; -1 if it would wait for itself.
 int lock_again(Mutex& mutex, int type) {
   if (type == PTHREAD_MUTEX_ERRORCHECK_NP) return EDEADLK;
   if (type != PTHREAD_MUTEX_RECURSIVE_NP) return -1;
@@ -65,8 +65,7 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
   return enter(mutex);
 }
 
-// What nobody holds is taken, and what nobody waits for is given up, in a few steps where no event can come between:
-// programs do it more often than anything else.
+// Short cuts for an uncontended lock and unlock, where no event can come between: the most frequent calls of programs.
 [[gnu::always_inline]] inline bool lock_at_once(const pthread_mutex_t& bytes) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
   kernel::Task* const task = kernel::running;
@@ -93,7 +92,7 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
   Mutex& mutex = mutex_of(bytes);
   pass(kernel::Operation::lock, &mutex.object);
   if (mutex.is_shared) return shared_mutex::lock(*bytes, deadline, is_valid_deadline);
-  // What the owner locks again looks at no deadline, unless it is to wait for itself.
+  // A second lock by the owner ignores the deadline, unless it would wait for itself.
   const bool is_known = mutex.object.owner == kernel::running && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP &&
                         type_of(*bytes) != PTHREAD_MUTEX_ADAPTIVE_NP;
   if (!is_valid_deadline && mutex.object.owner != nullptr && !is_known) return EINVAL;
@@ -107,7 +106,7 @@ int try_lock(pthread_mutex_t* bytes) {
   if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP)
     return lock_again(mutex, PTHREAD_MUTEX_RECURSIVE_NP);
-  // As glibc, which asks the system for these.
+  // As glibc, which leaves these to the system.
   const bool is_told = mutex.is_robust || inherits_priority(*bytes);
   if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_ERRORCHECK_NP && is_told)
     return EDEADLK;
@@ -123,7 +122,7 @@ int try_lock(pthread_mutex_t* bytes) {
   if (!is_mine && (type_of(*bytes) == PTHREAD_MUTEX_ERRORCHECK_NP || type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP ||
                    mutex.is_robust || inherits_priority(*bytes)))
     return EPERM;
-  // Of the plain kind: glibc lets any thread unlock it, locked or not.
+  // A normal mutex: glibc lets any thread unlock it, locked or not.
   if (mutex.object.owner == nullptr) return 0;
   if (mutex.depth > 1) {
     --mutex.depth;
@@ -194,7 +193,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_init(pthread_mutex_t* mutex, const pthrea
   const int error = WAITPOINT_NEXT(pthread_mutex_init)(mutex, attributes);
   if (error != 0) return error;
   mutex->__data.__list.__prev = nullptr;
-  // glibc has all robust ones for shared.
+  // glibc marks all robust mutexes as shared.
   int sharing = PTHREAD_PROCESS_PRIVATE;
   if (attributes != nullptr) pthread_mutexattr_getpshared(attributes, &sharing);
   if (sharing == PTHREAD_PROCESS_PRIVATE) mutex->__data.__kind &= ~Mutex::shared_bit;
@@ -211,7 +210,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept 
   return 0;
 }
 
-// Before main() there is one thread: no lock is in its way.
+// Before main() there is one thread: a lock is always free.
 WAITPOINT_INTERPOSED int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
   if (lock_at_once(*mutex)) return 0;
   return is_simulated() ? lock_before(mutex, Time::max(), true) : 0;
@@ -237,7 +236,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_timedlock(pthread_mutex_t* mutex, const t
   return pthread_mutex_clocklock(mutex, CLOCK_REALTIME, deadline);
 }
 
-// The ceiling is kept where glibc keeps it, which its pthread_mutex_getprioceiling() reads; it changes nothing.
+// The ceiling is stored where glibc's pthread_mutex_getprioceiling() reads it; it has no effect.
 WAITPOINT_INTERPOSED int pthread_mutex_setprioceiling(pthread_mutex_t* mutex, int ceiling, int* old) noexcept {
   int before = 0;
   if (const int error = pthread_mutex_getprioceiling(mutex, &before); error != 0) return error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What conditions do with a mutex that the running thread holds.
+// Operations of condition variables on a mutex that the running thread holds.
 #pragma once
 
 #include <pthread.h>
@@ -9,13 +9,13 @@
 
 namespace waitpoint::posix {
 
-/// After the caller's waitpoint: an error number; ETIMEDOUT once `deadline` comes first.
+/// After the caller's waitpoint: returns an error number, ETIMEDOUT at `deadline`.
 int lock(pthread_mutex_t& mutex, Time deadline);
-/// Gives up the mutex that the running thread holds, however often it locked it: the depth that it had.
+/// Unlocks a mutex held by the running thread completely; returns its recursion depth.
 std::uint32_t release(pthread_mutex_t& mutex);
-/// Of one that is locked again after that.
+/// Restores that depth after locking it again.
 void set_depth(pthread_mutex_t& mutex, std::uint32_t depth);
-/// Whether the running thread holds it.
+/// True if the running thread holds it.
 bool is_mine(pthread_mutex_t& mutex);
 inline bool inherits_priority(const pthread_mutex_t& mutex) { return (mutex.__data.__kind & 32) != 0; }
 

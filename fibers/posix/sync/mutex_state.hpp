@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// pthread_mutex_t: in its own bytes the type, where glibc has it, and a word that leads to the rest.
+// pthread_mutex_t: the program's object holds the type, where glibc has it, and a pointer to the waitable.
 #pragma once
 
 #include <pthread.h>
@@ -16,18 +16,18 @@ struct Mutex : Waitable {
         is_robust((static_cast<const pthread_mutex_t*>(address)->__data.__kind & robust_bit) != 0),
         is_shared((static_cast<const pthread_mutex_t*>(address)->__data.__kind & shared_bit) != 0) {}
 
-  /// POSIX: of what a robust mutex protects.
+  /// POSIX: the state of the data that a robust mutex protects.
   enum class RobustState : std::uint8_t {
     consistent,
-    owner_died,     ///< its next owner is to be told: EOWNERDEAD
-    inconsistent,   ///< its owner was told, and has not called pthread_mutex_consistent
-    unrecoverable,  ///< it was unlocked inconsistent: ENOTRECOVERABLE
+    owner_died,     ///< the next lock returns EOWNERDEAD
+    inconsistent,   ///< its owner got EOWNERDEAD, and has not called pthread_mutex_consistent
+    unrecoverable,  ///< unlocked while inconsistent: ENOTRECOVERABLE
   };
 
   const bool is_robust;
-  const bool is_shared;  ///< between processes: what follows is in its own bytes, see shared_mutex.hpp
+  const bool is_shared;  ///< between processes: the members below are in the program's object, see shared_mutex.hpp
   RobustState robust_state = RobustState::consistent;
-  std::uint32_t depth = 0;  ///< how often its owner has locked it
+  std::uint32_t depth = 0;  ///< number of locks by its owner
 };
 
 inline bool is_shared(const pthread_mutex_t& mutex) { return (mutex.__data.__kind & Mutex::shared_bit) != 0; }
@@ -36,7 +36,7 @@ inline int type_of(const pthread_mutex_t& mutex) { return mutex.__data.__kind & 
 
 inline Mutex& mutex_of(pthread_mutex_t* mutex) {
   if (is_shared(*mutex)) return waitable_at<Mutex>(mutex);
-  // The links of the list of robust mutexes, which glibc keeps in the thread's area: we keep none there.
+  // glibc's link in its thread's list of robust mutexes, which the layer does not use.
   return waitable_at(reinterpret_cast<Mutex*&>(mutex->__data.__list.__prev), mutex);
 }
 

@@ -26,7 +26,7 @@ void end(int* flag, int state) {
   kernel::running->scheduler->wake_all(word.object);
 }
 
-// A function that is left by an exception or a cancellation was not called: another thread tries again.
+// A function that is left by an exception or a cancellation does not count as called: another thread calls it again.
 struct Attempt {
   ~Attempt() { end(flag, completed ? done : fresh); }
   int* flag;
@@ -49,7 +49,7 @@ int call(int* flag, void (*function)()) {
     function();
     attempt.completed = true;
   }
-  // Who finds it done has passed no waitpoint: nothing else tells that it was done before.
+  // A thread that finds it done has passed no waitpoint, so the happens-before edge is reported here.
   if (kernel::sanitizer::present && is_simulated()) kernel::sanitizer::acquire(&word_at(flag).object);
   return 0;
 }

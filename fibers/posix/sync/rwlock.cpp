@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// pthread_rwlock_t: in its own bytes the preference, where glibc has it, and a word that leads to what is known of it.
+// pthread_rwlock_t: the program's object holds the preference, where glibc has it, and a pointer to the waitable.
 #include <pthread.h>
 
 #include <cerrno>
@@ -27,10 +27,10 @@ struct RwLock : Waitable {
     return task;
   }
 
-  std::uint32_t readers = 0;  ///< who hold it together
+  std::uint32_t readers = 0;  ///< that hold it
 };
 
-// As glibc's: `__flags` is the kind, `__readers` and its kin are not needed.
+// As in glibc, `__flags` is the kind. The other fields are unused.
 RwLock& lock_of(pthread_rwlock_t* lock) {
   if (shared_rwlock::is_shared(*lock)) return waitable_at<RwLock>(lock);
   return waitable_at(*reinterpret_cast<RwLock**>(lock), lock);
@@ -40,7 +40,7 @@ bool prefers_writers(const pthread_rwlock_t& bytes) {
   return bytes.__data.__flags == PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP;
 }
 
-// glibc's readers pass waiting writers, but where the lock was made to prefer these.
+// As in glibc: readers overtake waiting writers, unless the lock prefers writers.
 bool readers_wait(const pthread_rwlock_t& bytes, const RwLock& lock) {
   return prefers_writers(bytes) && lock.first_waiting_writer() != nullptr;
 }
@@ -66,7 +66,7 @@ int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
   }
 }
 
-// All that wait to read hold it together.
+// All waiting readers get the lock.
 void admit_readers(RwLock& lock) {
   for (kernel::Task *task = lock.object.first_waiter, *next = nullptr; task != nullptr; task = next) {
     next = task->next_waiter;
@@ -90,14 +90,14 @@ int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
     if (deadline <= kernel::running->local_time) return ETIMEDOUT;
     const Wait ended = wait_on(lock.object, deadline);
     if (ended == Wait::came) return 0;
-    // Readers may have waited for this thread alone.
+    // This writer may have been the only one that made readers wait.
     if (lock.object.owner == nullptr && !readers_wait(*bytes, lock)) admit_readers(lock);
     if (ended == Wait::timed_out) return ETIMEDOUT;
     handle_signals();
   }
 }
 
-// Who was chosen gets the free lock, and if that is a reader, all readers with it.
+// The free lock goes to the chosen waiter; if that is a reader, to all waiting readers.
 void hand_on(RwLock& lock, bool prefers_writers) {
   kernel::Task* first = prefers_writers ? lock.first_waiting_writer() : nullptr;
   if (first != nullptr)
@@ -143,7 +143,7 @@ WAITPOINT_INTERPOSED int pthread_rwlock_destroy(pthread_rwlock_t* lock) noexcept
   return 0;
 }
 
-// Before main() there is one thread: no lock is in its way.
+// Before main() there is one thread: a lock is always free.
 WAITPOINT_INTERPOSED int pthread_rwlock_rdlock(pthread_rwlock_t* lock) noexcept {
   return is_simulated() ? read_before(lock, Time::max(), true) : 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// sem_t: its count is in its own bytes, beside a word that leads to the rest; one that processes share has a count of
-// its changes in place of that.
+// sem_t: the program's object holds the count and a pointer to the waitable; if processes share it, a count of changes
+// in place of the pointer.
 #include <limits.h>
 #include <semaphore.h>
 

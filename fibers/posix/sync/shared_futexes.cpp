@@ -14,7 +14,7 @@ struct Futexes {
   SharedFutex all[futexes_max];
 };
 
-// Within a section; null if there is none.
+// Null if there is none. Within a section.
 SharedFutex* find(Futexes& futexes, const void* address) {
   SharedFutex* const end = futexes.all + futexes_max;
   SharedFutex* const found = std::find_if(futexes.all, end, [&](const SharedFutex& each) {

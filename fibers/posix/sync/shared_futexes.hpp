@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Futexes at which threads of several processes of a family wait: how many, and how many of those of other processes
-// were woken. Who wakes serves the threads of its own process first.
+// Futexes with waiters in several processes of a family: the numbers of waiters and of wake-ups across processes. A
+// wake-up serves the threads of its own process first.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@ namespace waitpoint::posix {
 
 struct SharedFutex {
   const void* address;
-  std::uint32_t waiters;  ///< not woken yet by another process
-  std::uint32_t woken;    ///< by another process, and still on their way
+  std::uint32_t waiters;  ///< not yet woken by another process
+  std::uint32_t woken;    ///< by another process, and have not returned yet
 };
 
-/// The running thread is about to wait; null where too many futexes are waited for. To be told before it looks at the
-/// word's value for the last time.
+/// Registers the running thread as a waiter, before it reads the word's value for the last time. Null if too many
+/// futexes have waiters.
 SharedFutex* begin_to_wait(const void* address);
-/// It has waited: whether another process has woken it, or one of its own did.
+/// Ends that wait; `by_own`: a thread of this process woke it. True if it was woken by this process or another.
 bool end_waiting(SharedFutex& futex, bool by_own);
-/// Whether another process has woken somebody: a predicate for wait_on_shared(), of where the futex is kept.
+/// True if another process has woken a waiter: a predicate for wait_on_shared(), on a pointer to a SharedFutex pointer.
 bool has_woken(const void* kept);
-/// Wakes at most so many threads of other processes, beside the `own` that wait in this one; how many.
+/// Wakes at most `most` threads of other processes; returns their number. `own` of the waiters are of this process.
 std::uint32_t wake_others(const void* address, std::uint32_t most, std::uint32_t own);
 
 }  // namespace waitpoint::posix

@@ -10,11 +10,11 @@
 namespace waitpoint::posix::shared_mutex {
 namespace {
 
-// Over glibc's fields: the ceiling, the kind and the word that is null in what is not shared stay where they are.
+// Laid over glibc's fields: the ceiling, the kind and the pointer to a private mutex's waitable keep their places.
 struct Bytes {
   int ceiling;
   std::uint32_t depth;
-  int thread;  // of the process, by its number
+  int thread;  // gettid() of the owner
   pid_t process;
   int kind;
   std::uint32_t changes;
@@ -37,7 +37,7 @@ int lock_again(Bytes& words, int type) {
   return 0;
 }
 
-// Within the section: 0, an error, or -1 if it is held. A robust one whose owner's process has ended is nobody's.
+// Within the section: 0, an error, or -1 if it is held. A robust one is free if its owner's process has ended.
 int try_to_take(Bytes& words, Mutex& mutex) {
   if (words.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
   if (words.process != 0 && mutex.is_robust && words.process != family::this_process() &&
@@ -64,8 +64,7 @@ int take_or_tell(Bytes& words, Mutex& mutex, std::uint32_t& changes) {
   return try_to_take(words, mutex);
 }
 
-// For whoever waits.
-// One that its owner has not put right is lost.
+// The state after an unlock: a mutex that is still inconsistent becomes unrecoverable.
 Mutex::RobustState state_after(const Bytes& words) {
   return words.robust_state == Mutex::RobustState::inconsistent ? Mutex::RobustState::unrecoverable
                                                                 : words.robust_state;

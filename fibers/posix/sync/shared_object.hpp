@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What primitives have in common that are shared between processes: all that they are is in their own bytes, changed
-// within a family's section. A count of the changes is there too: who cannot go on waits for it to move.
+// Common parts of process-shared primitives: their whole state is in the program's object, changed within a family's
+// section. It includes a count of changes, on which threads wait.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace waitpoint::posix {
 
-/// In the bytes of an object that is shared, where zeroes or another value say that it is not.
+/// Marks the program's object as process-shared; any other value: private.
 inline constexpr std::uint32_t mark_of_shared = 0x53484152;
 
-/// What the bytes of a primitive begin with that processes may share. They are zeroes before it is used.
+/// The head of a primitive that processes may share, in the program's object. Zero before its first use.
 template <class Known>
 struct SharedBytes {
-  Known* known;  ///< of one that is not shared
+  Known* known;  ///< of a private one
   std::uint32_t mark;
 
   bool is_shared() const { return mark == mark_of_shared; }
-  /// What stands for it in this process.
+  /// Its waitable in this process.
   Known& waitable() { return is_shared() ? waitable_at<Known>(this) : waitable_at(known, this); }
 };
 
-/// Waits for another change than those that were counted when the caller, within the section, found that it must wait:
-/// of `object`, which stands for it in this process.
+/// Waits until the count of changes differs from `seen`, its value when the caller, within the section, found that it
+/// must wait. `object` is the primitive's in this process.
 inline Wait wait_for_change(kernel::Object& object, const std::uint32_t& changes, std::uint32_t seen, Time deadline) {
   struct Seen {
     const std::uint32_t* changes;
@@ -40,7 +40,7 @@ inline Wait wait_for_change(kernel::Object& object, const std::uint32_t& changes
   return wait_on_shared(object, deadline, has_changed, &last);
 }
 
-/// After the section in which a change was made and counted: whoever waits looks again.
+/// After the section in which a change was made and counted: all waiters check again.
 inline void tell_change(kernel::Object& object) {
   if (is_simulated()) kernel::running->scheduler->wake_all(object);
   family::ring();

@@ -9,12 +9,12 @@
 namespace waitpoint::posix::shared_rwlock {
 namespace {
 
-// Over glibc's fields: that it is shared, and the kind, stay where they are.
+// Laid over glibc's fields: `__shared` and the kind keep their places.
 struct Bytes {
   void* unused;
   std::uint32_t readers;
   std::uint32_t changes;
-  pid_t process;  // of who writes
+  pid_t process;  // of the writer
   int thread;
   std::uint32_t waiting_writers;
   int shared;
@@ -48,7 +48,7 @@ int try_to_write(Bytes& words, std::uint32_t& changes) {
   return 0;
 }
 
-// Readers may wait for waiting writers alone.
+// A count that falls is a change: readers may wait only because writers do.
 void count_waiting_writer(Bytes& words, kernel::Object& object, int by) {
   {
     const family::Section section;

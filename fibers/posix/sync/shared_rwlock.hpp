@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Read-write locks that processes share: who holds one is in its own bytes.
+// Process-shared read-write locks: the holders are in the program's object.
 #pragma once
 
 #include <pthread.h>
@@ -11,7 +11,7 @@ namespace waitpoint::posix::shared_rwlock {
 
 bool is_shared(const pthread_rwlock_t& bytes);
 
-/// After the caller's waitpoint, with what stands for it in this process: as for one that is not shared.
+/// After the caller's waitpoint, with the lock's object in this process: as for a private lock.
 int read_before(pthread_rwlock_t& bytes, kernel::Object& object, Time deadline, bool is_valid_deadline);
 int write_before(pthread_rwlock_t& bytes, kernel::Object& object, Time deadline, bool is_valid_deadline);
 int unlock(pthread_rwlock_t& bytes, kernel::Object& object);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// pthread_spinlock_t: who finds it taken does not spin, but waits.
+// pthread_spinlock_t: a thread that finds it taken waits instead of spinning.
 #include <pthread.h>
 
 #include <cerrno>
@@ -12,7 +12,7 @@
 namespace waitpoint::posix {
 namespace {
 
-// As glibc's: 1 is free, so that what is not initialised is found out.
+// As in glibc: 1 is free, so that an uninitialised lock shows.
 constexpr int is_free = 1, is_taken = 0;
 
 bool take(pthread_spinlock_t* lock) { return __atomic_exchange_n(lock, is_taken, __ATOMIC_SEQ_CST) == is_free; }
