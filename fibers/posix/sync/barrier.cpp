@@ -24,7 +24,7 @@ struct Bytes : SharedBytes<Barrier> {
   unsigned count, arrived;
   std::uint32_t opened;  // number of completed rounds
 };
-static_assert(sizeof(Bytes) <= sizeof(pthread_barrier_t));
+static_assert(sizeof(Bytes) <= sizeof(pthread_barrier_t) && alignof(Bytes) <= alignof(pthread_barrier_t));
 
 Bytes& bytes_of(pthread_barrier_t* barrier) { return *reinterpret_cast<Bytes*>(barrier); }
 

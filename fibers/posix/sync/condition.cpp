@@ -30,7 +30,8 @@ struct Bytes : SharedBytes<Condition> {
   std::uint64_t released;
   std::uint32_t changes;
 };
-static_assert(sizeof(Bytes) <= sizeof(pthread_cond_t));
+static_assert(sizeof(Bytes) <= sizeof(pthread_cond_t) && alignof(Bytes) <= alignof(pthread_cond_t));
+static_assert(CLOCK_REALTIME == 0, "PTHREAD_COND_INITIALIZER is all zeroes");
 
 Bytes& bytes_of(pthread_cond_t* condition) { return *reinterpret_cast<Bytes*>(condition); }
 

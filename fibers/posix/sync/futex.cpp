@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -54,7 +55,10 @@ long wait(std::uint32_t* address, std::uint32_t expected, Time deadline, std::ui
 }
 
 // A zero mask tells a thread that its own process woke it.
-void note_woken(const kernel::Task& task) { thread_of(task).futex_mask = 0; }
+void note_woken(const kernel::Task& task) {
+  WAITPOINT_FAST_CHECK(is_thread(task), "a task that is no thread waited at a futex");
+  thread_of(task).futex_mask = 0;
+}
 
 std::uint32_t count_waiters(const Word& word) {
   std::uint32_t count = 0;
@@ -93,6 +97,8 @@ long requeue(std::uint32_t* from, std::uint32_t most_woken, std::uint32_t most_m
   if (count < 0 || from == to) return count;
   kernel::Object& target = word_at(to).object;
   kernel::running->scheduler->enter(target);
+  WAITPOINT_CHECK(target.owner == nullptr && word_at(from).object.owner == nullptr,
+                  "waiters are moved between futexes that have an owner");
   for (kernel::Task* task = word_at(from).object.first_waiter; task != nullptr && most_moved > 0; --most_moved) {
     kernel::Task* const next = task->next_waiter;
     kernel::running->scheduler->move_waiter(*task, target);

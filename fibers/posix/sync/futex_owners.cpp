@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/program/word.hpp"
@@ -13,7 +14,12 @@
 namespace waitpoint::posix {
 namespace {
 
-std::uint32_t own_id() { return static_cast<std::uint32_t>(this_thread().id); }
+std::uint32_t id_of(const Thread& thread) {
+  const auto id = static_cast<std::uint32_t>(thread.id);
+  WAITPOINT_CHECK(id != 0 && (id & FUTEX_TID_MASK) == id, "a thread's number does not fit into a futex");
+  return id;
+}
+std::uint32_t own_id() { return id_of(this_thread()); }
 std::uint32_t owner_of(const std::uint32_t* address) {
   return __atomic_load_n(address, __ATOMIC_SEQ_CST) & FUTEX_TID_MASK;
 }
@@ -59,7 +65,7 @@ long unlock_owned(std::uint32_t* address) {
   pass(kernel::Operation::unlock, &word.object);
   if (owner_of(address) != own_id()) return fail(EPERM);
   const kernel::Task* const next = wake_one(word.object);
-  give(address, next != nullptr ? static_cast<std::uint32_t>(thread_of(*next).id) : 0, word);
+  give(address, next != nullptr ? id_of(thread_of(*next)) : 0, word);
   return 0;
 }
 

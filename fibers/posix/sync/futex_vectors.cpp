@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/system_call_words.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::uint32_t most_at_once = 128;
 constexpr std::uint32_t of_32_bits = 2;
+static_assert(most_at_once == FUTEX_WAITV_MAX && of_32_bits == FUTEX_32);
 
 /// A waiting thread, on its own stack.
 struct Vector {
@@ -55,7 +57,8 @@ bool has_another_value(const Vector& vector) {
 
 void remove(const Vector& vector) {
   Vector** link = &first;
-  while (*link != &vector) link = &(*link)->next;
+  while (*link != nullptr && *link != &vector) link = &(*link)->next;
+  WAITPOINT_CHECK(*link != nullptr, "a thread that waits for several futexes is not in their list");
   *link = vector.next;
 }
 
@@ -94,6 +97,8 @@ std::uint32_t wake_vectors(const void* address, std::uint32_t most) {
   for (Vector* vector = first; vector != nullptr && woken < most; vector = vector->next)
     for (std::uint32_t i = 0; i < vector->count && vector->woken < 0; ++i) {
       if (address_of(vector->words[i]) != address) continue;
+      WAITPOINT_FAST_CHECK(vector->task->state != kernel::TaskState::blocked || vector->task->blocked_on == &object,
+                           "a thread that waits for several futexes is blocked on something else");
       vector->woken = static_cast<int>(i);
       if (vector->task->state == kernel::TaskState::blocked) vector->task->scheduler->wake(*vector->task);
       ++woken;

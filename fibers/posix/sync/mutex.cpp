@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -26,6 +27,7 @@ void hand_on(Mutex& mutex) {
 
 // Its owner unlocks it; if it is still inconsistent, it becomes unrecoverable.
 void give_up(Mutex& mutex) {
+  WAITPOINT_CHECK(mutex.object.owner != nullptr, "a mutex without an owner is given up");
   if (mutex.robust_state != Mutex::RobustState::inconsistent) return hand_on(mutex);
   mutex.robust_state = Mutex::RobustState::unrecoverable;
   kernel::disown(mutex.object);
@@ -35,6 +37,7 @@ void give_up(Mutex& mutex) {
 // The result of the new owner's lock.
 int enter(Mutex& mutex) {
   if (mutex.robust_state != Mutex::RobustState::owner_died) return 0;
+  WAITPOINT_CHECK(mutex.is_robust, "a mutex that is not robust is marked as left by a dead owner");
   mutex.robust_state = Mutex::RobustState::inconsistent;
   return EOWNERDEAD;
 }
@@ -58,7 +61,12 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
     if (ended == Wait::timed_out) return ETIMEDOUT;
     if (ended == Wait::interrupted) handle_signals();
     if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
-    if (ended == Wait::came) return enter(mutex);
+    if (ended != Wait::came) continue;
+    // Of the other types, any thread may have unlocked it again.
+    WAITPOINT_CHECK((type != PTHREAD_MUTEX_ERRORCHECK_NP && type != PTHREAD_MUTEX_RECURSIVE_NP) ||
+                        mutex.object.owner == kernel::running,
+                    "a thread was woken for a mutex that was not handed over to it");
+    return enter(mutex);
   }
   kernel::own(mutex.object, *kernel::running);
   mutex.depth = 1;
@@ -72,6 +80,7 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
   if (mutex == nullptr || mutex->object.owner != nullptr || mutex->robust_state != Mutex::RobustState::consistent)
     return false;
   if (!pass_at_once(task, kernel::Operation::lock, mutex->object)) return false;
+  WAITPOINT_FAST_CHECK(mutex->object.owner == nullptr, "a mutex was taken during a short cut of its lock");
   kernel::own(mutex->object, *task);
   mutex->depth = 1;
   return true;
@@ -84,6 +93,8 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
       mutex->robust_state != Mutex::RobustState::consistent || mutex->object.owner != task)
     return false;
   if (!pass_at_once(task, kernel::Operation::unlock, mutex->object)) return false;
+  WAITPOINT_FAST_CHECK(mutex->object.owner == task && mutex->object.first_waiter == nullptr,
+                       "a mutex changed during a short cut of its unlock");
   kernel::disown(mutex->object, *task);
   return true;
 }
@@ -158,6 +169,7 @@ bool is_mine(pthread_mutex_t& bytes) {
 
 void leave_shared_mutexes() {
   for (kernel::Object *held = kernel::running->held, *next = nullptr; held != nullptr; held = next) {
+    WAITPOINT_CHECK(held->owner == kernel::running, "a thread's list of held objects has another's");
     next = held->next_held;
     const Waitable* const waitable = waitable_of(*held);
     if (waitable != nullptr && waitable->kind == Waitable::Kind::mutex &&
@@ -169,6 +181,7 @@ void leave_shared_mutexes() {
 void let_robust_mutexes_go() {
   kernel::Object* held = kernel::running->held;
   while (held != nullptr) {
+    WAITPOINT_CHECK(held->owner == kernel::running, "a thread's list of held objects has another's");
     kernel::Object* const next = held->next_held;
     if (const Waitable* waitable = waitable_of(*held); waitable != nullptr && waitable->kind == Waitable::Kind::mutex) {
       auto& mutex = *static_cast<Mutex*>(const_cast<Waitable*>(waitable));

@@ -4,6 +4,8 @@
 
 #include <pthread.h>
 
+#include <cstddef>
+
 #include "fibers/posix/program/waitable.hpp"
 
 namespace waitpoint::posix {
@@ -29,6 +31,12 @@ struct Mutex : Waitable {
   RobustState robust_state = RobustState::consistent;
   std::uint32_t depth = 0;  ///< number of locks by its owner
 };
+
+static_assert((PTHREAD_MUTEX_TIMED_NP | PTHREAD_MUTEX_RECURSIVE_NP | PTHREAD_MUTEX_ERRORCHECK_NP |
+               PTHREAD_MUTEX_ADAPTIVE_NP) == 3 &&
+              ((Mutex::robust_bit | Mutex::shared_bit) & 3) == 0);
+static_assert(offsetof(pthread_mutex_t, __data.__list.__prev) % alignof(Mutex*) == 0 &&
+              sizeof(pthread_mutex_t::__data.__list.__prev) == sizeof(Mutex*));
 
 inline bool is_shared(const pthread_mutex_t& mutex) { return (mutex.__data.__kind & Mutex::shared_bit) != 0; }
 

@@ -13,6 +13,9 @@ namespace waitpoint::posix {
 namespace {
 
 constexpr int fresh = 0, under_way = 1, done = 2;
+static_assert(PTHREAD_ONCE_INIT == fresh);
+static_assert(sizeof(pthread_once_t) == sizeof(int) && sizeof(once_flag) == sizeof(int) &&
+              alignof(once_flag) == alignof(int));
 
 void end(int* flag, int state) {
   if (!is_simulated()) {

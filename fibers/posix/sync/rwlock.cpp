@@ -4,7 +4,9 @@
 #include <pthread.h>
 
 #include <cerrno>
+#include <cstddef>
 
+#include "core/error.hpp"
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/waitable.hpp"
@@ -20,7 +22,10 @@ struct RwLock : Waitable {
   static constexpr Kind kind_of_all = Kind::rwlock;
   explicit RwLock(const void* address) : Waitable(kind_of_all, "read-write lock", address) {}
 
-  bool free() const { return object.owner == nullptr && readers == 0; }
+  bool free() const {
+    WAITPOINT_FAST_CHECK(object.owner == nullptr || readers == 0, "a read-write lock has a writer and readers");
+    return object.owner == nullptr && readers == 0;
+  }
   kernel::Task* first_waiting_writer() const {
     kernel::Task* task = object.first_waiter;
     while (task != nullptr && task->shared_wait) task = task->next_waiter;
@@ -29,6 +34,9 @@ struct RwLock : Waitable {
 
   std::uint32_t readers = 0;  ///< that hold it
 };
+
+static_assert(sizeof(RwLock*) <= offsetof(pthread_rwlock_t, __data.__shared) &&
+              alignof(RwLock*) <= alignof(pthread_rwlock_t));
 
 // As in glibc, `__flags` is the kind. The other fields are unused.
 RwLock& lock_of(pthread_rwlock_t* lock) {
@@ -68,6 +76,7 @@ int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
 
 // All waiting readers get the lock.
 void admit_readers(RwLock& lock) {
+  WAITPOINT_CHECK(lock.object.owner == nullptr, "readers are admitted to a read-write lock that a writer holds");
   for (kernel::Task *task = lock.object.first_waiter, *next = nullptr; task != nullptr; task = next) {
     next = task->next_waiter;
     if (!task->shared_wait) continue;
@@ -88,6 +97,7 @@ int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
     }
     if (!valid) return EINVAL;
     if (deadline <= kernel::running->local_time) return ETIMEDOUT;
+    WAITPOINT_CHECK(!kernel::running->shared_wait, "a thread that waits to write counts as a reader");
     const Wait ended = wait_on(lock.object, deadline);
     if (ended == Wait::came) return 0;
     // This writer may have been the only one that made readers wait.
@@ -99,6 +109,7 @@ int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
 
 // The free lock goes to the chosen waiter; if that is a reader, to all waiting readers.
 void hand_on(RwLock& lock, bool prefers_writers) {
+  WAITPOINT_CHECK(lock.free(), "a read-write lock is handed over that is held");
   kernel::Task* first = prefers_writers ? lock.first_waiting_writer() : nullptr;
   if (first != nullptr)
     kernel::running->scheduler->wake(*first);

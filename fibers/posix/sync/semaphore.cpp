@@ -28,7 +28,8 @@ struct Bytes : SharedBytes<Semaphore> {
   std::uint32_t count;
   std::uint32_t changes;
 };
-static_assert(sizeof(Bytes) <= sizeof(sem_t));
+static_assert(sizeof(Bytes) <= sizeof(sem_t) && alignof(Bytes) <= alignof(sem_t));
+static_assert(SEM_VALUE_MAX <= INT_MAX, "sem_getvalue() tells the count as an int");
 
 Bytes& bytes_of(sem_t* semaphore) { return *reinterpret_cast<Bytes*>(semaphore); }
 

@@ -23,7 +23,8 @@ struct Bytes {
 };
 static_assert(offsetof(Bytes, kind) == offsetof(pthread_mutex_t, __data.__kind));
 static_assert(offsetof(Bytes, unused) == offsetof(pthread_mutex_t, __data.__list.__prev));
-static_assert(sizeof(Bytes) <= sizeof(pthread_mutex_t));
+static_assert(offsetof(Bytes, ceiling) == offsetof(pthread_mutex_t, __data.__lock));
+static_assert(sizeof(Bytes) <= sizeof(pthread_mutex_t) && alignof(Bytes) <= alignof(pthread_mutex_t));
 
 Bytes& words_of(pthread_mutex_t& bytes) { return reinterpret_cast<Bytes&>(bytes); }
 

@@ -14,6 +14,7 @@ namespace waitpoint::posix {
 
 /// Marks the program's object as process-shared; any other value: private.
 inline constexpr std::uint32_t mark_of_shared = 0x53484152;
+static_assert(mark_of_shared != 0, "static initialisers leave zeroes, which are private");
 
 /// The head of a primitive that processes may share, in the program's object. Zero before its first use.
 template <class Known>

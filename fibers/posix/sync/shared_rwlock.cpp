@@ -23,6 +23,7 @@ struct Bytes {
 };
 static_assert(offsetof(Bytes, shared) == offsetof(pthread_rwlock_t, __data.__shared));
 static_assert(offsetof(Bytes, kind) == offsetof(pthread_rwlock_t, __data.__flags));
+static_assert(sizeof(Bytes) <= sizeof(pthread_rwlock_t) && alignof(Bytes) <= alignof(pthread_rwlock_t));
 
 Bytes& words_of(pthread_rwlock_t& bytes) { return reinterpret_cast<Bytes&>(bytes); }
 

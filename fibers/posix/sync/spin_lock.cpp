@@ -14,6 +14,7 @@ namespace {
 
 // As in glibc: 1 is free, so that an uninitialised lock shows.
 constexpr int is_free = 1, is_taken = 0;
+static_assert(sizeof(pthread_spinlock_t) == sizeof(int));
 
 bool take(pthread_spinlock_t* lock) { return __atomic_exchange_n(lock, is_taken, __ATOMIC_SEQ_CST) == is_free; }
 
