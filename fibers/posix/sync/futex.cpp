@@ -42,12 +42,16 @@ long wait(std::uint32_t* address, std::uint32_t expected, Time deadline, std::ui
   pass(kernel::Operation::wait, &word.object);
   for (;;) {
     Thread& thread = this_thread();
+    WAITPOINT_CHECK(thread.shared_futex == nullptr, "a thread that waits at a shared futex begins another wait");
     thread.shared_futex = of == Of::family ? begin_to_wait(address) : nullptr;
     const bool is_other = __atomic_load_n(address, __ATOMIC_SEQ_CST) != expected;
     thread.futex_mask = mask;
     Wait ended = Wait::timed_out;
     if (!is_other && deadline > kernel::running->local_time) ended = wait_at(word, deadline);
-    if (thread.shared_futex != nullptr && end_waiting(*thread.shared_futex, thread.futex_mask == 0)) ended = Wait::came;
+    if (SharedFutex* const shared = thread.shared_futex; shared != nullptr) {
+      thread.shared_futex = nullptr;
+      if (end_waiting(*shared, thread.futex_mask == 0)) ended = Wait::came;
+    }
     if (is_other && ended != Wait::came) return fail(EAGAIN);
     if (ended != Wait::interrupted) return ended == Wait::came ? 0 : fail(ETIMEDOUT);
     if (is_interrupted(deadline == Time::max() ? Restart::if_asked : Restart::never)) return fail(EINTR);

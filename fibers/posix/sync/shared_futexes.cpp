@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "fibers/posix/family/family.hpp"
 
 namespace waitpoint::posix {
@@ -42,7 +43,9 @@ SharedFutex* begin_to_wait(const void* address) {
 
 bool end_waiting(SharedFutex& futex, bool by_own) {
   const family::Section section;
-  const bool by_other = !by_own && futex.woken > 0;
+  WAITPOINT_CHECK(futex.waiters + futex.woken > 0, "a thread ends a wait at a futex that counts none");
+  // Both may have woken the last waiter: then the wake-up by the other process has no one else to go to.
+  const bool by_other = futex.woken > 0 && (!by_own || futex.waiters == 0);
   --(by_other ? futex.woken : futex.waiters);
   return by_own || by_other;
 }
@@ -59,8 +62,9 @@ std::uint32_t wake_others(const void* address, std::uint32_t most, std::uint32_t
     SharedFutex* const futex = futexes != nullptr ? find(*futexes, address) : nullptr;
     if (futex == nullptr || futex->waiters <= own) return 0;
     woken = std::min(most, futex->waiters - own);
-    futex->waiters -= woken;
+    // In this order a process that is killed in between leaves too many, never too few.
     futex->woken += woken;
+    futex->waiters -= woken;
   }
   if (woken > 0) family::ring();
   return woken;
