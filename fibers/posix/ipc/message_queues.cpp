@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// POSIX message queues: the system's own, which keep messages and their order; only who waits for them, and how long,
-// is simulated.
+// POSIX message queues: the system's own, which keep messages and their order; only waiting is simulated.
 #include <fcntl.h>
 #include <mqueue.h>
 
@@ -35,7 +34,7 @@ bool waits(mqd_t queue) {
   return mq_getattr(queue, &attributes) == 0 && (attributes.mq_flags & O_NONBLOCK) == 0;
 }
 
-// `call` does not wait: with a time that is past it fails with ETIMEDOUT where it would.
+// `call` never waits: its deadline is in the past, so it fails with ETIMEDOUT instead.
 template <class Call>
 ssize_t transfer(mqd_t queue, short events, const timespec* deadline, Call call) {
   if (deadline != nullptr && !can_be_read(deadline)) return fail(EFAULT);
@@ -92,7 +91,7 @@ WAITPOINT_INTERPOSED int mq_timedsend(mqd_t queue, const char* bytes, std::size_
   return send_before(queue, bytes, size, priority, deadline);
 }
 
-// The system tells of a message by a signal, also where the program wants a thread to be started.
+// The system reports a message by a signal, even if the program asked for a thread.
 WAITPOINT_INTERPOSED int mq_notify(mqd_t queue, const sigevent* event) noexcept {
   if (!is_simulated() || event == nullptr || event->sigev_notify != SIGEV_THREAD)
     return WAITPOINT_NEXT(mq_notify)(queue, event);

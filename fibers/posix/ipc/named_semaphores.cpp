@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Named semaphores: known to this program alone, its processes and, where there are several, its other programs.
+// Named semaphores: private to this simulation, that is its processes and, if there are several, its programs.
 #include <fcntl.h>
 #include <limits.h>
 #include <semaphore.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int names_max = 4096;
 
-/// In the family's memory, which keeps it for as long as another process may have it open.
+/// In the family's memory, until no other process can have it open.
 struct Named {
   char name[NAME_MAX + 1];
   sem_t semaphore;
@@ -33,12 +33,12 @@ struct Names {
 };
 
 Names* names = nullptr;  // in the family's memory
-/// By this process: more often than closed.
+/// Times that this process has opened it and not closed it.
 unsigned opened[names_max];
 
 Names* all_names() { return names = static_cast<Names*>(family::common(family::Part::names, sizeof(Names))); }
 
-// names_max if there is none.
+// Returns names_max if there is none.
 int find_named(const char* name) {
   int at = 0;
   while (at < names_max &&
@@ -56,14 +56,14 @@ void let_go(int at) {
   names->at[at] = nullptr;
 }
 
-// As the files that glibc makes of them, "sem.NAME": a slash, which may be missing, and none behind it.
+// As glibc, which makes files "sem.NAME" of them: one optional slash at the start, none behind it.
 bool is_name(const char* name) {
   if (*name == '/') ++name;
   const std::size_t length = std::strlen(name);
   return length > 0 && length <= NAME_MAX - 4 && std::strchr(name, '/') == nullptr;
 }
 
-// An error number.
+// Returns an error number.
 int make_named(const char* name, unsigned count, int& at) {
   for (at = 0; at < names_max && names->at[at] != nullptr;) ++at;
   if (at == names_max) return ENFILE;
@@ -75,7 +75,7 @@ int make_named(const char* name, unsigned count, int& at) {
   return 0;
 }
 
-// An error number, and where it is.
+// Returns an error number, and the index of the name.
 int open(const char* name, int flags, unsigned count, int& at) {
   if (!is_name(name)) return EINVAL;
   if (*name == '/') ++name;

@@ -29,10 +29,10 @@ Adjustments* adjustments_of(Set& set, const Caller& caller) {
 
 Caller this_caller() { return {family::this_process(), is_simulated() ? &this_program() : nullptr}; }
 
-// Whether all operations of a call could be done, and were; if not, which one is the first in the way and, if it can
-// never be done, why.
+// The result of a call's operations: if they were not done, the first that hinders the call, and an error if it can
+// never be done.
 struct Attempt {
-  const sembuf* hindered_by;
+  const sembuf* hindered_by;  // null: all were done
   int error;
 };
 
@@ -82,7 +82,7 @@ void end_waiting(Waiting& waiting, int result) {
     family::ring();
 }
 
-// It is done with.
+// Applies the adjustments and frees them.
 void undo(Set& set, Adjustments& adjustments) {
   for (int i = 0; i < set.size; ++i) {
     const int to = set.values[i].value + adjustments.by[i];
@@ -92,10 +92,10 @@ void undo(Set& set, Adjustments& adjustments) {
   family::give(&adjustments);
 }
 
-// Whether a waiting call could go on if it were its turn. What can never be done ends with its error.
+// False if a waiting call cannot continue now. A call of many operations is only known to when it is attempted.
 bool could_go_on(Set& set, Waiting& waiting) {
   Value* const values = set.values;
-  int left[2];  // mostly one or two operations, on different semaphores
+  int left[2];  // most calls have one or two operations, on different semaphores
   if (waiting.count > 2 || (waiting.count == 2 && waiting.operations()[0].sem_num == waiting.operations()[1].sem_num))
     return true;
   for (std::size_t i = 0; i < waiting.count; ++i) {
@@ -106,7 +106,7 @@ bool could_go_on(Set& set, Waiting& waiting) {
   return true;
 }
 
-// Calls of processes that were killed wait no longer.
+// Drops the waiting calls of killed processes.
 void drop_dead(Set& set) {
   take_out_dead(
       set.first, [](const Waiting& each) { return each.caller.process; }, [](Waiting& each) { family::give(&each); });
@@ -114,7 +114,7 @@ void drop_dead(Set& set) {
 
 bool is_done(const void* waiting) { return static_cast<const Waiting*>(waiting)->done; }
 
-// A call's own record, while it waits.
+// The record of a waiting call.
 Waiting* make_waiting(const Caller& caller, const sembuf* operations, std::size_t count) {
   auto* const made = static_cast<Waiting*>(family::take(sizeof(Waiting) + count * sizeof(sembuf)));
   if (made == nullptr) return nullptr;
@@ -127,7 +127,7 @@ Waiting* make_waiting(const Caller& caller, const sembuf* operations, std::size_
 
 }  // namespace
 
-// After a change: one after the other, of the chooser's choice, as long as any call can go on.
+// One call after the other, by the chooser's choice, while any can continue.
 void let_go_on(Set& set) {
   drop_dead(set);
   for (;;) {
@@ -136,7 +136,7 @@ void let_go_on(Set& set) {
       if (could_go_on(set, *each)) ++count;
     if (count == 0) return;
     bool any = false;
-    // From the chosen one around, until one was done: those of many operations may turn out to be hindered.
+    // Round-robin from the chosen call until one is done: an attempt may show that many operations are hindered.
     std::uint32_t chosen = is_simulated() ? kernel::running->scheduler->chooser().waiter(*kernel::running, count) : 0;
     for (std::uint32_t tried = 0; tried < count && !any; ++tried, chosen = (chosen + 1) % count) {
       std::uint32_t at = 0;
@@ -172,7 +172,7 @@ bool undo_of_ended(Set& set) {
 
 namespace {
 
-// An error, or 0; or no_wait_yet, if it is to wait.
+// The result of begin() if the call has to wait.
 constexpr int no_wait_yet = -1;
 
 int begin(Set& set, const Caller& caller, const sembuf* operations, std::size_t count, bool may_wait,
@@ -194,7 +194,7 @@ int begin(Set& set, const Caller& caller, const sembuf* operations, std::size_t 
   return no_wait_yet;
 }
 
-// Another process may have ended meanwhile, and what it had done is taken back.
+// Another process may have ended in the meantime: then its SEM_UNDO operations are reverted.
 struct Awaited {
   Set& set;
   Waiting& waiting;
@@ -212,8 +212,8 @@ int wait_until_done(Set& set, Waiting& waiting, Time deadline) {
     const Wait ended = wait_on_shared(object_of(set), deadline, is_done_or_undone, &awaited);
     if (waiting.done) return waiting.result;
     if (ended == Wait::timed_out) return EAGAIN;
-    if (ended != Wait::interrupted) continue;  // to look again
-    // A handler may not come back: nobody is to act for the call meanwhile.
+    if (ended != Wait::interrupted) continue;  // check again
+    // The handler may leave by a jump, so the call is out of the list while it runs.
     {
       const family::Section section;
       if (waiting.done) return waiting.result;

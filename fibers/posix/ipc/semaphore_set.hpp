@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets of System V semaphores: a call's operations on the semaphores of a set are done all at once or not at all. Who
-// changes a set does on the spot what waiting calls can do then.
+// Sets of System V semaphores: a call's operations on a set are done all at once or not at all. A call that changes a
+// set also completes the waiting calls that have become possible.
 #pragma once
 
 #include <sys/sem.h>
@@ -10,15 +10,15 @@
 
 namespace waitpoint::posix::system_v {
 
-// Linux's, as it is when a machine starts.
+// Linux's defaults.
 inline constexpr int sets_max = 32000, semaphores_a_set_max = 32000, operations_a_call_max = 500, value_max = 32767;
 
 struct Value {
   unsigned short value;
-  pid_t last;  ///< who changed it last
+  pid_t last;  ///< the process that changed it last
 };
 
-/// Whose call it is.
+/// The process and program of a call.
 struct Caller {
   pid_t process;
   const Program* program;
@@ -28,9 +28,9 @@ struct Caller {
 /// A call that waits for its operations to be possible, of any process of the family.
 struct Waiting {
   Caller caller;
-  kernel::Task* task;  ///< in its process
+  kernel::Task* task;  ///< valid in its own process only
   std::size_t count;
-  std::size_t hindered_by;  ///< the first that cannot be done
+  std::size_t hindered_by;  ///< index of the first operation that cannot be done
   int result;               ///< an error, or 0
   bool done;
   Waiting* next;
@@ -38,11 +38,11 @@ struct Waiting {
   const sembuf& hindering() { return operations()[hindered_by]; }
 };
 
-/// What a program has done with SEM_UNDO to a set, negated.
+/// The negated sum of a program's SEM_UNDO operations on a set.
 struct Adjustments {
   Caller of;
   Adjustments* next;
-  int* by;  ///< behind it
+  int* by;  ///< one for each semaphore, behind this struct
 };
 
 struct Set : Common {
@@ -55,21 +55,21 @@ struct Set : Common {
   }
 
   int size = 0;
-  Value* values = nullptr;  ///< behind it
+  Value* values = nullptr;  ///< behind this struct
   time_t operated = 0, changed = 0;
   Waiting* first = nullptr;
   Adjustments* adjustments = nullptr;
 };
 
 using Sets = Table<Set, sets_max>;
-/// Within the family's section, as all that follows.
+/// Within the family's section, as everything below.
 inline Sets& sets() { return table_of<Sets>(family::Part::semaphores); }
 
-/// After a change: calls that can go on now do, one after the other.
+/// After a change: completes the waiting calls that have become possible, one after the other.
 void let_go_on(Set& set);
-/// All calls that wait end with this error.
+/// Ends all waiting calls with this error.
 void end_all(Set& set, int error);
-/// What processes that have ended had done with SEM_UNDO is taken back; whether there was any.
+/// Reverts the SEM_UNDO operations of processes that have ended. True if there were any.
 bool undo_of_ended(Set& set);
 
 /// As semop(), until a deadline of virtual time. Outside the section.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What System V's semaphores, shared memory and message queues have in common: keys, identifiers and permissions.
+// Common parts of System V's semaphores, shared memory and message queues: keys, identifiers and permissions.
 //
 // The objects are the simulation's own: all programs of one simulation and all processes of their family share them, no
 // other process sees them, and they are gone when it ends. They lie in the family's memory, are changed within its
@@ -24,39 +24,39 @@ namespace waitpoint::posix::system_v {
 
 inline constexpr unsigned identifiers_a_slot = 32768;
 
-/// What each of them begins with.
+/// The head of each of them.
 struct Common {
   explicit Common(const char* kind_of) : kind(kind_of) {}
 
   const char* kind;
   ipc_perm permissions{};
   int id = -1;
-  unsigned users = 0;    ///< calls that are within it
-  bool removed = false;  ///< by IPC_RMID: it has no identifier any more
+  unsigned users = 0;    ///< calls in progress on it
+  bool removed = false;  ///< by IPC_RMID: it has no identifier any longer
 };
 
-/// What stands for it in this process.
+/// Its waitable in this process.
 struct Known : Waitable {
   static constexpr Kind kind_of_all = Kind::system_v;
   explicit Known(const void* address) : Waitable(kind_of_all, static_cast<const Common*>(address)->kind, address) {}
 };
 inline kernel::Object& object_of(const Common& common) { return waitable_at<Known>(&common).object; }
 
-/// Who makes an object is its creator and owner, for the first time.
+/// Makes the caller the creator and the first owner.
 void set_creator(Common& common, key_t key, int flags);
-/// Whether the process has all the rights of `asked`, as of one class: 4 to read, 2 to write.
+/// True if the process has all rights in `asked`, given as for one class: 4 to read, 2 to write.
 bool is_allowed(const Common& common, int asked);
-/// Whether the process may change or remove it.
+/// True if the process may change or remove it.
 bool is_owner(const Common& common);
-/// Of IPC_SET: the owner and the mode.
+/// IPC_SET: the owner and the mode.
 void set_owner(Common& common, const ipc_perm& to);
-/// Seconds of CLOCK_REALTIME, now.
+/// The current time by CLOCK_REALTIME, in seconds.
 time_t date();
 
-/// What counts for an event; nothing before main().
+/// A waitpoint; nothing before main().
 void pass_if_simulated(kernel::Operation operation, kernel::Object* object);
 
-/// Back to the family's memory, within its section.
+/// Returns an object to the family's memory. Within the section.
 template <class T>
 void free_object(T& object) {
   if (Waitable* const known = find_waitable(&object, Known::kind_of_all); known != nullptr) forget(*known);
@@ -64,7 +64,7 @@ void free_object(T& object) {
   family::give(&object);
 }
 
-/// All objects of a kind, within the family's section: an identifier is a slot and how often the slot was used before.
+/// All objects of a kind, within the family's section. An identifier is a slot and the number of its earlier uses.
 template <class T, int most>
 class Table {
  public:
@@ -76,15 +76,15 @@ class Table {
     return found != nullptr && found->id == id ? found : nullptr;
   }
   int count() const { return count_; }
-  /// 0 where none is in use.
+  /// 0 if none is in use.
   int greatest_slot() const {
     int slot = end_ - 1;
     while (slot > 0 && slots_[slot] == nullptr) --slot;
     return slot < 0 ? 0 : slot;
   }
 
-  /// As semget() and its kin: `check` says what is wrong with an object that exists already, and `make` makes one that
-  /// does not; both give 0 or an error.
+  /// As semget() and the like: `check` tests an object that exists already, `make` makes a new one; both return 0 or an
+  /// error number.
   template <class Check, class Make>
   int get(key_t key, int flags, Check check, Make make) {
     if (key != IPC_PRIVATE)
@@ -110,7 +110,7 @@ class Table {
     return made->id;
   }
 
-  /// None are there any more, and identifiers begin anew.
+  /// Frees all objects; identifiers start again.
   void clear() {
     for (int slot = 0; slot < end_; ++slot) {
       if (slots_[slot] != nullptr) free_object(*slots_[slot]);
@@ -120,7 +120,7 @@ class Table {
     end_ = count_ = 0;
   }
 
-  /// Takes an object's identifier away; it is freed once no call is within it.
+  /// Takes an object's identifier away; the object is freed when no call is in progress on it.
   void remove(T& object) {
     slots_[object.id % static_cast<int>(identifiers_a_slot)] = nullptr;
     object.removed = true;
@@ -133,11 +133,11 @@ class Table {
   int end_, count_;
 };
 
-/// A call that is within an object, which stays until the call is done. Outside the section.
+/// A call in progress on an object, which is not freed before the call ends. Outside the section.
 template <class T>
 class Use {
  public:
-  /// Of what `find` finds, within the section.
+  /// On the object that `find` returns; it is called within the section.
   template <class Find>
   explicit Use(Find find) {
     const family::Section section;
@@ -160,21 +160,21 @@ class Use {
   T* object_;
 };
 
-/// A new one, of this size at least, within the section; null if there is no memory.
+/// A new object of at least this size; null without memory. Within the section.
 template <class T>
 T* make_object(std::size_t size = sizeof(T)) {
   void* const memory = family::take(size);
   return memory == nullptr ? nullptr : new (memory) T();
 }
 
-/// Whether a command of shmctl() and its kin, one that `tells` something or another, can write that, or read what it
-/// sets.
+/// True if a command of shmctl() and the like can access `status`: to write it if it `tells` something, to read it for
+/// IPC_SET.
 inline bool has_memory(int command, bool tells, void* status) {
   return command == IPC_SET ? can_be_read(status) : !tells || can_be_written(status);
 }
 
-/// Takes out of a list what belongs to processes that were killed, and gives each to `drop`; whether there was any.
-/// Within the section.
+/// Removes the entries of killed processes from a list and passes each to `drop`. True if there was any. Within the
+/// section.
 template <class T, class ProcessOf, class Drop>
 bool take_out_dead(T*& first, ProcessOf process_of, Drop drop) {
   bool any = false;
@@ -192,7 +192,7 @@ bool take_out_dead(T*& first, ProcessOf process_of, Drop drop) {
   return any;
 }
 
-/// The table of a kind, within the section.
+/// The table of a kind. Within the section.
 template <class T>
 T& table_of(family::Part part) {
   void* const memory = family::common(part, sizeof(T));

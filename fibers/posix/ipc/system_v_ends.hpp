@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of System V's objects when threads, programs and runs end.
+// Cleaning up System V's objects when threads, programs and runs end.
 #pragma once
 
 #include <sys/types.h>
@@ -8,18 +8,18 @@
 
 namespace waitpoint::posix::system_v {
 
-/// The task is not there any more: it waits for nothing.
+/// Drops the waiter of a task that has ended.
 void forget_waiter(const kernel::Task& task);
 void forget_semaphore_waiter(const kernel::Task& task);
 void forget_message_waiter(const kernel::Task& task);
 
-/// Takes back what the program did to semaphores with SEM_UNDO.
+/// Reverts the program's SEM_UNDO operations.
 void undo_semaphores_of(const Program& program);
 
-/// In a child: what its parent had attached, it has too.
+/// In a child process: it has its parent's attachments.
 void inherit_memory(pid_t parent);
 
-/// There are none any more, and identifiers begin anew: nobody is left who uses any.
+/// Frees all objects when their last user has ended; identifiers start again.
 void forget_memory();
 void forget_messages();
 void forget_semaphores();

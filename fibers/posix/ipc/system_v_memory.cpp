@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// System V shared memory: pages of the family's memory, which each attachment maps once more.
+// System V shared memory: pages of the family's memory, mapped again by each attachment.
 #include <sys/mman.h>
 #include <sys/shm.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@
 namespace waitpoint::posix::system_v {
 namespace {
 
-// Linux's, as it is when a machine starts.
+// Linux's defaults.
 constexpr int segments_max = 4096;
 constexpr std::size_t page = 4096;
 
@@ -38,13 +38,13 @@ struct Attachment {
   Attachment* next;
 };
 
-/// What the family keeps; all that follows is within its section.
+/// In the family's memory. Everything below is called within its section.
 struct Segments : Table<Segment, segments_max> {
   Attachment* first;
 };
 Segments& segments() { return table_of<Segments>(family::Part::memory); }
 
-// One more name for the same pages.
+// Maps the same pages a second time.
 void* map_again(const Segment& segment, void* at) {
   const int flags = at == nullptr ? MREMAP_MAYMOVE : MREMAP_MAYMOVE | MREMAP_FIXED;
   return mremap(segment.pages, 0, segment.mapped_bytes(), flags, at);
@@ -77,13 +77,13 @@ void* attach(Segment& segment, void* at, int flags) {
   return address;
 }
 
-// What is marked for destruction goes with its last attachment.
+// A segment marked for destruction is removed with its last attachment.
 void destroy_if_unused(Segment& segment) {
   if ((segment.permissions.mode & SHM_DEST) != 0 && segment.attachments == 0 && !segment.removed)
     segments().remove(segment);
 }
 
-// The attachment is no more.
+// Removes an attachment.
 void drop(Attachment** link) {
   Attachment* const attachment = *link;
   *link = attachment->next;
@@ -97,7 +97,7 @@ void drop(Attachment** link) {
   if (segment.removed && segment.users == 0) free_object(segment);
 }
 
-// Processes that have ended have detached all.
+// Detaches everything of processes that have ended.
 void drop_dead() {
   for (Attachment** link = &segments().first; *link != nullptr;) {
     const pid_t process = (*link)->process;

@@ -23,7 +23,7 @@ bool is_wanted(const Wanted& wanted, long type) {
   return (type == wanted.type) != ((wanted.flags & MSG_EXCEPT) != 0);
 }
 
-// The link to the message that is received next; to null if there is none.
+// The link to the message to be received next; a null link if there is none.
 Message** find_message(Queue& queue, const Wanted& wanted) {
   if ((wanted.flags & MSG_COPY) != 0) {
     Message** link = &queue.first;
@@ -56,14 +56,15 @@ void end_receiving(Queue& queue, Receiving& receiving, Message* message, int err
     family::ring();
 }
 
-// Calls of processes that were killed wait no longer.
+// Drops the waiting calls of killed processes.
 void drop_dead(Queue& queue) {
   take_out_dead(
       queue.first_receiving, [](const Receiving& each) { return each.process; },
       [](Receiving& each) { family::give(&each); });
 }
 
-// To one of those that wait for such a message, of the chooser's choice. Whose room is too small ends with an error.
+// Hands the message to a receiver that waits for such a one, by the chooser's choice. Receivers with too small a buffer
+// end with an error.
 bool give(Queue& queue, Message& message) {
   drop_dead(queue);
   for (;;) {
@@ -103,7 +104,7 @@ void end_all(Queue& queue, int error) {
 
 namespace {
 
-// What a sender waits for.
+// The condition that a sender waits for.
 struct Sending {
   const Queue& queue;
   std::size_t size;
@@ -113,7 +114,7 @@ bool may_send(const void* what) {
   return sending.queue.removed || has_room(sending.queue, sending.size);
 }
 
-// An error, or 0.
+// Returns an error number.
 int put(Queue& queue, long type, const char* bytes, std::size_t size) {
   auto* const message = static_cast<Message*>(family::take(sizeof(Message) + size));
   if (message == nullptr) return ENOMEM;
@@ -153,7 +154,7 @@ int send_message(Queue& queue, long type, const char* bytes, std::size_t size, i
 
 namespace {
 
-// Out of the queue, but for a copy.
+// Takes a message out of the queue.
 void take_out(Queue& queue, Message** link) {
   Message* const message = *link;
   *link = message->next;
@@ -164,7 +165,7 @@ void take_out(Queue& queue, Message** link) {
   wake_senders(queue);
 }
 
-// What is written to the program, and given back to the family unless it stays in the queue.
+// Writes the message to the program, and frees it unless it stays in the queue.
 ssize_t hand_over(Message& message, const Wanted& wanted, void* to) {
   const std::size_t taken = message.size < wanted.size ? message.size : wanted.size;
   std::memcpy(to, &message.type, sizeof message.type);
@@ -177,13 +178,13 @@ bool is_done(const void* receiving) {
   return __atomic_load_n(&static_cast<const Receiving*>(receiving)->error, __ATOMIC_SEQ_CST) >= 0;
 }
 
-// Until a message was given to it. An error, or 0.
+// Waits until a message is handed over. Returns an error number.
 int wait_for_message(Queue& queue, Receiving& receiving, const CancellationPoint& point) {
   while (!is_done(&receiving)) {
     Wait ended = Wait::interrupted;
     if (!point.was_cancelled()) ended = wait_on_shared(object_of(queue), Time::max(), is_done, &receiving);
     if (is_done(&receiving)) break;
-    if (ended != Wait::interrupted) continue;  // to look again
+    if (ended != Wait::interrupted) continue;  // check again
     {
       const family::Section section;
       if (is_done(&receiving)) break;
@@ -200,7 +201,6 @@ int wait_for_message(Queue& queue, Receiving& receiving, const CancellationPoint
 
 }  // namespace
 
-// Who is cancelled gives ECANCELED.
 ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
   const CancellationPoint point;
   pass_if_simulated(kernel::Operation::receive, &object_of(queue));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A System V message queue. A message goes to a call that waits for it at once, of whichever process; calls that wait
-// for room are woken, and look for themselves.
+// A System V message queue. A message is handed directly to a waiting receiver, of any process; senders that wait for
+// room are woken and check again.
 #pragma once
 
 #include <sys/msg.h>
@@ -9,7 +9,7 @@
 
 namespace waitpoint::posix::system_v {
 
-// Linux's, as it is when a machine starts.
+// Linux's defaults.
 inline constexpr int queues_max = 32000;
 inline constexpr std::size_t bytes_a_message_max = 8192, bytes_a_queue_max = 16384;
 
@@ -20,7 +20,7 @@ struct Message {
   char* bytes() { return reinterpret_cast<char*>(this + 1); }
 };
 
-/// What a receiving call asks for.
+/// The arguments of a receiving call.
 struct Wanted {
   long type;
   std::size_t size;
@@ -30,14 +30,14 @@ struct Wanted {
 /// A call that waits to receive, of any process of the family.
 struct Receiving {
   pid_t process;
-  kernel::Task* task;  // in its process
+  kernel::Task* task;  // valid in its own process only
   Wanted wanted;
-  Message* message;  // given to it
-  int error;         // with which it ends
+  Message* message;  // handed to it
+  int error;         // its result; -1 while it waits
   Receiving* next;
 };
 
-/// What senders wait for: known in each process, by its address.
+/// Senders wait for it; each process has a waitable for its address.
 struct Room {};
 struct KnownRoom : Waitable {
   static constexpr Kind kind_of_all = Kind::system_v;
@@ -66,14 +66,14 @@ using Queues = Table<Queue, queues_max>;
 /// Within the family's section.
 inline Queues& queues() { return table_of<Queues>(family::Part::messages); }
 
-/// As msgsnd(), but ECANCELED where the thread was cancelled. Outside the section, as the next.
+/// As msgsnd(), but ECANCELED if the thread was cancelled. Outside the section, as the next.
 int send_message(Queue& queue, long type, const char* bytes, std::size_t size, int flags);
-/// As msgrcv().
+/// As msgrcv(), but ECANCELED if the thread was cancelled.
 ssize_t take_message(Queue& queue, const Wanted& wanted, void* to);
 
-/// Who waits for room looks again. Within the section, as the next.
+/// Wakes the senders that wait for room. Within the section, as the next.
 void wake_senders(const Queue& queue);
-/// All calls that wait end, those that receive with this error.
+/// Ends all waiting calls, receivers with this error.
 void end_all(Queue& queue, int error);
 
 }  // namespace waitpoint::posix::system_v

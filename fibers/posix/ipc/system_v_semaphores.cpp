@@ -14,7 +14,7 @@
 namespace waitpoint::posix::system_v {
 namespace {
 
-// Of a semaphore: how many calls wait for it to rise, or to be zero.
+// The number of calls that wait for a semaphore to rise, or to be zero.
 int count_waiting(const Set& set, int number, bool for_zero) {
   int count = 0;
   for (Waiting* each = set.first; each != nullptr; each = each->next)
