@@ -60,7 +60,7 @@ class Ends(ExecCase):
     def test_as_it_would_while_some_wait_for_each_other(self):
         status, _, text = self.end("cycle")
         self.assertEqual(status, 5, text)
-        self.assertIn("deadlock at 4.000000000 s of virtual time, of some: the others go on\n"
+        self.assertIn("deadlock at 4.000000000 s of virtual time, of some threads; the others continue\n"
                       "  thread 2 waits for mutex right, held by thread 1\n"
                       "  thread 1 waits for mutex left, held by thread 2\n", text)
         self.assertEqual(text.count("waits for"), 2)

@@ -2,8 +2,8 @@
 // Common parts of System V's semaphores, shared memory and message queues: keys, identifiers and permissions.
 //
 // The objects are the simulation's own: all programs of one simulation and all processes of their family share them, no
-// other process sees them, and they are gone when it ends. They lie in the family's memory, are changed within its
-// section alone, and keep to the limits that Linux begins with.
+// other process sees them, and they are gone when it ends. They are in the family's memory, are changed within its
+// section only, and have Linux's default limits.
 #pragma once
 
 #include <sys/ipc.h>

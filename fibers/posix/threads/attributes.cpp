@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What can be asked and told of a thread beside its life: names, stacks, priorities and processors. Priorities and
-// processors change nothing: every thread has a processor of its own.
+// Attributes of threads: names, stacks, priorities and processors. Priorities and processors have no effect: every
+// thread has a processor of its own.
 #include <pthread.h>
 #include <sched.h>
 #include <sys/prctl.h>
@@ -22,7 +22,7 @@ namespace {
 
 char* end_of_page(char* address) { return address + (-reinterpret_cast<std::uintptr_t>(address) & 4095); }
 
-// Of those that the process may use; none of a set that is without any of them.
+// The processors of `set` that the process may use.
 cpu_set_t usable_of(const cpu_set_t& set) {
   cpu_set_t usable{};
   WAITPOINT_NEXT(sched_getaffinity)(0, sizeof usable, &usable);
@@ -84,7 +84,7 @@ WAITPOINT_INTERPOSED int pthread_setname_np(pthread_t id, const char* name) noex
   if (thread == nullptr) return ESRCH;
   std::memcpy(thread->task->name, name, length + 1);  // in reports
   std::memcpy(thread->name, name, length + 1);
-  // What the system shows of the process is its first thread's.
+  // The system shows the first thread's name as the process's.
   return thread->id == getpid() ? WAITPOINT_NEXT(prctl)(PR_SET_NAME, name, 0L, 0L, 0L) : 0;
 }
 
@@ -108,7 +108,7 @@ WAITPOINT_INTERPOSED int pthread_getattr_np(pthread_t id, pthread_attr_t* attrib
   const sched_param parameters{thread->priority};
   pthread_attr_setschedparam(attributes, &parameters);
   if (thread->stack != nullptr) return pthread_attr_setstack(attributes, thread->stack, thread->stack_size);
-  // Whole pages, which programs map and protect: the top of a task's stack is shifted within its page.
+  // Programs map and protect whole pages, but the top of a task's stack is shifted within its page.
   const std::size_t size = thread->told_stack_size != 0 ? thread->told_stack_size : kernel::bytes(stack.size);
   thread->knows_stack = true;
   return pthread_attr_setstack(attributes, end_of_page(stack.high) - size, size);
@@ -163,11 +163,11 @@ WAITPOINT_INTERPOSED int pthread_getschedparam(pthread_t id, int* policy, sched_
 WAITPOINT_INTERPOSED int pthread_getcpuclockid(pthread_t id, clockid_t* clock) noexcept {
   const Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
-  *clock = static_cast<clockid_t>(~static_cast<unsigned>(thread->id) << 3 | 6);  // the kernel's number of it
+  *clock = static_cast<clockid_t>(~static_cast<unsigned>(thread->id) << 3 | 6);  // as the system encodes it
   return 0;
 }
 
-// The system's name of a thread: the system itself knows one thread.
+// PR_SET_NAME and PR_GET_NAME are per thread, but the system knows only one.
 WAITPOINT_INTERPOSED int prctl(int option, ...) noexcept {
   va_list more;
   va_start(more, option);

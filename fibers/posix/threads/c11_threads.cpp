@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// <threads.h>: the same threads, mutexes and conditions under the names of C11, whose types have the same layouts.
+// <threads.h>: the same threads, mutexes and conditions under C11's names. Its types have the same layouts.
 #include <threads.h>
 
 #include <cerrno>

@@ -15,13 +15,13 @@
 namespace waitpoint::posix {
 namespace {
 
-// "main", or "reader: main" where there are several programs.
+// "main", or "reader: main" if there are several programs.
 void print_name(const kernel::Task& task) {
   if (thread_of(task).program->is_member) std::fprintf(stderr, "%s: ", task.robot->name);
   std::fprintf(stderr, "%s", task.name);
 }
 
-// "mutex jobs_lock", or with its address where no symbol of the program names it.
+// "mutex jobs_lock", or the address if the program has no symbol for it.
 void print_object(const kernel::Object& object) {
   const Waitable* const waitable = waitable_of(object);
   if (waitable == nullptr) {
@@ -41,12 +41,12 @@ void print_time(const kernel::Scheduler& scheduler) {
   std::fprintf(stderr, "%lld.%09lld s of virtual time", now_ns / second_ns, now_ns % second_ns);
 }
 
-// A line: what it waits for, and whom.
+// A line with the object that the task waits for, and its holder.
 void print_wait(const kernel::Task& task) {
   std::fprintf(stderr, "  ");
   print_name(task);
   if (task.blocked_on == nullptr) {
-    std::fprintf(stderr, " can go on");
+    std::fprintf(stderr, " is ready");
   } else {
     std::fprintf(stderr, " waits for ");
     print_object(*task.blocked_on);
@@ -84,7 +84,7 @@ bool goes_on_in_cycle(kernel::Task& task) {
   const ErrorNumberKept kept;
   std::fprintf(stderr, "waitpoint: deadlock at ");
   print_time(scheduler);
-  std::fprintf(stderr, ", of some: the others go on\n");
+  std::fprintf(stderr, ", of some threads; the others continue\n");
   const kernel::Task* const first = scheduler.culprit();
   const kernel::Task* of_cycle = first;
   do {

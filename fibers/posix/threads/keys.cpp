@@ -17,7 +17,7 @@ struct Key {
   Destructor destructor;
 };
 Key keys[PTHREAD_KEYS_MAX];
-unsigned keys_end = 0;  // behind the greatest that was made
+unsigned keys_end = 0;  // one past the greatest key made
 
 int make(pthread_key_t* key, Destructor destructor) {
   const int error = WAITPOINT_NEXT(pthread_key_create)(key, nullptr);

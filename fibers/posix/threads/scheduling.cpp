@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The calls of Linux on the scheduling of a thread by its number: what was set is told again, and changes nothing.
+// Linux's calls on the scheduling of a thread by its number: values are stored and returned, and have no effect.
 #include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@
 namespace waitpoint::posix {
 namespace {
 
-// Null if it is none of ours, which the system is asked about.
+// Null if it is not a simulated thread: then the system is asked.
 Thread* thread_with(pid_t id) {
   if (!is_simulated()) return nullptr;
   if (id == 0) return &this_thread();
@@ -27,7 +27,7 @@ Thread* thread_with(pid_t id) {
 
 constexpr int least_niceness = -20, greatest_niceness = 19;
 
-// Of a thread that is not the process's first, whose niceness the system keeps; else null.
+// Null for the process's first thread, whose niceness the system keeps.
 Thread* later_thread_with(__priority_which_t which, id_t id) {
   if (which != PRIO_PROCESS) return nullptr;
   Thread* const thread = thread_with(static_cast<pid_t>(id));
@@ -36,7 +36,7 @@ Thread* later_thread_with(__priority_which_t which, id_t id) {
 
 int niceness_of_process() { return WAITPOINT_NEXT(getpriority)(PRIO_PROCESS, static_cast<id_t>(getpid())); }
 
-// What the process's first thread changes of its own is not the others'.
+// The niceness of the other threads is relative to the process's, and stays as it is.
 template <class Call>
 int change_niceness_of_process(Call call) {
   if (!is_simulated()) return call();
@@ -90,7 +90,7 @@ WAITPOINT_INTERPOSED int sched_getparam(pid_t id, sched_param* parameters) noexc
   return 0;
 }
 
-// Of those that take turns; of the others what the system says of its own.
+// SCHED_RR's interval; for other policies the system's answer.
 WAITPOINT_INTERPOSED int sched_rr_get_interval(pid_t id, timespec* interval) noexcept {
   const Thread* const thread = thread_with(id);
   if (thread == nullptr || thread->policy != SCHED_RR) return WAITPOINT_NEXT(sched_rr_get_interval)(id, interval);
@@ -134,7 +134,7 @@ WAITPOINT_INTERPOSED int nice(int by) noexcept {
   return getpriority(PRIO_PROCESS, own);
 }
 
-// Always the same one: which it is for real is not of the seed.
+// Always the same processor: the real one does not follow from the seed.
 WAITPOINT_INTERPOSED int sched_getcpu() noexcept { return is_simulated() ? 0 : WAITPOINT_NEXT(sched_getcpu)(); }
 WAITPOINT_INTERPOSED int getcpu(unsigned* processor, unsigned* node) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(getcpu)(processor, node);
@@ -143,7 +143,7 @@ WAITPOINT_INTERPOSED int getcpu(unsigned* processor, unsigned* node) noexcept {
   return 0;
 }
 
-// Processor time is virtual; what the system counts beside it is not of the seed, but for memory.
+// Processor time is virtual. The system's other counts do not follow from the seed, except for memory.
 WAITPOINT_INTERPOSED int getrusage(__rusage_who_t who, rusage* usage) noexcept {
   if (!is_simulated() || static_cast<int>(who) == RUSAGE_CHILDREN) return WAITPOINT_NEXT(getrusage)(who, usage);
   rusage real{};

@@ -43,7 +43,7 @@ namespace {
 void execute(Thread& thread);
 
 Thread* main_thread = nullptr;
-// Threads that have ended, whose areas nobody runs on or asks for any more, but the one that ended last.
+// The last thread that has ended and is not needed any longer: its task may still run on its area and stack.
 Thread* to_free = nullptr;
 
 void free_thread(Thread& thread) {
@@ -59,7 +59,7 @@ void free_ended() {
   to_free = nullptr;
 }
 
-// Its task may still be underfoot until the next switch: freed when another is to be.
+// Its task may run until the next switch, so it is freed when the next thread has ended.
 void let_go(Thread& thread) {
   if (&thread == main_thread) return;
   free_ended();
@@ -79,7 +79,7 @@ bool is_detached(const pthread_attr_t* attributes) {
   return state == PTHREAD_CREATE_DETACHED;
 }
 
-// The stack that the attributes give, or one of their size where that of a task is too small; false without memory.
+// Uses the stack of the attributes, or maps one of their size if a task's stack is too small. False without memory.
 bool take_stack(Thread& thread, const pthread_attr_t* attributes) {
   void* low = nullptr;
   std::size_t size = 0;
@@ -91,7 +91,7 @@ bool take_stack(Thread& thread, const pthread_attr_t* attributes) {
     if (thread.told_stack_size <= kernel::bytes(kernel::StackSize::program)) return true;
     size = thread.told_stack_size;
   }
-  // glibc keeps the high end: null unless a stack was given.
+  // glibc stores the high end: null if no stack was given.
   if (attributes != nullptr && pthread_attr_getstack(attributes, &low, &size) == 0 &&
       reinterpret_cast<std::uintptr_t>(low) + size != 0) {
     thread.stack = static_cast<char*>(low);
@@ -132,13 +132,13 @@ Thread* make_thread(Program& program) {
   return nullptr;
 }
 
-// Its task, which begins now; false where there is none.
 bool give_clock(Thread& thread) {
   void* const memory = std::malloc(sizeof(ProgramClock));
   if (memory != nullptr) thread.clock = new (memory) ProgramClock(record->settings.clock);
   return memory != nullptr;
 }
 
+// Makes the task, which begins now; false without memory.
 bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
   Program& program = *thread.program;
   thread.body = execute;
@@ -152,7 +152,7 @@ bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
                                               .clock = thread.clock != nullptr ? &thread.clock->local() : nullptr},
                                              run_thread, &thread);
   if (task == nullptr) return false;
-  // The area of the process's own thread is where all fibers without one find theirs.
+  // The area of the process's own thread is the default of all fibers.
   if (thread.area != own_thread_area()) task->fiber.thread_pointer = thread.area;
   thread.task = task;
   count_threads(program);
@@ -275,7 +275,7 @@ void end_thread(Thread& thread) {
 
 namespace {
 
-// The task's stack is whole for the next thread on it, which may be told of another size.
+// The next thread on the task's stack needs all of it.
 void unprotect_stack(const Thread& thread) {
   const kernel::Stack& stack = thread.task->fiber.stack;
   if (!thread.knows_stack || thread.stack != nullptr) return;
@@ -284,7 +284,7 @@ void unprotect_stack(const Thread& thread) {
 
 }  // namespace
 
-// From the last waitpoint on nobody else runs before the task has ended: its area can be freed by the next that ends.
+// Between the last waitpoint and the task's end nothing else runs, so the next thread that ends can free its area.
 void end_running_thread() {
   Thread& thread = this_thread();
   if (std::uint32_t* const word = thread.cleared_at_end; word != nullptr) {
@@ -348,7 +348,7 @@ WAITPOINT_INTERPOSED int pthread_create(pthread_t* id, const pthread_attr_t* att
 
 WAITPOINT_INTERPOSED int pthread_join(pthread_t id, void** result) { return join(id, result, Time::max()); }
 
-// Not while it runs: no time is no deadline.
+// Time() is no deadline: the call does not wait.
 WAITPOINT_INTERPOSED int pthread_tryjoin_np(pthread_t id, void** result) noexcept { return join(id, result, Time()); }
 
 WAITPOINT_INTERPOSED int pthread_clockjoin_np(pthread_t id, void** result, clockid_t clock, const timespec* deadline) {

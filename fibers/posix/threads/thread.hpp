@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How threads of a program are made, joined and ended (program/thread.hpp says what a thread is).
+// Making, joining and ending threads of a program; program/thread.hpp has the record of a thread.
 #pragma once
 
 #include "fibers/posix/program/thread.hpp"
 
 namespace waitpoint::posix {
 
-/// What a thread that the running one makes begins with: what `attributes` (null: the default ones) ask for, and what
-/// it inherits. An error number, or 0.
+/// Sets up a new thread: by `attributes` (null: the default ones) and by inheritance from the running thread. Returns
+/// an error number.
 int take_attributes(Thread& thread, const pthread_attr_t* attributes);
 
 /// As pthread_timedjoin_np, with a deadline of virtual time.
 int join(pthread_t id, void** result, Time deadline);
-/// What is done when a thread's function is done.
+/// Ends the running thread after its function: destructors of keys and thread-local variables are called.
 [[noreturn]] void end_thread(Thread& thread);
-/// The running thread ends as it is: nothing of its own is called any more.
+/// Ends the running thread at once; no code of the program is called.
 [[noreturn]] void end_running_thread();
-/// The thread that main() runs in, where the process is one program: it has the area of the process's own thread. False
+/// Begins the thread of main(), if the process is one program: it has the area of the process's own thread. False
 /// without memory.
 bool begin_main_thread(Thread& thread, Program& program, kernel::Scheduler& scheduler);
 /// The first thread of one of several programs; null without memory. It runs `body`.
 Thread* make_main_thread(Program& program, kernel::Scheduler& scheduler, void* (*body)(void*), void* argument);
-/// Ends all threads of `program` but the running one; nothing of theirs is unwound.
+/// Ends all threads of `program` except the running one, without unwinding them.
 void end_other_threads(const Program& program, kernel::Scheduler& scheduler);
-/// In a child: the thread that called is its first, and the others' numbers follow its own.
+/// In a child process: the forking thread becomes the first, and numbers of later threads follow its own.
 void begin_again_as_first(Thread& thread);
 
 }  // namespace waitpoint::posix
