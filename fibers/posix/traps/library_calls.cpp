@@ -28,7 +28,7 @@ namespace {
 
 bool is_trapped = false;
 
-/// The words of a call: by the processor's registers.
+/// The arguments of a system call, from the processor's registers.
 struct Words {
   explicit Words(const greg_t* registers)
       : at{registers[REG_RDI], registers[REG_RSI], registers[REG_RDX],
@@ -36,7 +36,7 @@ struct Words {
   long at[6];
 };
 
-// As the system's: an error is negative. From here, it is none of the C library's.
+// Returns as the system call: errors are negative. The call is not in the C library's code, so it is not trapped.
 long call_system(long number, const Words& words) {
   long result = number;
   register long fourth __asm__("r10") = words.at[3];
@@ -49,7 +49,7 @@ long call_system(long number, const Words& words) {
   return result;
 }
 
-// What is not ready is waited for, as read() and write() do; false if a signal's handler ended that.
+// Waits until the descriptor is ready, as read() and write() do; false if a signal handler ended the wait.
 bool wait_until_ready(int descriptor, short events) {
   pollfd one{descriptor, events, 0};
   if (class_of(descriptor) == DescriptorClass::file || !may_wait_for(descriptor, events)) return true;
@@ -62,7 +62,7 @@ bool wait_until_ready(int descriptor, short events) {
 long read_or_write(long number, Words words) {
   const auto descriptor = static_cast<int>(words.at[0]);
   if (!wait_until_ready(descriptor, number == SYS_read ? POLLIN : POLLOUT)) return -EINTR;
-  // What is ready takes as much as is atomic; the rest is written by another call.
+  // A ready pipe takes an atomic write; the C library writes the rest by another call.
   if (number == SYS_write && words.at[2] > PIPE_BUF && class_of(descriptor) == DescriptorClass::pipe)
     words.at[2] = PIPE_BUF;
   const long result = call_system(number, words);
@@ -72,7 +72,7 @@ long read_or_write(long number, Words words) {
 
 long simulated(long number, const Words& words) {
   if (number != SYS_futex) return read_or_write(number, words);
-  // The C library asks whether the system has those that inherit priorities: no lock of its own is one.
+  // The C library only probes for futexes with priority inheritance: none of its own locks has it.
   const auto operation = static_cast<int>(words.at[1]) & FUTEX_CMD_MASK;
   if (operation > FUTEX_WAKE_BITSET || operation == FUTEX_LOCK_PI || operation == FUTEX_UNLOCK_PI ||
       operation == FUTEX_TRYLOCK_PI)
@@ -93,8 +93,7 @@ constexpr sock_filter jump(int code, std::uint32_t value, std::uint8_t if_so, st
 constexpr std::uint32_t low(std::uintptr_t address) { return static_cast<std::uint32_t>(address); }
 constexpr std::uint32_t high(std::uintptr_t address) { return static_cast<std::uint32_t>(address >> 32); }
 
-// A FILE* is locked for each character from a process's second thread on, which the C library learns of by its own
-// pthread_create() alone.
+// The C library locks a FILE* for each character only once its own pthread_create() has made a second thread.
 void tell_of_threads() {
   pthread_t id = 0;
   const auto nothing = [](void* unused) { return unused; };
@@ -106,7 +105,7 @@ bool can_be_told_from_others(LibraryRange range) {
   return range.begin < range.end && high(range.begin) == high(range.end);
 }
 
-// Futexes, and if they are asked for, reads and writes, of code that lies there; false if the system does not allow it.
+// Traps futexes, and with `streams_too` reads and writes, of code in that range. False if the system does not allow it.
 bool trap(LibraryRange range, bool streams_too) {
   constexpr int load = BPF_LD | BPF_W | BPF_ABS, is = BPF_JMP | BPF_JEQ | BPF_K, is_least = BPF_JMP | BPF_JGE | BPF_K;
   constexpr std::uint32_t at = offsetof(seccomp_data, instruction_pointer);

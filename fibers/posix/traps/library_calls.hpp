@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the C library waits for within itself, where no name can be put before its own: its locks, by futexes, and what
-// a FILE* reads and writes. If it was asked for, these system calls of its code are traps, in whose handler they are
-// simulated.
+// Waits within the C library, whose internal calls cannot be interposed: its locks, by futexes, and the reads and
+// writes of a FILE*. On request (--trap-libc), these system calls of its code are trapped by seccomp, and simulated in
+// the trap's handler.
 //
-// The runtime of OpenMP (libgomp) waits by futexes of its own too: where it is loaded, these are traps unasked, as no
-// thread of it would ever wake another.
+// The runtime of OpenMP (libgomp) has futexes of its own too: if it is loaded, they are always trapped, as none of its
+// threads would ever wake another.
 //
-// A trap cannot be given up: programs that are started inherit it. It goes by the place of the C library, which is to
-// be another there (started_programs.hpp).
+// A trap cannot be removed: started programs inherit it. It depends on the address of the C library, which is therefore
+// another one there (started_programs.hpp).
 #pragma once
 
 #include <csignal>
 
 namespace waitpoint::posix {
 
-/// From now on, those of the C library.
+/// Traps those of the C library from now on.
 void trap_library_calls();
-/// Those of OpenMP's runtime, if it has been loaded meanwhile. Quick where nothing has.
+/// Traps those of OpenMP's runtime, if it has been loaded in the meantime. Fast if nothing has been loaded.
 void trap_open_mp();
-/// Whether any are.
+/// True if any are trapped.
 bool are_library_calls_trapped();
-/// In a handler of SIGSYS: whether it was such a call, and was made.
+/// In a handler of SIGSYS: true if it was such a call, which is done then.
 bool answer_library_call(const siginfo_t& information, void* context);
 
 }  // namespace waitpoint::posix

@@ -20,10 +20,10 @@ LibraryRange range_of(const dl_phdr_info& library) {
   return range;
 }
 
-/// What is looked for, and where it was found.
+/// The library that is searched for, and its range.
 struct Search {
   std::uintptr_t address;
-  const char* beginning;  ///< null: by the address
+  const char* beginning;  ///< of the file's name; null: search by the address
   LibraryRange found;
 };
 

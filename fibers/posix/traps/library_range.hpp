@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a library of the process lies.
+// The address range of a library of the process.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ struct LibraryRange {
   bool contains(std::uintptr_t address) const { return address >= begin && address < end; }
 };
 
-/// Of that which has this address; empty if none has.
+/// The library that contains this address; empty without one.
 LibraryRange range_of_library_with(const void* address);
-/// Of that whose file has a name that begins so.
+/// The library whose file name begins so; empty without one.
 LibraryRange range_of_library_named(const char* beginning);
-/// How many libraries were ever loaded.
+/// The number of libraries loaded so far, unloaded ones included.
 unsigned long long libraries_loaded();
 
 }  // namespace waitpoint::posix

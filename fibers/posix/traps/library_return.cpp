@@ -10,14 +10,14 @@
 namespace waitpoint::posix {
 namespace {
 
-// Only one is asked for at a time.
+// One callback for all pending returns.
 void (*to_be_called)() = nullptr;
 
 struct Search {
   std::uintptr_t interrupted;
   const LibraryRange& library;
   bool (*is_of_program)(std::uintptr_t);
-  bool is_within = false;          ///< past the frames of the handler
+  bool is_within = false;          ///< past the handler's frames
   std::uintptr_t* slot = nullptr;  ///< of the return address to the program
 };
 
@@ -38,8 +38,8 @@ _Unwind_Reason_Code look_at(_Unwind_Context* frame, void* to) {
 
 extern "C" {
 
-// The program is returned to here. What a function may return (integers, and what fxsave knows) stays as it is. While
-// ours runs, its caller is the program, for whoever unwinds.
+// The library returns here instead of to the program. Return values (integers, and the registers of fxsave) are kept.
+// While the callback runs, unwinders see the program as its caller.
 void waitpoint_library_returned();
 asm(R"(
   .pushsection .text
@@ -90,7 +90,7 @@ bool call_after_return(std::uintptr_t interrupted, const LibraryRange& library, 
                        void (*then)()) {
   Search search{interrupted, library, is_of_program};
   {
-    const InKernel unwinding;  // which locks and does things once, by calls that would be simulated ones
+    const InKernel unwinding;  // it locks, and calls pthread_once(), which must not be simulated
     _Unwind_Backtrace(look_at, &search);
   }
   if (search.slot == nullptr) return false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a call of the C library returns to the program.
+// A callback when a call of the C library returns to the program.
 //
-// What may not be done within the C library, which may hold locks of its own there, waits until it has returned: the
-// return address of the outermost of its functions is replaced by that of a function of ours.
+// Some actions are not allowed within the C library, as it may hold locks of its own. They wait until it has returned:
+// the return address of its outermost function is replaced by that of a function of ours.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,12 @@
 
 namespace waitpoint::posix {
 
-/// Does `then` in the running thread when what was interrupted at that address, in `library`, has returned to what
-/// `is_of_program`. To be called by the handler of the signal that interrupted it. False, and nothing is done, if
-/// anything else is in between (it was asked for already, for one), or how to unwind is not known.
+/// Calls `then` in the running thread when the call of `library` that was interrupted at `interrupted` has returned to
+/// code for which `is_of_program` is true. To be called by the handler of the interrupting signal. False, without any
+/// effect, if other code is in between (a callback that is pending already, for one), or if the stack cannot be
+/// unwound.
 ///
-/// It is not done if the call never returns: longjmp() out of it, or an exception of a function that it calls.
+/// `then` is not called if the call never returns: longjmp() out of it, or an exception of a function that it calls.
 bool call_after_return(std::uintptr_t interrupted, const LibraryRange& library, bool (*is_of_program)(std::uintptr_t),
                        void (*then)());
 

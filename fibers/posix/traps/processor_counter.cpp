@@ -16,7 +16,7 @@ namespace {
 
 bool is_trapped = false;
 
-// The length of the instruction; 0 if it is another.
+// The length of the instruction; 0 if it is not one of them.
 int length_of_reading(const unsigned char* code) {
   if (code[0] != 0x0F) return 0;
   if (code[1] == 0x31) return 2;                      // rdtsc
@@ -44,7 +44,7 @@ bool emulate_processor_counter(void* context) {
   const auto count = static_cast<std::uint64_t>(reading_ns(CLOCK_MONOTONIC, now));
   registers[REG_RAX] = static_cast<greg_t>(count & 0xFFFFFFFF);
   registers[REG_RDX] = static_cast<greg_t>(count >> 32);
-  if (length == 3) registers[REG_RCX] = 0;  // which processor
+  if (length == 3) registers[REG_RCX] = 0;  // the processor's number
   registers[REG_RIP] += length;
   return true;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processor's counter, which programs read by an instruction (rdtsc, rdtscp): trapped, if that was asked for, it
-// counts the nanoseconds of CLOCK_MONOTONIC.
+// The processor's counter, which programs read by an instruction (rdtsc, rdtscp): on request (--trap-rdtsc) it is
+// trapped, and counts the nanoseconds of CLOCK_MONOTONIC.
 #pragma once
 
 namespace waitpoint::posix {
 
 /// From now on the instruction is a fault.
 void trap_processor_counter();
-/// In a handler of SIGSEGV: whether it was that instruction, and was done.
+/// In a handler of SIGSEGV: true if it was that instruction, which is done then.
 bool emulate_processor_counter(void* context);
 
 }  // namespace waitpoint::posix
