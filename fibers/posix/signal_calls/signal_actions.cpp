@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What is done with signals: sigaction() and its kin, and what the system is told of it. Handlers are never the
-// system's: it knows one of ours, which keeps what comes from outside until a thread can handle it.
+// Actions of signals: sigaction() and the like, and the layer's own handler. The program's handlers are never installed
+// in the system: the layer's own handler keeps signals from outside until a thread can handle them.
 #include <sys/syscall.h>
 #include <time.h>
 #include <ucontext.h>
@@ -27,15 +27,15 @@ std::atomic<bool> waits_really = false;
 
 namespace {
 
-// Where a handler must not be run on the spot: in here, in the C library, in the dynamic linker.
+// Code in which no handler may be run: this library, the C library, the dynamic linker.
 LibraryRange guarded[3];
 const LibraryRange& c_library = guarded[1];
 
 std::atomic<bool> has_rung = false;
 bool has_bell = false;
 
-// What has come and was not sent on yet. Written by a handler, which another may interrupt where it lets what the
-// program asked for run.
+// Signals that have arrived and were not sent on yet: a ring buffer. It is written by a handler, which another may
+// interrupt while it runs a handler of the program.
 constexpr unsigned kept_max = 1024, held_back_from = kept_max - 16;
 struct Kept {
   std::atomic<bool> is_there;
@@ -44,9 +44,9 @@ struct Kept {
 Kept kept[kept_max];
 std::atomic<unsigned> next_kept = 0, next_taken = 0;
 
-// What the system blocks while ours runs: else what is queued would come all at once, each in front of the one before.
+// Blocked by the system while the layer's handler runs: else queued signals would nest, each in the one before.
 constexpr SignalSet one_by_one = ~(faults | unblockable);
-// No more of it comes until what has come is sent on: the system keeps it.
+// Until the kept signals are sent on, the system keeps further ones.
 std::atomic<bool> is_held_back = false;
 
 void let_come() {
@@ -54,11 +54,11 @@ void let_come() {
   WAITPOINT_NEXT(pthread_sigmask)(SIG_UNBLOCK, &set, nullptr);
 }
 
-// Where our handler returns to.
+// Blocks signals in the context that the layer's handler returns to.
 void hold_back(ucontext_t& interrupted) {
   is_held_back.store(true);
   SignalSet blocked = 0;
-  std::memcpy(&blocked, &interrupted.uc_sigmask, sizeof blocked);  // the system's is a word
+  std::memcpy(&blocked, &interrupted.uc_sigmask, sizeof blocked);  // the system's mask is one word
   blocked |= one_by_one & ~only(bell);
   std::memcpy(&interrupted.uc_sigmask, &blocked, sizeof blocked);
 }
@@ -66,7 +66,7 @@ void hold_back(ucontext_t& interrupted) {
 void keep(const siginfo_t& information) {
   const unsigned at = next_kept.fetch_add(1);
   Kept& place = kept[at % kept_max];
-  if (place.is_there.load()) return;  // nobody has looked for so long: as the system does, it drops what is too much
+  if (place.is_there.load()) return;  // the buffer is full: dropped, as by the system
   place.information = information;
   place.is_there.store(true);
 }
@@ -82,20 +82,20 @@ bool is_of_program(std::uintptr_t at) {
   return !is_guarded;
 }
 
-// A handler may run at once where the program itself is, or where the C library waits for it.
+// A handler may run at once if the program's code was interrupted, or a system call of the C library.
 bool may_handle_here(const ucontext_t& context) {
   if (!is_simulated() || waits_really.load()) return false;
   const auto at = static_cast<std::uintptr_t>(context.uc_mcontext.gregs[REG_RIP]);
   if (is_of_program(at)) return true;
   constexpr unsigned char system_call[2] = {0x0F, 0x05};
   const auto* const code = reinterpret_cast<const unsigned char*>(at);
-  if (std::memcmp(code, system_call, 2) == 0) return true;  // it is made again after
+  if (std::memcmp(code, system_call, 2) == 0) return true;  // it is restarted
   return std::memcmp(code - 2, system_call, 2) == 0 && context.uc_mcontext.gregs[REG_RAX] == -EINTR;
 }
 
-// The program may compute for long before its next waitpoint: what could not be handled where it came is tried again,
-// by a timer of the system's, which no child inherits. Where that always meets it in the C library, whose calls may
-// take nearly all of its time, it is handled when such a call returns.
+// The program may compute for a long time before its next waitpoint: a signal that could not be handled at once is
+// tried again, by a timer of the system, which no child process inherits. If the timer always interrupts the C library,
+// whose calls may take most of the time, the signal is handled when such a call returns.
 timer_t retry{};
 pid_t retry_is_of = 0;
 unsigned tries = 0;
@@ -137,7 +137,7 @@ void handle_what_has_come(ucontext_t& interrupted) {
     tries = 0;
 }
 
-// The processor raised it in the running thread: now or never.
+// The processor raised it in the running thread: it must be handled at once.
 void handle_fault(int signal, siginfo_t* information, void* context) {
   if (signal == SIGSEGV && emulate_processor_counter(context)) return;
   struct sigaction& known = signals_of_program.actions[signal];
@@ -162,13 +162,13 @@ void catch_signal(int signal, siginfo_t* information, void* context) {
   if (signal == bell && family::is_ring(*information)) return has_rung.store(true);
   if (signal == SIGSYS && answer_library_call(*information, context)) return;
   const int error = errno;
-  // So does the system when this thread writes what nobody can read.
+  // SIGPIPE and SIGXFSZ: this thread's own write.
   const bool from_itself =
       (information->si_code == SI_TKILL || signal == SIGPIPE || signal == SIGXFSZ) && information->si_pid == getpid();
   if (contains(faults, signal) && information->si_code > 0) {
     handle_fault(signal, information, context);
   } else if (is_simulated() && from_itself && !waits_really.load()) {
-    // By the C library, which raises what it means to have handled at once: abort() within it, for one.
+    // By the C library, which expects it to be handled at once: by abort() within it, for one.
     send(*information, &this_thread());
     let_come();
     handle_signals();
@@ -205,7 +205,7 @@ bool has_come_from_outside() {
 bool take_in_signals_from_outside() {
   bool any = false;
   has_rung.store(false);
-  // What comes meanwhile is for the next time: others may send as fast as they are taken in here.
+  // Signals that arrive during the loop are left for the next call: others may send them as fast as the loop runs.
   for (const unsigned end = next_kept.load(); next_taken.load() != end;) {
     Kept& place = kept[next_taken.load() % kept_max];
     if (!place.is_there.load()) break;
@@ -225,7 +225,7 @@ void install(int signal) {
   real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
   real.sa_sigaction = catch_signal;
   if (!contains(faults, signal)) real.sa_mask = to_sigset(one_by_one);
-  if (signal == bell) real.sa_flags |= SA_RESTART;  // who asked for none of it is not to see that it came
+  if (signal == bell) real.sa_flags |= SA_RESTART;  // the program did not ask for it, and must not see EINTR
   const bool is_default = !is_handled(signal);
   const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) ||
                                     (signal == SIGSYS && are_library_calls_trapped()) || (signal == bell && has_bell);
@@ -291,7 +291,7 @@ WAITPOINT_INTERPOSED int sigaction(int signal, const struct sigaction* action, s
     known.sa_mask = to_sigset(to_set(action->sa_mask) & ~unblockable);
     if (contains(interrupting, signal) && (action->sa_flags & SA_RESTART) != 0) interrupting &= ~only(signal);
     install(signal);
-    // What is ignored from now on does not pend either.
+    // Pending signals that are ignored from now on are dropped.
     if (is_simulated() && !is_handled(signal) &&
         (known.sa_handler == SIG_IGN || contains(ignored_by_default, signal))) {
       signals_of_program.pending.drop(only(signal));

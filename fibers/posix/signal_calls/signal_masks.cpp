@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Each thread's mask, its alternate stack, and jumps out of handlers, which may bring an earlier mask back.
+// Each thread's mask, its alternate stack, and jumps out of handlers, which may restore an earlier mask.
 #include <setjmp.h>
 #include <sys/mman.h>
 
@@ -47,10 +47,10 @@ int change_mask(int how, const sigset_t* set, sigset_t* old) {
   return 0;
 }
 
-// In a jump buffer: that the second word stands behind a mask of ours.
+// The second word of a jump buffer's mask, behind a mask of the layer's.
 constexpr unsigned long mark_of_mask = 0x77706D61736B3031;  // "wpmask01"
 
-// As for the mask: what a call that is left by a jump was at is over.
+// Ends the calls that a jump leaves, and restores the mask.
 void leave_calls(__jmp_buf_tag* buffer) {
   if (!is_simulated()) return;
   Thread& thread = this_thread();
@@ -72,7 +72,7 @@ using Jump = void (*)(__jmp_buf_tag*, int);
 
 using namespace waitpoint::posix;
 
-// Keeps this thread's mask in the buffer if asked to, and returns the C library's function, which is to keep none.
+// Saves this thread's mask in the buffer if `is_asked`, and returns the C library's function, which then saves none.
 extern "C" [[gnu::visibility("hidden"), gnu::used]] void* waitpoint_keep_mask(__jmp_buf_tag* buffer, int is_asked) {
   using Set = int (*)(__jmp_buf_tag*, int);
   static constinit Set known = nullptr;
@@ -86,7 +86,7 @@ extern "C" [[gnu::visibility("hidden"), gnu::used]] void* waitpoint_keep_mask(__
   return reinterpret_cast<void*>(next(known, "__sigsetjmp"));
 }
 
-// It returns twice, so that no function of C++ can stand in front of it.
+// It returns twice, so it cannot be a function of C++.
 asm(R"(
   .text
   .globl __sigsetjmp
@@ -127,7 +127,7 @@ void waitpoint_plain_longjmp(__jmp_buf_tag* buffer, int value) {
   static constinit Jump known = nullptr;
   jump(known, "_longjmp", buffer, value);
 }
-// Its check is whether the jump goes up the stack: not so from an alternate stack to a thread's.
+// The C library would check that the jump goes up the stack, which fails from an alternate stack to a thread's.
 void waitpoint_checked_longjmp(__jmp_buf_tag* buffer, int value) {
   static constinit Jump known = nullptr;
   jump(known, "siglongjmp", buffer, value);
@@ -162,7 +162,7 @@ WAITPOINT_INTERPOSED int sigrelse(int signal) noexcept {
   block_from_now_on(blocked_now() & ~only(signal));
   return 0;
 }
-// Holding a signal is one of the things that can be done with it.
+// SIG_HOLD is an action too.
 WAITPOINT_INTERPOSED __sighandler_t sigset(int signal, __sighandler_t handler) noexcept {
   struct sigaction action {
   }, old{};
@@ -193,7 +193,7 @@ WAITPOINT_INTERPOSED int sigsetmask(int mask) noexcept {
 }
 WAITPOINT_INTERPOSED int siggetmask() noexcept { return static_cast<int>(blocked_now()); }
 
-// The system is told too, for what the processor raises: then the last that was named is used.
+// The system needs it too, for signals of the processor: these use the stack that was set last.
 WAITPOINT_INTERPOSED int sigaltstack(const stack_t* stack, stack_t* old) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(sigaltstack)(stack, old);
   if ((stack != nullptr && !can_be_read(stack)) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);

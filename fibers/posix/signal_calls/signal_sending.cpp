@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Signals that the program sends. Those to itself never leave it; those to others are the system's.
+// Signals that the program sends. Those to itself are simulated; those to other processes go to the system.
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 extern "C" {
-#include <sys/pidfd.h>  // says nothing of C++
+#include <sys/pidfd.h>  // has no extern "C"
 }
 
 #include "fibers/posix/base/argument_memory.hpp"
@@ -23,7 +23,7 @@ extern "C" {
 namespace waitpoint::posix {
 namespace {
 
-// What was sent to this thread is handled before the call returns.
+// Signals to this thread are handled before the call returns.
 void handle_own() {
   kernel::Task& task = *kernel::running;
   if ((task.attention & kernel::attention::signal) == 0) return;
@@ -43,7 +43,7 @@ int send_here(const siginfo_t& information, Thread* to) {
 
 bool is_number(int signal) { return signal == 0 || is_signal(signal); }
 
-// To a thread, with what is told of it: an error number.
+// Returns an error number.
 int send_to_thread(Thread* thread, siginfo_t information) {
   if (thread == nullptr) return ESRCH;
   if (!is_number(information.si_signo)) return EINVAL;
@@ -59,7 +59,7 @@ siginfo_t with_value(int signal, sigval value) {
   return information;
 }
 
-// Linux keeps no more for a user than that.
+// Linux's limit of pending signals of a user.
 bool is_queue_full() {
   rlimit limit{};
   getrlimit(RLIMIT_SIGPENDING, &limit);
@@ -89,7 +89,7 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED int kill(pid_t process, int signal) noexcept {
   if (!is_simulated() || process != getpid() || !is_signal(signal)) {
     const int result = WAITPOINT_NEXT(kill)(process, signal);
-    // This process may be one of several that it was sent to.
+    // This process may be among the receivers.
     if (is_simulated() && process <= 0 && take_in_signals_from_outside()) handle_signals();
     return result;
   }

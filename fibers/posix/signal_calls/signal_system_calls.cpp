@@ -18,7 +18,7 @@
 namespace waitpoint::posix {
 namespace {
 
-/// A set of signals as the system has it, or none.
+/// The system's set of signals, or none.
 class Mask {
  public:
   explicit Mask(const SignalSet* from) : is_there_(from != nullptr) {
@@ -31,7 +31,7 @@ class Mask {
   sigset_t set_;
 };
 
-/// What is done with a signal, as the system has it.
+/// The system's layout of an action.
 struct SystemAction {
   void (*handler)(int);
   unsigned long flags;
@@ -42,7 +42,7 @@ struct SystemAction {
 bool is_none_or_readable(long address) { return address == 0 || can_be_read(as<const void*>(address)); }
 bool is_none_or_writable(long address) { return address == 0 || can_be_written(as<void*>(address)); }
 
-// Of what is read and written here: 0, or an error number. The functions look at what they are given themselves.
+// Checks the memory that is accessed here; the functions check their own arguments. Returns an error number.
 int error_of(long number, const CallWords& words) {
   constexpr long size_of_set = sizeof(SignalSet);
   const auto set_of_size = [&](int set, int size) {
@@ -96,7 +96,7 @@ long tell_pending(SignalSet* set) {
   return 0;
 }
 
-// What the program says of the signal is told as it is. Of another process's threads the system knows more.
+// The program's siginfo_t is delivered as it is. The system handles signals to other processes.
 long queue_signal(long number, const CallWords& words) {
   const bool to_thread = number == SYS_rt_tgsigqueueinfo;
   const auto told = words.word<const siginfo_t*>(to_thread ? 3 : 2);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Waiting for signals: those that are taken without a handler, and those whose handler ends the wait. As they may come
-// from outside, nobody who waits so is in a deadlock.
+// Waiting for signals, with a handler or without. As signals may come from outside, such a wait is no deadlock.
 #include <unistd.h>
 
 #include <cerrno>
@@ -28,7 +27,7 @@ Wait wait_for_signal(const CancellationPoint& point, Time deadline) {
   return point.block(signals_object, deadline);
 }
 
-// Until one of the set is pending: it is taken. An error, negated, otherwise.
+// Waits until one of the set is pending and takes it; or returns a negated error number.
 int take(SignalSet set, siginfo_t* information, Time deadline) {
   const CancellationPoint point;
   pass(kernel::Operation::wait, nullptr);
@@ -38,7 +37,7 @@ int take(SignalSet set, siginfo_t* information, Time deadline) {
   for (;;) {
     take_in_signals_from_outside();
     if (const int signal = take_pending(set, taken); signal != 0) {
-      if (taken.si_code == SI_TKILL) taken.si_code = SI_USER;  // as the C library has it
+      if (taken.si_code == SI_TKILL) taken.si_code = SI_USER;  // as in the C library
       if (information != nullptr) *information = taken;
       return signal;
     }
@@ -53,7 +52,7 @@ int take(SignalSet set, siginfo_t* information, Time deadline) {
   }
 }
 
-// Until a handler has run, at the call's own waitpoint too.
+// Waits until a handler has run, be it at the call's own waitpoint.
 int suspend_with(SignalSet blocked) {
   const TemporaryMask mask(blocked);
   const CancellationPoint point;
@@ -78,7 +77,7 @@ WAITPOINT_INTERPOSED int sigtimedwait(const sigset_t* set, siginfo_t* informatio
   if (timeout != nullptr && (!is_valid(*timeout) || timeout->tv_sec < 0)) return fail(EINVAL);
   const Time deadline = timeout == nullptr ? Time::max() : later(kernel::local_time(*kernel::running), span(*timeout));
   const int taken = take(to_set(*set), information, deadline);
-  if (taken == -EAGAIN) read_clock();  // a loop that asks without waiting is to end
+  if (taken == -EAGAIN) read_clock();  // a polling loop must end
   return taken > 0 ? taken : fail(-taken);
 }
 
@@ -105,7 +104,7 @@ WAITPOINT_INTERPOSED int pause() {
   return is_simulated() ? suspend_with(this_thread().blocked) : WAITPOINT_NEXT(pause)();
 }
 
-// X/Open's: without this signal; BSD's, by a macro: a mask.
+// X/Open's takes a signal, BSD's (by a macro) a mask.
 WAITPOINT_INTERPOSED int __xpg_sigpause(int signal) {
   if (!is_signal(signal)) return fail(EINVAL);
   return suspend_with(this_thread().blocked & ~only(signal));
@@ -113,6 +112,6 @@ WAITPOINT_INTERPOSED int __xpg_sigpause(int signal) {
 WAITPOINT_INTERPOSED int __sigpause(int signal_or_mask, int is_signal) {
   return is_signal != 0 ? __xpg_sigpause(signal_or_mask) : suspend_with(static_cast<unsigned>(signal_or_mask));
 }
-// The header gives this name to X/Open's.
+// The header maps sigpause() to X/Open's.
 extern "C" [[gnu::visibility("default")]] int waitpoint_sigpause(int mask) __asm__("sigpause");
 int waitpoint_sigpause(int mask) { return __sigpause(mask, 0); }
