@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Calls that end a process. Where it is several programs, they end the one that calls.
+// Calls that end a process. If it is several programs, they end only the calling one.
 #include <assert.h>
 #include <signal.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@
 namespace waitpoint::posix {
 namespace {
 
-/// Of a program that abort() ends, as a shell tells it.
+/// As a shell reports abort().
 constexpr int status_of_abort = 128 + SIGABRT;
 
 bool add_handler(void (*function)(void*), void* argument) {
@@ -48,7 +48,7 @@ WAITPOINT_INTERPOSED void _exit(int status) {
 }
 WAITPOINT_INTERPOSED void _Exit(int status) noexcept { _exit(status); }
 
-// It cannot be blocked or ignored, and there is no coming back but by a jump.
+// SIGABRT cannot be blocked or ignored here, and a handler can only leave by a jump.
 WAITPOINT_INTERPOSED void abort() noexcept {
   if (is_simulated()) {
     this_thread().blocked &= ~only(SIGABRT);
@@ -65,7 +65,8 @@ WAITPOINT_INTERPOSED void abort() noexcept {
   __builtin_unreachable();
 }
 
-// For bugs of ours: the linker sends the calls of this library here. No handler of the program's is called.
+// For bugs of the layer: the linker redirects this library's own calls of abort() to it. No handler of the program is
+// called.
 extern "C" [[noreturn, gnu::visibility("hidden")]] void __wrap_abort() noexcept {
   do_default(SIGABRT);
   WAITPOINT_NEXT(_exit)(status_of_own_errors);
@@ -81,8 +82,8 @@ WAITPOINT_INTERPOSED void __assert_fail(const char* condition, const char* file,
   abort();
 }
 
-// What a program registers is called when it exits; what its libraries do, when the process does. atexit() is in the
-// program itself, and calls this one.
+// Handlers that a program registers are called when it exits; those of its libraries, when the process does. atexit()
+// is linked into the program itself, and calls this one.
 WAITPOINT_INTERPOSED int __cxa_atexit(void (*function)(void*), void* argument, void* object) {
   if (runs_in_member() && contains(this_member().image, object)) return add_handler(function, argument) ? 0 : -1;
   return WAITPOINT_NEXT(__cxa_atexit)(function, argument, object);

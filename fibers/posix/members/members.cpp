@@ -26,7 +26,7 @@ void* run_member(void* argument) {
   std::exit(call_main(member.image, member.argc, member.argv));
 }
 
-// What is registered meanwhile comes next.
+// Handlers registered by a handler are called next.
 void call_handlers(Member& member) {
   while (member.handlers != nullptr) {
     ExitHandler* const handler = member.handlers;
@@ -68,7 +68,7 @@ bool runs_in_member() { return is_simulated() && this_program().is_member && get
 
 void exit_member(int status) {
   Member& member = this_member();
-  // Whoever exits first does it; the others are waited for by nobody.
+  // Only the first thread that exits calls the handlers; no thread waits for the others.
   if (member.exiting) end_running_thread();
   member.exiting = true;
   __call_tls_dtors();

@@ -16,12 +16,12 @@
 namespace waitpoint::posix {
 namespace {
 
-// A tag that the dynamic linker knows nothing of.
+// A tag unknown to the dynamic linker.
 constexpr Elf64_Sxword no_tag = DT_LOOS + 0x5770;
-// Programs expect their own descriptors to begin at 3, and seldom to go on to here.
+// Programs expect their own descriptors to begin at 3, and rarely reach this one.
 constexpr int least_descriptor = 200;
 
-// A file's bytes, to be changed in memory.
+// A file's bytes, mapped privately so that they can be changed.
 class Bytes {
  public:
   Bytes(const char* file, LoadError& error) {
@@ -50,7 +50,7 @@ class Bytes {
   bool read() const { return begin_ != nullptr; }
   std::size_t size() const { return size_; }
   const char* begin() const { return begin_; }
-  /// `count` of them at `offset`; null where the file is not so long.
+  /// `count` objects at `offset`; null beyond the end of the file.
   template <class T>
   T* at(std::uint64_t offset, std::uint64_t count = 1) const {
     return offset <= size_ && count <= (size_ - offset) / sizeof(T) ? reinterpret_cast<T*>(begin_ + offset) : nullptr;
@@ -79,7 +79,7 @@ class Object {
   }
   std::uint64_t entry() const { return head_.e_entry; }
 
-  /// The dynamic section; false without one.
+  /// Finds the dynamic section; false without one.
   bool find_dynamic() {
     const Elf64_Phdr* const section = part(PT_DYNAMIC);
     if (section == nullptr) return false;
@@ -96,7 +96,7 @@ class Object {
     const Elf64_Dyn* const entry = find(tag);
     return entry != nullptr ? entry->d_un.d_val : 0;
   }
-  /// The value, and the entry is void from now on.
+  /// Returns the value and makes the entry void.
   std::uint64_t take(Elf64_Sxword tag) {
     Elf64_Dyn* const entry = find(tag);
     if (entry == nullptr) return 0;
@@ -104,7 +104,7 @@ class Object {
     return entry->d_un.d_val;
   }
 
-  /// What is loaded at `address`; null where it is not from the file.
+  /// The objects loaded at `address`; null if they are not in the file.
   template <class T>
   T* loaded(std::uint64_t address, std::uint64_t count = 1) const {
     for (std::size_t i = 0; i < head_.e_phnum; ++i) {
@@ -120,7 +120,7 @@ class Object {
   }
   const char* name(const Elf64_Sym& symbol) const { return loaded<char>(value(DT_STRTAB) + symbol.st_name); }
 
-  /// How many symbols there are: the hash table knows, of whichever kind it is.
+  /// The number of symbols, from the hash table of either kind.
   std::size_t symbols() const {
     if (const std::uint32_t* const table = hash_table(DT_HASH); table != nullptr) return table[1];
     const std::uint64_t table = value(DT_GNU_HASH);
@@ -156,8 +156,8 @@ class Object {
   std::size_t count_ = 0;
 };
 
-// Variables of libraries that an executable has taken for its own: the library goes on with the copy that the process
-// has, and ours would be another. What nobody writes after the start may be there twice.
+// The first variable of a library that an executable has copied (R_X86_64_COPY): the library uses the process's copy,
+// and this program would have another. Variables that are constant after the start may exist twice.
 const char* variable_of_its_own(const Object& object) {
   const std::uint64_t count = object.value(DT_RELASZ) / sizeof(Elf64_Rela);
   const Elf64_Rela* const all = object.loaded<Elf64_Rela>(object.value(DT_RELA), count);
@@ -181,7 +181,8 @@ void use_own_names_first(Object& object) {
   }
 }
 
-// Whether it can be a program among others; else the reason. What is left to us is taken out.
+// True if the file can be one of several programs, else the reason is in `error`. Constructors and destructors are
+// removed from the copy: the layer calls them.
 bool change(Object& object, const char* file, ProgramParts& parts, LoadError& error) {
   const auto refused = [&](const char* reason) {
     std::snprintf(error, sizeof error, "%s %s", file, reason);

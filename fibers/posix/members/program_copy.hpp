@@ -7,10 +7,10 @@
 
 namespace waitpoint::posix {
 
-/// Why it cannot be loaded: "FILE ...", a clause.
+/// The reason for a failure, as a clause: "FILE ...".
 using LoadError = char[512];
 
-/// What was taken out of a copy, and is to be done when the program begins and ends: addresses within it, 0 for none.
+/// Removed from a copy, and called when the program begins and ends: addresses within it, 0 for none.
 struct ProgramParts {
   std::uint64_t main = 0, entry = 0;
   std::uint64_t initialise = 0, finish = 0;
@@ -18,7 +18,7 @@ struct ProgramParts {
   std::uint64_t destructors = 0, destructors_bytes = 0;
 };
 
-/// Makes the copy of `file` as a file in memory; its descriptor, or -1 with the reason.
+/// Copies `file` to a file in memory; returns its descriptor, or -1 with the reason.
 int make_copy(const char* file, ProgramParts& parts, LoadError& error);
 
 }  // namespace waitpoint::posix

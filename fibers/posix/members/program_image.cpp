@@ -15,10 +15,10 @@
 namespace waitpoint::posix {
 namespace {
 
-// The copy's name, of the same length in every run: the dynamic linker keeps it in memory of the program's.
+// The copy's name, of the same length in every run: the dynamic linker allocates it on the program's heap.
 struct CopyName {
   explicit CopyName(int file) {
-    constexpr int digits_max = 7;  // of a process
+    constexpr int digits_max = 7;  // of a process id
     char number[16];
     const int digits = std::snprintf(number, sizeof number, "%d", static_cast<int>(getpid()));
     std::snprintf(text, sizeof text, "/proc%.*s%s/fd/%d", digits < digits_max ? 1 + digits_max - digits : 1, "////////",
@@ -27,7 +27,7 @@ struct CopyName {
   char text[64];
 };
 
-// The dynamic linker names the copy, where it speaks of it.
+// The dynamic linker's message, without the copy's name in front.
 void explain(const char* file, const CopyName& copy, LoadError& error) {
   const char* reason = dlerror();
   const std::size_t length = std::strlen(copy.text);
@@ -37,7 +37,7 @@ void explain(const char* file, const CopyName& copy, LoadError& error) {
                 reason != nullptr ? reason : "no reason is known");
 }
 
-// As the system enters a program: with its arguments on the stack. It never comes back.
+// Enters a program as the system does, with its arguments on the stack. It never returns.
 [[noreturn]] void enter(void* entry, int argc, char** argv) {
   const auto words = static_cast<std::size_t>(argc) + 3;
   auto** const block = static_cast<void**>(alloca((words + 2) * sizeof(void*)));
@@ -45,7 +45,7 @@ void explain(const char* file, const CopyName& copy, LoadError& error) {
   top[0] = reinterpret_cast<void*>(static_cast<std::intptr_t>(argc));
   for (int i = 0; i < argc; ++i) top[1 + i] = argv[i];
   top[1 + argc] = nullptr;
-  top[2 + argc] = nullptr;  // no environment: who is called has it
+  top[2 + argc] = nullptr;  // no environment: the C library has it already
   asm volatile("movq %0, %%rsp\n\txorl %%edx, %%edx\n\tjmp *%1" : : "r"(top), "r"(entry) : "rdx", "memory");
   __builtin_unreachable();
 }
@@ -93,7 +93,7 @@ int call_main(const ProgramImage& image, Main main, int argc, char** argv) {
   if (image.initialise != nullptr) image.initialise();
   for (std::size_t i = 0; i < image.constructors.count; ++i)
     reinterpret_cast<Constructor>(image.constructors.first[i])(argc, argv, environ);
-  // What an earlier program has read of its options is not ours: getopt(3), on scanning several vectors.
+  // An earlier program may have used getopt(): 0 makes it start again, see getopt(3) on several vectors.
   optind = 0;
   return main(argc, argv, environ);
 }
