@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes that the program makes.
+// Child processes of the program.
 #pragma once
 
 #include <sys/types.h>
 
 namespace waitpoint::posix {
 
-/// Before main(): whoever forks within the C library too leaves a child that is a simulation of its own.
+/// Before main(): makes children that are forked within the C library simulations of their own, too.
 void register_fork();
-/// Whether the process is a host's: a copy of that would be no process of the program's.
+/// True if the process is a host's: a copy of it would be no process of the program.
 bool is_guest();
-/// The running thread is about to make one.
+/// Called before the running thread makes a child.
 void before_child();
-/// It forks, by `real(argument)`, which is as fork(): with the handlers of pthread_atfork() or without.
+/// Forks by `real(argument)`, which is as fork(). `calls_handlers`: it calls those of pthread_atfork().
 pid_t fork_by(pid_t (*real)(const void*), const void* argument, bool calls_handlers);
 
 }  // namespace waitpoint::posix

@@ -25,7 +25,7 @@
 namespace waitpoint::posix {
 namespace {
 
-/// What clone() is called with.
+/// The arguments of clone().
 struct Clone {
   int (*function)(void*);
   void* stack;
@@ -42,7 +42,7 @@ bool is_last_of_program() {
   return true;
 }
 
-// As SYS_exit: nothing of the thread's own is called any more.
+// SYS_exit: no code of the program is called for the thread's end.
 [[noreturn]] void exit_thread(int status) {
   if (is_last_of_program()) _exit(status);
   let_robust_mutexes_go();
@@ -77,7 +77,7 @@ int make_thread(const Clone& clone) {
   return id;
 }
 
-// In the child no thread is running: what it calls is the C library's.
+// In the child no thread is running: its calls go to the C library.
 int lend_memory(const Clone& clone) {
   before_child();
   kernel::running->scheduler->close_fast_path();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// fork(): the child goes on as a simulation of its own, with the thread that called; programs that it starts are not
-// simulated. And waiting for children, who take real time.
+// fork(): the child becomes a simulation of its own, with the calling thread; programs that it starts are not
+// simulated. And waiting for children, which run in real time.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -33,8 +33,8 @@
 namespace waitpoint::posix {
 namespace {
 
-// What the child does is not what `waitpoint exec` watches: its record becomes a copy, at the same address. The copy is
-// made before, as the parent goes on at once.
+// `waitpoint exec` does not watch the child, which gets a copy of the record at the same address. The copy is made
+// before the fork, as the parent continues at once.
 void* copy_of_record = nullptr;
 
 void copy_record() {
@@ -61,7 +61,7 @@ void take_own_record() {
   copy_of_record = nullptr;
 }
 
-bool is_child = false;  // and has begun its own simulation
+bool is_child = false;  // its own simulation has begun
 
 // In the child, before any handler of pthread_atfork() of the program's.
 void begin_as_child() {
@@ -83,7 +83,7 @@ void begin_as_child() {
   note_parent();
 }
 
-/// Whom a call waits for, and for what of them.
+/// The children and the events that a call waits for.
 struct Awaited {
   idtype_t type;
   id_t id;
@@ -121,7 +121,7 @@ bool wait_for_news(const Awaited& awaited) {
 void before_child() {
   pass(kernel::Operation::start, nullptr);
   note_fork();
-  // That a child has ended is looked for even if nothing handles its signal.
+  // The end of a child is noticed even if no handler is set.
   signals_of_program.ever_blocked |= only(SIGCHLD);
   install(SIGCHLD);
 }
@@ -142,7 +142,7 @@ pid_t fork_by(pid_t (*real)(const void*), const void* argument, bool calls_handl
 
 namespace {
 
-// The end of a child sends its signal before anybody is told of it.
+// SIGCHLD comes before a wait reports the child's end.
 void handle_what_came() {
   const ErrorNumberKept kept;
   take_in_signals_from_outside();
@@ -151,7 +151,7 @@ void handle_what_came() {
 
 }  // namespace
 
-// Nothing comes between these and the fork: of what is to be done before one, the first that was named is done last.
+// No other handler runs between these and the fork: the one registered first is called last before a fork.
 void register_fork() { pthread_atfork(copy_record, drop_copy, begin_as_child); }
 
 bool is_guest() { return has_host && is_simulated(); }
@@ -172,7 +172,7 @@ WAITPOINT_INTERPOSED pid_t _Fork() noexcept {
   return fork_by([](const void*) { return WAITPOINT_NEXT(_Fork)(); }, nullptr, false);
 }
 
-// The child does not borrow its parent's memory, but the parent waits until it is done with it, as programs may expect.
+// The child does not share its parent's memory, but the parent waits for its end or exec, as programs may expect.
 WAITPOINT_INTERPOSED pid_t vfork() noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(fork)();
   if (is_guest()) return fail(ENOSYS);
@@ -201,7 +201,7 @@ WAITPOINT_INTERPOSED pid_t wait4(pid_t pid, int* status, int options, rusage* us
   if (!is_simulated()) return WAITPOINT_NEXT(wait4)(pid, status, options, usage);
   if ((options & WNOHANG) != 0) {
     pass_cancellation_point();
-    spend(cost_of_giving_way);  // a loop that asks without waiting is to end
+    spend(cost_of_giving_way);  // a polling loop must end
     const InKernel within;
     kernel::running->scheduler->yield();
   } else if (!wait_for_news(awaited_by(pid, options))) {

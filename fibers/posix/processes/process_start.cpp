@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Programs that this one starts. They have the mask of signals that their maker's thread had: to the system, nothing is
-// blocked here.
+// Programs that this one starts. They inherit the signal mask of the starting thread, which the system does not know.
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,7 +21,7 @@
 namespace waitpoint::posix {
 namespace {
 
-/// While it lives, the system blocks what the running thread blocks.
+/// While it lives, the system has the running thread's mask.
 class RealMask {
  public:
   RealMask() {
@@ -40,7 +39,7 @@ class RealMask {
   sigset_t before_;
 };
 
-/// The words of execl() and its kin, up to the null that ends them.
+/// The arguments of execl() and the like, up to the terminating null.
 class Words {
  public:
   Words(const char* first, va_list more) {
@@ -71,13 +70,13 @@ int note_started(int error, const pid_t* child) {
 void before_start(const posix_spawn_file_actions_t* actions) {
   if (!is_simulated()) return;
   pass(kernel::Operation::start, nullptr);
-  // What it does with descriptors may give it any of them.
+  // File actions may pass any descriptor to it.
   actions != nullptr ? note_fork() : note_start();
   signals_of_program.ever_blocked |= only(SIGCHLD);
   install(SIGCHLD);
 }
 
-// The shell ignores SIGINT and SIGQUIT meanwhile, and so does who waits for it.
+// system() ignores SIGINT and SIGQUIT while the shell runs, and blocks SIGCHLD.
 int run_shell(const char* command) {
   struct sigaction ignore {
   }, interrupt{}, quit{};
@@ -189,7 +188,7 @@ WAITPOINT_INTERPOSED FILE* popen(const char* command, const char* type) {
   before_start(nullptr);
   const StartEnvironment started(environ);
   const RealMask mask;
-  // The C library starts the shell with this.
+  // The C library starts the shell with `environ`.
   char** const own = environ;
   environ = const_cast<char**>(started.get());
   FILE* const stream = WAITPOINT_NEXT(popen)(command, type);

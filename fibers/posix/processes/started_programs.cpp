@@ -23,7 +23,7 @@ namespace {
 constexpr int out_of_the_way = 512;
 constexpr char preload[] = "LD_PRELOAD=";
 
-// A record for one more run with the settings of this one; -1 where there can be none.
+// A record for another run with the settings of this one; -1 if it cannot be made.
 int make_record() {
   const int made = memfd_create("waitpoint-exec", 0);
   if (made < 0) return -1;
@@ -67,7 +67,7 @@ StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
   const char* others = "";
   for (std::size_t i = 0; i < count; ++i)
     if (begins_with(given[i], preload)) others = given[i] + std::strlen(preload);
-  // Room for a list of pointers, with two more and a null, and behind it for the two words.
+  // A list of pointers, with two more and a null, and behind it the two words.
   const std::size_t list = (count + 3) * sizeof(char*), first = std::strlen(library()) + std::strlen(others) + 16;
   auto* const memory = static_cast<char*>(std::malloc(list + first + 64));
   if (memory == nullptr) return;
@@ -82,8 +82,8 @@ StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
   made_[at] = nullptr;
 }
 
-// Traps of system calls, which go by where the C library is, come to programs that are started too, but nobody there
-// answers them before their main(), if then: their C library is to be elsewhere.
+// Started programs inherit the traps of system calls, which depend on the C library's address, but have no handler for
+// them, at least not before main(): their C library must be at another address.
 void StartEnvironment::place_at_random() {
   if (!are_library_calls_trapped()) return;
   persona_ = personality(0xFFFFFFFF);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs that a simulated one starts: native ones, unless the run is to simulate them too (Settings). Then each has a
-// record of its own, which it is handed with its environment; nobody watches over it but the system.
+// Programs that a simulated one starts: native, unless the run simulates them too (Settings). Then each has a record of
+// its own, passed in its environment, and is not watched by `waitpoint exec`.
 #pragma once
 
 namespace waitpoint::posix {
 
-/// What a program is started with; to be kept until it has been.
+/// The environment of a program to be started; must live until then.
 class StartEnvironment {
  public:
-  /// `given` as it is, or with what makes the program a simulation in front.
+  /// `given` as it is, or with the variables in front that make the program a simulation.
   explicit StartEnvironment(char* const* given);
   ~StartEnvironment();
   StartEnvironment(const StartEnvironment&) = delete;
@@ -22,7 +22,7 @@ class StartEnvironment {
   char* const* given_;
   char** made_ = nullptr;
   int record_ = -1;
-  int persona_ = -1;  ///< of this process, if it is to be as it was
+  int persona_ = -1;  ///< of this process, if it has to be restored
 };
 
 }  // namespace waitpoint::posix

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// syscall(): what the C library's functions of the same names do, where they are simulated; the rest goes to the
-// kernel.
+// syscall(): simulated calls do the same as the functions of their names; the others go to the system.
 #include <aio.h>
 #include <fcntl.h>
 #include <mqueue.h>
@@ -33,7 +32,7 @@
 #include <optional>
 
 extern "C" {
-#include <sys/pidfd.h>  // says nothing of C++
+#include <sys/pidfd.h>  // has no extern "C"
 }
 
 #include "fibers/posix/base/argument_memory.hpp"
@@ -63,7 +62,7 @@ long call_system(long number, const CallWords& words) {
 
 bool may_be_written(void* address) { return address == nullptr || can_be_written(address); }
 
-// Each group answers the calls that it knows.
+// Each group handles its calls, and returns nullopt for others.
 
 std::optional<long> call_about_threads(long number, const CallWords& words) {
   switch (number) {
@@ -118,7 +117,7 @@ std::optional<long> call_about_time(long number, const CallWords& words) {
       if (!can_be_written(words.word<void*>(1))) return fail(EFAULT);
       return read_clock(words.word<clockid_t>(0), *words.word<timespec*>(1));
     }
-    // By their names they do not come to the system, which looks at addresses.
+    // The functions of these names do not check addresses, as the system does.
     case SYS_gettimeofday: return may_be_written(words.word<void*>(0)) ? words.call(gettimeofday) : fail(EFAULT);
     case SYS_time: return may_be_written(words.word<void*>(0)) ? words.call(time) : fail(EFAULT);
     case SYS_times: return may_be_written(words.word<void*>(0)) ? words.call(times) : fail(EFAULT);
