@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What code calls from each of its basic blocks that is compiled with -fsanitize-coverage=trace-pc, or trace-pc-guard:
-// they are counted, for the clock that says what they cost.
+// Called from each basic block of code compiled with -fsanitize-coverage=trace-pc or trace-pc-guard: the blocks are
+// counted for the clock `counted`.
 #include <cstdint>
 
 #include "fibers/clocks/block_counter.hpp"

@@ -10,7 +10,7 @@
 namespace waitpoint::posix {
 namespace {
 
-// Uses of primitives move virtual time on before a program without progress comes so far.
+// Never reached: uses of primitives advance virtual time before.
 constexpr std::uint32_t steps_of_an_instant_max = 100'000'000;
 
 exploration::Profile profile_of(const Asked& asked) {
@@ -22,7 +22,7 @@ exploration::Profile profile_of(const Asked& asked) {
   return profile;
 }
 
-// The layer's own: what it does on behalf of a program says nothing about that.
+// The layer's own module: its frames are left out of call stacks.
 std::string own_module() {
   Dl_info own{};
   return dladdr(reinterpret_cast<void*>(&profile_of), &own) != 0 ? own.dli_fname : "";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program whose schedule is explored: what is asked of a run, and what becomes known of it. Both lie in the memory
-// that the program shares with who asks.
+// A program whose schedule is explored: the request for a run, and its results. Both are in the memory that the program
+// shares with the explorer's process.
 #pragma once
 
 #include <cstdint>
@@ -18,40 +18,40 @@
 
 namespace waitpoint::posix {
 
-/// Made by who asks, before the run.
+/// The request, made by the explorer's process before the run.
 struct Asked {
   static constexpr std::size_t none = ~std::size_t{0};
 
-  /// What the default order has shown, for strategies that are to know.
+  /// Learned from a run in the default order, for strategies that need it.
   struct TaskProfile {
     std::uint64_t task, parent;
     std::uint32_t events;
     std::span<const std::uint64_t> objects;
   };
 
-  char strategy[64] = {};  ///< empty: the default order, but for what follows
+  char strategy[64] = {};  ///< empty: the default order, except for `switches` and `deviations`
   std::uint64_t seed = 0;
-  std::uint64_t number = 0;  ///< of the schedule, from which with the seed its draws follow
+  std::uint64_t number = 0;  ///< of the schedule: its random draws follow from this and the seed
   std::span<const exploration::Switch> switches = {};
   std::span<const exploration::Deviation> deviations = {};
-  std::size_t at_random_from = none;  ///< behind this decision any alternative is taken
+  std::size_t at_random_from = none;  ///< after this decision, alternatives are chosen at random
   std::uint32_t steps = 0;
   std::span<const TaskProfile> tasks = {};
   std::span<const std::uint64_t> shared = {};
   std::span<const std::uint64_t> code = {};
 
-  bool learn = false;    ///< code that accesses what threads share
-  bool profile = false;  ///< what is to be written down
-  bool words = false;
-  bool events = false;
+  bool learn = false;    ///< record the code that accesses shared memory
+  bool profile = false;  ///< record the profile
+  bool words = false;    ///< record choices in words
+  bool events = false;   ///< record events, from `events_from` on
   Time events_from;
   std::size_t decision = none;
-  std::size_t log_from = none;  ///< the events behind this decision are
-  bool stops = false;           ///< it is over before an event: what its task is about to do is written down
+  std::size_t log_from = none;  ///< log the events after this decision
+  bool stops = false;           ///< stop before an event, and record its task's operation
   exploration::EventOf stop_before;
 };
 
-/// All events of a run, as they come. Made by the program, before its first thread.
+/// All events of a run. Made by the program, before its first thread.
 struct Trace {
   Trace() : recorder(timeline, nullptr) {}
 
@@ -59,9 +59,9 @@ struct Trace {
   exploration::TimelineRecorder recorder;
 };
 
-/// The same where its schedule is explored.
+/// The results of a run whose schedule is explored.
 struct Explored {
-  /// Decides from now on, as it was asked.
+  /// Makes the scheduler's decisions from now on, as requested.
   Explored(kernel::Scheduler& scheduler, const Asked& asked);
   Explored(const Explored&) = delete;
   Explored& operator=(const Explored&) = delete;
@@ -73,10 +73,10 @@ struct Explored {
   exploration::Profile profile;
   exploration::Timeline timeline;
   std::vector<exploration::DoneEvent> log;
-  std::string stopped_before;      ///< an event, in words; empty where the run did not come to it
-  sync::CodePlaces stopped_calls;  ///< of its task, without the layer's own
+  std::string stopped_before;      ///< an event, in words; empty if the run did not reach it
+  sync::CodePlaces stopped_calls;  ///< its task's call stack, without the layer's own frames
 
-  /// The run is over, maybe where it was to stop.
+  /// After the run: notes if it has stopped where requested.
   void note_stop(kernel::Scheduler& scheduler);
 
  private:

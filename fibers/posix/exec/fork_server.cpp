@@ -20,7 +20,7 @@ namespace {
 
 struct Run {
   pid_t process;
-  int end;      // a descriptor that is ready when the process has ended
+  int end;      // pidfd: ready when the process has ended
   int answers;  // a socket
 };
 
@@ -28,7 +28,7 @@ constexpr int runs_max = 1024;
 Run runs[runs_max];
 int run_count = 0;
 
-// Whether a packet came; else nobody asks any more.
+// False if no further packet comes.
 bool receive(int socket, int (&descriptors)[run_descriptors]) {
   char byte = 0;
   iovec part{&byte, 1};
@@ -52,7 +52,7 @@ void answer(int socket, const T& what) {
   (void)send(socket, &what, sizeof what, MSG_NOSIGNAL);
 }
 
-// In the run: its descriptors are those that it would have if it had been started anew.
+// In the run: it has the same descriptors as a program that was just started.
 int become_run(int socket, const int (&descriptors)[run_descriptors]) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpgid(0, 0);
@@ -71,7 +71,7 @@ int become_run(int socket, const int (&descriptors)[run_descriptors]) {
 void reap(int index) {
   const Run run = runs[index];
   runs[index] = runs[--run_count];
-  kill(-run.process, SIGKILL);  // what it has started, too
+  kill(-run.process, SIGKILL);  // with the processes that it has started
   int status = 0;
   while (waitpid(run.process, &status, 0) < 0 && errno == EINTR) {
   }
@@ -80,7 +80,7 @@ void reap(int index) {
   close(run.answers);
 }
 
-// Waits for something to happen; whether a packet came.
+// Handles the ends of runs until a packet comes; false without further packets.
 bool wait_for_packet(int socket) {
   static pollfd all[2 * runs_max + 1];
   for (;;) {

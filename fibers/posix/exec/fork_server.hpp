@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of a program by fork, from where it is about to enter its main(): loading it is done once.
+// Runs of a program by fork, from the point before main(): the program is loaded only once.
 //
-// Who explores asks over a socket, one packet a run, with four descriptors in it: the run's record, where its input
-// comes from and where its output goes, and a socket on which the server answers the run's process id, and at its end
-// how it ended, as waitpid() gives it. A run whose answers nobody waits for any more is killed. What a run has started
-// ends with it, if it is of its process group.
+// The explorer requests each run by a packet over a socket, with four descriptors in it: the run's record, its input,
+// its output, and a socket for the answers: first the run's process id, at its end its status, as of waitpid(). A run
+// is killed when the other end of its answers is closed. Processes of a run's group end with it.
 #pragma once
 
 #include <sys/types.h>
@@ -14,7 +13,7 @@ namespace waitpoint::posix {
 /// The descriptors of a packet, in their order.
 enum ServerDescriptor : int { run_record, run_input, run_output, run_answers, run_descriptors };
 
-/// Sent over the server's own socket, before it is asked.
+/// Sent over the server's own socket, before the first request.
 struct ServerReady {};
 
 struct RunStarted {
@@ -24,8 +23,8 @@ struct RunEnded {
   int status;
 };
 
-/// Serves until nobody asks any more, and ends the process then. Returns in each run, in a process of its own, with the
-/// descriptor of its record.
+/// Serves until the other end of the socket is closed, then ends the process. Returns in each run, in a process of its
+/// own, with the descriptor of its record.
 int serve_runs(int socket);
 
 }  // namespace waitpoint::posix

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What this library allocates by `new`, which only exploration does. None of these names is seen from outside: the
-// program has its own.
+// This library's own `new`, which only exploration uses. The names are not exported: the program has its own.
 #include <new>
 
 #include "fibers/posix/program/program.hpp"

@@ -37,7 +37,7 @@ constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
 
 int (*program_body)() = nullptr;
 
-// main() returns into exit(), as in the C library; but it may leave by pthread_exit() too.
+// The result of main() is passed to exit(), as in the C library; main() may also end by pthread_exit().
 void* run_body(void*) {
   if (record->settings.is_started) note_parent();
   std::exit(program_body());
@@ -48,18 +48,18 @@ void* run_body(void*) {
   __builtin_unreachable();
 }
 
-// In place of what is mapped there.
+// Replaces an earlier mapping.
 void map_record(int descriptor) {
   void* const memory = mmap(reinterpret_cast<void*>(record_address), record_bytes, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_NORESERVE | MAP_FIXED, descriptor, 0);
   close(descriptor);
-  if (memory == MAP_FAILED) refuse("there is no address space for what is known of the run");
+  if (memory == MAP_FAILED) refuse("there is no address space for the record of the run");
   record = static_cast<Record*>(memory);
   if (record->mark != Record::mark_of_version)
-    refuse("this library and the waitpoint that started it are not of one version");
+    refuse("this library and the waitpoint that started it have different versions");
 }
 
-// At the end of an instant: until when the run goes on, with what has come meanwhile.
+// At the end of an instant: takes in external input; returns the end of the run's next window.
 Time keep_pace(kernel::Scheduler& scheduler) {
   const Time next = scheduler.next_event_time();
   const Duration left = next == Time::max() ? Duration::max() : left_until(next);
@@ -71,7 +71,7 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   return later(look_at_pace(scheduler, next), nanosecond);
 }
 
-// The C library calls it before those of libraries that are made with threads: by then they must be simulated.
+// The C library calls this constructor before those of libraries, which may make threads that must be simulated.
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
   const char* const descriptor = WAITPOINT_NEXT(getenv)(record_variable);
@@ -87,7 +87,7 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   if (record->settings.trap_library) trap_library_calls();
 }
 
-// A debugger runs the program once more on the same record.
+// A debugger runs the program again on the same record.
 void begin_anew() {
   const Settings settings = record->settings;
   const Arena arena = record->arena;
@@ -143,7 +143,7 @@ kernel::Scheduler& begin_run() {
   return scheduler;
 }
 
-// While threads wait for what comes from outside, the run comes out at the end of each instant.
+// While threads wait for external input, the run returns at the end of each instant.
 Ending run_to_end(kernel::Scheduler& scheduler) {
   const Time end = record->settings.until;
   for (Time until = end;;) {
@@ -173,7 +173,7 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
 
 void end_run(const kernel::Scheduler& scheduler, int status) {
   const bool failed = record->ending == Ending::deadlock || record->ending == Ending::no_progress;
-  std::fflush(nullptr);  // what the program has written so far comes before the report
+  std::fflush(nullptr);  // the program's own output comes before the report
   if (failed) report_deadlock(scheduler);
   end_process(failed ? status_of_deadlock : status);
 }
@@ -188,9 +188,9 @@ void run_program(int (*body)(), const char* name) {
   static constinit Thread thread;
   thread.start.posix = run_body;
   if (!begin_main_thread(thread, program, scheduler)) refuse("there is no address space for the stacks of threads");
-  // No frame that is on this stack now is ever left by its return.
+  // No frame on this stack now ever returns.
   set_stack_guard(thread.area, draw_random());
-  // All threads have ended, main()'s too: POSIX has the process end as if it had called exit(0).
+  // All threads have ended, main()'s too: by POSIX the process ends as by exit(0).
   if (run_to_end(scheduler) == Ending::own) std::exit(0);
   end_run(scheduler, 0);
 }

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run of `waitpoint exec`: the simulation that a process is, made before main(), which becomes the first of its
-// tasks.
+// The run of `waitpoint exec`: the process's simulation, made before main(), which becomes its first task.
 #pragma once
 
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
 
-/// Runs `body` as the first thread of the simulation, and the others with it, until the process exits.
+/// Runs the simulation, with `body` as its first thread, until the process exits.
 [[noreturn]] void run_program(int (*body)(), const char* name);
 
-/// Whether the process is one of several programs, which its arguments name.
+/// True if the process is several programs, which its arguments name.
 bool has_members();
 
-/// The scheduler of a run that begins now, of no robot yet.
+/// Begins a run: its scheduler, which has no robot yet.
 kernel::Scheduler& begin_run();
-/// Until no thread can go on, or it is cut off: how it ended, which the record keeps.
+/// Runs until no thread can continue, or the time limit. The result is in the record too.
 Ending run_to_end(kernel::Scheduler& scheduler);
-/// Ends the process after that, with `status` where it did not end by a failure, of which it tells.
+/// Ends the process then, with `status` unless the run has failed; failures are reported.
 [[noreturn]] void end_run(const kernel::Scheduler& scheduler, int status);
 
-/// The programs on the host's command line, FILE ARGUMENTS :: FILE ARGUMENTS, until all have ended.
+/// Runs the programs on the host's command line, FILE ARGUMENTS :: FILE ARGUMENTS, until all have ended.
 [[noreturn]] void run_members(int argc, char** argv);
 
 }  // namespace waitpoint::posix

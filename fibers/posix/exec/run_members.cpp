@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A process that is several programs and nothing else.
+// A process that consists of several programs.
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr char separator[] = "::";
 
-// 0 if it is that of all, else that of the first on the command line that has another.
+// 0 if all programs have status 0, else the status of the first on the command line that has another.
 int status_of_all(const Record& all) {
   const ProgramRecord* failed = nullptr;
   for (const ProgramRecord& one : all.several())
@@ -21,7 +21,7 @@ int status_of_all(const Record& all) {
   return failed == nullptr ? 0 : failed->status;
 }
 
-// The words of one program: those up to the next separator, in whose place is the end of its arguments.
+// The number of words of one program, up to the next separator.
 int count_words(char** words) {
   int count = 0;
   while (words[count] != nullptr && std::strcmp(words[count], separator) != 0) ++count;
@@ -30,7 +30,7 @@ int count_words(char** words) {
 
 }  // namespace
 
-// Loaded before the run, of which there may be many by a fork each.
+// The programs are loaded before the run: exploration forks many runs from here.
 void run_members(int argc, char** argv) {
   const std::uint32_t count = record->program_count;
   auto* const members = static_cast<Member*>(std::calloc(count, sizeof(Member)));
