@@ -30,7 +30,7 @@ const bool has_host = true;
 
 namespace {
 
-// Settings as they are; the scheduler is the host's.
+// Holds default settings only: the scheduler is the host's.
 alignas(Record) char own_record[sizeof(Record)];
 
 [[gnu::constructor(101)]] void begin() {
@@ -75,7 +75,7 @@ void take_away(Guest* guest, kernel::Scheduler& scheduler) {
   std::free(guest);
 }
 
-// What is under way when it goes never arrives.
+// Without a carrier, data in transit is lost.
 void carry_by(const Carrier* carrier) {
   if (carrier == nullptr) forget_streams();
   set_carrier(carrier);
