@@ -9,7 +9,9 @@
 #include <cstdarg>
 #include <cstdlib>
 #include <cstring>
+#include <type_traits>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/family.hpp"
@@ -31,6 +33,9 @@ struct Names {
   Named* at[names_max];
   bool has_forked;
 };
+
+static_assert(std::is_trivially_default_constructible_v<Named> && std::is_trivially_default_constructible_v<Names>,
+              "they are made of memory full of zeroes");
 
 Names* names = nullptr;  // in the family's memory
 /// Times that this process has opened it and not closed it.
@@ -69,6 +74,7 @@ int make_named(const char* name, unsigned count, int& at) {
   if (at == names_max) return ENFILE;
   auto* const named = static_cast<Named*>(family::take(sizeof(Named)));
   if (named == nullptr) return ENOMEM;
+  WAITPOINT_CHECK(std::strlen(name) < sizeof named->name, "a semaphore's name does not fit into its record");
   std::strcpy(named->name, name);
   sem_init(&named->semaphore, 1, count);
   names->at[at] = named;
@@ -88,6 +94,7 @@ int open(const char* name, int flags, unsigned count, int& at) {
   if (!exists && count > SEM_VALUE_MAX) return EINVAL;
   if (!exists)
     if (const int error = make_named(name, count, at); error != 0) return error;
+  WAITPOINT_CHECK(at >= 0 && at < names_max && names->at[at] != nullptr, "a semaphore was opened that has no name");
   ++opened[at];
   return 0;
 }

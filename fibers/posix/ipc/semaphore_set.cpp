@@ -48,6 +48,7 @@ void take_back(Set& set, Adjustments* undo, const sembuf* from, const sembuf* to
 Attempt attempt(Set& set, const Caller& caller, const sembuf* operations, std::size_t count) {
   Adjustments* undo = nullptr;
   for (const sembuf* at = operations; at != operations + count; ++at) {
+    WAITPOINT_CHECK(at->sem_num < set.size, "an operation is on a semaphore that its set does not have");
     Value& value = set.values[at->sem_num];
     const int result = value.value + at->sem_op;
     int error = 0;
@@ -74,6 +75,7 @@ Attempt attempt(Set& set, const Caller& caller, const sembuf* operations, std::s
 }
 
 void end_waiting(Waiting& waiting, int result) {
+  WAITPOINT_CHECK(!waiting.done && result >= 0, "a call on semaphores ends twice, or without a result");
   waiting.result = result;
   waiting.done = true;
   if (waiting.caller.process == family::this_process())
@@ -116,6 +118,7 @@ bool is_done(const void* waiting) { return static_cast<const Waiting*>(waiting)-
 
 // The record of a waiting call.
 Waiting* make_waiting(const Caller& caller, const sembuf* operations, std::size_t count) {
+  WAITPOINT_CHECK(count > 0 && count <= operations_a_call_max, "a call waits with too many operations, or none");
   auto* const made = static_cast<Waiting*>(family::take(sizeof(Waiting) + count * sizeof(sembuf)));
   if (made == nullptr) return nullptr;
   made->caller = caller;
@@ -138,6 +141,7 @@ void let_go_on(Set& set) {
     bool any = false;
     // Round-robin from the chosen call until one is done: an attempt may show that many operations are hindered.
     std::uint32_t chosen = is_simulated() ? kernel::running->scheduler->chooser().waiter(*kernel::running, count) : 0;
+    WAITPOINT_CHECK(chosen < count, "a call on semaphores is chosen that does not wait");
     for (std::uint32_t tried = 0; tried < count && !any; ++tried, chosen = (chosen + 1) % count) {
       std::uint32_t at = 0;
       Waiting* each = set.first;

@@ -5,6 +5,8 @@
 
 #include <sys/sem.h>
 
+#include <climits>
+
 #include "fibers/posix/ipc/system_v.hpp"
 #include "fibers/posix/program/program_state.hpp"
 
@@ -12,6 +14,7 @@ namespace waitpoint::posix::system_v {
 
 // Linux's defaults.
 inline constexpr int sets_max = 32000, semaphores_a_set_max = 32000, operations_a_call_max = 500, value_max = 32767;
+static_assert(value_max <= USHRT_MAX && semaphores_a_set_max <= USHRT_MAX, "Value and sembuf have unsigned shorts");
 
 struct Value {
   unsigned short value;
@@ -35,8 +38,13 @@ struct Waiting {
   bool done;
   Waiting* next;
   sembuf* operations() { return reinterpret_cast<sembuf*>(this + 1); }
-  const sembuf& hindering() { return operations()[hindered_by]; }
+  const sembuf& hindering() {
+    WAITPOINT_CHECK(hindered_by < count, "a call is hindered by an operation that it does not have");
+    return operations()[hindered_by];
+  }
 };
+
+static_assert(alignof(sembuf) <= alignof(Waiting), "a call's operations are behind it");
 
 /// The negated sum of a program's SEM_UNDO operations on a set.
 struct Adjustments {
@@ -44,6 +52,8 @@ struct Adjustments {
   Adjustments* next;
   int* by;  ///< one for each semaphore, behind this struct
 };
+
+static_assert(alignof(int) <= alignof(Adjustments), "the adjustments' numbers are behind them");
 
 struct Set : Common {
   Set() : Common("System V semaphores") {}
@@ -60,6 +70,8 @@ struct Set : Common {
   Waiting* first = nullptr;
   Adjustments* adjustments = nullptr;
 };
+
+static_assert(alignof(Value) <= alignof(Set), "a set's values are behind it");
 
 using Sets = Table<Set, sets_max>;
 /// Within the family's section, as everything below.

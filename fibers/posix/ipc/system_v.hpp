@@ -10,8 +10,12 @@
 #include <sys/types.h>
 
 #include <cerrno>
+#include <climits>
+#include <cstddef>
 #include <new>
+#include <type_traits>
 
+#include "core/error.hpp"
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
@@ -23,6 +27,7 @@
 namespace waitpoint::posix::system_v {
 
 inline constexpr unsigned identifiers_a_slot = 32768;
+static_assert(identifiers_a_slot * identifiers_a_slot - 1 <= INT_MAX, "an identifier is an int and not negative");
 
 /// The head of each of them.
 struct Common {
@@ -67,6 +72,8 @@ void free_object(T& object) {
 /// All objects of a kind, within the family's section. An identifier is a slot and the number of its earlier uses.
 template <class T, int most>
 class Table {
+  static_assert(most > 0 && most <= static_cast<int>(identifiers_a_slot), "identifiers of two slots would be equal");
+
  public:
   int end() const { return end_; }  ///< behind the greatest slot that was used
   T* in_slot(int slot) const { return slot >= 0 && slot < end_ ? slots_[slot] : nullptr; }
@@ -96,6 +103,7 @@ class Table {
         return is_allowed(*found, (flags >> 6 | flags >> 3 | flags) & 7) ? found->id : fail(EACCES);
       }
     if (key != IPC_PRIVATE && (flags & IPC_CREAT) == 0) return fail(ENOENT);
+    WAITPOINT_CHECK(end_ >= 0 && end_ <= most, "a table of System V's objects reaches beyond its slots");
     int slot = 0;
     while (slot < end_ && slots_[slot] != nullptr) ++slot;
     if (slot == most) return fail(ENOSPC);
@@ -104,9 +112,9 @@ class Table {
     set_creator(*made, key, flags);
     made->id = static_cast<int>(used_[slot] % identifiers_a_slot * identifiers_a_slot) + slot;
     made->permissions.__seq = static_cast<unsigned short>(used_[slot]++);
+    ++count_;  // before: a process that is killed in between leaves too great a count, never too small a one
     slots_[slot] = made;
     if (slot == end_) ++end_;
-    ++count_;
     return made->id;
   }
 
@@ -122,6 +130,8 @@ class Table {
 
   /// Takes an object's identifier away; the object is freed when no call is in progress on it.
   void remove(T& object) {
+    WAITPOINT_CHECK(!object.removed, "a System V object is removed twice");
+    WAITPOINT_CHECK(count_ > 0, "a table of System V's objects has more objects than it counts");
     slots_[object.id % static_cast<int>(identifiers_a_slot)] = nullptr;
     object.removed = true;
     --count_;
@@ -147,6 +157,7 @@ class Use {
   ~Use() {
     if (object_ == nullptr) return;
     const family::Section section;
+    WAITPOINT_CHECK(object_->users > 0, "a call ends on an object that counts no calls");
     if (--object_->users == 0 && object_->removed) free_object(*object_);
   }
   Use(const Use&) = delete;
@@ -163,6 +174,8 @@ class Use {
 /// A new object of at least this size; null without memory. Within the section.
 template <class T>
 T* make_object(std::size_t size = sizeof(T)) {
+  static_assert(alignof(T) <= alignof(std::max_align_t), "the family's memory is aligned for no more");
+  WAITPOINT_CHECK(size >= sizeof(T), "an object is made in less memory than it needs");
   void* const memory = family::take(size);
   return memory == nullptr ? nullptr : new (memory) T();
 }
@@ -195,6 +208,8 @@ bool take_out_dead(T*& first, ProcessOf process_of, Drop drop) {
 /// The table of a kind. Within the section.
 template <class T>
 T& table_of(family::Part part) {
+  static_assert(std::is_trivially_default_constructible_v<T> && std::is_trivially_destructible_v<T>,
+                "a table is memory full of zeroes");
   void* const memory = family::common(part, sizeof(T));
   if (memory == nullptr) refuse("there is no memory for System V's objects");
   return *static_cast<T*>(memory);

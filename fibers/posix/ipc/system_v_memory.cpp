@@ -21,7 +21,10 @@ constexpr std::size_t page = 4096;
 
 struct Segment : Common {
   Segment() : Common("System V shared memory") {}
-  ~Segment() { family::give_pages(pages, mapped_bytes()); }
+  ~Segment() {
+    WAITPOINT_CHECK(attachments == 0, "shared memory is freed that is attached");
+    family::give_pages(pages, mapped_bytes());
+  }
   std::size_t mapped_bytes() const { return (size + page - 1) / page * page; }
 
   std::size_t size = 0;
@@ -68,10 +71,11 @@ void* attach(Segment& segment, void* at, int flags) {
     munmap(address, segment.mapped_bytes());
     return nullptr;
   }
-  *made = {family::this_process(), address, &segment, segments().first};
-  segments().first = made;
+  // In this order a process that is killed in between leaves too great a count.
   ++segment.attachments;
   ++segment.users;
+  *made = {family::this_process(), address, &segment, segments().first};
+  segments().first = made;
   segment.last = family::this_process();
   segment.attached = date();
   return address;
@@ -88,6 +92,7 @@ void drop(Attachment** link) {
   Attachment* const attachment = *link;
   *link = attachment->next;
   Segment& segment = *attachment->segment;
+  WAITPOINT_CHECK(segment.attachments > 0 && segment.users > 0, "shared memory is detached that counts no attachments");
   segment.last = attachment->process;
   segment.detached = date();
   family::give(attachment);
@@ -180,10 +185,10 @@ void inherit_memory(pid_t parent) {
     if (each->process != parent) continue;
     auto* const made = static_cast<Attachment*>(family::take(sizeof(Attachment)));
     if (made == nullptr) return;
-    *made = {family::this_process(), each->address, each->segment, segments().first};
-    segments().first = made;
     ++each->segment->attachments;
     ++each->segment->users;
+    *made = {family::this_process(), each->address, each->segment, segments().first};
+    segments().first = made;
   }
 }
 
@@ -209,6 +214,8 @@ WAITPOINT_INTERPOSED int shmget(key_t key, std::size_t size, int flags) noexcept
           family::give(made);
           return ENOMEM;
         }
+        WAITPOINT_CHECK(reinterpret_cast<std::uintptr_t>(made->pages) % page == 0,
+                        "shared memory is not on whole pages");
         made->creator = family::this_process();
         made->changed = date();
         return 0;

@@ -31,6 +31,7 @@ int tell_status(const Queue& queue, msqid_ds* to) {
 }
 
 int tell_limits(void* to, bool used) {
+  static_assert(queues_max <= INT_MAX / static_cast<int>(bytes_a_queue_max), "msgpool is an int");
   msginfo limits{};
   limits.msgmni = queues_max;
   limits.msgmax = static_cast<int>(bytes_a_message_max);

@@ -4,6 +4,7 @@
 #include <climits>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
@@ -41,12 +42,15 @@ Message** find_message(Queue& queue, const Wanted& wanted) {
 }
 
 void append(Queue& queue, Message& message) {
-  posix::append(queue.first, message);
+  // In this order a process that is killed in between leaves too great a count.
   queue.bytes += message.size;
   ++queue.count;
+  posix::append(queue.first, message);
 }
 
 void end_receiving(Queue& queue, Receiving& receiving, Message* message, int error) {
+  WAITPOINT_CHECK(receiving.error < 0, "a receiver ends twice");
+  WAITPOINT_CHECK((error == 0) == (message != nullptr), "a receiver ends with a message and an error, or without both");
   posix::remove(queue.first_receiving, receiving);
   receiving.message = message;
   __atomic_store_n(&receiving.error, error, __ATOMIC_SEQ_CST);
@@ -73,6 +77,7 @@ bool give(Queue& queue, Message& message) {
       if (is_wanted(each->wanted, message.type)) ++count;
     if (count == 0) return false;
     std::uint32_t chosen = is_simulated() ? kernel::running->scheduler->chooser().waiter(*kernel::running, count) : 0;
+    WAITPOINT_CHECK(chosen < count, "a receiver is chosen that does not wait for such a message");
     Receiving* each = queue.first_receiving;
     while (!is_wanted(each->wanted, message.type) || chosen-- > 0) each = each->next;
     if (message.size > each->wanted.size && (each->wanted.flags & MSG_NOERROR) == 0) {
@@ -116,6 +121,7 @@ bool may_send(const void* what) {
 
 // Returns an error number.
 int put(Queue& queue, long type, const char* bytes, std::size_t size) {
+  WAITPOINT_CHECK(type > 0 && size <= bytes_a_message_max, "a message is sent that msgsnd() refuses");
   auto* const message = static_cast<Message*>(family::take(sizeof(Message) + size));
   if (message == nullptr) return ENOMEM;
   message->type = type;
@@ -157,6 +163,7 @@ namespace {
 // Takes a message out of the queue.
 void take_out(Queue& queue, Message** link) {
   Message* const message = *link;
+  WAITPOINT_CHECK(queue.count > 0 && queue.bytes >= message->size, "a message queue has more than it counts");
   *link = message->next;
   queue.bytes -= message->size;
   --queue.count;
@@ -224,6 +231,7 @@ ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
   const int error = wait_for_message(queue, *receiving, point);
   const family::Section section;
   Message* const message = receiving->message;
+  WAITPOINT_CHECK(error != 0 || message != nullptr, "a receiver ends without a message and without an error");
   family::give(receiving);
   return error == 0 ? hand_over(*message, wanted, to) : fail(error);
 }

@@ -23,6 +23,8 @@ int count_waiting(const Set& set, int number, bool for_zero) {
 }
 
 void forget_adjustments(Set& set, int number) {
+  WAITPOINT_CHECK(number >= 0 && number < set.size,
+                  "adjustments are forgotten of a semaphore that its set does not have");
   for (Adjustments* each = set.adjustments; each != nullptr; each = each->next) each->by[number] = 0;
 }
 
@@ -55,6 +57,9 @@ union Argument {
   unsigned short* array;
   seminfo* information;
 };
+
+static_assert(sizeof(Argument) == sizeof(long), "system calls pass it as a word");
+static_assert(sets_max <= INT_MAX / semaphores_a_set_max, "semmns is an int");
 
 int tell_limits(seminfo* to, bool used) {
   *to = {};
