@@ -78,10 +78,9 @@ void end_waiting(Waiting& waiting, int result) {
   WAITPOINT_CHECK(!waiting.done && result >= 0, "a call on semaphores ends twice, or without a result");
   waiting.result = result;
   waiting.done = true;
-  if (waiting.caller.process == family::this_process())
-    waiting.task->scheduler->wake(*waiting.task);
-  else
-    family::ring();
+  if (waiting.caller.process != family::this_process()) return family::ring();
+  // A signal may have woken it before: then it finds the result when it runs.
+  if (waiting.task->state == kernel::TaskState::blocked) waiting.task->scheduler->wake(*waiting.task);
 }
 
 // Applies the adjustments and frees them.
@@ -232,10 +231,13 @@ int wait_until_done(Set& set, Waiting& waiting, Time deadline) {
 
 }  // namespace
 
-int operate(int id, const sembuf* operations, std::size_t count, Time deadline) {
+int operate(int id, const sembuf* given, std::size_t count, Time deadline) {
   if (count == 0) return fail(EINVAL);
   if (count > operations_a_call_max) return fail(E2BIG);
-  if (!can_be_read(operations)) return fail(EFAULT);
+  if (!can_be_read(given)) return fail(EFAULT);
+  // At the waitpoint below, another thread may change the program's own, which are checked before.
+  sembuf operations[operations_a_call_max];
+  std::copy(given, given + count, operations);
   const Use<Set> set([&] { return sets().find(id); });
   if (!set) return fail(EINVAL);
   bool alters = false;

@@ -54,10 +54,9 @@ void end_receiving(Queue& queue, Receiving& receiving, Message* message, int err
   posix::remove(queue.first_receiving, receiving);
   receiving.message = message;
   __atomic_store_n(&receiving.error, error, __ATOMIC_SEQ_CST);
-  if (receiving.process == family::this_process())
-    receiving.task->scheduler->wake(*receiving.task);
-  else
-    family::ring();
+  if (receiving.process != family::this_process()) return family::ring();
+  // A signal or a cancellation may have woken it before: then it finds the result when it runs.
+  if (receiving.task->state == kernel::TaskState::blocked) receiving.task->scheduler->wake(*receiving.task);
 }
 
 // Drops the waiting calls of killed processes.
