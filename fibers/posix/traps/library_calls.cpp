@@ -13,9 +13,12 @@
 #include <ucontext.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
+#include <iterator>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
@@ -90,6 +93,14 @@ constexpr sock_filter jump(int code, std::uint32_t value, std::uint8_t if_so, st
   return {static_cast<std::uint16_t>(code), if_so, if_not, value};
 }
 
+// True if each jump leads to a statement behind it, and the last statement returns.
+template <std::size_t size>
+bool is_closed(const sock_filter (&filter)[size]) {
+  for (std::size_t at = 0; at < size; ++at)
+    if (BPF_CLASS(filter[at].code) == BPF_JMP && at + 1 + std::max(filter[at].jt, filter[at].jf) >= size) return false;
+  return BPF_CLASS(filter[size - 1].code) == BPF_RET;
+}
+
 constexpr std::uint32_t low(std::uintptr_t address) { return static_cast<std::uint32_t>(address); }
 constexpr std::uint32_t high(std::uintptr_t address) { return static_cast<std::uint32_t>(address >> 32); }
 
@@ -109,6 +120,9 @@ bool can_be_told_from_others(LibraryRange range) {
 bool trap(LibraryRange range, bool streams_too) {
   constexpr int load = BPF_LD | BPF_W | BPF_ABS, is = BPF_JMP | BPF_JEQ | BPF_K, is_least = BPF_JMP | BPF_JGE | BPF_K;
   constexpr std::uint32_t at = offsetof(seccomp_data, instruction_pointer);
+  static_assert(at % sizeof(std::uint32_t) == 0 && sizeof(seccomp_data::instruction_pointer) == 8 &&
+                sizeof(seccomp_data::nr) == 4);
+  WAITPOINT_CHECK(can_be_told_from_others(range), "the filter cannot compare addresses of this range");
   const std::uint32_t reading = streams_too ? SYS_read : SYS_futex, writing = streams_too ? SYS_write : SYS_futex;
   sock_filter filter[] = {
       statement(load, offsetof(seccomp_data, arch)),
@@ -125,6 +139,8 @@ bool trap(LibraryRange range, bool streams_too) {
       statement(BPF_RET | BPF_K, SECCOMP_RET_TRAP),
       statement(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
   };
+  static_assert(std::size(filter) <= BPF_MAXINSNS);
+  WAITPOINT_CHECK(is_closed(filter), "a jump of the filter leads out of it");
   const sock_fprog program{sizeof filter / sizeof *filter, filter};
   is_trapped = true;
   install(SIGSYS);

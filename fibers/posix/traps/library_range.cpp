@@ -5,6 +5,8 @@
 
 #include <cstring>
 
+#include "core/error.hpp"
+
 namespace waitpoint::posix {
 namespace {
 
@@ -17,6 +19,7 @@ LibraryRange range_of(const dl_phdr_info& library) {
     if (begin < range.begin) range.begin = begin;
     if (begin + part.p_memsz > range.end) range.end = begin + part.p_memsz;
   }
+  WAITPOINT_CHECK(range.begin <= range.end, "a library is loaded that lies nowhere");
   return range;
 }
 

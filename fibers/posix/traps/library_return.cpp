@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/program/thread.hpp"
 
 namespace waitpoint::posix {
@@ -79,6 +80,8 @@ waitpoint_library_returned:
 )");
 
 [[gnu::visibility("hidden"), gnu::used]] void waitpoint_after_library(std::uintptr_t* slot) {
+  WAITPOINT_CHECK(to_be_called != nullptr && this_thread().library_returns_to != 0,
+                  "a call of a library returns to the layer, which does not know where it came from");
   *slot = this_thread().library_returns_to;
   const int error = errno;
   to_be_called();
@@ -94,6 +97,7 @@ bool call_after_return(std::uintptr_t interrupted, const LibraryRange& library, 
     _Unwind_Backtrace(look_at, &search);
   }
   if (search.slot == nullptr) return false;
+  WAITPOINT_CHECK(to_be_called == nullptr || to_be_called == then, "two callbacks wait for returns of a library");
   to_be_called = then;
   this_thread().library_returns_to = *search.slot;
   *search.slot = reinterpret_cast<std::uintptr_t>(&waitpoint_library_returned);
