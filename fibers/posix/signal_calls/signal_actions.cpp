@@ -7,6 +7,7 @@
 #include <ucontext.h>
 #include <unistd.h>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
@@ -37,6 +38,9 @@ bool has_bell = false;
 // Signals that have arrived and were not sent on yet: a ring buffer. It is written by a handler, which another may
 // interrupt while it runs a handler of the program.
 constexpr unsigned kept_max = 1024, held_back_from = kept_max - 16;
+static_assert((kept_max & (kept_max - 1)) == 0 && held_back_from < kept_max, "the counters of places wrap");
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<unsigned>::is_always_lock_free,
+              "handlers of signals use them");
 struct Kept {
   std::atomic<bool> is_there;
   siginfo_t information;
@@ -220,6 +224,7 @@ bool take_in_signals_from_outside() {
 }
 
 void install(int signal) {
+  WAITPOINT_CHECK(is_signal(signal), "an action is installed for a number that is no signal");
   const struct sigaction& action = signals_of_program.actions[signal];
   struct sigaction real {};
   real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
@@ -246,6 +251,7 @@ void install_bell() {
 }
 
 void do_default(int signal) {
+  WAITPOINT_CHECK(is_signal(signal), "the default action is taken for a number that is no signal");
   if (contains(stopping, signal)) {
     WAITPOINT_NEXT(syscall)(SYS_kill, getpid(), SIGSTOP);
     return;
@@ -262,6 +268,8 @@ void inherit_signals() {
   guarded[0] = range_of_library_with(reinterpret_cast<const void*>(&catch_signal));
   guarded[1] = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
   guarded[2] = range_of_library_with(reinterpret_cast<const void*>(&_dl_allocate_tls));
+  for (const LibraryRange& range : guarded)
+    WAITPOINT_CHECK(range.begin < range.end, "a library in which no handler may run is not found");
   for (int signal = 1; signal < signals_end; ++signal) {
     struct sigaction inherited {};
     if (WAITPOINT_NEXT(sigaction)(signal, nullptr, &inherited) != 0) continue;

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -49,6 +50,8 @@ int change_mask(int how, const sigset_t* set, sigset_t* old) {
 
 // The second word of a jump buffer's mask, behind a mask of the layer's.
 constexpr unsigned long mark_of_mask = 0x77706D61736B3031;  // "wpmask01"
+static_assert(sizeof(__jmp_buf_tag::__saved_mask) >= 2 * sizeof(unsigned long) &&
+              sizeof(SignalSet) == sizeof(unsigned long));
 
 // Ends the calls that a jump leaves, and restores the mask.
 void leave_calls(__jmp_buf_tag* buffer) {
@@ -199,6 +202,7 @@ WAITPOINT_INTERPOSED int sigaltstack(const stack_t* stack, stack_t* old) noexcep
   if ((stack != nullptr && !can_be_read(stack)) || (old != nullptr && !can_be_written(old))) return fail(EFAULT);
   Thread& thread = this_thread();
   stack_t before = thread.alternate;
+  WAITPOINT_CHECK((before.ss_flags & ~SS_DISABLE) == 0, "an alternate stack is kept with flags that only calls have");
   const auto* const here = reinterpret_cast<const char*>(&before);
   const auto* const low = static_cast<const char*>(before.ss_sp);
   const bool is_on_it = (before.ss_flags & SS_DISABLE) == 0 && here >= low && here < low + before.ss_size;

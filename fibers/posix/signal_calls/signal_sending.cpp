@@ -12,6 +12,7 @@ extern "C" {
 #include <sys/pidfd.h>  // has no extern "C"
 }
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -32,6 +33,8 @@ void handle_own() {
 }
 
 int send_here(const siginfo_t& information, Thread* to) {
+  WAITPOINT_CHECK(is_signal(information.si_signo), "a number is sent that is no signal");
+  WAITPOINT_CHECK(to == nullptr || to->task != nullptr, "a signal is sent to a thread that has ended");
   if (contains(only(SIGKILL) | only(SIGSTOP), information.si_signo)) {
     do_default(information.si_signo);
     return 0;

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
@@ -38,6 +39,9 @@ struct SystemAction {
   void (*restorer)();
   SignalSet mask;
 };
+static_assert(sizeof(SystemAction) == 32 && offsetof(SystemAction, flags) == 8 &&
+              offsetof(SystemAction, restorer) == 16 && offsetof(SystemAction, mask) == 24);
+static_assert(sizeof(SignalSet) * 8 == signals_end - 1, "the system's set has a bit for each signal");
 
 bool is_none_or_readable(long address) { return address == 0 || can_be_read(as<const void*>(address)); }
 bool is_none_or_writable(long address) { return address == 0 || can_be_written(as<void*>(address)); }
@@ -137,6 +141,7 @@ long call_about_signals(long number, const CallWords& words) {
         const SignalSet* set;
         std::size_t size;
       };
+      static_assert(sizeof(WithSize) == 16 && offsetof(WithSize, size) == 8);
       const auto mask = words.word<const WithSize*>(5);
       return pselect(words.word<int>(0), words.word<fd_set*>(1), words.word<fd_set*>(2), words.word<fd_set*>(3),
                      words.word<const timespec*>(4), Mask(mask != nullptr ? mask->set : nullptr).get());

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -42,6 +43,7 @@ int take(SignalSet set, siginfo_t* information, Time deadline) {
       return signal;
     }
     if (deadline <= kernel::running->local_time) return -EAGAIN;
+    WAITPOINT_CHECK(thread.awaited == 0, "a thread that waits for signals waits for others already");
     thread.awaited = set;
     const Wait ended = wait_for_signal(point, deadline);
     thread.awaited = 0;
