@@ -11,6 +11,7 @@
 #include <cstdarg>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -19,6 +20,9 @@
 
 namespace waitpoint::posix {
 namespace {
+
+static_assert(sizeof(Thread::name) == 16 && sizeof(Thread::name) <= kernel::name_size, "the system's bound of names");
+static_assert(sizeof(cpu_set_t) * 8 == CPU_SETSIZE);
 
 char* end_of_page(char* address) { return address + (-reinterpret_cast<std::uintptr_t>(address) & 4095); }
 
@@ -110,6 +114,7 @@ WAITPOINT_INTERPOSED int pthread_getattr_np(pthread_t id, pthread_attr_t* attrib
   if (thread->stack != nullptr) return pthread_attr_setstack(attributes, thread->stack, thread->stack_size);
   // Programs map and protect whole pages, but the top of a task's stack is shifted within its page.
   const std::size_t size = thread->told_stack_size != 0 ? thread->told_stack_size : kernel::bytes(stack.size);
+  WAITPOINT_CHECK(size <= kernel::bytes(stack.size), "a thread is told of a larger stack than its task has");
   thread->knows_stack = true;
   return pthread_attr_setstack(attributes, end_of_page(stack.high) - size, size);
 }

@@ -24,6 +24,8 @@ int c11(int error) {
 pthread_mutex_t* posix_of(mtx_t* mutex) { return reinterpret_cast<pthread_mutex_t*>(mutex); }
 pthread_cond_t* posix_of(cnd_t* condition) { return reinterpret_cast<pthread_cond_t*>(condition); }
 static_assert(sizeof(mtx_t) == sizeof(pthread_mutex_t) && sizeof(cnd_t) == sizeof(pthread_cond_t));
+static_assert(alignof(mtx_t) >= alignof(pthread_mutex_t) && alignof(cnd_t) >= alignof(pthread_cond_t));
+static_assert(sizeof(thrd_t) == sizeof(pthread_t) && sizeof(int) <= sizeof(void*));
 
 }  // namespace
 }  // namespace waitpoint::posix

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/symbols.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 // "main", or "reader: main" if there are several programs.
 void print_name(const kernel::Task& task) {
+  WAITPOINT_CHECK(is_thread(task), "a task is reported that is no thread");
   if (thread_of(task).program->is_member) std::fprintf(stderr, "%s: ", task.robot->name);
   std::fprintf(stderr, "%s", task.name);
 }
@@ -88,6 +90,7 @@ bool goes_on_in_cycle(kernel::Task& task) {
   const kernel::Task* const first = scheduler.culprit();
   const kernel::Task* of_cycle = first;
   do {
+    WAITPOINT_CHECK(of_cycle != nullptr && of_cycle->blocked_on != nullptr, "a cycle of waiting threads is open");
     print_wait(*of_cycle);
     of_cycle = of_cycle->search.to;
   } while (of_cycle != first);

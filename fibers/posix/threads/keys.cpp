@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <threads.h>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
 
 namespace waitpoint::posix {
@@ -17,6 +18,7 @@ struct Key {
   Destructor destructor;
 };
 Key keys[PTHREAD_KEYS_MAX];
+static_assert(sizeof(tss_t) == sizeof(pthread_key_t));
 unsigned keys_end = 0;  // one past the greatest key made
 
 int make(pthread_key_t* key, Destructor destructor) {
@@ -30,6 +32,7 @@ int make(pthread_key_t* key, Destructor destructor) {
 }  // namespace
 
 void destroy_values_of_keys() {
+  WAITPOINT_CHECK(keys_end <= PTHREAD_KEYS_MAX, "the table of keys has more than it has room for");
   bool found = true;
   for (int round = 0; round < PTHREAD_DESTRUCTOR_ITERATIONS && found; ++round) {
     found = false;

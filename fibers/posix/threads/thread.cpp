@@ -8,10 +8,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -46,6 +48,12 @@ Thread* main_thread = nullptr;
 // The last thread that has ended and is not needed any longer: its task may still run on its area and stack.
 Thread* to_free = nullptr;
 
+// pthread_exit() and cancellation jump to a __pthread_unwind_buf_t, which the layer's sigsetjmp() takes for a jump
+// buffer.
+static_assert(offsetof(__cancel_jmp_buf_tag, __mask_was_saved) == offsetof(__jmp_buf_tag, __mask_was_saved));
+static_assert(sizeof(__pthread_unwind_buf_t) >= offsetof(__jmp_buf_tag, __saved_mask) + 2 * sizeof(unsigned long),
+              "waitpoint_keep_mask() looks at two words of the mask");
+
 void free_thread(Thread& thread) {
   if (thread.owns_stack) munmap(thread.stack, thread.stack_size);
   std::free(thread.clock);
@@ -62,6 +70,7 @@ void free_ended() {
 // Its task may run until the next switch, so it is freed when the next thread has ended.
 void let_go(Thread& thread) {
   if (&thread == main_thread) return;
+  WAITPOINT_CHECK(thread.ended && thread.task == nullptr, "a thread is freed that has not ended");
   free_ended();
   to_free = &thread;
 }
@@ -70,6 +79,7 @@ int last_id = 0;
 
 int make_id() {
   if (last_id == 0) last_id = getpid();
+  WAITPOINT_CHECK(last_id > 0, "there are no numbers left for threads");
   return ++last_id;
 }
 
@@ -141,6 +151,9 @@ bool give_clock(Thread& thread) {
 // Makes the task, which begins now; false without memory.
 bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
   Program& program = *thread.program;
+  WAITPOINT_CHECK(program.robot != nullptr, "a thread begins in a program without a robot");
+  WAITPOINT_CHECK(thread.task == nullptr && thread_of_area(thread.area) == &thread,
+                  "a thread begins twice, or on another's area");
   thread.body = execute;
   char whole_name[kernel::name_size];
   std::snprintf(whole_name, sizeof whole_name, "%s%s", program.label, name);
@@ -193,6 +206,7 @@ void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
   for (kernel::Task *task = scheduler.first_task(), *next = nullptr; task != nullptr; task = next) {
     next = task->next;
     if (task == kernel::running || !is_thread(*task) || thread_of(*task).program != &program) continue;
+    WAITPOINT_CHECK(thread_of(*task).task == task, "a task runs a thread that has another task");
     forget_waiter(*task);
     forget_vector(*task);
     forget_worker(*task);
@@ -238,6 +252,7 @@ namespace {
 // On the thread's own stack and area. pthread_exit() and cancellation unwind to the buffer.
 void call_start_routine(void* argument) {
   Thread& thread = *static_cast<Thread*>(argument);
+  WAITPOINT_CHECK(own_thread_area() == thread.area, "a thread runs on another's area");
   thread.leave_kernel();
   __ctype_init();
   __pthread_unwind_buf_t buffer;
@@ -297,6 +312,7 @@ void end_running_thread() {
     const InKernel within;
     scheduler.waitpoint(kernel::Operation::end, nullptr);
   }
+  WAITPOINT_CHECK(!thread.ended && thread.task == kernel::running, "a thread ends twice, or as another task");
   thread.ended = true;
   unprotect_stack(thread);
   drop_signals(thread);
