@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/input_output/descriptor_table.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
@@ -47,6 +48,8 @@ void end_with_last_thread() {
 }  // namespace
 
 bool start(Member& member, kernel::Scheduler& scheduler) {
+  WAITPOINT_CHECK(member.robot != nullptr && member.image.handle != nullptr && !member.ended,
+                  "a member starts before it is loaded, or after it has ended");
   home = getpid();
   member.is_member = true;
   member.thread_ends = end_with_last_thread;
@@ -54,6 +57,7 @@ bool start(Member& member, kernel::Scheduler& scheduler) {
 }
 
 void drop(Member& member, kernel::Scheduler& scheduler) {
+  WAITPOINT_CHECK(kernel::running == nullptr, "a member is dropped from within a task");
   end_other_threads(member, scheduler);
   close_descriptors_of(member);
   while (member.handlers != nullptr) {

@@ -6,6 +6,7 @@
 // exit(), _exit(), abort() and the end of the last thread end one program with its threads, not the process.
 #pragma once
 
+#include "core/error.hpp"
 #include "fibers/posix/members/program_image.hpp"
 #include "fibers/posix/program/program_state.hpp"
 #include "fibers/posix/program/record.hpp"
@@ -39,7 +40,10 @@ void drop(Member& member, kernel::Scheduler& scheduler);
 /// True if the running thread belongs to a member and is in the members' process. A child process is a program of its
 /// own.
 bool runs_in_member();
-inline Member& this_member() { return static_cast<Member&>(this_program()); }
+inline Member& this_member() {
+  WAITPOINT_CHECK(this_program().is_member, "the running thread's program is taken for a member");
+  return static_cast<Member&>(this_program());
+}
 
 /// Ends the running thread's member, as exit() ends a process.
 [[noreturn]] void exit_member(int status);

@@ -20,6 +20,8 @@ namespace {
 constexpr Elf64_Sxword no_tag = DT_LOOS + 0x5770;
 // Programs expect their own descriptors to begin at 3, and rarely reach this one.
 constexpr int least_descriptor = 200;
+static_assert(sizeof(Elf64_Sym) == 24 && sizeof(Elf64_Rela) == 24 && sizeof(Elf64_Dyn) == 16);
+static_assert(no_tag > DT_LOOS && no_tag < DT_HIOS, "the tag is one that systems may define");
 
 // A file's bytes, mapped privately so that they can be changed.
 class Bytes {

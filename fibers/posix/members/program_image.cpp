@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/members/program_copy.hpp"
 
@@ -21,6 +22,7 @@ struct CopyName {
     constexpr int digits_max = 7;  // of a process id
     char number[16];
     const int digits = std::snprintf(number, sizeof number, "%d", static_cast<int>(getpid()));
+    WAITPOINT_CHECK(digits > 0 && digits <= digits_max, "a process id has more digits than a copy's name has room for");
     std::snprintf(text, sizeof text, "/proc%.*s%s/fd/%d", digits < digits_max ? 1 + digits_max - digits : 1, "////////",
                   number, file);
   }
@@ -39,6 +41,7 @@ void explain(const char* file, const CopyName& copy, LoadError& error) {
 
 // Enters a program as the system does, with its arguments on the stack. It never returns.
 [[noreturn]] void enter(void* entry, int argc, char** argv) {
+  WAITPOINT_CHECK(argc >= 0 && argv != nullptr, "a program is entered without arguments");
   const auto words = static_cast<std::size_t>(argc) + 3;
   auto** const block = static_cast<void**>(alloca((words + 2) * sizeof(void*)));
   auto** const top = reinterpret_cast<void**>((reinterpret_cast<std::uintptr_t>(block) + 15) & ~std::uintptr_t{15});
@@ -67,6 +70,7 @@ bool load(ProgramImage& image, const char* file, LoadError& error) {
     unload(image);
     return false;
   }
+  WAITPOINT_CHECK(parts.entry != 0 || parts.main != 0, "a copy was made of a program without a beginning");
   image.base = reinterpret_cast<char*>(map->l_addr);
   const auto at = [base = image.base](std::uint64_t address) { return address != 0 ? base + address : nullptr; };
   if (parts.entry == 0) image.main = reinterpret_cast<Main>(at(parts.main));
@@ -86,6 +90,7 @@ void unload(ProgramImage& image) {
 
 int call_main(const ProgramImage& image, int argc, char** argv) {
   if (image.entry != nullptr) enter(image.entry, argc, argv);
+  WAITPOINT_CHECK(image.main != nullptr, "a program is called that is not loaded");
   return call_main(image, image.main, argc, argv);
 }
 
