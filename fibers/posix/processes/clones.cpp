@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -72,6 +73,7 @@ int make_thread(const Clone& clone) {
     std::free(memory);
     return fail(error);
   }
+  WAITPOINT_CHECK(find(made) != nullptr, "a thread was made that is not to be found");
   const int id = find(made)->id;
   if ((clone.flags & CLONE_PARENT_SETTID) != 0) *clone.parent_id = id;
   return id;
@@ -84,6 +86,7 @@ int lend_memory(const Clone& clone) {
   kernel::Task* const task = std::exchange(kernel::running, nullptr);
   const int child = WAITPOINT_NEXT(clone)(clone.function, clone.stack, static_cast<int>(clone.flags | CLONE_VFORK),
                                           clone.argument, clone.parent_id, clone.thread_storage, clone.child_id);
+  WAITPOINT_CHECK(kernel::running == nullptr, "a process that borrowed the memory has left a running task");
   kernel::running = task;
   const ErrorNumberKept kept;
   if (child > 0) note_child(child);

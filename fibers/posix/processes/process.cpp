@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -35,6 +36,7 @@ namespace {
 
 // `waitpoint exec` does not watch the child, which gets a copy of the record at the same address. The copy is made
 // before the fork, as the parent continues at once.
+static_assert(record_address % 4096 == 0 && record_bytes % 4096 == 0 && sizeof(Record) <= record_bytes);
 void* copy_of_record = nullptr;
 
 void copy_record() {
@@ -45,6 +47,9 @@ void copy_record() {
       mmap(nullptr, record_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (copy == MAP_FAILED) refuse("there is no memory for a child's simulation");
   const auto used = static_cast<const char*>(record->arena.top()) - reinterpret_cast<const char*>(record);
+  WAITPOINT_CHECK(
+      used >= static_cast<std::ptrdiff_t>(sizeof(Record)) && used <= static_cast<std::ptrdiff_t>(record_bytes),
+      "the record's arena reaches out of the record");
   std::memcpy(copy, static_cast<void*>(record), static_cast<std::size_t>(used));
   copy_of_record = copy;
 }
@@ -74,6 +79,8 @@ void begin_as_child() {
   forget_vectors();
   leave_shared_mutexes();
   kernel::running->scheduler->keep_running_task_only();
+  WAITPOINT_CHECK(first_task() == kernel::running && kernel::running->next == nullptr,
+                  "a child has tasks of its parent's");
   forget_interval_timers();
   forget_timers();
   forget_notices();
@@ -132,6 +139,7 @@ pid_t fork_by(pid_t (*real)(const void*), const void* argument, bool calls_handl
   if (!calls_handlers) copy_record();
   const pid_t child = real(argument);
   if (child == 0) begin_as_child();
+  WAITPOINT_CHECK(child != 0 || copy_of_record == nullptr, "a child has not begun its own simulation");
   if (child != 0) {
     drop_copy();
     family::note_child(child);

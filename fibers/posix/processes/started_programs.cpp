@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -49,6 +50,7 @@ int make_record() {
 const char* library() {
   Dl_info information{};
   dladdr(reinterpret_cast<const void*>(&library), &information);
+  WAITPOINT_CHECK(information.dli_fname != nullptr, "the layer's library has no file");
   return information.dli_fname;
 }
 
@@ -72,13 +74,18 @@ StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
   auto* const memory = static_cast<char*>(std::malloc(list + first + 64));
   if (memory == nullptr) return;
   made_ = reinterpret_cast<char**>(memory);
-  std::snprintf(memory + list, first, "%s%s%s%s", preload, library(), *others != '\0' ? ":" : "", others);
-  std::snprintf(memory + list + first, 64, "%s=%d", record_variable, record_);
+  const int preload_length =
+      std::snprintf(memory + list, first, "%s%s%s%s", preload, library(), *others != '\0' ? ":" : "", others);
+  const int record_length = std::snprintf(memory + list + first, 64, "%s=%d", record_variable, record_);
+  WAITPOINT_CHECK(
+      preload_length > 0 && static_cast<std::size_t>(preload_length) < first && record_length > 0 && record_length < 64,
+      "a started program's variables do not fit into their memory");
   std::size_t at = 0;
   made_[at++] = memory + list;
   made_[at++] = memory + list + first;
   for (std::size_t i = 0; i < count; ++i)
     if (!begins_with(given[i], preload)) made_[at++] = given[i];
+  WAITPOINT_CHECK(at <= count + 2, "a started program has more variables than there is room for");
   made_[at] = nullptr;
 }
 

@@ -27,6 +27,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdarg>
 #include <optional>
@@ -35,6 +36,7 @@ extern "C" {
 #include <sys/pidfd.h>  // has no extern "C"
 }
 
+#include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -52,9 +54,13 @@ namespace {
 long make_timer(clockid_t clock, sigevent* event, int* number) {
   timer_t made = nullptr;
   if (timer_create(clock, event, &made) != 0) return -1;
+  WAITPOINT_CHECK(!is_simulated() || reinterpret_cast<std::uintptr_t>(made) <= INT_MAX,
+                  "a timer's number does not fit into the system's");
   *number = static_cast<int>(reinterpret_cast<std::uintptr_t>(made));
   return 0;
 }
+
+static_assert(sizeof(long) == sizeof(void*) && sizeof(CallWords) == 6 * sizeof(long));
 
 long call_system(long number, const CallWords& words) {
   return WAITPOINT_NEXT(syscall)(number, words.at[0], words.at[1], words.at[2], words.at[3], words.at[4], words.at[5]);
