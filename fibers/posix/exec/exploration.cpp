@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include "core/error.hpp"
 #include "fibers/explore/report/choice_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/course.hpp"
@@ -40,6 +41,7 @@ void Explored::begin(const Asked& asked) {
   exploration::Course course{asked.strategy, asked.seed, asked.number, {}};
   if (asked.at_random_from != Asked::none) course.at_random_from = asked.at_random_from;
   strategy = exploration::begin_course(course, explorer, known);
+  WAITPOINT_CHECK(strategy != nullptr, "a course of exploration has no strategy");
   explorer.begin(*strategy, {.switches = asked.switches, .deviations = asked.deviations});
 }
 
@@ -65,6 +67,7 @@ void Explored::note_stop(kernel::Scheduler& scheduler) {
   stopped_before = exploration::about_to(*task);
   void* frames[exploration::frames_searched];
   const std::size_t count = scheduler.call_stack(*task, frames, exploration::frames_searched);
+  WAITPOINT_CHECK(count <= exploration::frames_searched, "a call stack is longer than its room");
   const std::string own = own_module();
   for (std::size_t i = 0; i < count; ++i)
     if (sync::CodePlace place = sync::code_place_of(frames[i]); place.module != own)

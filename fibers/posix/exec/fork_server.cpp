@@ -12,7 +12,9 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
+#include "core/error.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
@@ -49,6 +51,7 @@ bool receive(int socket, int (&descriptors)[run_descriptors]) {
 
 template <class T>
 void answer(int socket, const T& what) {
+  static_assert(std::is_trivially_copyable_v<T>, "an answer is sent byte by byte");
   (void)send(socket, &what, sizeof what, MSG_NOSIGNAL);
 }
 
@@ -69,6 +72,7 @@ int become_run(int socket, const int (&descriptors)[run_descriptors]) {
 }
 
 void reap(int index) {
+  WAITPOINT_CHECK(index >= 0 && index < run_count && runs[index].process > 0, "a run ends that is not in the table");
   const Run run = runs[index];
   runs[index] = runs[--run_count];
   kill(-run.process, SIGKILL);  // with the processes that it has started
@@ -113,6 +117,7 @@ int serve_runs(int socket) {
       close(descriptors[run_answers]);
       continue;
     }
+    WAITPOINT_CHECK(run_count < runs_max, "the table of runs has no room for another");
     runs[run_count++] = {process, static_cast<int>(syscall(SYS_pidfd_open, process, 0)), descriptors[run_answers]};
   }
   _exit(0);

@@ -3,6 +3,7 @@
 // This library's own `new`, which only exploration uses. The names are not exported: the program has its own.
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/program/program.hpp"
 
 void* operator new(std::size_t size) {
@@ -11,5 +12,10 @@ void* operator new(std::size_t size) {
   return memory;
 }
 
-void operator delete(void* memory) noexcept { waitpoint::posix::record->arena.give(memory); }
+void operator delete(void* memory) noexcept {
+  using namespace waitpoint::posix;
+  WAITPOINT_CHECK(memory == nullptr || (memory > record && memory < record->arena.top()),
+                  "memory is deleted that is not of the record's arena");
+  record->arena.give(memory);
+}
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/exec/race_log.hpp"
 
+#include "core/error.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
+RaceLog& log() {
+  WAITPOINT_CHECK(record->race_log != nullptr, "a race is found before there is a log");
+  return *record->race_log;
+}
+
 constexpr races::Listener listener = {
-    [](const races::FoundRace& race) { record->race_log->races.push_back(races::located(race)); },
-    [](std::uint64_t place) { record->race_log->code.push_back(place); },
+    [](const races::FoundRace& race) { log().races.push_back(races::located(race)); },
+    [](std::uint64_t place) { log().code.push_back(place); },
 };
 
 }  // namespace

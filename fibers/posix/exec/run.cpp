@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/preload.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -54,6 +55,7 @@ void map_record(int descriptor) {
                             MAP_SHARED | MAP_NORESERVE | MAP_FIXED, descriptor, 0);
   close(descriptor);
   if (memory == MAP_FAILED) refuse("there is no address space for the record of the run");
+  static_assert(record_address % alignof(Record) == 0 && sizeof(Record) <= record_bytes);
   record = static_cast<Record*>(memory);
   if (record->mark != Record::mark_of_version)
     refuse("this library and the waitpoint that started it have different versions");
@@ -120,6 +122,9 @@ bool has_members() {
 kernel::Scheduler& begin_run() {
   begin();
   if (const int server = record->settings.server; server >= 0) map_record(serve_runs(server));
+  WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");
+  WAITPOINT_CHECK(record->program_count == 0 || record->programs != nullptr,
+                  "the record counts programs that it lacks");
   if (record->began) begin_anew();
   family::begin();
   const Asked* const asked = record->settings.asked;
@@ -164,6 +169,7 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
   }
   if (scheduler.stop_cause() == kernel::StopCause::ended) return record->ending = Ending::own;
   if (scheduler.stop_cause() == kernel::StopCause::requested) {
+    WAITPOINT_CHECK(record->explored != nullptr, "a run is stopped that nobody explores");
     record->explored->note_stop(scheduler);
     return record->ending = Ending::cut_off;
   }

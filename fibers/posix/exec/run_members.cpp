@@ -5,6 +5,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/exec/run.hpp"
 #include "fibers/posix/members/members.hpp"
 
@@ -38,6 +39,7 @@ void run_members(int argc, char** argv) {
   char** words = argv + 1;
   for (std::uint32_t i = 0; i < count; ++i) {
     Member& member = *new (members + i) Member();
+    WAITPOINT_CHECK(words - argv <= argc, "the command line has fewer programs than the record");
     member.argc = count_words(words);
     member.argv = words;
     words += member.argc + 1;
