@@ -8,6 +8,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/preload.hpp"
 #include "fibers/posix/ipc/named_objects.hpp"
@@ -32,6 +33,7 @@ namespace {
 
 // Holds default settings only: the scheduler is the host's.
 alignas(Record) char own_record[sizeof(Record)];
+static_assert(sizeof(Guest) % alignof(char*) == 0, "a guest's words are behind it");
 
 [[gnu::constructor(101)]] void begin() {
   record = new (own_record) Record();
@@ -39,6 +41,7 @@ alignas(Record) char own_record[sizeof(Record)];
 }
 
 Guest* load_guest(const char* name, int argc, const char* const* argv, Guests::Error& error) {
+  WAITPOINT_CHECK(argc > 0 && argv != nullptr && argv[0] != nullptr, "a guest has no file");
   auto* const memory = std::calloc(1, sizeof(Guest) + (static_cast<std::size_t>(argc) + 1) * sizeof(char*));
   if (memory == nullptr) {
     std::snprintf(error, sizeof error, "there is no memory for it");
@@ -59,6 +62,7 @@ Guest* load_guest(const char* name, int argc, const char* const* argv, Guests::E
 }
 
 bool start_guest(Guest& guest, kernel::Scheduler& scheduler, kernel::Robot& robot) {
+  WAITPOINT_CHECK(kernel::running == nullptr, "a guest starts from within a task");
   guest.member.robot = &robot;
   scheduler.hooks().continues_after_cycle = goes_on_in_cycle;
   return start(guest.member, scheduler);
