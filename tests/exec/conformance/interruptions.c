@@ -208,6 +208,54 @@ CASE(msgsnd_ends_whatever_is_asked) {
   end(id);
   msgctl(queue, IPC_RMID, NULL);
 }
+
+// What ends the wait comes right behind the signal, in the same instant.
+static int set, queue;
+
+static void* signal_and_release(void* unused) {
+  struct sembuf one = {0, 1, 0};
+  sleep_ms(2);
+  EXPECT_IS(pthread_kill(main_id, SIGUSR1), 0);
+  EXPECT_IS(semop(set, &one, 1), 0);
+  return unused;
+}
+CASE(a_signal_may_come_together_with_a_semaphore) {
+  act(0);
+  set = semget(IPC_PRIVATE, 1, 0600);
+  for (int i = 0; i < 20; ++i) {
+    struct sembuf one = {0, -1, 0};
+    const pthread_t id = start(signal_and_release, NULL);
+    const int result = semop(set, &one, 1);
+    EXPECT(result == 0 || errno == EINTR);
+    join(id);
+    EXPECT_IS(semctl(set, 0, GETVAL), result == 0 ? 0 : 1);
+    EXPECT_IS(semctl(set, 0, SETVAL, 0), 0);
+  }
+  EXPECT_IS(handled, 20);
+  semctl(set, 0, IPC_RMID);
+}
+static void* signal_and_send(void* unused) {
+  const long message[2] = {1, 2};
+  sleep_ms(2);
+  EXPECT_IS(pthread_kill(main_id, SIGUSR1), 0);
+  EXPECT_IS(msgsnd(queue, message, 8, 0), 0);
+  return unused;
+}
+CASE(a_signal_may_come_together_with_a_message) {
+  act(0);
+  queue = msgget(IPC_PRIVATE, 0600);
+  for (int i = 0; i < 20; ++i) {
+    long message[2] = {0, 0};
+    const pthread_t id = start(signal_and_send, NULL);
+    const ssize_t result = msgrcv(queue, message, 8, 0, 0);
+    EXPECT(result == 8 || errno == EINTR);
+    join(id);
+    if (result < 0) EXPECT_IS(msgrcv(queue, message, 8, 0, IPC_NOWAIT), 8);
+    EXPECT_IS(message[1], 2);
+  }
+  EXPECT_IS(handled, 20);
+  msgctl(queue, IPC_RMID, NULL);
+}
 CASE(an_ignored_signal_ends_nothing) {
   sem_init(&semaphore, 0, 0);
   const pthread_t id = begin(0, post);
