@@ -66,12 +66,9 @@ void take_own_record() {
   copy_of_record = nullptr;
 }
 
-bool is_child = false;  // its own simulation has begun
-
-// In the child, before any handler of pthread_atfork() of the program's.
+// In the child, before any handler of pthread_atfork() of the program's. The child has begun once it has the copy.
 void begin_as_child() {
-  if (!is_simulated() || is_child) return;
-  is_child = true;
+  if (!is_simulated() || copy_of_record == nullptr) return;
   take_own_record();
   family::begin_as_child();
   system_v::inherit_memory(getppid());
@@ -135,7 +132,6 @@ void before_child() {
 
 pid_t fork_by(pid_t (*real)(const void*), const void* argument, bool calls_handlers) {
   before_child();
-  is_child = false;
   if (!calls_handlers) copy_record();
   const pid_t child = real(argument);
   if (child == 0) begin_as_child();

@@ -19,6 +19,21 @@ CASE(a_child_has_its_own_memory) {
   EXPECT_EXIT(child, 2);
   EXPECT_IS(word, 1);
 }
+CASE(a_child_can_become_a_daemon) {
+  int ends[2];
+  EXPECT_IS(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    start(run_on, NULL);
+    if (daemon(1, 1) != 0) _exit(1);  // forks within the C library
+    sleep_ms(2);
+    _exit(write(ends[1], gettid() == getpid() ? "y" : "n", 1) == 1 ? 0 : 1);
+  }
+  char is_first = '\0';
+  EXPECT_IS(read(ends[0], &is_first, 1), 1);
+  EXPECT_IS(is_first, 'y');
+  EXPECT_EXIT(child, 0);
+}
 CASE(a_child_shares_descriptors) {
   int ends[2];
   EXPECT_IS(pipe(ends), 0);
