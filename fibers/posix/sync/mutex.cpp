@@ -16,8 +16,16 @@
 namespace waitpoint::posix {
 namespace {
 
+// The owner of what ended threads have left locked, without a list: a run may end, and its objects with it.
+constinit kernel::Task ended_owner{.event = {},
+                                   .local_time = {},
+                                   .state = kernel::TaskState::ended,
+                                   .fiber = {},
+                                   .search = {},
+                                   .name = "a thread that has ended"};
+
 void hand_on(Mutex& mutex) {
-  kernel::disown(mutex.object);
+  take_from_owner(mutex.object);
   mutex.depth = 0;
   if (kernel::Task* next = wake_one(mutex.object); next != nullptr) {
     kernel::own(mutex.object, *next);
@@ -30,7 +38,7 @@ void give_up(Mutex& mutex) {
   WAITPOINT_CHECK(mutex.object.owner != nullptr, "a mutex without an owner is given up");
   if (mutex.robust_state != Mutex::RobustState::inconsistent) return hand_on(mutex);
   mutex.robust_state = Mutex::RobustState::unrecoverable;
-  kernel::disown(mutex.object);
+  take_from_owner(mutex.object);
   kernel::running->scheduler->wake_all(mutex.object);
 }
 
@@ -165,6 +173,20 @@ void set_depth(pthread_mutex_t& bytes, std::uint32_t depth) {
 
 bool is_mine(pthread_mutex_t& bytes) {
   return is_shared(bytes) ? shared_mutex::is_mine(bytes) : mutex_of(&bytes).object.owner == kernel::running;
+}
+
+void leave_held_objects() {
+  while (kernel::Object* const held = kernel::running->held) {
+    kernel::disown(*held, *kernel::running);
+    held->owner = &ended_owner;
+  }
+}
+
+void take_from_owner(kernel::Object& object) {
+  if (object.owner == &ended_owner)
+    object.owner = nullptr;
+  else
+    kernel::disown(object);
 }
 
 void leave_shared_mutexes() {

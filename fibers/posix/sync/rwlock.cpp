@@ -12,6 +12,7 @@
 #include "fibers/posix/program/waitable.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/sync/robust_mutexes.hpp"
 #include "fibers/posix/sync/shared_rwlock.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -126,7 +127,7 @@ int unlock(pthread_rwlock_t* bytes) {
   pass(kernel::Operation::unlock, &lock.object);
   if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::unlock(*bytes, lock.object);
   if (lock.object.owner != nullptr)
-    kernel::disown(lock.object);
+    take_from_owner(lock.object);
   else if (lock.readers > 0)
     --lock.readers;
   if (lock.free()) hand_on(lock, prefers_writers(*bytes));

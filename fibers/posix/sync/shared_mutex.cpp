@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "fibers/kernel/ownership.hpp"
+#include "fibers/posix/sync/robust_mutexes.hpp"
 #include "fibers/posix/sync/shared_object.hpp"
 
 namespace waitpoint::posix::shared_mutex {
@@ -79,7 +80,7 @@ void give_up(Bytes& words, Mutex& mutex, Mutex::RobustState robust_state) {
     words.robust_state = robust_state;
     ++words.changes;
   }
-  if (mutex.object.owner != nullptr) kernel::disown(mutex.object);
+  if (mutex.object.owner != nullptr) take_from_owner(mutex.object);
   tell_change(mutex.object);
 }
 

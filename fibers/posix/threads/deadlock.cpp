@@ -18,8 +18,7 @@ namespace {
 
 // "main", or "reader: main" if there are several programs.
 void print_name(const kernel::Task& task) {
-  WAITPOINT_CHECK(is_thread(task), "a task is reported that is no thread");
-  if (thread_of(task).program->is_member) std::fprintf(stderr, "%s: ", task.robot->name);
+  if (is_thread(task) && thread_of(task).program->is_member) std::fprintf(stderr, "%s: ", task.robot->name);
   std::fprintf(stderr, "%s", task.name);
 }
 
@@ -75,7 +74,10 @@ void report_deadlock(const kernel::Scheduler& scheduler) {
   std::fprintf(stderr, "waitpoint: %s at ", stuck ? "deadlock" : "no progress");
   print_time(scheduler);
   std::fprintf(stderr, "\n");
-  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) print_wait(*task);
+  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
+    WAITPOINT_CHECK(is_thread(*task), "a task is reported that is no thread");
+    print_wait(*task);
+  }
 }
 
 bool goes_on_in_cycle(kernel::Task& task) {

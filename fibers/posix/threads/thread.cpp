@@ -316,6 +316,7 @@ void end_running_thread() {
   thread.ended = true;
   unprotect_stack(thread);
   drop_signals(thread);
+  leave_held_objects();
   thread.end.owner = nullptr;
   thread.task = nullptr;
   scheduler.wake_all(thread.end);

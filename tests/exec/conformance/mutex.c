@@ -43,6 +43,18 @@ CASE(a_locked_mutex_is_busy_for_others) {
   EXPECT_IS(tried_by_another(), 0);
 }
 
+static void* lock_it(void* unused) {
+  EXPECT_IS(pthread_mutex_lock(&mutex), 0);
+  return unused;
+}
+CASE(a_mutex_that_an_ended_thread_holds_is_held_by_no_other) {
+  join(start(lock_it, NULL));
+  for (int i = 0; i < 3; ++i) EXPECT_IS(tried_by_another(), EBUSY);
+  make(PTHREAD_MUTEX_ERRORCHECK);
+  join(start(lock_it, NULL));
+  EXPECT_IS(unlocked_by_another(), EPERM);
+  EXPECT_IS(pthread_mutex_trylock(&mutex), EBUSY);
+}
 CASE(a_mutex_that_was_tried_is_held) {
   EXPECT_IS(pthread_mutex_trylock(&mutex), 0);
   EXPECT_IS(tried_by_another(), EBUSY);
