@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a body does within one world step: its velocity is constant, so its path is a circular arc, kept as such.
+// A body's motion within one world step: at constant velocity, so its path is a circular arc.
 //
 //   pose(f) = start (+) (sinc(a/2) R(a/2) (d, s), a)      d = f distance, s = f side, a = f turn
 //
-// A body that flies climbs evenly meanwhile: its path is a helix. The chord form is exact for every turn, the straight
-// line included, and at(1) of one arc is where the next one starts.
+// An aerial body climbs at a constant rate: its path is a helix. The chord form is exact for every turn, including the
+// straight line, and at(1) of one arc is the start of the next.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace waitpoint::world {
 
 /// The velocity of a body in its own frame: along its x axis, about its origin, along its y axis (to the left), and
-/// upwards. The last two are 0 for whoever cannot move so.
+/// upwards. The last two are 0 for bases that cannot move so.
 struct Velocity {
   double v_m_s = 0, w_rad_s = 0, side_m_s = 0, climb_m_s = 0;
 
@@ -32,14 +32,14 @@ struct Arc {
   Pose start;
   double distance_m = 0, turn_rad = 0, side_m = 0, climb_m = 0;
 
-  /// From `start`, at that velocity for so long.
+  /// From `start`, at constant velocity for `time_s`.
   static Arc of(const Pose& start, const Velocity& velocity, double time_s) {
     return {start, velocity.v_m_s * time_s, velocity.w_rad_s * time_s, velocity.side_m_s * time_s,
             velocity.climb_m_s * time_s};
   }
 
-  /// The one from `start` whose end is at start + moved, turned and risen by so much. Turns are taken to be at most
-  /// half a turn: beyond, the least turn that ends alike.
+  /// The arc from `start` that ends at start + moved, with the given turn and climb. Turns beyond half a turn are
+  /// wrapped: the shorter turn with the same end.
   static Arc between(const Pose& start, Point moved, double turn_rad, double climb_m);
 
   friend constexpr bool operator==(const Arc&, const Arc&) = default;
@@ -52,7 +52,7 @@ struct Arc {
     return {start, fraction * distance_m, fraction * turn_rad, fraction * side_m, fraction * climb_m};
   }
   bool moves() const { return distance_m != 0 || turn_rad != 0 || side_m != 0 || climb_m != 0; }
-  /// Of the path of the body's origin in the plane, and in space.
+  /// Length of the path of the body's origin in the plane, and in space.
   double planar_length_m() const { return side_m == 0 ? std::fabs(distance_m) : exact::hypot(distance_m, side_m); }
   double length_m() const { return climb_m == 0 ? planar_length_m() : exact::hypot(planar_length_m(), climb_m); }
 

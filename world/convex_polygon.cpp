@@ -8,10 +8,10 @@
 namespace waitpoint::world {
 namespace {
 
-// What is nearer is one point, or lies on one line.
+// Tolerance: nearer points coincide or are collinear.
 constexpr double one_m = 1e-9;
 
-// Whether the way from `a` to `c` is as good as that by `b`, or better: `b` is not to the right of it.
+// True if `b` is no corner between `a` and `c`: it coincides with `a`, or is not to the right of the line from a to c.
 bool passes_by(Point a, Point b, Point c) {
   const Point way = c - a;
   return length(b - a) <= one_m || cross(way, a - b) <= one_m * length(way);
@@ -29,7 +29,7 @@ void add_half(Iterator begin, Iterator end, std::vector<Point>& hull) {
   hull.pop_back();
 }
 
-// Without those that are none, where the halves meet too.
+// Removes corners that are none, also where the two halves meet.
 void drop_needless(std::vector<Point>& corners) {
   for (std::size_t kept = 0, i = 0; corners.size() > 2 && kept < corners.size();) {
     const std::size_t n = corners.size();
@@ -44,7 +44,7 @@ void drop_needless(std::vector<Point>& corners) {
   }
 }
 
-// Where the neighbours of a side meet if it is left out, and what that encloses more.
+// The omission of a side: the intersection of its neighbours, and the area that this adds.
 struct Omission {
   double area_m2 = HUGE_VAL;
   Point meeting;

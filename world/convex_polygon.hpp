@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A convex polygon about its own origin: what an upright prism stands on.
+// A convex polygon about its own origin: the base of an upright prism.
 //
-// Corners go counter-clockwise. The origin is the middle of the box along the axes that just holds them. Every side has
-// a direction that rounding leaves, for none is shorter than a nanometre, and a turn at each of its ends.
+// Corners are counter-clockwise. The origin is the middle of their axis-parallel bounding box. Every side is at least a
+// nanometre long, so that rounding leaves its direction, and turns at both ends.
 #pragma once
 
 #include <cstddef>
@@ -17,22 +17,22 @@ namespace waitpoint::world {
 
 class ConvexPolygon {
  public:
-  /// What asks about all sides is bounded by this.
+  /// Bounds the cost of loops over all sides.
   static constexpr std::size_t corners_max = 64;
 
   struct Side {
-    Point start;          ///< the corner from which it goes to the next one's
-    Point outward;        ///< unit vector across it
-    double beyond_m = 0;  ///< dot(outward, p) of its points p; more is outside
+    Point start;          ///< its first corner; it ends at the next side's
+    Point outward;        ///< unit normal
+    double beyond_m = 0;  ///< dot(outward, p) of its points p; greater values are outside
 
     friend bool operator==(const Side&, const Side&) = default;
   };
 
-  /// Of three corners at least, which are as said above.
+  /// At least three corners that meet the conditions above.
   explicit ConvexPolygon(std::span<const Point> corners);
 
   std::span<const Side> sides() const { return sides_; }
-  /// From the origin to the sides of the box about it.
+  /// Half the size of the bounding box.
   Point half_size() const { return half_size_; }
   /// The mean square of the distances of its points from the origin.
   double mean_square_m2() const;
@@ -49,8 +49,9 @@ struct PlacedPolygon {
   std::shared_ptr<const ConvexPolygon> polygon;
 };
 
-/// The convex hull of points, within a micrometre. Where that has too many corners, sides of it are left out whose
-/// neighbours, longer, enclose least more: it never becomes smaller. None for points that a strip of that width holds.
+/// The convex hull of points, within a micrometre. With too many corners, the sides whose omission adds the least area
+/// are left out, and their neighbours extended: the hull never becomes smaller. None if the points lie in a strip
+/// narrower than `width_m_min`.
 std::optional<PlacedPolygon> hull_of(std::vector<Point> points, double width_m_min);
 
 }  // namespace waitpoint::world

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a world is made of, as values: read from a scenario or written by hand. While it runs, only a person's hand
-// changes it.
+// The description of a world, as values: read from a scenario or written by hand. During a run only interventions
+// change it.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Shape {
   double length_m = 0, width_m = 0;  ///< along its own x and y: of a box, or of the box about a prism
   double radius_m = 0;               ///< cylinder
   double z_low_m = 0, z_high_m = 1;
-  std::shared_ptr<const ConvexPolygon> polygon = {};  ///< prism: about its centre; shared, for shapes are copied
+  std::shared_ptr<const ConvexPolygon> polygon = {};  ///< prism: about its centre; shared, since shapes are copied
 
   friend bool operator==(const Shape& a, const Shape& b) {
     const bool same_polygon = a.polygon == b.polygon || (a.polygon && b.polygon && *a.polygon == *b.polygon);
@@ -37,19 +37,19 @@ struct Shape {
   }
 };
 
-/// Something that stands; with a mass, a dynamic world lets it be pushed.
+/// A fixed solid; one with a mass can be pushed in a dynamic world.
 struct Obstacle {
   std::string name;
   Shape shape;
-  bool known = true;      ///< whether the map given to planners shows it
-  double mass_kg = 0;     ///< 0: it stands fast; a kinematic world takes it so whatever it is
-  double friction = 0.5;  ///< of what is loose: with the floor
+  bool known = true;      ///< in the map given to planners
+  double mass_kg = 0;     ///< 0: fixed; a kinematic world ignores it: everything is fixed there
+  double friction = 0.5;  ///< of a loose obstacle: with the floor
 
   bool loose() const { return mass_kg > 0; }
 };
 
-/// Errors of wheel odometry, see vehicles/odometer.hpp. The first are of what the controller makes of its wheels, and
-/// so for every kind of base; those of the wheels are for bases with two driven sides only.
+/// Errors of wheel odometry, see vehicles/odometer.hpp. The first group are errors of the controller's result, for
+/// every kind of base; the wheel errors apply only to bases with two driven sides.
 struct OdometryErrors {
   double travel_scale = 1;               ///< measured / true distance (sideways too)
   double turn_scale = 1;                 ///< measured / true turn: the wheel base factor E_b, or the turn gear
@@ -57,59 +57,59 @@ struct OdometryErrors {
   double travel_noise_m_per_sqrt_m = 0;  ///< standard deviation of the distance after one metre
   double turn_noise_rad_per_sqrt_m = 0;  ///< standard deviation of the turn after one metre travelled
   double turn_noise_rad_per_sqrt_rad = 0;
-  double slips_per_m = 0;       ///< how often wheels spin, on average
-  double slip_m = 0;            ///< what is counted too much then, on average
-  double slip_turn_rad = 0;     ///< standard deviation of the turn counted then
+  double slips_per_m = 0;       ///< mean rate at which wheels spin
+  double slip_m = 0;            ///< mean excess distance counted per slip
+  double slip_turn_rad = 0;     ///< standard deviation of the turn counted per slip
   double units_per_m = 103000;  ///< quantisation (B21r)
   double units_per_rad = 35000;
 
   double wheel_diameter_ratio = 1;      ///< right / left: E_d of UMBmark
   double wheel_base_ratio = 1;          ///< actual / nominal: E_b of UMBmark
-  double wheel_noise_m_per_sqrt_m = 0;  ///< standard deviation of a wheel's way after one metre of it
-  double wheel_ticks_per_m = 0;         ///< of its encoder; 0: as fine as can be
+  double wheel_noise_m_per_sqrt_m = 0;  ///< standard deviation of a wheel's distance after one metre of it
+  double wheel_ticks_per_m = 0;         ///< of its encoder; 0: continuous
 };
 
-/// What a body moves on, see vehicles/base.hpp for what each kind can do.
+/// A body's mobile base; vehicles/base.hpp describes the motions of each kind.
 struct BaseDescription {
   enum class Kind : std::uint8_t { differential, synchro, omni, ackermann, skid_steer, aerial };
   Kind kind = Kind::synchro;
   double v_max_m_s = 0.9, w_max_rad_s = 1.5;
   double v_acceleration_m_s2 = 1.0, w_acceleration_rad_s2 = 3.0;
   double axle_m = 0.4;                ///< differential, skid-steer: distance between the wheels
-  double effective_axle_ratio = 1.5;  ///< skid-steer: the axle that its turns have, in axles; at least 1
+  double effective_axle_ratio = 1.5;  ///< skid-steer: effective axle in turns / axle_m; at least 1
   double wheelbase_m = 0.5;           ///< Ackermann: between the front and the rear axle
-  double steering_max_rad = 0.6;      ///< Ackermann: of the front wheel that stands for both, below a quarter turn
+  double steering_max_rad = 0.6;      ///< Ackermann: of the equivalent single front wheel, below a quarter turn
   double steering_rate_rad_s = 0.8;
   double climb_max_m_s = 0.5, climb_acceleration_m_s2 = 1.0;  ///< aerial
   double mass_kg = 50;                                        ///< dynamic worlds: of the whole robot
-  double drive_force_n = 0;  ///< dynamic worlds: the greatest; 0: twice what v_acceleration_m_s2 takes
+  double drive_force_n = 0;  ///< dynamic worlds: the greatest; 0: twice the force for v_acceleration_m_s2
   double grip = 0.8;         ///< dynamic worlds: friction of the wheels with the floor, which bounds their forces
-  Duration watchdog;         ///< without a new command for longer than this it brakes to stand still; 0: it never does
+  Duration watchdog;         ///< without a new command for longer than this it brakes to a stop; 0: off
   OdometryErrors odometry;
   double battery_volts_full = 26.0, battery_volts_empty = 22.0;
   double battery_capacity_s = 4 * 3600;  ///< until empty, standing still
   double battery_capacity_m = 8000;      ///< until empty, if only driving drained it
 };
 
-/// A pack of accumulators, and what is drawn from it, see vehicles/battery.hpp.
+/// A battery pack and its loads, see vehicles/battery.hpp.
 struct BatteryDescription {
   double volts_full = 26, volts_empty = 22;  ///< without load
   double resistance_ohm = 0.05;
-  double resolution_v = 0;  ///< of the voltage that is told; 0: as fine as can be
-  double capacity_ah = 40;  ///< when it is emptied in rated_h
+  double resolution_v = 0;  ///< of the reported voltage; 0: continuous
+  double capacity_ah = 40;  ///< when discharged in rated_h
   double rated_h = 20;
-  double peukert = 1.15;                                                  ///< 1: the same at every current
+  double peukert = 1.15;                                                  ///< 1: the same capacity at every current
   double charge = 1;                                                      ///< at the start, of capacity_ah
-  double off_v = 0;                                                       ///< what it feeds is off below this, too
-  double idle_a = 4;                                                      ///< drawn always
-  double drive_a_per_m_s = 6, turn_a_per_rad_s = 2, climb_a_per_m_s = 0;  ///< and by motion; sinking draws nothing
-  double stalled_a = 0;                                                   ///< and by motors that push against something
+  double off_v = 0;                                                       ///< cut-off: below this the loads are off
+  double idle_a = 4;                                                      ///< always drawn
+  double drive_a_per_m_s = 6, turn_a_per_rad_s = 2, climb_a_per_m_s = 0;  ///< drawn by motion; descending: nothing
+  double stalled_a = 0;                                                   ///< drawn by motors stalled at a contact
 };
 
-/// A robot's body with what is mounted on it.
+/// A robot's body with its sensors.
 struct BodyDescription {
   std::string name;
-  Shape shape;  ///< its pose is in the body's frame, its heights are those of the body on the floor
+  Shape shape;  ///< pose in the body's frame, heights with the body on the floor
   Pose start;
   double start_height_m = 0;  ///< of an aerial body above the floor
   BaseDescription base;
@@ -119,19 +119,19 @@ struct BodyDescription {
   std::optional<InfraredRingDescription> infrareds;
   std::optional<ImuDescription> imu;
   std::optional<PositionReceiverDescription> gps;
-  std::optional<BatteryDescription> battery;  ///< none: the base's figures, and power for ever
+  std::optional<BatteryDescription> battery;  ///< none: the base's figures, and unlimited power
 };
 
-/// What finds the hits of planar beams and the obstacles that a body is near to: FCL's trees, or own ones over exact
-/// slices at the heights of the sensors, and over footprints (world/slice). The world is the same to the last bit. With
-/// Bullet it is another one, of forces (world/bullet); its beams are those of the slices.
+/// The engine that finds hits of planar beams and obstacles near a body. `fcl` (FCL's trees) and `slice` (trees over
+/// exact slices at the heights of the sensors, and over footprints, world/slice) give the same world to the last bit.
+/// `bullet` is a world of forces (world/bullet) with the beams of the slices.
 enum class Engine : std::uint8_t { fcl, slice, bullet };
 
 struct WorldDescription {
   Duration step = std::chrono::milliseconds(10);
   Engine engine = Engine::fcl;
-  std::vector<Obstacle> obstacles;   ///< a map's occupied cells are here too, merged into boxes
-  std::vector<MeshObstacle> meshes;  ///< they stand fast, and no hand changes them
+  std::vector<Obstacle> obstacles;   ///< including a map's occupied cells, merged into boxes
+  std::vector<MeshObstacle> meshes;  ///< fixed; interventions cannot change them
   std::vector<BodyDescription> bodies;
 };
 

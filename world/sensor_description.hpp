@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a robot senses with, as values. Errors that a field says are off at 0 are off where it is left as it is.
+// The descriptions of sensors, as values. An error that is off at 0 is off by default.
 #pragma once
 
 #include <cstdint>
@@ -20,47 +20,48 @@ struct LaserDescription {
   double range_noise_m = 0.005;  ///< standard deviation, to 8 m; grows linearly to that at 20 m
   double noise_growth = 2;       ///< the standard deviation from 20 m on, in those to 8 m
   double range_bias_m = 0;       ///< systematic, the same for every beam
-  double warm_up_bias_m = 0;     ///< added at the start; falls to a 1/e of that in every warm_up_s
+  double warm_up_bias_m = 0;     ///< added at the start; decays by 1/e per warm_up_s
   double warm_up_s = 1800;
-  double angle_noise_rad = 0;  ///< standard deviation of a beam's direction, anew in every scan
+  double angle_noise_rad = 0;  ///< standard deviation of a beam's direction, drawn per scan
   double resolution_m = 0.01;  ///< quantisation
   Duration period = std::chrono::milliseconds(100);
 
-  Duration mirror_turn;                ///< of a whole turn; 0: all beams at one instant
+  Duration mirror_turn;                ///< time of one turn; 0: all beams at one instant
   std::uint32_t interlaced_turns = 1;  ///< beam i is measured in turn i modulo this
 
   double spot_m = 0, spot_divergence_rad = 0;  ///< the beam's diameter: spot_m + spot_divergence_rad x range; 0: a line
-  double mixed_jump_m = 0.3;                   ///< a spot that falls on surfaces farther apart reads something between
+  double mixed_jump_m = 0.3;                   ///< a spot on two surfaces farther apart reads a range between them
   double dropout = 0;                          ///< probability that a beam's echo is lost
-  double incidence_max_rad = 0.5 * exact::pi;  ///< from the surface's normal; what is flatter sends no echo
+  double incidence_max_rad = 0.5 * exact::pi;  ///< from the surface's normal; flatter incidence gives no echo
 
-  std::uint32_t line_bit_s = 0;  ///< of the serial line that a scan comes over; 0: it is there at once
+  std::uint32_t line_bit_s = 0;  ///< rate of the serial line that carries the scans; 0: no delay
 
   friend bool operator==(const LaserDescription&, const LaserDescription&) = default;
 };
 
-/// A ring of sonars on a cylinder about the body's centre, the first straight ahead, counter-clockwise. Banks of
-/// neighbours each have one that fires at a time: all members 0 of the banks at once, then all members 1, say.
+/// A ring of sonars on a cylinder about the body's centre, the first straight ahead, counter-clockwise. The ring is
+/// divided into banks of neighbours, each with one firing member at a time: all members 0 at once, then all members 1,
+/// for example.
 struct SonarRingDescription {
   std::uint32_t count = 24;  ///< 0: none
   double ring_radius_m = 0.25, height_m = 0.6;
-  double half_cone_rad = 0.218;  ///< a wall answers only if its normal lies inside
+  double half_cone_rad = 0.218;  ///< a wall gives an echo only if its normal is inside
   double range_min_m = 0.15, range_max_m = 3;
   double range_noise_relative = 0.01;
   Duration period = std::chrono::milliseconds(120);  ///< of a full ring
-  std::vector<std::uint32_t> firing_order;  ///< the members of a bank, as they take their turns; none: all at once
-  bool crosstalk = false;                   ///< whether those that fire at once hear each other
-  double air_celsius = 20, calibrated_celsius = 20;  ///< of the air, and that for which ranges are computed
+  std::vector<std::uint32_t> firing_order;  ///< the members of a bank in the order of their turns; empty: all at once
+  bool crosstalk = false;                   ///< sonars that fire at once hear each other
+  double air_celsius = 20, calibrated_celsius = 20;  ///< true, and assumed in the computation of ranges
 };
 
-/// Panels about a body, the first in front, counter-clockwise, each for the directions that it faces.
+/// A ring of bumper panels, the first in front, counter-clockwise, each for an equal sector of directions.
 struct BumperDescription {
   std::uint32_t count = 14;
-  double travel_m = 0.001;  ///< what comes so near presses
+  double travel_m = 0.001;  ///< a panel is pressed by anything nearer
 };
 
-/// A ring of infrared range finders, the first straight ahead, counter-clockwise: what they give is a voltage V, and
-/// the range is (gain_per_v V)^exponent.
+/// A ring of infrared range finders, the first straight ahead, counter-clockwise. Each gives a voltage V; the range in
+/// metres is (gain_per_v V)^exponent.
 struct InfraredRingDescription {
   std::uint32_t count = 24;
   double ring_radius_m = 0.25, height_m = 0.5;
@@ -71,15 +72,15 @@ struct InfraredRingDescription {
   Duration period = std::chrono::milliseconds(100);
 };
 
-/// Errors of one axis of an inertial sensor, in the unit U of what it measures.
+/// Errors of one axis of an inertial sensor, in the unit of its quantity.
 struct InertialErrors {
   double noise_per_sqrt_hz = 0;     ///< white: the standard deviation of a mean over one second
-  double bias = 0;                  ///< standard deviation of what is added from switching on
-  double walk_per_sqrt_s = 0;       ///< of how far that has walked off after one second
-  double drift = 0, drift_s = 100;  ///< a bias that wanders about 0: its standard deviation, and for how long it holds
+  double bias = 0;                  ///< turn-on bias: its standard deviation
+  double walk_per_sqrt_s = 0;       ///< random walk of the bias: standard deviation after one second
+  double drift = 0, drift_s = 100;  ///< Gauss-Markov bias about 0: standard deviation, correlation time
   double scale = 1;                 ///< measured / true
-  double resolution = 0;            ///< quantisation; 0: as fine as can be
-  double max = 0;                   ///< what is beyond reads this; 0: there is no bound
+  double resolution = 0;            ///< quantisation; 0: continuous
+  double max = 0;                   ///< saturation; 0: none
 };
 
 /// An inertial measurement unit at the body's centre: a gyro about the vertical, three accelerometers.
@@ -89,15 +90,14 @@ struct ImuDescription {
   Duration period = std::chrono::milliseconds(10);
 };
 
-/// A receiver of positions in the world's frame, as of satellites.
+/// A receiver of positions in the world's frame, such as GPS.
 struct PositionReceiverDescription {
   Point antenna = {};  ///< in the body's frame
   double bias_x_m = 0, bias_y_m = 0;
   double drift_m = 0,
-         drift_s =
-             300;  ///< an error that wanders about 0: its standard deviation on each axis, and for how long it holds
-  double noise_m = 0;          ///< standard deviation on each axis, anew in every fix
-  double height_factor = 1.5;  ///< those of the height, in those of an axis
+         drift_s = 300;        ///< Gauss-Markov error about 0: standard deviation per axis, correlation time
+  double noise_m = 0;          ///< standard deviation per axis, drawn per fix
+  double height_factor = 1.5;  ///< errors of the height / errors of an axis
   double resolution_m = 0.01;  ///< quantisation
   double dropout = 0;          ///< probability that there is no fix
   Duration period = std::chrono::seconds(1);

@@ -10,7 +10,7 @@ namespace waitpoint::world {
 struct SpaceVector {
   double x = 0, y = 0, z = 0;
 
-  /// Whether each of them is at most `bound`, which a NaN is not.
+  /// True if the magnitude of each coordinate is at most `bound`; false for NaN.
   constexpr bool is_within(double bound) const {
     return -bound <= x && x <= bound && -bound <= y && y <= bound && -bound <= z && z <= bound;
   }
@@ -20,10 +20,10 @@ struct SpaceVector {
 
 struct SpacePose {
   SpaceVector position;
-  /// Where the frame's own axes point, each of length 1.
+  /// The frame's axes in the outer frame, unit vectors.
   std::array<SpaceVector, 3> axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-  /// A vector of this frame, in the outer one.
+  /// A vector of this frame, in the outer frame.
   SpaceVector turned(SpaceVector v) const { return v.x * axes[0] + v.y * axes[1] + v.z * axes[2]; }
 };
 

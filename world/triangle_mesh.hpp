@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces of triangles in space: what a mesh file says that stands in a world.
+// Triangle meshes in space, read from mesh files, as obstacles.
 //
-// A mesh is a shell, not a solid: only its triangles are in the way, and what is inside of it is free. So a building's
-// mesh can be driven in.
+// A mesh is a shell, not a solid: only its triangles obstruct, its interior is free. So robots can drive inside a
+// building's mesh.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Triangle {
 
 struct TriangleMesh {
   std::vector<SpaceVector> corners;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< by their corners
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `corners`
 
   Triangle triangle(std::size_t number) const {
     const std::array<std::uint32_t, 3>& of = triangles[number];
@@ -33,14 +33,14 @@ struct TriangleMesh {
   }
 };
 
-/// A mesh that stands: its corners are in the world's frame. It is shared, for worlds are copied.
+/// A fixed mesh, corners in the world's frame. Shared, since worlds are copied.
 struct MeshObstacle {
   std::string name;
   std::shared_ptr<const TriangleMesh> mesh;
-  bool known = true;  ///< whether the map given to planners shows it
+  bool known = true;  ///< in the map given to planners
 };
 
-/// The mesh, each of its axes that many times as long, then placed at `pose`.
+/// The mesh scaled along its own axes, then placed at `pose`.
 TriangleMesh placed(TriangleMesh mesh, SpaceVector scale, const SpacePose& pose);
 
 }  // namespace waitpoint::world

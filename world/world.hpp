@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world server: what the bridge sees of a world, so that another engine can take its place. There are two: a
-// kinematic one (world/fcl), where bodies move as they are told until they touch something, and one of forces
-// (world/bullet), where drives push and loose things are pushed.
+// The interface between the bridge and a world. It has two implementations: a kinematic world (world/kinematic), where
+// bodies move as commanded until a contact, and a world of forces (world/bullet), where drives push and loose obstacles
+// are pushed.
 //
 // The world advances in steps of one period. Within step k, in this order:
 //
 //   latch    the commands given since step k - 1; each velocity changes by at most acceleration times the period
-//   move     every body along its arc, to its first contact, found with the arcs of both bodies; or as forces will
+//   move     every body along its arc, to its first contact, found with the arcs of both bodies; or by forces
 //   publish  {pose, arc}
-//   sense    odometers, batteries, inertial sensors, receivers; and, whenever asked before step k + 1, scans
+//   sense    odometers, batteries, inertial sensors, receivers; scans on demand, until step k + 1
 //
-// Sensors see their own body as it is now and the other bodies as published at step k - 1, so that the order in which
-// bodies are asked (or where they are simulated) cannot matter. Before the first step, everything is where it starts.
+// Sensors see their own body in its current pose and the other bodies as published at step k - 1, so results depend
+// neither on the order of the calls nor on where a body is simulated. Before the first step, every body is at its
+// start.
 //
-// The order and the names of the bodies do not change what happens; the name only chooses a body's random streams.
+// The order and the names of the bodies do not affect the run; a name only selects the body's random streams.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +44,7 @@ struct BodyState {
   bool stalled = false;          ///< the last motion tried was stopped or refused by a contact
   std::uint64_t collisions = 0;  ///< transitions from free to stalled
   double travelled_m = 0;        ///< sum of the lengths of the arcs
-  double height_m = 0;           ///< above the floor; of what cannot fly always 0
+  double height_m = 0;           ///< above the floor; 0 unless aerial
 
   static constexpr auto fields() {
     return std::tuple(field("pose", &BodyState::pose), field("arc", &BodyState::arc),
@@ -53,9 +54,9 @@ struct BodyState {
   }
 };
 
-/// The truth about an obstacle that can move, as published by the last step.
+/// The truth about a loose obstacle, as published by the last step.
 struct LooseState {
-  std::uint32_t obstacle = 0;  ///< which of WorldDescription::obstacles, whose shape is where it is now
+  std::uint32_t obstacle = 0;  ///< index into WorldDescription::obstacles, where its shape has the current pose
   Pose pose;                   ///< of its centre, seen from above
   double low_m = 0, high_m = 0;
   Point velocity_m_s;
@@ -69,8 +70,8 @@ struct LooseState {
   }
 };
 
-/// What a base's controller measures. Travel, turn and what an omni base goes sideways are accumulated since the start
-/// in the controller's own units (OdometryErrors::units_per_m, units_per_rad).
+/// The measurements of a base's controller. Travel, turn and the sideways travel of an omni base are accumulated since
+/// the start, in the controller's units (OdometryErrors::units_per_m, units_per_rad).
 struct OdometerReading {
   std::int64_t travel_units = 0, turn_units = 0;
   Velocity velocity;  ///< measured over the last step
@@ -83,22 +84,22 @@ struct OdometerReading {
   }
 };
 
-/// What a battery gives.
+/// The state of a battery.
 struct BatteryState {
   double volts = 0, current_a = 0;
-  double charge = 1;                      ///< left, of its capacity
-  std::optional<Duration> empty_at = {};  ///< since the start; then what it feeds went off, and stays so
+  double charge = 1;                      ///< remaining fraction of its capacity
+  std::optional<Duration> empty_at = {};  ///< since the start; from then on its loads are off
 };
 
-/// Means over the time since the sample before, in the body's frame.
+/// Means over the time since the previous sample, in the body's frame.
 struct ImuSample {
   std::uint64_t number = 0;                           ///< of samples so far; 0: none yet
   double turn_rad_s = 0;                              ///< of the gyro
-  double ahead_m_s2 = 0, left_m_s2 = 0, up_m_s2 = 0;  ///< at rest the last is gravity's
-  double turned_rad = 0;                              ///< what the gyro's samples add up to since the start
+  double ahead_m_s2 = 0, left_m_s2 = 0, up_m_s2 = 0;  ///< at rest, up is gravity
+  double turned_rad = 0;                              ///< integral of the gyro's samples since the start
 };
 
-/// Where a receiver takes its antenna to be, in the world's frame.
+/// A receiver's estimate of the position of its antenna, in the world's frame.
 struct PositionFix {
   std::uint64_t number = 0;  ///< of fixes so far; 0: none yet
   Point position;
@@ -108,8 +109,8 @@ struct PositionFix {
 /// One scan of a laser, counter-clockwise, in the device's frame. Reused between scans, it allocates only once.
 struct LaserScan {
   double first_angle_rad = 0, angle_step_rad = 0;
-  double range_max_m = 0;       ///< a beam without echo reads this
-  std::vector<double> range_m;  ///< as measured: with noise, quantised
+  double range_max_m = 0;       ///< the reading of a beam without echo
+  std::vector<double> range_m;  ///< one per beam, measured: with noise, quantised
 };
 
 /// A half line in the horizontal plane at `height_m`, in the world frame.
@@ -123,12 +124,12 @@ class World {
  public:
   virtual ~World() = default;
 
-  /// Bodies as at the start; obstacles as they are now.
+  /// Bodies as at the start; obstacles in their current state.
   virtual const WorldDescription& description() const = 0;
 
-  /// Sets the velocity that the body tries to reach and hold, from the next step on, until the base's watchdog (if it
-  /// has one) finds that no other command came. Velocities beyond the base's limits are clamped to them, those in which
-  /// it cannot go at all are left out; NaN is a bug.
+  /// Sets the velocity that the body tries to reach and hold, from the next step until the next command or until the
+  /// base's watchdog (if any) expires. Components beyond the base's limits are clamped; components that the base does
+  /// not have are ignored; NaN is a bug.
   virtual void command(BodyId id, Velocity velocity) = 0;
   /// Advances by one period.
   virtual void step() = 0;
@@ -137,52 +138,52 @@ class World {
   /// Back to the start, obstacles too, with the random streams of another seed (or the same).
   virtual void reset(std::uint64_t seed) = 0;
 
-  // What a person does, between two steps. Each says what stands in the way, and then has changed nothing.
+  // Interventions between two steps. Each returns the reason for a refusal, and then has changed nothing.
 
-  /// Lifts the body and puts it down there, as high as it was, at rest: its odometer does not notice, its command
-  /// holds.
+  /// Lifts the body and puts it down at `pose`, at its present height, at rest. Its odometer does not notice; its
+  /// command stays in force.
   virtual std::optional<std::string> move_body(BodyId id, const Pose& pose) = 0;
-  /// Adds an obstacle, or puts it in place of the first one of its name.
+  /// Adds an obstacle, or replaces the first one of its name.
   virtual std::optional<std::string> put_obstacle(const Obstacle& obstacle) = 0;
-  /// Takes away the first obstacle of that name; false if there is none.
+  /// Removes the first obstacle of that name; false if there is none.
   virtual bool remove_obstacle(const std::string& name) = 0;
-  /// From the next step on, for that long, rounded up to whole steps, a level force acts at the centre of the body of
-  /// that name, or else of the loose obstacle.
+  /// Applies a horizontal force at the centre of the body of that name, or else of the loose obstacle, from the next
+  /// step on for `time`, rounded up to whole steps.
   virtual std::optional<std::string> push(const std::string& name, Point force_n, Duration time) = 0;
 
   virtual const BodyState& body(BodyId id) const = 0;
-  /// What can be pushed, in the order of the obstacles; nothing in a kinematic world.
+  /// The loose obstacles, in the order of the obstacles; empty in a kinematic world.
   virtual std::span<const LooseState> loose() const = 0;
   virtual const OdometerReading& odometer(BodyId id) const = 0;
   virtual BatteryState battery(BodyId id) const = 0;
-  /// The last sample of the body's inertial measurement unit, which it must have.
+  /// The last sample of the body's inertial measurement unit; a body without one is a bug.
   virtual const ImuSample& imu(BodyId id) const = 0;
-  /// The last fix of the body's receiver, which it must have.
+  /// The last fix of the body's receiver; a body without one is a bug.
   virtual const PositionFix& position_fix(BodyId id) const = 0;
 
-  /// Scans with the body's laser number `laser`. The noise of beam i is drawn at (scan_number, i): the same scan asked
-  /// twice is the same.
+  /// Scans with the body's laser number `laser`. The noise of beam i is drawn at (scan_number, i): repeating a scan
+  /// gives the same readings.
   virtual void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const = 0;
-  /// Says that scan() will be asked for this one after the next step: the server may make all those together. It reads
-  /// the same as one that comes unexpected.
+  /// Announces a call of scan() after the next step, so that the world can make all such scans together. The readings
+  /// are those of a scan without announcement.
   virtual void expect_scan(BodyId id, std::size_t laser, std::uint64_t scan_number) = 0;
-  /// Fires the sonars of the body's ring number `ring` whose turn firing `firing_number` is, all at once where the ring
-  /// has no order. Their ranges are set, no echo reading the ring's greatest range; the others' stay. If `range_m` is
-  /// of another size than the ring, all begin without echo. Noise as for scan().
+  /// Fires the sonars of ring number `ring` that are due in firing `firing_number`: all of them if the ring has no
+  /// firing order. Sets their ranges (m; without echo the ring's greatest range) and keeps the others'. A `range_m`
+  /// of another size than the ring is reset to no echo first. Noise as for scan().
   virtual void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const = 0;
-  /// The panels of the body's bumper that are pressed, panel i by bit i; 0 without a bumper. Other bodies as published
-  /// at the last step but one.
+  /// The pressed panels of the body's bumper, panel i in bit i; 0 without a bumper. Other bodies as published at the
+  /// last step but one.
   virtual std::uint32_t bumpers(BodyId id) const = 0;
-  /// Reads the voltages of the body's infrared range finders, which it must have; `volts` is resized. Noise as for
-  /// scan().
+  /// Reads the voltages of the body's infrared range finders; a body without any is a bug. `volts` is resized. Noise as
+  /// for scan().
   virtual void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const = 0;
-  /// Adds what asking for the body's state, commanding it and scans that are expected touch, without what is
-  /// everybody's.
+  /// Adds the memory that queries of the body's state, its commands and its announced scans touch, without memory that
+  /// is shared by all bodies.
   virtual void add_to(WorkingSet& set, BodyId id) const = 0;
-  /// Adds what a scan that nobody expected touches besides.
+  /// Adds the further memory of a scan without announcement.
   virtual void add_scan_to(WorkingSet& set, BodyId id) const = 0;
-  /// The distance along the beam to the first obstacle or body as a sensor of the body `own` sees them (all bodies as
-  /// published at the last step but one, without `own`), without noise; range_max_m if there is none nearer.
+  /// The distance along the beam to the first obstacle or body as seen by a sensor of the body `own` (the other bodies
+  /// as published at the last step but one), without noise; range_max_m if nothing is nearer.
   virtual double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own = std::nullopt) const = 0;
 };
 

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much a file may ask for. What is beyond is bad input, so that no file, however short, takes all memory.
+// Limits of files. Anything beyond is bad input, so that no file, however short, takes all memory.
 #pragma once
 
 #include <cstddef>
 
 namespace waitpoint::world {
 
-/// Obstacles of one file, after merging.
+/// Obstacles per file, after merging.
 inline constexpr std::size_t obstacle_count_max = std::size_t{1} << 20;
 /// Coordinates and sizes.
 inline constexpr double coordinate_m_max = 1e5;
-/// Angles: one beyond is meant in other units.
+/// Angles: a greater one is probably in other units.
 inline constexpr double angle_rad_max = 1e4;
-/// Bytes of a file that is read line by line, and of those whose parsers make a tree many times as large: XML and
-/// worlds of Stage's, with all that they include, and a map's YAML.
+/// Bytes of a file that is read line by line, and of files whose parse trees are many times as large: XML, Stage worlds
+/// (with everything they include), and a map's YAML.
 inline constexpr std::size_t text_bytes_max = std::size_t{1} << 26;
 inline constexpr std::size_t tree_bytes_max = std::size_t{1} << 24;
 inline constexpr std::size_t stage_bytes_max = std::size_t{1} << 22;
 inline constexpr std::size_t yaml_bytes_max = std::size_t{1} << 20;
-/// Triangles of a mesh's file, its coordinates before they are scaled, its bytes.
+/// Triangles, unscaled coordinates and bytes of a mesh file.
 inline constexpr std::size_t triangle_count_max = std::size_t{1} << 20;
 inline constexpr double mesh_coordinate_max = 1e9;
-/// Meshes that one file names; all together they have at most triangle_count_max triangles.
+/// Meshes named by one file; together they have at most triangle_count_max triangles.
 inline constexpr std::size_t mesh_count_max = 10'000;
 inline constexpr std::size_t mesh_bytes_max = std::size_t{1} << 28;
 /// Occupied cells of an octree, before merging, and its bytes.
