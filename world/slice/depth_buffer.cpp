@@ -14,22 +14,22 @@ namespace waitpoint::world {
 namespace {
 
 constexpr std::size_t beams_max = 1 << 20;
-// Of a fan of one beam: so many to a radian that what does not lie before it is beside it.
+// Beams per radian of a fan with one beam: so many that rectangles off the beam fall outside its interval.
 constexpr double per_rad_alone = 1e6;
-// Of a tree of so many nodes little is in the cache.
+// A tree with so many nodes is mostly out of the cache.
 constexpr std::size_t many_nodes = 1024;
 
-// What is nowhere is farther.
+// Below the distance of EightBounds::nowhere().
 constexpr float farthest_solid_m = 1e20f;
 
-// Rounded up, so that nothing as near is dropped.
+// Rounded up, so that no equally near solid is dropped.
 float rounded_up(double range_m) { return static_cast<float>(range_m) * (1 + 1e-6f); }
 float squared_up(double range_m) {
   const float rounded = static_cast<float>(range_m);
   return rounded * rounded * (1 + 1e-6f);
 }
 
-// Puts `what` among those that are pending from number `before` on, of which the nearest is the last.
+// Inserts `what` into the items of `pending` from index `before` on, which are sorted: the nearest is last.
 template <class Pending>
 void push_nearest_last(std::vector<Pending>& pending, std::size_t before, const Pending& what, float Pending::*near) {
   std::size_t at = pending.size();
@@ -102,8 +102,8 @@ bool DepthBuffer::hidden(const Pending& what) const {
   return hidden(what.near_m2, what.first, static_cast<std::int32_t>(beams_) - 1) && hidden(what.near_m2, 0, what.last);
 }
 
-// Asks about what is narrow, at once, and fetches what is at its `place`; the rest is pending, the nearest on top of
-// what was so before.
+// Tests the node's narrow solids at once, and prefetches the children (`place(number)` is a solid's address). The other
+// children are pushed, the nearest on top.
 template <class Find, class Place>
 void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Find find,
                                 Place place) {
@@ -121,7 +121,7 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
   }
   std::array<NarrowQuestion, EightBounds::width> narrow;
   int narrow_count = 0;
-  // Without branches, which no processor could foresee.
+  // Without branches, which would be unpredictable.
   unsigned narrow_ones = 0;
   for (std::size_t i = 0; i < EightBounds::width; ++i) {
     const bool is_narrow = static_cast<std::uint32_t>(sight.last[i] - sight.first[i]) < narrow_beams;
@@ -147,12 +147,12 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
   if (narrow_count > 0) kernels_->ask_narrow(narrow.data(), narrow_count, beams());
 }
 
-// Whether its range is less now.
+// True if the test lowers the beam's range.
 bool DepthBuffer::ask_beam(std::size_t beam, const Outline& outline, std::uint32_t solid) {
   const double range_m = hit(outline, {origin_, {x_[beam], y_[beam]}});
   if (range_m > ranges_m_[beam]) return false;
   const bool nearer = range_m < ranges_m_[beam];
-  // A hit at the limit is none, and is not told from one.
+  // A hit exactly at the limit counts as none: a beam without a solid keeps none.
   if (identify_ && (nearer || (solids_[beam] != no_solid && solid < solids_[beam]))) solids_[beam] = solid;
   ranges_m_[beam] = range_m;
   return nearer;
@@ -174,7 +174,7 @@ void DepthBuffer::ask_narrow(const Outline& outline, std::uint32_t solid, const 
     note_farthest(block);
 }
 
-// Of polygons there are few.
+// For polygons, which have no kernel: they are few.
 void DepthBuffer::ask_each(const Outline& outline, std::uint32_t solid, const Pending& where) {
   const auto beams = static_cast<std::int32_t>(beams_);
   if (where.first <= where.last) return ask_narrow(outline, solid, where);
@@ -192,7 +192,7 @@ void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending
   question({outline, solid, 0, last, where.near_m2}, beams());
 }
 
-// Asks about what is in sight and not hidden, near to far.
+// Tests the solids in sight that are not hidden, near to far.
 template <class Find, class Place>
 void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Find find, Place place) {
   pending_.clear();
@@ -209,7 +209,7 @@ void DepthBuffer::walk(std::span<const TreeNode> nodes, const View& from, Find f
   }
 }
 
-// The lowest node that has all that is in reach of the view; negative where nothing is.
+// The lowest node that contains every solid in reach of the view; negative if there is none in reach.
 std::int32_t DepthBuffer::node_in_reach(std::span<const TreeNode> nodes, const View& from, float reach_m) const {
   const FloatBounds wanted = {from.low_x - reach_m, from.low_y - reach_m, from.high_x + reach_m, from.high_y + reach_m};
   for (std::int32_t at = 0;;) {
@@ -222,8 +222,8 @@ std::int32_t DepthBuffer::node_in_reach(std::span<const TreeNode> nodes, const V
   }
 }
 
-// Walks with those of a few beams that meet a node, near to far, and asks about each solid the beams that meet its
-// rectangle.
+// Walks the tree with few beams, near to far: a node is visited with the beams that meet it, and a solid is tested
+// against the beams that meet its rectangle.
 template <class Find>
 void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Find find) {
   FewBeams few = {};
@@ -261,8 +261,8 @@ void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Fi
     note_farthest(static_cast<std::int32_t>(beam / Beams::block));
 }
 
-// Asks about the solids that the beams may meet: `find` gives them by their numbers in the tree, `place` tells where
-// their outlines are.
+// Tests the solids that the beams may meet: `find(number)` is the candidate of a number in the tree, `place(number)`
+// the address of its outline.
 template <class Find, class Place>
 void DepthBuffer::lower(std::span<const TreeNode> nodes, Point middle, double extent_m, Find find, Place place) {
   if (nodes.empty() || beams_ == 0) return;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A planar scan as a depth buffer of one dimension: for each beam the nearest hit so far.
+// A planar scan as a one-dimensional depth buffer: the nearest hit so far of each beam.
 //
-//   begin        every range is the limit
-//   lower(slice) one walk of its tree, near to far: a rectangle's corners give its interval of beams; where nearer hits
-//                already fill that, it is dropped, else its children are looked at, or the solid is asked about each
-//                beam
-//   lower(moving) the same for the tree of those that move
+//   begin         sets every range to the limit
+//   lower(slice)  walks the slice's tree once, near to far: a rectangle's corners give its interval of beams; an
+//                 interval filled by nearer hits is dropped, otherwise the children are visited or the solid is tested
+//                 against each beam
+//   lower(moving) the same for the tree of the moving solids
 //
-// A few beams walk together, near to far too, each only where it meets a node: they have no blocks to be hidden by.
+// Few beams (at most FewBeams::most) walk together, near to far too, each only through the nodes that it meets: they
+// are too few for the occlusion test by blocks.
 //
-// Floats cull, with margins; hits are those of hit_distance(), so the ranges are those of asking every solid, to the
-// last bit, in whatever order. A buffer is used again and again: only a scan of more beams than any before allocates.
+// Culling is in floats, with margins; hits are those of hit_distance(), so the ranges equal those of a test of every
+// solid, to the last bit, in any order. Buffers are reused: only a scan with more beams than any before allocates.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@
 
 namespace waitpoint::world {
 
-/// Beams from one point, counter-clockwise, at equal angles.
+/// Beams from one point, counter-clockwise, equally spaced.
 struct Fan {
   Point origin;
   Point axis;                         ///< unit vector towards the middle
@@ -35,17 +36,17 @@ class DepthBuffer {
  public:
   explicit DepthBuffer(const Kernels& of = kernels()) : kernels_(&of) {}
 
-  /// A new scan of beams that end at `range_max_m` (which may be infinite). `identify`: solids are wanted, too.
+  /// Begins a scan whose beams end at `range_max_m` (may be infinite). With `identify`, solids() is filled, too.
   void begin(const Fan& fan, double range_max_m, bool identify = false);
 
   void lower(const Slice& slice);
-  /// Without the solid numbered `except`.
+  /// Without solid `except`.
   void lower(const MovingSolids& solids, double height_m, std::uint32_t except = no_solid);
 
-  /// The distance of each beam to what it hits; range_max_m where that is not nearer.
+  /// One range per beam: the distance of its nearest hit; range_max_m without a nearer one.
   std::span<const double> ranges_m() const { return {ranges_m_.data(), beams_}; }
-  /// What each beam hits: of equally near solids the one of the least number; no_solid if nothing within range_max_m.
-  /// Only of a scan that identifies.
+  /// One solid per beam: the nearest; of equally near ones the least number; no_solid if none is within range_max_m.
+  /// Empty unless the scan was begun with `identify`.
   std::span<const std::uint32_t> solids() const { return {solids_.data(), identify_ ? beams_ : 0}; }
 
  private:
@@ -54,29 +55,29 @@ class DepthBuffer {
     std::int32_t child, first, last;
   };
 
-  /// What is so narrow is asked about as soon as it is seen, together with what else of its node is: to look whether it
-  /// is hidden would take longer, for it cannot be foreseen.
+  /// Narrower candidates are tested at once, batched per node: an occlusion test would take longer, since its branch is
+  /// unpredictable.
   static constexpr std::int32_t narrow_beams = 16;
-  /// Within so few blocks beams are looked at one by one: those at the ends may be all that is not hidden.
+  /// Intervals of fewer blocks are compared beam by beam: the outer beams may be the only visible ones.
   static constexpr std::int32_t few_blocks = 3;
   static bool is_narrow(const Pending& what) {
     return what.first <= what.last && what.last - what.first < narrow_beams;
   }
 
-  /// A node, and which of a few beams may meet it.
+  /// A node and the set of beams that may meet it, a bit per beam.
   struct PendingFew {
     float near_m;
     std::int32_t child;
     std::uint32_t beams;
   };
 
-  /// A solid that the beams may meet; none for one that does not count.
+  /// A solid that the beams may meet; `outline` is null if the solid is excluded.
   struct Candidate {
     const Outline* outline = nullptr;
     std::uint32_t solid = no_solid;
   };
 
-  /// What is so narrow, and hidden by whole blocks, is not in view.
+  /// Kernels::look has already tested such narrow candidates for occlusion by whole blocks.
   static bool is_of_two_blocks(const Pending& what) {
     return what.first <= what.last && what.last / Beams::block - what.first / Beams::block <= 1;
   }
@@ -106,10 +107,10 @@ class DepthBuffer {
   double range_max_m_ = 0;
   bool identify_ = false;
   std::size_t beams_ = 0;
-  // Of each beam; the last is repeated to the end of its block.
+  // One per beam; the last is repeated to the end of its block.
   std::vector<double> x_, y_, ranges_m_;
   std::vector<std::uint32_t> solids_;
-  std::vector<float> farthest_m2_;  // of each block
+  std::vector<float> farthest_m2_;  // one per block
   std::vector<Pending> pending_;
   std::vector<PendingFew> pending_few_;
 };

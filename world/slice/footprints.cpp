@@ -25,7 +25,7 @@ Footprints::Footprints(std::span<const Shape> shapes, const Kernels& of)
   }
 }
 
-// Shows `visit` a few solids more than those whose bounds overlap these, until it returns false.
+// Calls `visit(solid)` for the solids whose bounds overlap these, and possibly a few more, until it returns false.
 template <class Visit>
 void Footprints::visit(const Bounds& bounds, Visit visit) const {
   walk_overlapping(tree_.nodes(), {bounds.low - tree_.middle(), bounds.high - tree_.middle()},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standing upright solids seen from above, all heights together: what an upright body is near to, or collides with.
+// Fixed upright solids seen from above, all heights together: finds the solids that an upright body is near or collides
+// with.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace waitpoint::world {
 
 class Footprints {
  public:
-  /// Of solids that are numbered from 0.
+  /// Solids are numbered from 0, in the order of `shapes`.
   explicit Footprints(std::span<const Shape> shapes, const Kernels& of = kernels());
 
   /// The solids whose bounds, grown by `margin_m`, overlap the given ones and whose open height intervals overlap
@@ -23,7 +24,7 @@ class Footprints {
   void near(const Bounds& bounds, double margin_m, double z_low_m, double z_high_m,
             std::vector<std::uint32_t>& found) const;
 
-  /// Whether a solid that stands there would overlap any (see separation()).
+  /// True if an upright solid with this outline and height interval overlaps any of them (see separation()).
   bool collides(const Outline& outline, double z_low_m, double z_high_m) const;
 
  private:

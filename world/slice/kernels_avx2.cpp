@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled with -mavx2, and called only where the processor has it.
+// Compiled with -mavx2; called only if the processor has AVX2.
 #include "world/slice/kernels.hpp"
 #include "world/slice/vector_asking.hpp"
 #include "world/slice/vector_culling.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiled for AVX-512 (F, BW, DQ, VL), and called only where the processor has it.
+// Compiled for AVX-512 (F, BW, DQ, VL); called only if the processor has it.
 #include "world/slice/kernels.hpp"
 #include "world/slice/vector_asking.hpp"
 #include "world/slice/vector_culling.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For any processor: of x86, SSE2.
+// For any processor; on x86-64, SSE2.
 #include "world/slice/kernels.hpp"
 #include "world/slice/vector_asking.hpp"
 #include "world/slice/vector_culling.hpp"

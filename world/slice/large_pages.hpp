@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory for large arrays that are read here and there: on large pages, where the system has them. On small ones most
-// readings of such an array first have to find where their page is, and that may be far away in memory, too.
+// Memory on large pages, where the system has them, for large arrays with random access. On small pages most reads of
+// such an array miss the TLB, and the page walk may miss the cache, too.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,7 +11,7 @@
 
 namespace waitpoint::world {
 
-/// For std::vector.
+/// An allocator for std::vector.
 template <class T>
 struct LargePages {
   using value_type = T;
@@ -27,7 +27,7 @@ struct LargePages {
     const std::size_t whole = (size + page - 1) / page * page;
     void* const memory = std::aligned_alloc(page, whole);
     if (memory == nullptr) throw std::bad_alloc();
-    madvise(memory, whole, MADV_HUGEPAGE);  // where it is refused, pages are small
+    madvise(memory, whole, MADV_HUGEPAGE);  // only a hint: if it is refused, pages are small
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {

@@ -52,7 +52,7 @@ MovingSolids::MovingSolids(std::span<const Shape> shapes, std::uint32_t first_so
   order();
 }
 
-// Halves by the longer side, and so on: the first half is a whole subtree of the tree above.
+// Orders a group by recursive halving along its longer side; the first part fills a complete subtree.
 void MovingSolids::order(std::span<std::uint32_t> group) const {
   const std::size_t leaves = (group.size() + width - 1) / width;
   if (leaves < 2) return;
@@ -100,7 +100,7 @@ void MovingSolids::set_leaf(std::size_t at) {
                                                     float_margin_m(farthest));
 }
 
-// Sets the node's rectangle in the one above it; whether that was another.
+// Updates the node's rectangle in its parent; true if it changed.
 bool MovingSolids::set_above(std::size_t level, std::size_t node) {
   const std::size_t number = node - levels_[level], i = number % width;
   EightBounds& above = nodes_[levels_[level - 1] + number / width].bounds;
@@ -115,7 +115,7 @@ bool MovingSolids::set_above(std::size_t level, std::size_t node) {
   return true;
 }
 
-// The half perimeters of the lowest nodes, in all.
+// The sum of the half perimeters of the lowest nodes.
 double MovingSolids::spread_m() const {
   double sum = 0;
   if (levels_.size() < 2) return sum;

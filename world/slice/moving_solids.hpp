@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solids that move, under a tree like that of those that stand, kept up with them.
+// Moving solids under a tree of rectangles like that of the fixed ones (tree.hpp), updated with each move.
 //
-// Neighbours lie side by side, eight to a node, eight nodes to one above, so the tree is full and has no shape of its
-// own to keep: who moves sets his rectangle and those above it, up to the first that stays as it was. When the lowest
-// nodes have become half as large again, for the neighbours have parted, all are ordered anew.
+// Neighbours are adjacent, eight per node, eight nodes per parent, so the tree is full and its shape is constant: a
+// move updates the solid's rectangle and its ancestors', up to the first that does not change. When the lowest nodes
+// have grown by half, since neighbours have moved apart, all solids are reordered.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace waitpoint::world {
 
 class MovingSolids {
  public:
-  /// Numbered from `first_solid` on.
+  /// Solids are numbered from `first_solid`, in the order of `shapes`. `at` below is the index in that order.
   explicit MovingSolids(std::span<const Shape> shapes, std::uint32_t first_solid = 0);
 
   std::size_t size() const { return solids_.size(); }
@@ -30,26 +30,26 @@ class MovingSolids {
   }
   double z_low_m(std::size_t at) const { return solids_[at].z_low_m; }
   double z_high_m(std::size_t at) const { return solids_[at].z_high_m; }
-  /// Moves one; its heights stay, or are those.
+  /// Moves a solid, keeping its heights (m) or with new ones.
   void place(std::size_t at, const Outline& outline);
   void place(std::size_t at, const Outline& outline, double z_low_m, double z_high_m);
 
-  /// Those whose bounds overlap these, and perhaps a few that only nearly do, in ascending order; `found` is
-  /// overwritten.
+  /// The indices of the solids whose bounds overlap these, and possibly a few that only nearly do, in ascending order;
+  /// `found` is overwritten.
   void near(const Bounds& bounds, std::vector<std::uint32_t>& found, const Kernels& of = kernels()) const;
 
-  /// The tree, its root first; in floats of the world's own coordinates. Its leaves are places in this list.
+  /// The tree, root first, in the world's coordinates as floats. Its leaves are indices of solids.
   std::span<const TreeNode> nodes() const { return nodes_; }
-  /// Overwrites `places` with the places in this list as the leaves have them: neighbours side by side.
+  /// Overwrites `places` with the indices of all solids in the order of the leaves: neighbours are adjacent.
   void list_by_leaves(std::vector<std::uint32_t>& places) const;
-  /// The greatest coordinate that any of them has had.
+  /// The greatest magnitude of a coordinate so far, of any solid.
   double extent_m() const { return extent_m_; }
 
  private:
   struct Solid {
     Outline outline;
     double z_low_m, z_high_m;
-    std::uint32_t place;  // among the leaves
+    std::uint32_t place;  // position among the leaves
   };
 
   void order();
@@ -64,8 +64,8 @@ class MovingSolids {
   std::vector<Solid> solids_;
   std::vector<TreeNode> nodes_;
   std::vector<std::size_t> levels_;  // the first node of each, from the root down
-  double ordered_spread_m_ = 0;      // when they were ordered last
-  std::size_t placed_ = 0;           // since the spread was looked at
+  double ordered_spread_m_ = 0;      // spread_m() at the last reordering
+  std::size_t placed_ = 0;           // moves since the last check of the spread
 };
 
 }  // namespace waitpoint::world

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a tree of rectangles overlaps one more, in floats.
+// The overlap query on a tree of rectangles, in floats.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace waitpoint::world {
 
-/// Shows `visit` the solids whose rectangles overlap `bounds` (relative to what theirs are relative to) grown by
-/// `margin_m`, which must exceed the rounding to float, until it returns false. The root is the first node.
+/// Calls `visit(solid)` for the solids whose rectangles overlap `bounds` grown by `margin_m`, until it returns false.
+/// `bounds` is in the tree's coordinates; `margin_m` must exceed the rounding to float. The root is the first node.
 template <class Visit>
 void walk_overlapping(std::span<const TreeNode> nodes, const Bounds& bounds, double margin_m, const Kernels& kernels,
                       Visit visit) {
   if (nodes.empty()) return;
   const Bounds b = bounds.grown(margin_m);
-  // Where the tree ends nothing is missed: what is beyond it by more than a float can be is beyond it all the same.
+  // Overflow to an infinite float is harmless: bounds so far outside the tree overlap nothing in either case.
   const FloatBounds wanted = {static_cast<float>(b.low.x), static_cast<float>(b.low.y), static_cast<float>(b.high.x),
                               static_cast<float>(b.high.y)};
   std::array<std::int32_t, 512> pending;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standing solids, cut at one height: the outlines of those that reach it, and a tree over them. What meshes come to at
-// that height is given, as segments.
+// A horizontal section of the fixed solids at one height: the outlines of the solids that reach it, and a tree over
+// them. Sections of meshes are supplied by the caller, as segments.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@
 
 namespace waitpoint::world {
 
-/// Whether the height is within the solid, its lower and upper face included.
+/// True if the height is within the solid, its lower and upper face included.
 inline bool reaches(const Shape& shape, double height_m) {
   return shape.z_low_m <= height_m && height_m <= shape.z_high_m;
 }
 
 class Slice {
  public:
-  /// Of shapes that are numbered from 0; those that do not reach the height have no part in it.
+  /// Shapes are numbered from 0; those that do not reach the height are left out.
   Slice(std::span<const Shape> shapes, double height_m) : Slice(shapes, height_m, {}, {}) {}
-  /// And of outlines besides, each a solid of that number.
+  /// With further outlines, and the number of the solid of each: as many numbers as outlines.
   Slice(std::span<const Shape> shapes, double height_m, std::span<const Outline> others,
         std::span<const std::uint32_t> solids_of_others);
 
   double height_m() const { return height_m_; }
   const Tree& tree() const { return tree_; }
-  /// A solid by its number in the tree, and its own number.
+  /// The outline and the solid's number of an index in the tree.
   const Outline& outline(std::size_t in_tree) const { return outlines_[in_tree]; }
   std::uint32_t solid(std::size_t in_tree) const { return solids_[in_tree]; }
 

@@ -11,7 +11,7 @@
 namespace waitpoint::world {
 namespace {
 
-// Below this many levels solids are halved by number: however they lie, the tree ends.
+// Below this level solids are halved by number, which bounds the depth for every arrangement.
 constexpr int swept_levels_max = 48;
 
 Bounds united(const Bounds& a, const Bounds& b) {
@@ -24,7 +24,7 @@ double half_perimeter(const Bounds& b) { return (b.high.x - b.low.x) + (b.high.y
 }  // namespace
 
 EightBounds EightBounds::nowhere() {
-  // So far away that the square of the distance is infinite.
+  // The square of the distance overflows to infinity.
   constexpr float far = 1e30f;
   EightBounds bounds;
   for (float* side : {bounds.low_x, bounds.low_y, bounds.high_x, bounds.high_y}) std::fill_n(side, width, far);
@@ -45,16 +45,15 @@ TreeNode TreeNode::empty() {
   return node;
 }
 
-// A part of the binary tree: one solid, or two parts. Of a node's eight children it may have k: itself as one node, or
-// so many for its left part and the rest for its right one; `perimeters_m[k]` is what the nodes within it then come to,
-// at least. (Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG
-// 2017.)
+// A part of the binary tree: one solid, or two parts. It may take k of a node's eight children: as one node, or divided
+// between its left and right parts; `perimeters_m[k]` is the least sum of the perimeters of the nodes within it.
+// (Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017.)
 struct Part {
   Bounds bounds;
-  std::int32_t left = 0, right = 0;  // parts; of a solid `left` is ~ its number
+  std::int32_t left = 0, right = 0;  // indices of parts; a solid has ~number in `left`
   std::array<float, EightBounds::width + 1> perimeters_m{};
-  std::array<std::uint8_t, EightBounds::width + 1> to_left{};  // of k; 0: it is one node
-  std::uint8_t to_left_as_node = 0;                            // of its own eight
+  std::array<std::uint8_t, EightBounds::width + 1> to_left{};  // of k children, those of the left part; 0: one node
+  std::uint8_t to_left_as_node = 0;                            // the same of its own eight children
 
   bool is_solid() const { return left < 0; }
 };
@@ -65,7 +64,7 @@ struct Tree::Builder {
   Tree& tree;
   std::span<const Bounds> solids;
   std::vector<Part> parts = {};
-  std::vector<double> perimeters = {};  // of what is right of a division, by its place
+  std::vector<double> perimeters = {};  // half perimeter of the right side, by the place of the division
 
   Bounds bounds(Group group) const {
     Bounds all = solids[group.front()];
@@ -82,7 +81,7 @@ struct Tree::Builder {
     });
   }
 
-  /// How many of the sorted group belong to its first part, and what that division costs. Of equal ones the most even.
+  /// The cost of the best division of the sorted group, and the size of its first part. Of equal costs the most even.
   std::pair<double, std::size_t> best_division(Group group) {
     const std::size_t n = group.size();
     perimeters.resize(n);
@@ -153,7 +152,7 @@ struct Tree::Builder {
     }
   }
 
-  /// The parts that are children in place of this one, which may have so many.
+  /// Appends the parts that replace this one as children, at most `most`.
   void take(std::int32_t number, std::size_t most, std::vector<std::int32_t>& children) const {
     const Part& p = part(number);
     const std::size_t to_left = p.is_solid() || most == 1 ? 0 : p.to_left[most];

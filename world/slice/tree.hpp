@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bounding-volume tree, eight children wide, over solids that stand still.
+// A bounding-volume hierarchy, eight children per node, over fixed solids.
 //
-// Its rectangles are of floats, relative to the middle of all, and a little too large: they only cull. First all is
-// halved, again and again, by the sweep that makes perimeter times count least; then nodes of eight take in those
-// halves with which the perimeters of all nodes are least in sum.
+// Its rectangles are floats relative to the middle of all solids, with a margin: they only cull. A binary tree is built
+// first, top down, with the sweep that minimises perimeter times count; it is then collapsed into nodes of eight such
+// that the sum of the perimeters of all nodes is least.
 #pragma once
 
 #include <array>
@@ -17,30 +17,30 @@
 
 namespace waitpoint::world {
 
-/// Eight rectangles, as a walk looks at them: all at once.
+/// Eight rectangles, one per vector lane.
 struct alignas(32) EightBounds {
   static constexpr int width = 8;
   float low_x[width], low_y[width], high_x[width], high_y[width];
 
-  /// Rectangles that nobody sees.
+  /// Rectangles beyond the reach of every view.
   static EightBounds nowhere();
   /// Sets one to `bounds` relative to `middle`, grown by `margin_m`, which must exceed the rounding to float.
   void set(int at, const Bounds& bounds, Point middle, double margin_m);
 };
 
 struct TreeNode {
-  /// In place of a child; its rectangle is nowhere.
+  /// An unused lane; its rectangle is nowhere().
   static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
 
   EightBounds bounds;
-  /// Of each rectangle: another node, or ~number of a solid; where there are fewer than eight, none are the last ones.
+  /// Per rectangle: the index of another node, or ~number of a solid. Unused lanes are the last ones.
   std::array<std::int32_t, EightBounds::width> child;
 
   static TreeNode empty();
 };
 
-/// How far coordinates of at most `extent_m`, rounded to float, can lie beside themselves, and much more than doubles
-/// and sealed boxes (world/planar/hit.cpp) can.
+/// A margin above the rounding to float of coordinates up to `extent_m`, and far above the rounding of doubles and the
+/// seal of boxes (world/planar/ray.hpp).
 constexpr double float_margin_m(double extent_m) { return extent_m * 0x1p-22 + 1e-6; }
 
 class Tree {
@@ -48,16 +48,16 @@ class Tree {
   /// Over solids with these bounds, numbered from 0.
   explicit Tree(std::span<const Bounds> solids);
 
-  /// Numbers the solids anew, in the order in which its nodes have them, so that neighbours can lie side by side in
-  /// memory. Gives the number that each had before.
+  /// Renumbers the solids in the order of the nodes, so that neighbours can be adjacent in memory. Returns the previous
+  /// number of each.
   std::vector<std::uint32_t> number_by_nodes();
 
-  /// The first is the root; none over nothing.
+  /// The root is first; empty without solids.
   std::span<const TreeNode> nodes() const { return nodes_; }
-  /// What the rectangles are relative to, and the greatest coordinate there.
+  /// The origin of the rectangles' coordinates, and their greatest magnitude.
   Point middle() const { return middle_; }
   double extent_m() const { return extent_m_; }
-  /// Nodes above each other, at most.
+  /// Levels of nodes.
   int depth() const { return depth_; }
 
  private:

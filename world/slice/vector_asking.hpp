@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What hit_distance() says, for some beams at once, in doubles and to the last bit (see kernels.hpp).
+// hit_distance() for several beams at once, in doubles and to the last bit (see kernels.hpp).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct VectorAsking {
   using Doubles = typename V::Doubles;
   using Longs = typename V::Longs;
 
-  // Takes the hits at `distance` for the beams from `at` on; gives what their ranges are now.
+  // Applies the hits at `distance` to the beams from `at` on; returns their new ranges.
   static Doubles lower(const Beams& beams, int at, Doubles distance, Longs hit, std::uint32_t solid) {
     const Doubles range = V::template load<Doubles>(beams.range_m + at);
     const Longs nearer = hit & (Longs)(distance < range);
@@ -25,7 +25,7 @@ struct VectorAsking {
       for (unsigned rest = won | V::bits(hit & (Longs)(distance == range)); rest != 0; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
         std::uint32_t& holder = beams.solid_of[at + lane];
-        // A hit at the limit is none, and is not told from one.
+        // A hit exactly at the limit counts as none: a beam without a solid keeps none.
         if ((won >> lane & 1) != 0 || (holder != no_solid && solid < holder)) holder = solid;
       }
     }
@@ -39,7 +39,7 @@ struct VectorAsking {
     farthest_m2 = rounded * rounded * (1 + 1e-6f);
   }
 
-  // Asks `answer(first beam, distances, hits)` for all blocks in which the solid could be nearest.
+  // Calls `answer(first beam, distances, hits)` for all blocks in which the solid could be nearest.
   template <class Answer>
   static void ask(const Question& question, const Beams& beams, Answer answer) {
     for (std::int32_t block = question.first_block; block <= question.last_block; ++block) {
@@ -56,13 +56,13 @@ struct VectorAsking {
     }
   }
 
-  // hit_distance() asks how far along the ray its entry and its exit are by x and by y:
+  // hit_distance() computes the distances along the ray of its entry and exit by x and by y:
   //
   //   near_x / |dx|, near_y / |dy|, far_x / |dx|, far_y / |dy|     for an origin outside, |d| in the box's own frame
   //
-  // and has a hit where the greater entry comes before the lesser exit. Which is which is plain from products, without
-  // a quotient, unless they are equal but for rounding; those few beams are asked one by one. `far` is negative where
-  // the beam leads away, and then by more than any rounding before the entry.
+  // and has a hit if the greater entry comes before the lesser exit. Products decide the order without a quotient,
+  // unless the two are equal but for rounding; those few beams call hit_distance() one by one. `far` is negative if the
+  // beam leads away, and then smaller than the entry by more than any rounding.
   template <class Asker>
   __attribute__((always_inline)) static void ask_box(const Outline& box, const Beams& beams, Asker asker) {
     const double from_x = beams.origin.x - box.centre.x, from_y = beams.origin.y - box.centre.y;
@@ -126,8 +126,8 @@ struct VectorAsking {
     ask_disc(question.outline, beams, [&](auto answer) { ask(question, beams, answer); });
   }
 
-  // Every range is written, lowered or not, and every block looked at once, for whether one is lowered is a toss of a
-  // coin: a branch that is not foreseen costs as much as asking.
+  // Without branches on the result: every range is written, lowered or not, and every block's bound is updated once. A
+  // range is lowered about every second time, and a mispredicted branch costs as much as the test.
   static void ask_narrow(const NarrowQuestion* questions, int count, const Beams& beams) {
     std::int32_t first_block = 0x7FFFFFFF, last_block = -1;
     for (int i = 0; i < count; ++i) {

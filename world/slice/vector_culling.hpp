@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is in view of a fan, and what is hidden, in floats with margins (see kernels.hpp).
+// Visibility and occlusion tests of a fan, in floats with margins (see kernels.hpp).
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,17 @@ struct VectorCulling {
   using Floats = typename V::Floats;
   using Ints = typename V::Ints;
 
-  // atan2 to 2.1e-5: a polynomial of the fifth degree in the square, through Chebyshev's points.
+  // atan2 with an error of at most 2.1e-5: a polynomial of degree 5 in the square, interpolated at Chebyshev points.
   static Floats angle(Floats y, Floats x) {
     const Floats ax = V::absolute(x), ay = V::absolute(y);
     const Floats q = V::least(ax, ay) / V::greatest(ax, ay), s = q * q, s_2 = s * s;
-    // In pairs, so that less has to wait for what comes before it.
+    // In pairs, for a shorter chain of dependent operations.
     Floats a = q * ((0.99996477f + s * -0.33154461f) + s_2 * ((0.18446356f + s * -0.09075202f) + s_2 * 0.02328601f));
     a = ay > ax ? 1.57079633f - a : a;
     a = x < 0 ? 3.14159265f - a : a;
     return y < 0 ? -a : a;
   }
-  // More than that, than the roundings of what it is asked of, and than that of a beam's number (at most 2^20).
+  // Above the sum of that error, the rounding of its arguments, and the rounding of a beam's number (at most 2^20).
   static constexpr float margin_rad = 5e-5f;
   static constexpr float pi = 3.14159265f;
 
@@ -62,7 +62,7 @@ struct VectorCulling {
         margin_rad;
     Floats left =
         angle(left_y * view.axis_x - left_x * view.axis_y, left_x * view.axis_x + left_y * view.axis_y) + margin_rad;
-    // Each margin exceeds the error of its angle: the left one comes first only if the line behind lies between.
+    // Each margin exceeds the error of its angle: left < right only if the interval contains the direction behind.
     left = left < right ? left + 2 * pi : left;
 
     const Ints first = numbers((right + view.half_rad) * view.per_rad, view) + 1;
@@ -88,7 +88,7 @@ struct VectorCulling {
     return seen;
   }
 
-  // Whether all is nearer in the one or two blocks of these beams.
+  // True in lanes whose beams lie in one or two blocks with only nearer ranges.
   static Ints hidden(Floats near_m2, Ints first, Ints last, const View& view) {
     static_assert(Beams::block == 8);
     constexpr int block_shift = 3;
@@ -98,7 +98,7 @@ struct VectorCulling {
            (Ints)(V::gather(view.farthest_m2, last_block) < near_m2) & (Ints)(last_block - first_block <= 1);
   }
 
-  // The whole parts, between -1 and the number of beams.
+  // Rounded down, clamped to -1 and the number of beams.
   static Ints numbers(Floats at, const View& view) {
     const Floats within = V::least(V::greatest(at, V::all(-1.0f)), V::all(static_cast<float>(view.beams)));
     return __builtin_convertvector(within + 2, Ints) - 2;
@@ -108,7 +108,7 @@ struct VectorCulling {
     return static_cast<std::int32_t>((at < -1 ? -1 : at > end ? end : at) + 2) - 2;
   }
 
-  // For what reaches over the line behind the fan's middle, where its ends may be: beams at both ends can meet it.
+  // For a rectangle across the direction behind the fan's axis: beams at both ends of the fan can meet it.
   static bool look_behind(float right, float left, const View& view, std::int32_t& first, std::int32_t& last) {
     const std::int32_t from_start = number((left - 2 * pi + view.half_rad) * view.per_rad, view);
     const std::int32_t to_end = number((right + 2 * pi + view.half_rad) * view.per_rad, view) + 1;
@@ -149,8 +149,8 @@ struct VectorCulling {
     return reaching;
   }
 
-  // A beam meets a rectangle where neither the line across it nor that along it tells them apart. What is rounded, the
-  // directions too, is far less than what the rectangles are made larger by.
+  // Separating axes: a beam meets a rectangle if neither the axis across the beam nor that along it separates them. The
+  // rounding, of the directions too, is far below the enlargement of the rectangles.
   static unsigned meet(const EightBounds& bounds, float near_m, const FewBeams& few, std::uint32_t beams,
                        MetByFew& met) {
     beams &= reaching(few, near_m);
@@ -176,7 +176,7 @@ struct VectorCulling {
         met_by |= meets & (Ints{} + static_cast<std::int32_t>(1u << i));
       }
       V::store(reinterpret_cast<std::int32_t*>(met.beams + at), met_by);
-      // The greater of the distances by x and by y.
+      // Lower bound of the distance: the greater of those by x and by y.
       V::store(met.near_m + at, V::greatest(V::absolute(c_x) - half_x, V::absolute(c_y) - half_y));
       any |= V::bits((Ints)(met_by != 0)) << at;
     }
@@ -203,7 +203,7 @@ struct VectorCulling {
     return true;
   }
 
-  // So many directions at a time; gives how many of them it has turned.
+  // `lanes` directions at a time; returns the number done.
   static std::size_t turn(const Point* directions, std::size_t count, Point axis, double* x, double* y) {
     std::size_t at = 0;
     for (; at + lanes <= count; at += lanes) {

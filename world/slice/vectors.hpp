@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors of a few numbers, on which processors compute at once; written for each width, in the compilers' own
-// extension.
+// SIMD vectors of each width, in the vector extension of GCC and clang.
 //
-// Each instruction set has a source of its own, compiled for it (kernels_*.cpp). What such a source emits must not be
-// what the linker then gives to others: it names no inline function from elsewhere, and its own are told apart by
-// `lanes`.
+// Each instruction set has its own source, compiled for it (kernels_*.cpp). Such a source must not emit a function that
+// the linker could choose for other sources: it calls no inline function from elsewhere, and its own are templates
+// distinguished by `lanes`.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace waitpoint::world {
 
-/// Vectors of so many doubles, and of integers and floats in the same space; of these at most eight.
+/// Vectors of `lanes` doubles or 64-bit integers, and of as many floats or 32-bit integers as fit, at most eight.
 template <int lanes>
 struct VectorTypes;
 template <>
@@ -39,7 +38,7 @@ struct VectorTypes<8> {
   typedef std::int32_t Ints __attribute__((vector_size(32)));
 };
 
-/// What is done to such vectors.
+/// Operations on such vectors.
 template <int lanes>
 struct Vectors {
   using Doubles = typename VectorTypes<lanes>::Doubles;
@@ -72,7 +71,7 @@ struct Vectors {
     return a < b ? b : a;
   }
 
-  // Of all lanes: halves against each other.
+  // The maximum of all lanes, by halves.
   static double greatest_of(Doubles v) {
     if constexpr (lanes == 8) v = greatest(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
     if constexpr (lanes == 8) v = greatest(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
@@ -104,7 +103,7 @@ struct Vectors {
     return v;
   }
 
-  // A bit for each lane that is all ones.
+  // A bit per lane whose bits are all ones.
   static unsigned bits(Longs mask) {
 #if defined(__AVX512DQ__)
     if constexpr (lanes == 8) return _mm512_movepi64_mask((__m512i)mask);
