@@ -45,6 +45,10 @@ void DepthBuffer::begin(const Fan& fan, double range_max_m, bool identify) {
   half_rad_ = 0.5 * fan.angle_step_rad * static_cast<double>(beams_ > 1 ? beams_ - 1 : 0);
   WAITPOINT_CHECK(beams_ <= beams_max, "a fan of more than 2^20 beams");
   WAITPOINT_CHECK(half_rad_ >= 0 && half_rad_ <= exact::pi * (1 + 1e-12), "a fan of more than a full turn");
+  WAITPOINT_CHECK(range_max_m >= 0, "a scan's greatest range is negative or NaN");
+  [[maybe_unused]] const auto is_unit = [](Point direction) { return std::fabs(dot(direction, direction) - 1) < 1e-6; };
+  WAITPOINT_FAST_CHECK(std::all_of(fan.directions.begin(), fan.directions.end(), is_unit) && is_unit(fan.axis),
+                       "a direction of a fan is not a unit vector");
   origin_ = fan.origin;
   axis_ = fan.axis;
   per_rad_ = fan.angle_step_rad > 0 ? 1 / fan.angle_step_rad : per_rad_alone;
@@ -97,7 +101,14 @@ bool DepthBuffer::hidden(float near_m2, std::int32_t first, std::int32_t last) c
   return kernels_->all_end_nearer(ranges_m_.data(), first, last, near_m);
 }
 
+// True if its interval begins and ends at beams of the scan.
+bool DepthBuffer::is_within(const Pending& what) const {
+  const auto beams = static_cast<std::int32_t>(beams_);
+  return 0 <= what.first && what.first < beams && 0 <= what.last && what.last < beams;
+}
+
 bool DepthBuffer::hidden(const Pending& what) const {
+  WAITPOINT_FAST_CHECK(is_within(what), "a rectangle's interval of beams is not within the scan");
   if (what.first <= what.last) return hidden(what.near_m2, what.first, what.last);
   return hidden(what.near_m2, what.first, static_cast<std::int32_t>(beams_) - 1) && hidden(what.near_m2, 0, what.last);
 }
@@ -141,6 +152,7 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
   for (; seen != 0; seen &= seen - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(seen));
     const Pending child = {sight.near_m2[i], children[i], sight.first[i], sight.last[i]};
+    WAITPOINT_FAST_CHECK(child.child != TreeNode::none, "an unused lane of a node is in sight");
     if (!is_of_two_blocks(child) && hidden(child)) continue;
     push_nearest_last(pending_, before, child, &Pending::near_m2);
   }
@@ -149,7 +161,9 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
 
 // True if the test lowers the beam's range.
 bool DepthBuffer::ask_beam(std::size_t beam, const Outline& outline, std::uint32_t solid) {
+  WAITPOINT_FAST_CHECK(beam < beams_, "a solid is tested against a beam beyond the scan");
   const double range_m = hit(outline, {origin_, {x_[beam], y_[beam]}});
+  WAITPOINT_FAST_CHECK(range_m >= 0, "the distance of a hit is negative or NaN");
   if (range_m > ranges_m_[beam]) return false;
   const bool nearer = range_m < ranges_m_[beam];
   // A hit exactly at the limit counts as none: a beam without a solid keeps none.
@@ -159,6 +173,8 @@ bool DepthBuffer::ask_beam(std::size_t beam, const Outline& outline, std::uint32
 }
 
 void DepthBuffer::note_farthest(std::int32_t block) {
+  WAITPOINT_FAST_CHECK(0 <= block && static_cast<std::size_t>(block) + Beams::blocks_read_beyond < farthest_m2_.size(),
+                       "a block of beams is beyond the scan");
   const double* const first = ranges_m_.data() + block * Beams::block;
   double most = 0;
   for (int i = 0; i < Beams::block; ++i) most = std::max(most, first[i]);
@@ -183,6 +199,7 @@ void DepthBuffer::ask_each(const Outline& outline, std::uint32_t solid, const Pe
 }
 
 void DepthBuffer::ask(const Outline& outline, std::uint32_t solid, const Pending& where) {
+  WAITPOINT_FAST_CHECK(is_within(where), "a solid's interval of beams is not within the scan");
   if (is_narrow(where)) return ask_narrow(outline, solid, where);
   if (outline.polygon != nullptr) return ask_each(outline, solid, where);
   const auto question = outline.is_box ? kernels_->ask_box : kernels_->ask_disc;
@@ -218,6 +235,8 @@ std::int32_t DepthBuffer::node_in_reach(std::span<const TreeNode> nodes, const V
     if (met == 0) return -1;
     const std::int32_t child = node.child[static_cast<std::size_t>(std::countr_zero(met))];
     if (!std::has_single_bit(met) || child < 0) return at;
+    WAITPOINT_FAST_CHECK(at < child && static_cast<std::size_t>(child) < nodes.size(),
+                         "a tree's node does not come before its child");
     at = child;
   }
 }
@@ -226,6 +245,7 @@ std::int32_t DepthBuffer::node_in_reach(std::span<const TreeNode> nodes, const V
 // against the beams that meet its rectangle.
 template <class Find>
 void DepthBuffer::walk_few(std::span<const TreeNode> nodes, const View& from, Find find) {
+  WAITPOINT_FAST_CHECK(0 < beams_ && beams_ <= FewBeams::most, "a walk with few beams has too many, or none");
   FewBeams few = {};
   few.low_x = from.low_x, few.low_y = from.low_y, few.high_x = from.high_x, few.high_y = from.high_y;
   for (std::size_t i = 0; i < beams_; ++i) {

@@ -82,6 +82,7 @@ class DepthBuffer {
     return what.first <= what.last && what.last / Beams::block - what.first / Beams::block <= 1;
   }
 
+  bool is_within(const Pending& what) const;
   View view(Point middle, double extent_m) const;
   bool hidden(const Pending& what) const;
   bool hidden(float near_m2, std::int32_t first, std::int32_t last) const;

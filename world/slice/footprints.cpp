@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "world/planar/separation.hpp"
 #include "world/slice/overlap_walk.hpp"
 
@@ -20,6 +21,7 @@ Tree tree_over(std::span<const Shape> shapes) {
 Footprints::Footprints(std::span<const Shape> shapes, const Kernels& of)
     : kernels_(&of), polygons_(polygons_of(shapes)), tree_(tree_over(shapes)) {
   for (const Shape& shape : shapes) {
+    WAITPOINT_CHECK(shape.z_low_m <= shape.z_high_m, "a solid ends below its lower face");
     const Outline outline = outline_of(shape);
     solids_.push_back({outline, bounds_of(outline), shape.z_low_m, shape.z_high_m});
   }
@@ -34,8 +36,10 @@ void Footprints::visit(const Bounds& bounds, Visit visit) const {
 
 void Footprints::near(const Bounds& bounds, double margin_m, double z_low_m, double z_high_m,
                       std::vector<std::uint32_t>& found) const {
+  WAITPOINT_FAST_CHECK(margin_m >= 0 && z_low_m <= z_high_m, "a query of footprints has a negative margin or height");
   found.clear();
   visit(bounds.grown(margin_m), [&](std::uint32_t number) {
+    WAITPOINT_FAST_CHECK(number < solids_.size(), "the tree of footprints has a solid too many");
     const Solid& solid = solids_[number];
     if (solid.shares_height(z_low_m, z_high_m) && bounds.overlaps(solid.bounds.grown(margin_m)))
       found.push_back(number);

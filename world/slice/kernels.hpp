@@ -55,6 +55,7 @@ struct alignas(32) Sight {
 /// A few beams, in floats, for the intersection test of eight rectangles.
 struct FewBeams {
   static constexpr int most = 16;
+  static_assert(most < 32, "a set of few beams fits the bits of a lane");
   float low_x, low_y, high_x, high_y;  ///< the origin, as in View
   float x[most], y[most];              ///< directions
   float reach_m[most];                 ///< rounded up

@@ -16,6 +16,7 @@ template <class T>
 struct LargePages {
   using value_type = T;
   static constexpr std::size_t page = std::size_t{2} << 20;
+  static_assert(alignof(T) <= page, "an element is aligned by its page");
 
   LargePages() = default;
   template <class Other>

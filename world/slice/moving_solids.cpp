@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/error.hpp"
 #include "world/slice/overlap_walk.hpp"
 
 namespace waitpoint::world {
@@ -41,6 +42,8 @@ MovingSolids::MovingSolids(std::span<const Shape> shapes, std::uint32_t first_so
     levels_.push_back(nodes);
     nodes += *count;
   }
+  WAITPOINT_CHECK(nodes < static_cast<std::size_t>(TreeNode::none) && counts.back() == 1,
+                  "a tree of moving solids has no single root, or more nodes than 32-bit indices allow");
   nodes_.assign(nodes, TreeNode::empty());
   for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
     const std::size_t below = level + 2 < levels_.size() ? levels_[level + 2] : nodes;
@@ -65,6 +68,7 @@ void MovingSolids::order(std::span<std::uint32_t> group) const {
   }
   const bool by_x = around.high.x - around.low.x >= around.high.y - around.low.y;
   const std::size_t first = std::bit_ceil(leaves) / 2 * width;
+  WAITPOINT_CHECK(0 < first && first < group.size(), "a division of moving solids leaves one side empty");
   std::nth_element(group.begin(), group.begin() + static_cast<std::ptrdiff_t>(first), group.end(),
                    [&](std::uint32_t a, std::uint32_t b) {
                      const Point p = middle(a), q = middle(b);
@@ -87,12 +91,36 @@ void MovingSolids::order() {
     const std::size_t end = level + 1 < levels_.size() ? levels_[level + 1] : nodes_.size();
     for (std::size_t node = levels_[level]; node < end; ++node) set_above(level, node);
   }
+  WAITPOINT_FAST_CHECK(is_consistent(), "the tree of moving solids disagrees with its solids");
   ordered_spread_m_ = spread_m();
   placed_ = 0;
 }
 
+// True if every solid is in the leaf of its place, and every node's rectangle in its parent is the union of its own.
+bool MovingSolids::is_consistent() const {
+  for (std::size_t i = 0; i < solids_.size(); ++i) {
+    const std::size_t place = solids_[i].place;
+    if (place >= solids_.size()) return false;
+    if (nodes_[levels_.back() + place / width].child[place % width] != ~static_cast<std::int32_t>(i)) return false;
+  }
+  for (const TreeNode& node : nodes_) {
+    for (std::size_t i = 0; i < width && node.child[i] != TreeNode::none; ++i) {
+      if (node.child[i] < 0) continue;
+      const FloatBounds all = united(nodes_[static_cast<std::size_t>(node.child[i])]);
+      if (all.low_x != node.bounds.low_x[i] || all.low_y != node.bounds.low_y[i] ||
+          all.high_x != node.bounds.high_x[i] || all.high_y != node.bounds.high_y[i])
+        return false;
+    }
+  }
+  return true;
+}
+
 void MovingSolids::set_leaf(std::size_t at) {
   const Bounds b = bounds_of(solids_[at].outline);
+  WAITPOINT_FAST_CHECK(
+      std::isfinite(b.low.x) && std::isfinite(b.low.y) && std::isfinite(b.high.x) && std::isfinite(b.high.y),
+      "a moving solid's bounds are not finite");
+  WAITPOINT_FAST_CHECK(b.low.x <= b.high.x && b.low.y <= b.high.y, "a moving solid's bounds end before they begin");
   const double farthest = std::max({std::fabs(b.low.x), std::fabs(b.low.y), std::fabs(b.high.x), std::fabs(b.high.y)});
   extent_m_ = std::max(extent_m_, farthest);
   const std::size_t place = solids_[at].place;
@@ -102,6 +130,8 @@ void MovingSolids::set_leaf(std::size_t at) {
 
 // Updates the node's rectangle in its parent; true if it changed.
 bool MovingSolids::set_above(std::size_t level, std::size_t node) {
+  WAITPOINT_FAST_CHECK(0 < level && level < levels_.size() && levels_[level] <= node && node < nodes_.size(),
+                       "a node of moving solids is not in its level");
   const std::size_t number = node - levels_[level], i = number % width;
   EightBounds& above = nodes_[levels_[level - 1] + number / width].bounds;
   const FloatBounds all = united(nodes_[node]);
@@ -129,6 +159,7 @@ double MovingSolids::spread_m() const {
 }
 
 void MovingSolids::place(std::size_t at, const Outline& outline) {
+  WAITPOINT_FAST_CHECK(at < solids_.size(), "a moving solid that does not exist is placed");
   solids_[at].outline = outline;
   set_leaf(at);
   std::size_t number = solids_[at].place / width;
@@ -140,6 +171,8 @@ void MovingSolids::place(std::size_t at, const Outline& outline) {
 }
 
 void MovingSolids::place(std::size_t at, const Outline& outline, double z_low_m, double z_high_m) {
+  WAITPOINT_FAST_CHECK(at < solids_.size() && z_low_m <= z_high_m,
+                       "a moving solid that does not exist is placed, or it ends below its lower face");
   solids_[at].z_low_m = z_low_m;
   solids_[at].z_high_m = z_high_m;
   place(at, outline);

@@ -57,6 +57,7 @@ class MovingSolids {
   void set_leaf(std::size_t at);
   bool set_above(std::size_t level, std::size_t node);
   double spread_m() const;
+  bool is_consistent() const;
 
   std::uint32_t first_solid_;
   std::vector<std::shared_ptr<const ConvexPolygon>> polygons_;  // of the outlines

@@ -26,7 +26,9 @@ void walk_overlapping(std::span<const TreeNode> nodes, const Bounds& bounds, dou
   std::size_t count = 0;
   pending[count++] = 0;
   while (count > 0) {
-    const TreeNode& node = nodes[static_cast<std::size_t>(pending[--count])];
+    const auto at = static_cast<std::size_t>(pending[--count]);
+    WAITPOINT_FAST_CHECK(at < nodes.size(), "a node's child is beyond the end of the tree");
+    const TreeNode& node = nodes[at];
     for (unsigned met = kernels.overlap(node.bounds, wanted); met != 0; met &= met - 1) {
       const std::int32_t child = node.child[static_cast<std::size_t>(std::countr_zero(met))];
       if (child >= 0) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <tuple>
 
 #include "core/error.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 // Below this level solids are halved by number, which bounds the depth for every arrangement.
 constexpr int swept_levels_max = 48;
+// The binary tree has less than twice as many parts.
+constexpr std::size_t solids_max = std::size_t{1} << 30;
 
 Bounds united(const Bounds& a, const Bounds& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
@@ -20,6 +23,15 @@ Bounds united(const Bounds& a, const Bounds& b) {
 }
 
 double half_perimeter(const Bounds& b) { return (b.high.x - b.low.x) + (b.high.y - b.low.y); }
+
+bool is_finite(const Bounds& b) {
+  return std::isfinite(b.low.x) && std::isfinite(b.low.y) && std::isfinite(b.high.x) && std::isfinite(b.high.y);
+}
+
+bool contains(const EightBounds& outer, std::size_t lane, const EightBounds& inner, std::size_t inner_lane) {
+  return outer.low_x[lane] <= inner.low_x[inner_lane] && outer.low_y[lane] <= inner.low_y[inner_lane] &&
+         outer.high_x[lane] >= inner.high_x[inner_lane] && outer.high_y[lane] >= inner.high_y[inner_lane];
+}
 
 }  // namespace
 
@@ -193,6 +205,8 @@ std::vector<std::uint32_t> Tree::number_by_nodes() {
       child = ~static_cast<std::int32_t>(before.size() - 1);
     }
   }
+  WAITPOINT_FAST_CHECK(std::set<std::uint32_t>(before.begin(), before.end()).size() == before.size(),
+                       "two solids of a tree had one number");
   return before;
 }
 
@@ -200,11 +214,52 @@ Tree::Tree(std::span<const Bounds> solids) {
   if (solids.empty()) return;
   std::vector<std::uint32_t> all(solids.size());
   for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  WAITPOINT_CHECK(solids.size() <= solids_max, "a tree has more solids than 32-bit indices of its parts allow");
+  for (const Bounds& b : solids) {
+    WAITPOINT_CHECK(is_finite(b), "a solid's bounds are not finite");
+    WAITPOINT_CHECK(b.low.x <= b.high.x && b.low.y <= b.high.y, "a solid's bounds end before they begin");
+  }
   Builder builder{*this, solids};
   const Bounds around = builder.bounds(all);
   middle_ = 0.5 * (around.low + around.high);
   extent_m_ = std::max(around.high.x - middle_.x, around.high.y - middle_.y);
   builder.build(builder.halve(all, 0), 0);
+  check(solids.size());
+}
+
+// The invariants of the nodes; in the time of one walk, which is far less than the sweeps take.
+void Tree::check(std::size_t solids) const {
+  constexpr std::size_t width = EightBounds::width;
+  const EightBounds nowhere = EightBounds::nowhere();
+  std::vector<bool> is_leaf(solids);
+  std::size_t leaves = 0, inner = 0;
+  for (std::size_t at = 0; at < nodes_.size(); ++at) {
+    const auto& [bounds, children] = nodes_[at];
+    WAITPOINT_CHECK(children[0] != TreeNode::none, "a tree's node has no child");
+    for (std::size_t i = 0; i < width; ++i) {
+      if (children[i] == TreeNode::none) {
+        WAITPOINT_CHECK(contains(bounds, i, nowhere, i) && contains(nowhere, i, bounds, i),
+                        "an unused lane of a tree's node has a rectangle");
+        continue;
+      }
+      WAITPOINT_CHECK(i == 0 || children[i - 1] != TreeNode::none, "an unused lane lies between a node's children");
+      if (children[i] < 0) {
+        const auto solid = static_cast<std::size_t>(~children[i]);
+        WAITPOINT_CHECK(solid < solids && !is_leaf[solid], "a solid is in a tree twice, or was not given to it");
+        is_leaf[solid] = true;
+        ++leaves;
+        continue;
+      }
+      const auto child = static_cast<std::size_t>(children[i]);
+      WAITPOINT_CHECK(at < child && child < nodes_.size(), "a tree's node does not come before its child");
+      ++inner;
+      for (std::size_t j = 0; j < width && nodes_[child].child[j] != TreeNode::none; ++j)
+        WAITPOINT_CHECK(contains(bounds, i, nodes_[child].bounds, j),
+                        "a node's rectangle does not contain its child's");
+    }
+  }
+  WAITPOINT_CHECK(leaves == solids, "a tree has lost a solid");
+  WAITPOINT_CHECK(inner + 1 == nodes_.size(), "a node of a tree is not the child of exactly one other");
 }
 
 }  // namespace waitpoint::world

@@ -38,6 +38,10 @@ struct TreeNode {
 
   static TreeNode empty();
 };
+static_assert(sizeof(EightBounds) == 4 * EightBounds::width * sizeof(float),
+              "rectangles have no padding between lanes");
+static_assert(sizeof(TreeNode) == sizeof(EightBounds) + EightBounds::width * sizeof(std::int32_t),
+              "a node is 160 bytes: two and a half cache lines, without padding");
 
 /// A margin above the rounding to float of coordinates up to `extent_m`, and far above the rounding of doubles and the
 /// seal of boxes (world/planar/ray.hpp).
@@ -62,6 +66,7 @@ class Tree {
 
  private:
   struct Builder;
+  void check(std::size_t solids) const;
 
   std::vector<TreeNode, LargePages<TreeNode>> nodes_;
   Point middle_;

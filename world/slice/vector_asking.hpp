@@ -15,6 +15,9 @@ struct VectorAsking {
   using V = Vectors<lanes>;
   using Doubles = typename V::Doubles;
   using Longs = typename V::Longs;
+  static_assert(Beams::block % lanes == 0, "a block of beams fills whole vectors");
+  static_assert(Beams::beams_read_beyond >= lanes,
+                "the padding of a scan covers a vector that begins at its last beam");
 
   // Applies the hits at `distance` to the beams from `at` on; returns their new ranges.
   static Doubles lower(const Beams& beams, int at, Doubles distance, Longs hit, std::uint32_t solid) {

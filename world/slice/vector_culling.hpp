@@ -17,6 +17,10 @@ struct VectorCulling {
   using Longs = typename V::Longs;
   using Floats = typename V::Floats;
   using Ints = typename V::Ints;
+  static_assert(EightBounds::width % V::float_lanes == 0, "a node's rectangles fill whole vectors");
+  static_assert(FewBeams::most % V::float_lanes == 0, "few beams fill whole vectors");
+  static_assert(Beams::blocks_read_beyond >= V::float_lanes && Beams::beams_read_beyond >= lanes,
+                "the padding of a scan covers a vector that begins at its last beam or block");
 
   // atan2 with an error of at most 2.1e-5: a polynomial of degree 5 in the square, interpolated at Chebyshev points.
   static Floats angle(Floats y, Floats x) {
@@ -205,6 +209,7 @@ struct VectorCulling {
 
   // `lanes` directions at a time; returns the number done.
   static std::size_t turn(const Point* directions, std::size_t count, Point axis, double* x, double* y) {
+    static_assert(sizeof(Point) == 2 * sizeof(double), "directions are loaded as pairs of doubles");
     std::size_t at = 0;
     for (; at + lanes <= count; at += lanes) {
       const Doubles low = V::template load<Doubles>(&directions[at].x),

@@ -46,6 +46,11 @@ struct Vectors {
   using Floats = typename VectorTypes<lanes>::Floats;
   using Ints = typename VectorTypes<lanes>::Ints;
   static constexpr int float_lanes = sizeof(Floats) / sizeof(float);
+  static_assert(sizeof(Doubles) == lanes * sizeof(double) && sizeof(Longs) == sizeof(Doubles),
+                "a mask of doubles has as many lanes as the doubles");
+  static_assert(sizeof(Ints) == sizeof(Floats), "a mask of floats has as many lanes as the floats");
+  static_assert(float_lanes >= lanes && float_lanes <= 8,
+                "a vector of floats is wider than a node or narrower than one of doubles");
 
   template <class Vector, class Element>
   static Vector load(const Element* from) {
