@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What hit_distance() does, inline: for ray.cpp, and for whoever asks so often that the calls would count. Not for
-// sources that are compiled for some processors alone.
+// hit_distance(), inline, for callers on hot paths. Not for sources compiled for one instruction set (see
+// world/slice/vectors.hpp).
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ inline double hit_disc(const Outline& disc, const Ray& ray) {
   if (dot(to_centre, to_centre) <= square) return 0;
   const double along = dot(to_centre, ray.direction);
   if (along <= 0) return no_hit;
-  // The offset as a cross product, not as a difference of squares: it keeps its digits far away.
+  // A cross product, not a difference of squares: that would lose its digits far away.
   const double offset = cross(to_centre, ray.direction);
   const double rest = square - offset * offset;
   if (rest < 0) return no_hit;

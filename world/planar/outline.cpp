@@ -64,7 +64,7 @@ Outline triangle_outline(Point a, Point b, Point c) {
   const Point apex = p[(from + 2) % 3];
   if (cross(end - start, apex - start) < 0) std::swap(start, end);
   Outline outline = segment_outline(start, end);
-  // A side so short has no direction that rounding would leave, and so no normal to tell what is beyond it.
+  // A shorter side has no direction left after rounding, and so no normal.
   constexpr double one_point_m = 1e-9;
   if (std::min(length(apex - start), length(apex - end)) < one_point_m) return outline;
   const Point top = outline.local(apex);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The horizontal section of an upright shape: an oriented box, a convex polygon or a disc, ready for geometry. And what
-// a mesh comes to in the plane: triangles, and segments, which are boxes without width.
+// The horizontal section of an upright shape: an oriented box, a convex polygon or a disc. And the sections and
+// projections of meshes: triangles, and segments, which are boxes of width 0.
 //
-// All are one thing, a core with a radius around it: a disc's core is its centre, every other one's is itself, with
-// radius 0. So distances are distances of cores less the radii, and a motion is followed by the core's
-// points.
+// Each is a core with a radius around it: a disc's core is its centre; every other outline is its own core, with radius
+// 0. So the distance of two outlines is that of their cores less the radii, and a motion is that of the core's points.
 //
-//        apex            a triangle in its own frame: it fills the frame's box from side to side, its longest side
-//       .  |  .          below, its apex above at apex_m
+//        apex            a triangle in its own frame: it spans the frame's box, with its longest side at the bottom and
+//       .  |  .          its apex at the top, at x = apex_m
 //     .    |     .
 //   ---------------
 #pragma once
@@ -26,12 +25,12 @@ namespace waitpoint::world {
 struct Outline {
   Point centre;
   double axis_cos = 1, axis_sin = 0;           ///< direction of the box's own x axis
-  double half_length_m = 0, half_width_m = 0;  ///< of the frame's box, which just holds the core; both 0 for a disc
+  double half_length_m = 0, half_width_m = 0;  ///< of the core's bounding box in its own frame; both 0 for a disc
   double radius_m = 0;                         ///< around the core; 0 but for a disc
   bool is_box = false;
   bool is_triangle = false;
-  double apex_m = 0;                       ///< of a triangle: where, along, the corner across from its longest side is
-  const ConvexPolygon* polygon = nullptr;  ///< in the outline's frame; the shape's, which must outlive the outline
+  double apex_m = 0;                       ///< of a triangle: the x of the corner opposite its longest side
+  const ConvexPolygon* polygon = nullptr;  ///< in the outline's frame; owned by the shape, must outlive the outline
 
   /// The point `p` of the plane in the outline's own frame.
   Point local(Point p) const {
@@ -42,24 +41,24 @@ struct Outline {
   Point outward(Point v) const { return {axis_cos * v.x - axis_sin * v.y, axis_sin * v.x + axis_cos * v.y}; }
 };
 
-/// What outlines of these shapes point to: for who keeps outlines longer than shapes.
+/// The polygons that outlines of these shapes point to: for owners of outlines that outlive the shapes.
 std::vector<std::shared_ptr<const ConvexPolygon>> polygons_of(std::span<const Shape> shapes);
 
-/// The section of a shape that stands in the world frame.
+/// The section of a shape given in the world frame.
 Outline outline_of(const Shape& shape);
 /// The section of a shape that is fixed to a body, with the body at `body`.
 Outline outline_of(const Shape& shape, const Pose& body);
 
 /// The segment between two points.
 Outline segment_outline(Point a, Point b);
-/// The triangle of three points, which may lie on a line; such as are within a nanometre count as one.
+/// The triangle of three points; a segment if they are collinear, or two of them are within a nanometre.
 Outline triangle_outline(Point a, Point b, Point c);
 
-/// The points whose convex hull is the core: corners counter-clockwise, or the centre. A polygon's are placed when they
-/// are asked for.
+/// The points whose convex hull is the core: the corners, counter-clockwise, or the centre. Those of a polygon are
+/// computed on access.
 class CorePoints {
  public:
-  /// Of few, or of the outline's polygon.
+  /// Of `count` <= 4 points, or of the outline's polygon.
   CorePoints(const std::array<Point, 4>& points, std::size_t count) : points_(points), count_(count) {}
   explicit CorePoints(const Outline& of)
       : count_(of.polygon->sides().size()), polygon_(of.polygon), centre_(of.centre), axis_{of.axis_cos, of.axis_sin} {}
@@ -107,17 +106,17 @@ struct Bounds {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
   }
 };
-/// The least bounds around the outline, but for rounding (below 1e-12 m within a kilometre of the origin).
+/// The outline's bounding rectangle, up to rounding (below 1e-12 m within a kilometre of the origin).
 Bounds bounds_of(const Outline& outline);
 
-/// The same shape, so much higher.
+/// The shape, raised by `by_m`.
 inline Shape raised(Shape shape, double by_m) {
   shape.z_low_m += by_m;
   shape.z_high_m += by_m;
   return shape;
 }
 
-/// Whether two shapes share more than a height: shapes that stand on each other do not meet.
+/// True if the open height intervals of two shapes overlap: shapes that stand on each other do not meet.
 inline bool heights_overlap(const Shape& a, const Shape& b) { return a.z_low_m < b.z_high_m && b.z_low_m < a.z_high_m; }
 
 }  // namespace waitpoint::world

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Two disjoint convex polygons are nearest at a corner of one of them, so eight distances from a point to a box are
-// enough; whether they are disjoint is decided by their four face directions (separating axis theorem), which also give
-// the least way apart where they are not.
+// The separating axis theorem on the four face directions of two boxes decides if they are disjoint, and gives the
+// shortest separating translation if they are not. Disjoint convex polygons are nearest at a corner of one of them, so
+// the distance is the least of eight distances from a corner to a box.
 #include "world/planar/separation.hpp"
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 Point reversed(Point v) { return {-v.x, -v.y}; }
 
-// From the point to the box's core; the normal points from the box to the point.
+// Of the box's core and the point; the normal points from the box to the point.
 Separation box_to_point(const Outline& box, Point point) {
   const Point p = box.local(point);
   const double beyond_x = std::fabs(p.x) - box.half_length_m, beyond_y = std::fabs(p.y) - box.half_width_m;
@@ -67,7 +67,7 @@ Separation of_segment_to_point(Point start, Point end, Point p) {
   return point_to_point(start + part * along, p);
 }
 
-// From the core to the point; the normal points from it to the point. One point's core is never inside of another's.
+// Of the core and the point; the normal points to the point. A core of one point never overlaps another of one point.
 Separation core_to_point(const CorePoints& core, Point p) {
   if (core.count() == 1) return point_to_point(core[0], p);
   Separation nearest = {HUGE_VAL, {}}, deepest = {-HUGE_VAL, {}};
@@ -99,7 +99,7 @@ Separation side_separation(const CorePoints& a, const CorePoints& b) {
   return widest;
 }
 
-// Of convex cores, of which one at least has an area.
+// Of convex cores, at least one with an area.
 Separation of_core_points(const CorePoints& a, const CorePoints& b) {
   if (b.count() == 1) return core_to_point(a, b[0]);
   if (a.count() == 1) {
@@ -110,7 +110,7 @@ Separation of_core_points(const CorePoints& a, const CorePoints& b) {
   const Separation widest =
       by_a.distance_m >= by_b.distance_m ? by_a : Separation{by_b.distance_m, reversed(by_b.normal)};
   if (widest.distance_m <= 0) return widest;
-  // What is far behind along the way between them cannot be nearest.
+  // Corners far behind along the separating direction cannot be nearest.
   double last_of_a = -HUGE_VAL, first_of_b = HUGE_VAL;
   for (const Point p : a) last_of_a = std::fmax(last_of_a, dot(p, widest.normal));
   for (const Point p : b) first_of_b = std::fmin(first_of_b, dot(p, widest.normal));
