@@ -9,14 +9,14 @@ namespace {
 
 Point from_above(const SpaceVector& v) { return {v.x, v.y}; }
 
-// Where the side between a corner below the height and one not below it passes the height. Asked from the lower corner,
-// whichever way a triangle goes along its side.
+// The intersection of the height with the side between a corner below it and one not below it. Always computed from the
+// lower corner, so that two triangles that share a side get the same bits.
 Point passing(const SpaceVector& below, const SpaceVector& above, double height_m) {
   const double part = (height_m - below.z) / (above.z - below.z);
   return {below.x + part * (above.x - below.x), below.y + part * (above.y - below.y)};
 }
 
-/// A convex polygon in space as it is cut away from below and from above.
+/// A convex polygon in space: a triangle clipped from below and from above, with at most five corners.
 struct Polygon {
   std::array<SpaceVector, 5> corners;
   std::size_t count = 0;
@@ -24,7 +24,7 @@ struct Polygon {
   void add(const SpaceVector& corner) { corners[count++] = corner; }
 };
 
-// What is above the height (`sign` 1), or below it (-1).
+// The part above the height (`sign` 1), or below it (-1).
 Polygon on_one_side(const Polygon& polygon, double height_m, double sign) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.count; ++i) {
