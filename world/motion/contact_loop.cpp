@@ -45,7 +45,7 @@ void ContactLoop::wait_for(const Event& event) {
   std::push_heap(events_.begin(), events_.end(), std::greater<>());
 }
 
-// Whether it is still so: stops change what comes.
+// True if the event is still valid: stops invalidate later ones.
 bool ContactLoop::holds(const Event& event) const {
   if (event.pair == none) return !bodies_[event.body].stop && bodies_[event.body].obstacle == event.time;
   const std::optional<Contact>& contact = pairs_[event.pair].contact;
@@ -103,7 +103,7 @@ void ContactLoop::stop_judged(double now) {
 }
 
 void ContactLoop::run() {
-  // Every round stops a body for good, so there are at most as many rounds as bodies.
+  // Every round stops a body for the rest of the step, so there are at most as many rounds as bodies.
   while (const std::optional<double> now = earliest()) {
     judge(*now);
     stop_judged(*now);

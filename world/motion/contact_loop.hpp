@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves all bodies of one step together: who stops where.
+// Moves all bodies of one step together, and finds the bodies that stop and the fractions at which they do.
 //
 // An event loop over contact times within the step. All contacts of the earliest instant are judged together, on the
-// state before it; a body whose own motion closes a gap stops there for the rest of the step, one that only opens gaps
-// (driven into from behind, say) goes on; the contacts of whoever stopped are found anew from that instant. Every pair
-// is computed in the order of its bodies' positions, so neither numbers nor names of bodies can change an outcome.
+// state before it. A body whose own motion closes a gap stops there for the rest of the step; a body that only opens
+// gaps (hit from behind, for example) continues. The contacts of the stopped bodies are recomputed from that instant.
+// Every pair is computed in the order of its bodies' positions, so neither numbers nor names of bodies change an
+// outcome.
 //
-// Contacts wait in a heap, and each body knows its pairs: a step costs by what happens in it.
+// Contacts are in a heap, and each body has a list of its pairs: the cost of a step depends on its events only.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,12 @@ class ContactLoop {
   void clear();
   /// Adds a body; bodies are numbered from 0 in the order they are added.
   void add_body(const Mover& body);
-  /// Something that stands in the body's reach in this step.
+  /// Adds a fixed obstacle in the body's reach in this step.
   void add_obstacle(std::uint32_t body, const Mover& obstacle);
   void add_obstacle(std::uint32_t body, const Outline& obstacle, const Heights& heights = {}) {
     add_obstacle(body, Mover(obstacle, heights));
   }
-  /// Two different bodies that may meet in this step, each pair once.
+  /// Adds two different bodies that may meet in this step; each pair at most once.
   void add_pair(std::uint32_t body, std::uint32_t other);
   void run();
 
@@ -41,20 +42,20 @@ class ContactLoop {
 
   struct Body {
     Mover mover;
-    std::optional<double> obstacle;  ///< first contact with something that does not move
+    std::optional<double> obstacle;  ///< fraction of the first contact with a fixed obstacle
     std::optional<double> stop;
     bool stops_now = false;
-    std::uint32_t pairs = none;  ///< the last of its pairs; others behind it
+    std::uint32_t pairs = none;  ///< head of the list of its pairs, the last one first
   };
   struct Pair {
     std::uint32_t first, second;
     std::optional<Contact> contact;
     std::uint32_t next_of_first = none, next_of_second = none;
   };
-  /// A contact as it was when it was found.
+  /// A contact at the time of its computation; later stops may have made it invalid.
   struct Event {
     double time;
-    std::uint32_t body, pair;  ///< one of them none: a body's first obstacle, or a pair
+    std::uint32_t body, pair;  ///< one of them is `none`: a body's first obstacle, or a pair
     bool operator>(const Event& other) const { return time > other.time; }
   };
 
@@ -68,7 +69,7 @@ class ContactLoop {
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;
   std::vector<Event> events_;            // a heap, the earliest first
-  std::vector<std::uint32_t> stopping_;  // at this instant
+  std::vector<std::uint32_t> stopping_;  // the bodies that stop at this instant
 };
 
 }  // namespace waitpoint::world

@@ -9,12 +9,12 @@ namespace waitpoint::world {
 namespace {
 
 constexpr double least_gap_m = 0.5 * contact_gap_m;
-// Advancement gains at least contact_tolerance_m / path a round, and far more by the bound of second order; a motion
-// that needs more rounds than this (none is known) is taken as touching, which is safe.
+// Each round advances by at least contact_tolerance_m / path, and by far more with the bound of second order. A motion
+// that needs more rounds than this (none is known) counts as a contact, which is safe.
 constexpr int rounds_max = 100000;
 
-// The core points of one side as seen along the normal: how far the point reaches towards the other side, less than the
-// foremost point (0 for that one), and how fast it moves that way.
+// The core points of one side along the normal: the distance of each behind the foremost point (0 for that one), and
+// its velocity towards the other side, in m per step.
 struct Reach {
   struct Item {
     double behind_m, towards_m;
@@ -22,7 +22,7 @@ struct Reach {
   std::array<Item, ConvexPolygon::corners_max> items;
   std::size_t count = 0;
 
-  // The fastest approach among the points that are foremost, but for rounding.
+  // The fastest approach among the foremost points, up to rounding.
   double closing_m() const {
     double closing = -HUGE_VAL;
     for (std::size_t i = 0; i < count; ++i) {
@@ -32,7 +32,7 @@ struct Reach {
   }
 };
 
-// Without points so far behind that all which both sides could ever approach, by the bounds on their motions, is less.
+// Without points farther behind than both sides can approach by the bounds on their motions.
 Reach reach_along(const Mover& mover, const Outline& outline, double fraction, Point normal, double approach_m_max) {
   Reach reach;
   if (!mover.moves()) {
@@ -74,10 +74,10 @@ double safe_advance(const Reach& a, const Reach& b, double spare_m, double bend_
   return advance;
 }
 
-// How a gap of at most 1 um changes: in the plane, or in height.
+// The rate of change of a gap of at most 1 um, in the plane or in height.
 struct Closing {
   double gap_m, by_first_m, by_second_m;
-  double path_m;  // of both in a whole step
+  double path_m;  // of both together in a whole step
 
   // Below this a rate is rounding: the motion slides.
   double sliding_m() const { return 1e-12 * path_m; }
@@ -86,7 +86,7 @@ struct Closing {
 
   Contact contact(const Mover& a, const Mover& b, double fraction) const {
     Contact contact = {fraction, by_first_m > 0.5 * sliding_m(), by_second_m > 0.5 * sliding_m()};
-    // With the slack used up, sliding is refused too, to whoever slides.
+    // With the slack used up, sliding is refused too, to the side that slides.
     if (!contact.first_closes && !contact.second_closes) {
       contact.first_closes = a.moves() && by_first_m >= by_second_m;
       contact.second_closes = b.moves() && by_second_m >= by_first_m;
@@ -96,7 +96,7 @@ struct Closing {
   }
 };
 
-// Between the fractions `from` and `to`.
+// The first contact between the fractions `from` and `to`.
 std::optional<Contact> first_contact_with_surface(const Mover& body, const Triangle& surface, double from, double to) {
   const double climb_m = body.climb_m(), up_m = std::max(from * climb_m, to * climb_m),
                down_m = std::min(from * climb_m, to * climb_m);
@@ -115,7 +115,7 @@ std::optional<Contact> first_contact_with_surface(const Mover& body, const Trian
 
 }  // namespace
 
-// A disc turns within itself: of it only the centre counts.
+// A disc is invariant under rotation, so only its centre counts.
 double reach_m(const Shape& shape) {
   const double core = shape.kind == Shape::Kind::cylinder ? 0 : 0.5 * exact::hypot(shape.length_m, shape.width_m);
   return length(shape.pose.position()) + core;
@@ -166,7 +166,7 @@ std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from
     } else {
       const Closing planar = {gap_m, reach_a.closing_m(), reach_b.closing_m(), path_m};
       const Closing upwards = {over_m, vertical.first_closes_m(fraction), vertical.second_closes_m(fraction), climb_m};
-      // Where nobody climbs, bodies that stand higher or lower have been left out already.
+      // Without climbing, bodies apart in height have been excluded already.
       const bool held_in_plane = !planar.is_contact() && (gap_m > 0 || !vertical.changes());
       const bool held_in_height = over_m > 0 && !upwards.is_contact();
       const bool by_height = vertical.changes() && over_m > gap_m;

@@ -8,11 +8,11 @@
 namespace waitpoint::world {
 namespace {
 
-// What is nearer than this is asked for contacts; beyond, first_contact() has none to tell.
+// Nearer pairs go through first_contact(); beyond this gap it finds no contact.
 constexpr double sure_gap_m = 2 * contact_gap_m;
 constexpr double unknown = -std::numeric_limits<double>::infinity();
 
-// Of the discs around two outlines, less than what sums and roots round; quickly.
+// A fast lower bound of the gap: that of the circumscribed discs, less the rounding of sums and roots.
 double gap_at_least_m(const Outline& a, const Outline& b) {
   const auto around_m = [](const Outline& o) {
     return o.radius_m + std::sqrt(o.half_length_m * o.half_length_m + o.half_width_m * o.half_width_m);
@@ -22,7 +22,7 @@ double gap_at_least_m(const Outline& a, const Outline& b) {
   return std::sqrt(dot(between, between)) * (1 - rounding) - (around_m(a) + around_m(b)) * (1 + rounding);
 }
 
-// A skin that lasts for some steps, and for many where it need not be thicker than bodies are wide for that.
+// The skin suffices for few steps at least, and for up to many if it need not exceed the mean width of the bodies.
 constexpr double few_steps = 4, many_steps = 100;
 
 }  // namespace
@@ -107,7 +107,7 @@ void Meetings::meet(Pair& pair, std::span<const Motion> motions) {
   const double way_m = bodies_[pair.body].way_m + bodies_[pair.other].way_m;
   const double before_m = way_m - a.path_m - b.path_m - sure_gap_m;
   pair.reserve_m = before_m + gap_at_least_m(body_outline, other_outline);
-  // Where the discs around them would do for this step alone, their own gap lasts for more.
+  // If the discs' gap lasts for this step only, the exact gap is worth computing: it lasts longer.
   if (way_m + a.path_m + b.path_m > pair.reserve_m)
     pair.reserve_m = before_m + separation(body_outline, other_outline).distance_m;
   if (way_m > pair.reserve_m) {

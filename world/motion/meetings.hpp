@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may touch whom or what in a step, so that only they are asked for contacts.
+// The broad phase: the pairs of bodies, and of a body and an obstacle, that may touch in a step. Only these go through
+// the contact loop.
 //
-// Neighbours are listed once for many steps, and each with a reserve: how far the two may go, together, before they can
-// touch. A step then costs a comparison a body and one a listed pair; who has used up a reserve is measured again, and
-// only who is that near goes through the contact loop. Lists are made anew when bodies may have come past their edge.
-// (Verlet, "Computer experiments on classical fluids", Physical Review 159, 1967: lists with a skin.)
+// Neighbour lists serve many steps, with a reserve per pair: the sum of the paths that the two may travel before they
+// can touch. A step then costs one comparison per body and one per listed pair; a pair whose reserve is used up is
+// measured again, and goes through the contact loop only if it is near. Lists are rebuilt when bodies may have left the
+// skin. (Verlet, "Computer experiments on classical fluids", Physical Review 159, 1967: lists with a skin.)
 //
-//   listed        all that was within the skin of the body's bounds when lists were made
-//   skin used up  twice the longest path of each step since, in sum
+//   listed        everything within the skin of the body's bounds when the lists were built
+//   skin used up  the sum, over the steps since, of twice the longest path of each step
 //
-// What is left out could not have had a contact: outcomes are those of asking all about all, to the last bit.
+// Pairs left out could not have had a contact: outcomes equal those of a test of all pairs, to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -22,35 +23,35 @@
 
 namespace waitpoint::world {
 
-/// What moves and stands, as it is before the step.
+/// The bodies and obstacles, in their state before the step.
 class MeetingPlace {
  public:
   virtual ~MeetingPlace() = default;
   virtual const Outline& outline(std::uint32_t body) const = 0;
   /// The body on its arc of this step.
   virtual Mover mover(std::uint32_t body) const = 0;
-  /// The obstacles that the body could meet, and whose bounds overlap these; `found` is overwritten.
+  /// The obstacles that the body could meet and that overlap these bounds; `found` is overwritten.
   virtual void near(std::uint32_t body, const Bounds& bounds, std::vector<std::uint32_t>& found) const = 0;
   virtual Mover obstacle(std::uint32_t obstacle) const = 0;
-  /// How far the body is from an obstacle as seen from above: from what of it the body could meet without moving in the
-  /// plane, or less.
+  /// A lower bound of the planar gap of a body and the part of an obstacle that it could meet at its heights in the
+  /// step.
   virtual double gap_m(std::uint32_t body, std::uint32_t obstacle) const = 0;
 };
 
 class Meetings {
  public:
-  /// Of bodies with these outlines; the place must outlive it.
+  /// For bodies with these shapes; the place must outlive it.
   Meetings(const MeetingPlace& place, std::span<const Shape> bodies);
 
-  /// A hand has changed where bodies or obstacles are.
+  /// To be called when bodies or obstacles have changed by other means than steps.
   void forget() { listed_ = false; }
 
-  /// How a body moves in a step: its path as Mover's path_m(), and whether it moves at all.
+  /// A body's motion in a step: its path as in Mover::path_m().
   struct Motion {
     double path_m = 0;
     bool moves = false;
   };
-  /// Finds who stops. Bodies start where the step before has left them.
+  /// Finds the bodies that stop. One motion per body; bodies start where the previous step has left them.
   void step(std::span<const Motion> motions);
   /// After step(): the fraction of its arc at which the body stops; none if it moves to the end.
   std::optional<double> stop(std::uint32_t body) const {
@@ -62,14 +63,14 @@ class Meetings {
 
   struct Obstacle {
     std::uint32_t number;
-    double reserve_m;  ///< no contact until the body's way since lists were made is longer
+    double reserve_m;  ///< no contact until the body's path since the lists were built exceeds this
   };
   struct Pair {
     std::uint32_t body, other;
-    double reserve_m;  ///< likewise of both ways together
+    double reserve_m;  ///< likewise for the sum of both paths
   };
   struct Body {
-    double way_m = 0;      ///< since lists were made, with this step
+    double way_m = 0;      ///< path since the lists were built, including this step
     double reserve_m = 0;  ///< the least of its obstacles'
     std::uint32_t first_obstacle = 0, last_obstacle = 0;
   };
@@ -80,7 +81,7 @@ class Meetings {
   std::uint32_t in_loop(std::uint32_t body);
 
   const MeetingPlace& place_;
-  MovingSolids solids_;  // the bodies where they were when lists were made
+  MovingSolids solids_;  // the bodies in their poses when the lists were built
   bool listed_ = false;
   double skin_m_ = 0, skin_used_m_ = 0;
   std::vector<Body> bodies_;
@@ -88,7 +89,7 @@ class Meetings {
   std::vector<Pair> pairs_;
 
   ContactLoop contacts_;
-  std::vector<std::uint32_t> in_loop_;  // of each body its number there
+  std::vector<std::uint32_t> in_loop_;  // per body: its number in `contacts_`, or none
   std::vector<std::uint32_t> entered_;
   std::vector<std::uint32_t> near_;
 };

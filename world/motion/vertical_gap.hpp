@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far two upright solids that may climb are apart in height, over one step.
+// The vertical gap of two upright solids that may climb, over one step.
 //
-// One stands above the other by low - high, less than 0 where they share heights. Both differences change evenly with
-// the fraction of the step, so the gap, the greater of them, is convex: once it opens it never closes again.
+// One is above the other by low - high, negative if they share heights. Both differences are linear in the fraction of
+// the step, so the gap, the greater of them, is convex: once it opens it never closes again.
 #pragma once
 
 #include <algorithm>
@@ -10,24 +10,25 @@
 
 namespace waitpoint::world {
 
-/// Of a solid, while its body is where the step begins. By default it reaches from far below to far above everything.
+/// The heights of a solid at the start of the step; unbounded by default.
 struct Heights {
   double low_m = -std::numeric_limits<double>::infinity(), high_m = std::numeric_limits<double>::infinity();
 };
 
 class VerticalGap {
  public:
-  /// Of `a` and `b`, which climb by so much in the whole step.
+  /// The climbs are those of the whole step.
   VerticalGap(const Heights& a, double a_climb_m, const Heights& b, double b_climb_m)
       : above_m_(a.low_m - b.high_m), below_m_(b.low_m - a.high_m), a_climb_m_(a_climb_m), b_climb_m_(b_climb_m) {}
 
   bool changes() const { return a_climb_m_ != b_climb_m_; }
   double at(double fraction) const { return std::max(above(fraction), below(fraction)); }
-  /// How fast each one's own climbing closes the gap there, in m per step.
+  /// The rate at which each one's own climbing closes the gap, in m per step.
   double first_closes_m(double fraction) const { return is_above(fraction) ? -a_climb_m_ : a_climb_m_; }
   double second_closes_m(double fraction) const { return is_above(fraction) ? b_climb_m_ : -b_climb_m_; }
   double closing_m(double fraction) const { return first_closes_m(fraction) + second_closes_m(fraction); }
-  /// How long it takes, from a fraction at which the gap is above `limit_m`, until it is not; infinite if it stays so.
+  /// The time from `fraction`, at which the gap is above `limit_m`, until it reaches the limit; infinite if it never
+  /// does.
   double time_to(double limit_m, double fraction) const {
     const double closing = closing_m(fraction);
     return closing > 0 ? (at(fraction) - limit_m) / closing : std::numeric_limits<double>::infinity();
