@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -13,6 +15,7 @@ Point from_above(const SpaceVector& v) { return {v.x, v.y}; }
 // lower corner, so that two triangles that share a side get the same bits.
 Point passing(const SpaceVector& below, const SpaceVector& above, double height_m) {
   const double part = (height_m - below.z) / (above.z - below.z);
+  WAITPOINT_FAST_CHECK(0 <= part && part <= 1, "a side is cut beyond its ends");
   return {below.x + part * (above.x - below.x), below.y + part * (above.y - below.y)};
 }
 
@@ -21,7 +24,10 @@ struct Polygon {
   std::array<SpaceVector, 5> corners;
   std::size_t count = 0;
 
-  void add(const SpaceVector& corner) { corners[count++] = corner; }
+  void add(const SpaceVector& corner) {
+    WAITPOINT_CHECK(count < corners.size(), "a triangle clipped twice has more than five corners");
+    corners[count++] = corner;
+  }
 };
 
 // The part above the height (`sign` 1), or below it (-1).
@@ -49,6 +55,7 @@ std::optional<Outline> cut(const Triangle& triangle, double height_m) {
     const bool p_below = p.z < height_m, q_below = q.z < height_m;
     if (p_below != q_below) ends[count++] = p_below ? passing(p, q, height_m) : passing(q, p, height_m);
   }
+  WAITPOINT_FAST_CHECK(count == 0 || count == 2, "a triangle is cut in a single point");
   if (count == 0 || ends[0] == ends[1]) return std::nullopt;
   return segment_outline(ends[0], ends[1]);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/error.hpp"
 #include "world/slice/overlap_walk.hpp"
 
 namespace waitpoint::world {
@@ -20,7 +21,10 @@ std::vector<Bounds> bounds_of_all(std::span<const Outline> outlines) {
 
 Surfaces::Surfaces(std::span<const MeshObstacle> meshes) : tree_(std::span<const Bounds>()) {
   for (std::uint32_t mesh = 0; mesh < meshes.size(); ++mesh) {
+    WAITPOINT_CHECK(meshes[mesh].mesh != nullptr, "a mesh obstacle has no mesh");
     for (std::size_t i = 0; i < meshes[mesh].mesh->triangles.size(); ++i) {
+      for (const std::uint32_t corner : meshes[mesh].mesh->triangles[i])
+        WAITPOINT_CHECK(corner < meshes[mesh].mesh->corners.size(), "a triangle names a corner that its mesh lacks");
       triangles_.push_back(meshes[mesh].mesh->triangle(i));
       meshes_.push_back(mesh);
       const std::array<SpaceVector, 3>& c = triangles_.back().corners;
@@ -44,6 +48,7 @@ void Surfaces::near(const Bounds& bounds, double z_low_m, double z_high_m, std::
 }
 
 Separation Surfaces::separation(const Outline& body, double z_low_m, double z_high_m, std::uint32_t number) const {
+  WAITPOINT_FAST_CHECK(number < triangles_.size(), "the separation of a triangle that does not exist is asked for");
   Separation least = {std::numeric_limits<double>::infinity(), {1, 0}};
   pieces_.clear();
   cover(triangles_[number], z_low_m, z_high_m, pieces_);

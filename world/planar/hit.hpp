@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "world/planar/ray.hpp"
 
 namespace waitpoint::world {
@@ -65,6 +66,7 @@ inline double hit_polygon(const Outline& outline, const Ray& ray) {
 }
 
 inline double hit(const Outline& outline, const Ray& ray) {
+  WAITPOINT_FAST_CHECK(!outline.is_triangle, "a ray is tested against a triangle, which has no hit");
   if (outline.is_box) return hit_box(outline, ray);
   return outline.polygon != nullptr ? hit_polygon(outline, ray) : hit_disc(outline, ray);
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -22,7 +24,10 @@ Outline outline_at(const Shape& shape, Point centre, double heading) {
   outline.half_length_m = 0.5 * shape.length_m;
   outline.half_width_m = 0.5 * shape.width_m;
   outline.is_box = shape.kind == Shape::Kind::box;
-  if (shape.kind == Shape::Kind::prism) outline.polygon = shape.polygon.get();
+  WAITPOINT_FAST_CHECK(outline.half_length_m >= 0 && outline.half_width_m >= 0, "a shape has a negative size");
+  if (shape.kind != Shape::Kind::prism) return outline;
+  outline.polygon = shape.polygon.get();
+  WAITPOINT_CHECK(outline.polygon != nullptr, "a prism has no polygon");
   return outline;
 }
 
@@ -100,6 +105,7 @@ Bounds bounds_of(const Outline& outline) {
     }
     return bounds;
   }
+  WAITPOINT_FAST_CHECK(outline.radius_m >= 0, "an outline has a negative radius");
   const double c = std::fabs(outline.axis_cos), s = std::fabs(outline.axis_sin);
   const Point half = {c * outline.half_length_m + s * outline.half_width_m + outline.radius_m,
                       s * outline.half_length_m + c * outline.half_width_m + outline.radius_m};

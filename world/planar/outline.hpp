@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/pose.hpp"
 #include "world/description.hpp"
 
@@ -59,12 +60,15 @@ Outline triangle_outline(Point a, Point b, Point c);
 class CorePoints {
  public:
   /// Of `count` <= 4 points, or of the outline's polygon.
-  CorePoints(const std::array<Point, 4>& points, std::size_t count) : points_(points), count_(count) {}
+  CorePoints(const std::array<Point, 4>& points, std::size_t count) : points_(points), count_(count) {
+    WAITPOINT_FAST_CHECK(0 < count && count <= points.size(), "a core has no point, or more than its array");
+  }
   explicit CorePoints(const Outline& of)
       : count_(of.polygon->sides().size()), polygon_(of.polygon), centre_(of.centre), axis_{of.axis_cos, of.axis_sin} {}
 
   std::size_t count() const { return count_; }
   Point operator[](std::size_t i) const {
+    WAITPOINT_FAST_CHECK(i < count_, "a core has no such point");
     if (polygon_ == nullptr) return points_[i];
     const Point p = polygon_->sides()[i].start;
     return centre_ + Point{axis_.x * p.x - axis_.y * p.y, axis_.y * p.x + axis_.x * p.y};

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -126,6 +128,7 @@ Separation of_core_points(const CorePoints& a, const CorePoints& b) {
     const Separation s = core_to_point(b, corner);
     if (s.distance_m < nearest.distance_m) nearest = {s.distance_m, reversed(s.normal)};
   }
+  WAITPOINT_FAST_CHECK(nearest.distance_m < HUGE_VAL, "two disjoint cores have no nearest points");
   return nearest;
 }
 
@@ -143,6 +146,7 @@ Separation of_cores(const Outline& a, const Outline& b) {
 
 Separation separation(const Outline& a, const Outline& b) {
   const Separation cores = of_cores(a, b);
+  WAITPOINT_FAST_CHECK(std::isfinite(cores.distance_m), "the distance of two outlines is not finite");
   return {cores.distance_m - a.radius_m - b.radius_m, cores.normal};
 }
 
