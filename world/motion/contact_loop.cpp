@@ -18,6 +18,7 @@ void ContactLoop::clear() {
 void ContactLoop::add_body(const Mover& body) { bodies_.push_back({body, std::nullopt, std::nullopt}); }
 
 void ContactLoop::add_obstacle(std::uint32_t body, const Mover& obstacle) {
+  WAITPOINT_CHECK(body < bodies_.size() && !obstacle.moves(), "an obstacle moves, or its body was not added");
   Body& b = bodies_[body];
   const std::optional<Contact> contact = first_contact(b.mover, obstacle, 0);
   if (!contact || (b.obstacle && contact->fraction >= *b.obstacle)) return;
@@ -26,6 +27,8 @@ void ContactLoop::add_obstacle(std::uint32_t body, const Mover& obstacle) {
 }
 
 void ContactLoop::add_pair(std::uint32_t body, std::uint32_t other) {
+  WAITPOINT_CHECK(body != other && body < bodies_.size() && other < bodies_.size(),
+                  "a pair is of one body, or of one that was not added");
   // Two bodies are at one point only if one is above the other.
   const Mover &a = bodies_[body].mover, &b = bodies_[other].mover;
   const Point p = a.start().centre, q = b.start().centre;
@@ -41,6 +44,9 @@ void ContactLoop::add_pair(std::uint32_t body, std::uint32_t other) {
 }
 
 void ContactLoop::wait_for(const Event& event) {
+  WAITPOINT_CHECK(0 <= event.time && event.time < 1, "a contact is not within its step");
+  WAITPOINT_FAST_CHECK((event.body == none) != (event.pair == none),
+                       "a contact is not either an obstacle's or a pair's");
   events_.push_back(event);
   std::push_heap(events_.begin(), events_.end(), std::greater<>());
 }
@@ -81,7 +87,7 @@ void ContactLoop::judge(double now) {
     if (pair.contact->first_closes && bodies_[pair.first].mover.moves()) stops_now(pair.first);
     if (pair.contact->second_closes && bodies_[pair.second].mover.moves()) stops_now(pair.second);
     WAITPOINT_CHECK(bodies_[pair.first].stops_now || bodies_[pair.second].stops_now,
-                    "a contact that nobody's motion closes");
+                    "a contact that neither body's motion closes");
   }
 }
 
@@ -95,6 +101,7 @@ void ContactLoop::stop_judged(double now) {
   for (const std::uint32_t number : stopping_) {
     for (std::uint32_t at = bodies_[number].pairs; at != none;) {
       Pair& pair = pairs_[at];
+      WAITPOINT_FAST_CHECK(pair.first == number || pair.second == number, "a body's list has a pair of two others");
       pair.contact = first_contact(bodies_[pair.first].mover, bodies_[pair.second].mover, now);
       if (pair.contact) wait_for({pair.contact->fraction, none, at});
       at = pair.first == number ? pair.next_of_first : pair.next_of_second;
@@ -104,7 +111,13 @@ void ContactLoop::stop_judged(double now) {
 
 void ContactLoop::run() {
   // Every round stops a body for the rest of the step, so there are at most as many rounds as bodies.
+  double last = 0;
+  std::size_t rounds = 0;
   while (const std::optional<double> now = earliest()) {
+    WAITPOINT_CHECK(last <= *now, "a contact comes after a later one");
+    WAITPOINT_CHECK(rounds < bodies_.size(), "more contacts than bodies stop a step");
+    last = *now;
+    ++rounds;
     judge(*now);
     stop_judged(*now);
   }

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -42,7 +44,9 @@ Reach reach_along(const Mover& mover, const Outline& outline, double fraction, P
   }
   const PointVelocities velocities = mover.velocities_at(fraction);
   double foremost = -HUGE_VAL;
-  for (const Point p : core_points(outline)) {
+  const CorePoints points = core_points(outline);
+  WAITPOINT_CHECK(points.count() <= reach.items.size(), "a core has more points than a polygon has corners at most");
+  for (const Point p : points) {
     const double along = dot(normal, p);
     foremost = std::max(foremost, along);
     reach.items[reach.count++] = {along, dot(normal, velocities.of(p))};
@@ -58,6 +62,7 @@ Reach reach_along(const Mover& mover, const Outline& outline, double fraction, P
 
 // The least x > 0 at which spare - closing x - bend x^2 / 2 = 0, for spare >= 0.
 double root(double spare_m, double closing_m, double bend_m) {
+  WAITPOINT_FAST_CHECK(spare_m >= 0 && bend_m >= 0, "an advance begins beyond its gap");
   const double wide = std::sqrt(closing_m * closing_m + 2 * bend_m * spare_m);
   if (closing_m > 0) return 2 * spare_m / (closing_m + wide);
   return bend_m > 0 ? (wide - closing_m) / bend_m : HUGE_VAL;
@@ -98,6 +103,7 @@ struct Closing {
 
 // The first contact between the fractions `from` and `to`.
 std::optional<Contact> first_contact_with_surface(const Mover& body, const Triangle& surface, double from, double to) {
+  WAITPOINT_FAST_CHECK(0 <= from && from <= to && to <= 1, "an interval of a step is not within it");
   const double climb_m = body.climb_m(), up_m = std::max(from * climb_m, to * climb_m),
                down_m = std::min(from * climb_m, to * climb_m);
   std::vector<Outline> pieces;
@@ -128,6 +134,7 @@ Mover::Mover(const Shape& shape, const Outline& start, const Arc& arc, double he
 }
 
 Outline Mover::at(double fraction) const {
+  WAITPOINT_FAST_CHECK(0 <= fraction && fraction <= 1, "a body's outline is asked for outside of its step");
   return fraction == 0 || !moves() ? start_ : outline_of(*shape_, arc_.at(fraction));
 }
 
@@ -140,6 +147,8 @@ PointVelocities Mover::velocities_at(double fraction) const {
 }
 
 std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from) {
+  WAITPOINT_CHECK(a.surface() == nullptr, "the first of two movers is a triangle of a mesh");
+  WAITPOINT_CHECK(0 <= from && from <= 1, "a contact is searched for outside of its step");
   if (b.surface() != nullptr) return first_contact_with_surface(a, *b.surface(), from, 1);
   const VerticalGap vertical(a.heights(), a.climb_m(), b.heights(), b.climb_m());
   const double path_m = a.path_m() + b.path_m(), bend_m = a.bend_m() + b.bend_m();
@@ -175,6 +184,7 @@ std::optional<Contact> first_contact(const Mover& a, const Mover& b, double from
         advance = safe_advance(reach_a, reach_b, planar.out_of_slack() ? 0 : gap_m - least_gap_m, bend_m);
       if (held_in_height) advance = std::max(advance, vertical.time_to(std::min(least_gap_m, over_m), fraction));
     }
+    WAITPOINT_FAST_CHECK(advance >= 0, "an advance of a motion is negative or NaN");
     fraction += advance;
   }
   return std::nullopt;

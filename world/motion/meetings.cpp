@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -31,17 +33,20 @@ Meetings::Meetings(const MeetingPlace& place, std::span<const Shape> bodies)
     : place_(place), solids_(bodies), bodies_(bodies.size()), in_loop_(bodies.size(), none) {}
 
 void Meetings::step(std::span<const Motion> motions) {
+  WAITPOINT_CHECK(motions.size() == bodies_.size(), "a step has not one motion per body");
   for (const std::uint32_t body : entered_) in_loop_[body] = none;
   entered_.clear();
   contacts_.clear();
   double path_max_m = 0;
   bool any_moves = false;
   for (const Motion& motion : motions) {
+    WAITPOINT_FAST_CHECK(motion.path_m >= 0 && std::isfinite(motion.path_m), "a body's path is negative or not finite");
     path_max_m = std::max(path_max_m, motion.path_m);
     any_moves = any_moves || motion.moves;
   }
   if (!any_moves) return;
   if (!listed_ || skin_used_m_ + 2 * path_max_m > skin_m_) list(path_max_m);
+  WAITPOINT_CHECK(skin_used_m_ + 2 * path_max_m <= skin_m_, "new lists of neighbours do not last for a step");
   skin_used_m_ += 2 * path_max_m;
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     bodies_[i].way_m += motions[i].path_m;
@@ -72,8 +77,10 @@ void Meetings::list(double path_max_m) {
     body.last_obstacle = static_cast<std::uint32_t>(obstacles_.size());
     if (bodies_.size() == 1) break;
     solids_.near(bounds.grown(skin_m_), near_);
-    for (const std::uint32_t other : near_)
+    for (const std::uint32_t other : near_) {
+      WAITPOINT_FAST_CHECK(other < bodies_.size(), "a body's neighbour does not exist");
       if (other > i) pairs_.push_back({i, other, unknown});
+    }
   }
   listed_ = true;
 }
@@ -89,6 +96,8 @@ std::uint32_t Meetings::in_loop(std::uint32_t body) {
 
 void Meetings::meet_obstacles(std::uint32_t number, const Motion& motion) {
   Body& body = bodies_[number];
+  WAITPOINT_FAST_CHECK(body.first_obstacle <= body.last_obstacle && body.last_obstacle <= obstacles_.size(),
+                       "a body's obstacles are not within the list");
   body.reserve_m = std::numeric_limits<double>::infinity();
   for (std::uint32_t at = body.first_obstacle; at < body.last_obstacle; ++at) {
     Obstacle& obstacle = obstacles_[at];

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 
 /// The heights of a solid at the start of the step; unbounded by default.
@@ -19,7 +21,9 @@ class VerticalGap {
  public:
   /// The climbs are those of the whole step.
   VerticalGap(const Heights& a, double a_climb_m, const Heights& b, double b_climb_m)
-      : above_m_(a.low_m - b.high_m), below_m_(b.low_m - a.high_m), a_climb_m_(a_climb_m), b_climb_m_(b_climb_m) {}
+      : above_m_(a.low_m - b.high_m), below_m_(b.low_m - a.high_m), a_climb_m_(a_climb_m), b_climb_m_(b_climb_m) {
+    WAITPOINT_FAST_CHECK(a.low_m <= a.high_m && b.low_m <= b.high_m, "a solid ends below its lower face");
+  }
 
   bool changes() const { return a_climb_m_ != b_climb_m_; }
   double at(double fraction) const { return std::max(above(fraction), below(fraction)); }
