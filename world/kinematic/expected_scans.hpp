@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scans that somebody said he will ask for after the next step, and then what they read: made together, those of
-// neighbours one after the other, what stands and goes about them is fetched from memory once and not for each alone.
+// Scans announced for the next step, and their readings. They are made together, neighbouring bodies in sequence, so
+// that their surroundings are fetched from memory once and not for each scan.
 //
-//   expect       before the step: a list, one entry a scan
-//   begin        the step is done: the list is what is to be made; a new one begins
-//   make         each entry, in whatever order: its ranges go side by side into one array
-//   find         whoever asks gets a copy
+//   expect       before the step: adds an entry to the coming list
+//   begin        after the step: the coming list is to be made, and a new one begins
+//   make         makes a body's entries; their ranges are adjacent in one array
+//   find         copies a scan
 //
-// A scan reads the same however it is made. One that was not expected, or not as it then is asked for, is not found.
+// A scan has the same readings either way. A scan that was not announced with the same arguments is not found.
 #pragma once
 
 #include <cstdint>
@@ -29,26 +29,26 @@ class ExpectedScans {
     double first_angle_rad = 0, angle_step_rad = 0, range_max_m = 0;
   };
 
-  /// Nothing is expected; the bodies are so many.
+  /// Clears both lists.
   void restart(std::size_t bodies);
-  /// Each at most once a step.
+  /// Announces a scan, each at most once per step.
   void expect(std::uint32_t body, std::uint32_t laser, std::uint64_t number);
 
-  /// What was made is past; what was expected is to be made. False if there is none.
+  /// Discards the scans made, and takes the coming list as the one to be made. False if it is empty.
   bool begin();
-  /// Calls make(entry, scan) for what is to be made of the body's, and keeps what it leaves in the scan.
+  /// Calls make(entry, scan) for each of the body's entries, and keeps the scan that it fills in.
   template <class Make>
   void make(std::uint32_t body, Make make);
-  /// What was made is no longer so.
+  /// Invalidates the scans made.
   void forget() { valid_ = false; }
 
-  /// Copies what was made; false if that scan was not.
+  /// Copies a scan; false if it was not made, or is no longer valid.
   bool find(std::uint32_t body, std::uint32_t laser, std::uint64_t number, LaserScan& out) const;
 
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  /// Entries, and of each body the last of its own; others behind it.
+  /// Entries, and per body the head of the list of its own, the last one first.
   struct List {
     std::vector<Entry> entries;
     std::vector<std::uint32_t> of_body;
@@ -58,8 +58,8 @@ class ExpectedScans {
 
   List coming_, made_;
   bool valid_ = false;
-  std::vector<double> ranges_m_;  // of what was made
-  LaserScan scan_;                // of one call, kept so that it allocates nothing
+  std::vector<double> ranges_m_;  // of all scans made
+  LaserScan scan_;                // scratch space of one call, kept so that it allocates nothing
 };
 
 template <class Make>

@@ -46,13 +46,13 @@ class KinematicWorld final : public VehicleWorld, private MeetingPlace {
 
   void change_obstacles(std::vector<Obstacle> obstacles);
 
-  std::optional<std::vector<Obstacle>> first_obstacles_;  // of the start, once they have been changed
-  Footprints footprints_;                                 // the same obstacles; none where FCL finds neighbours
+  std::optional<std::vector<Obstacle>> first_obstacles_;  // those of the start, once they have been changed
+  Footprints footprints_;                                 // of the obstacles; empty if FCL finds neighbours
 
   std::vector<double> reaches_m_;  // of the bodies
   Meetings meetings_;
 
-  mutable std::vector<std::uint32_t> near_;  // of one call
+  mutable std::vector<std::uint32_t> near_;  // scratch space of one call
 
   // Of one step.
   std::vector<Arc> arcs_;
@@ -110,7 +110,7 @@ Mover KinematicWorld::mover(std::uint32_t body) const {
   return {vehicle.description().shape, vehicle.outline(), arcs_[body], vehicle.state().height_m};
 }
 
-// Behind the obstacles come the triangles of meshes.
+// Numbers beyond the obstacles are triangles of meshes.
 Mover KinematicWorld::obstacle(std::uint32_t obstacle) const {
   const std::uint32_t solids = senses_.standing().size();
   if (obstacle >= solids)
@@ -166,7 +166,7 @@ std::optional<std::string> KinematicWorld::move_body(BodyId id, const Pose& pose
   vehicle.put(pose);
   meetings_.forget();
   senses_.put(own, pose);
-  // To the others' sensors it stands there already, as if it had been published so at the last step but one.
+  // Other bodies' sensors see it there at once, as if it had been published so at the last step but one.
   senses_.place(own, vehicle);
   return std::nullopt;
 }
@@ -192,7 +192,7 @@ bool KinematicWorld::remove_obstacle(const std::string& name) {
   return true;
 }
 
-// All anew: a person's hand is slow.
+// Rebuilds everything: interventions are rare.
 void KinematicWorld::change_obstacles(std::vector<Obstacle> obstacles) {
   if (!first_obstacles_) first_obstacles_ = description_.obstacles;
   description_.obstacles = std::move(obstacles);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinematic world on FCL: its trees of bounding boxes find what is near, the planar geometry of upright shapes
-// decides. Planar beams can go through slices instead (WorldDescription::engine).
+// The kinematic world. FCL's trees of bounding boxes, or own trees over slices and footprints, find candidates
+// (WorldDescription::engine); the planar geometry of upright shapes decides.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace waitpoint::world {
 
-/// A world at its start. A body that overlaps an obstacle or another body (see start_overlaps) is a bug here: whoever
-/// read the description reports it as bad input.
+/// A world at its start. A body that overlaps an obstacle or another body (see start_overlaps) is a bug here: readers
+/// of descriptions report it as bad input.
 std::unique_ptr<World> make_kinematic_world(const WorldDescription& description, std::uint64_t seed);
 
 }  // namespace waitpoint::world

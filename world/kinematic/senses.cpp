@@ -12,7 +12,7 @@
 namespace waitpoint::world {
 namespace {
 
-// Movers' bounding boxes are this much wider than the movers: at walking speed the tree changes twice a second.
+// The margin of movers' bounding boxes: at walking speed the tree changes about twice a second.
 constexpr double roam_m = 0.4;
 
 double longest_scan_s(const BodyDescription& body) {
@@ -142,7 +142,7 @@ void Senses::place(std::uint32_t mover, const Vehicle& vehicle) {
 void Senses::make_expected_scans(std::span<const Vehicle> vehicles, double time_s) {
   if (!expected_.begin()) return;
   caster_.list_movers(in_turn_);
-  constexpr std::size_t ahead = 2;  // of a crowd's bodies little is in the cache
+  constexpr std::size_t ahead = 2;  // a crowd's bodies are mostly out of the cache
   const auto body_in = [&](std::size_t turn) { return std::min<std::size_t>(in_turn_[turn], vehicles.size() - 1); };
   for (std::size_t turn = 0; turn < in_turn_.size(); ++turn) {
     if (turn + 2 * ahead < in_turn_.size()) __builtin_prefetch(&devices_[body_in(turn + 2 * ahead)]);
@@ -152,7 +152,7 @@ void Senses::make_expected_scans(std::span<const Vehicle> vehicles, double time_
       __builtin_prefetch(&vehicles[next].state());
     }
     const std::uint32_t mover = in_turn_[turn];
-    if (mover >= vehicles.size()) continue;  // what is pushed about has no lasers
+    if (mover >= vehicles.size()) continue;  // loose obstacles have no lasers
     expected_.make(mover, [&](const ExpectedScans::Entry& expected, LaserScan& scan) {
       make_scan(vehicles[mover], mover, expected.laser, expected.number, time_s, scan);
     });

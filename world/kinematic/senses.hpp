@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sensors of a world's bodies read: the same for every world server, whatever moves its bodies.
+// The sensors of a world's bodies, shared by all worlds.
 //
-// It has the geometry that sensors ask, in two parts: what stands, and what moves. Movers are numbered, the bodies
-// first as in the description, then whatever else there is. A mover is to sensors where it was last placed: the server
-// places it at the beginning of each step, as it was published last. A sensor's own body is asked itself.
+// It owns the geometry that sensors see, in two parts: fixed solids and movers. Movers are numbered: first the bodies,
+// as in the description, then the loose obstacles. Sensors see a mover where it was last placed: the world places it at
+// the beginning of each step, in its last published pose. A sensor's own body has its current pose.
 #pragma once
 
 #include <cstdint>
@@ -24,14 +24,14 @@
 
 namespace waitpoint::world {
 
-/// The shapes of obstacles, and those of bodies at their starts.
+/// The shapes of obstacles, and of bodies at their starts, in the world frame.
 std::vector<Shape> shapes_of(std::span<const Obstacle> obstacles);
 std::vector<Shape> shapes_of(std::span<const BodyDescription> bodies);
 
 class Senses {
  public:
-  /// Of the description it takes the bodies, with their devices, the meshes and the engine: its obstacles stand only if
-  /// they are `standing`. The description must outlive it.
+  /// Takes the bodies with their devices, the meshes and the engine from the description, which must outlive it; fixed
+  /// solids are those in `standing` only.
   Senses(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers);
   Senses(const Senses&) = delete;
   Senses& operator=(const Senses&) = delete;
@@ -39,35 +39,35 @@ class Senses {
   /// All devices as at the start, with the random streams of that seed.
   void restart(std::uint64_t seed);
 
-  // What stands and what moves.
+  // The fixed solids and the movers.
 
   const Scene& standing() const { return standing_; }
   const Surfaces& surfaces() const { return surfaces_; }
   const Scene& movers() const { return caster_.movers(); }
-  /// Other things stand there now.
+  /// Replaces the fixed solids.
   void stand(std::span<const Shape> standing);
-  /// Other things move now; the bodies are the first of them, as ever.
+  /// Replaces the movers; the bodies are the first of them.
   void move(std::span<const Shape> movers);
   void place(std::uint32_t mover, const Outline& outline, double z_low_m, double z_high_m);
   void place(std::uint32_t mover, const Vehicle& vehicle);
 
-  // What happens to a body.
+  // Events of a body.
 
-  /// After the next step this scan of it will be asked for.
+  /// Announces a scan after the next step.
   void expect_scan(std::uint32_t body, std::size_t laser, std::uint64_t scan_number) {
     expected_.expect(body, static_cast<std::uint32_t>(laser), scan_number);
   }
-  /// A step is done, at that time: the scans that are expected after it are made, of bodies that are these vehicles.
+  /// Makes the announced scans after a step that ends at `time_s`; vehicle i is body i.
   void make_expected_scans(std::span<const Vehicle> vehicles, double time_s);
-  /// It, which is `vehicle`, has done step number `step`.
+  /// Body `body`, which is `vehicle`, has completed step number `step`.
   void moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t step);
-  /// A hand has put it there.
+  /// An intervention has moved the body.
   void put(std::uint32_t body, const Pose& pose);
 
-  /// Adds what a scan of it touches, without what is everybody's.
+  /// Adds the memory of the body's own that a scan touches.
   void add_scan_to(WorkingSet& set, std::uint32_t body) const;
 
-  // What World has of the same names, for the body `own`, which is `vehicle`.
+  // The functions of World with the same names, for body `own`, which is `vehicle`.
 
   void scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number, double time_s,
             LaserScan& out) const;
@@ -84,13 +84,13 @@ class Senses {
   void make_scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number, double time_s,
                  LaserScan& out) const;
 
-  /// A body's, that remember something.
+  /// The devices of a body that have state.
   struct Devices {
     std::vector<Laser> lasers;
-    bool looks_back;                        // a laser measures while it moves
+    bool looks_back;                        // a laser measures beams at different times
     std::unique_ptr<Imu> imu;               // null for a body without one
     std::unique_ptr<PositionReceiver> gps;  // likewise
-    ArcTrail trail;                         // as far back as a scan reaches, where one looks back
+    ArcTrail trail;                         // of the longest scan; kept only if looks_back
     std::vector<RandomStream> sonar_noise;
     RandomStream infrared_noise;
 
@@ -105,7 +105,7 @@ class Senses {
   SonarEchoes sonar_echoes_;
   ExpectedScans expected_;
 
-  // Of one call, kept so that readings allocate nothing.
+  // Scratch space of one call, kept so that readings allocate nothing.
   mutable std::vector<std::uint32_t> near_;
   mutable std::vector<double> distances_;
   std::vector<std::uint32_t> in_turn_;

@@ -10,7 +10,7 @@
 namespace waitpoint::world {
 namespace {
 
-// What answers is itself hit at its own distance, but for rounding.
+// A reflecting surface is itself hit at its own distance, up to rounding.
 constexpr double rounding_m = 1e-9;
 
 }  // namespace
@@ -99,7 +99,7 @@ double SonarEchoes::nearest_echo(const SonarCone& cone, double height_m, std::ui
   return std::numeric_limits<double>::infinity();
 }
 
-// Nearer than `below_m`, or that.
+// The distance of the nearest echo if it is below `below_m`, else `below_m`.
 double SonarEchoes::nearest_cross_echo(const SonarCone& listener, const SonarCone& emitter, double height_m,
                                        std::uint32_t own, double below_m) const {
   cross_echoes_.clear();

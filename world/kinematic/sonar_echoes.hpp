@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sonars of a body hear in a world: of all that would answer, the nearest that nothing hides.
+// The echoes of a body's sonars in a world: the nearest possible echo whose path is free.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +17,19 @@ namespace waitpoint::world {
 
 class SonarEchoes {
  public:
-  /// The scene, the surfaces and the caster, which has the bodies, must outlive it, and be told of changes before it
-  /// is.
+  /// The scene, the surfaces and the caster (with the bodies) must outlive it, and be updated before it.
   SonarEchoes(const Scene& obstacles, const Surfaces& surfaces, const BeamCaster& caster);
 
-  /// Finds the corners of the obstacles, which are those of the scene. Without it there are none.
+  /// Finds the concave corners of the obstacles, which must be those of the scene; none before the first call.
   void stand(std::span<const Shape> obstacles);
 
-  /// Fires the transducers of the body's ring whose turn it is: of each the distance of its echo, infinite if there is
-  /// none. The others' distances are left. As many distances as transducers.
+  /// Fires the transducers of the ring that are due in this firing: sets the distance (m) of each one's echo, infinite
+  /// without echo, and keeps the others'. As many distances as transducers.
   void fire(const Vehicle& body, std::uint32_t own, std::size_t ring, std::uint64_t firing,
             std::span<double> distances_m) const;
 
  private:
-  /// A concave corner of an obstacle with another one.
+  /// A concave corner between an obstacle and `other`.
   struct Corner {
     ConcaveCorner corner;
     std::uint32_t other;
@@ -45,9 +44,9 @@ class SonarEchoes {
   const Scene& obstacles_;
   const Surfaces& surfaces_;
   const BeamCaster& caster_;
-  std::vector<std::vector<Corner>> corners_;  // of each obstacle with later ones
+  std::vector<std::vector<Corner>> corners_;  // per obstacle: with obstacles of greater numbers
 
-  // Of one call, kept so that firing allocates nothing.
+  // Scratch space of one call, kept so that firing allocates nothing.
   mutable std::vector<std::uint32_t> near_, near_bodies_;
   mutable std::vector<Outline> near_segments_;
   mutable SurfaceCorners near_corners_;

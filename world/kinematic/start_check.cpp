@@ -66,7 +66,7 @@ std::vector<LooseOverlap> loose_overlaps(const WorldDescription& description) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!all[i].loose()) continue;
     for (std::size_t j = 0; j < all.size(); ++j) {
-      // Of two that are loose, the first is told.
+      // A pair of loose obstacles is reported once, under the first.
       const bool told = j < i && all[j].loose();
       if (j != i && !told && overlap(all[i].shape, all[j].shape)) overlaps.push_back({all[i].name, all[j].name});
     }

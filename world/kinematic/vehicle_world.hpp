@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all world servers have alike: vehicles that are told where to go and senses that tell what they see. How things
-// move is for the server to say.
+// The common part of all worlds: vehicles and senses. The motion is the derived class's.
 #pragma once
 
 #include "world/kinematic/senses.hpp"
@@ -43,22 +42,22 @@ class VehicleWorld : public World {
   }
 
  protected:
-  /// Without vehicles: those are made by the server's reset(). The shapes are as Senses takes them.
+  /// Without vehicles: the derived class's reset() makes them. The shapes are those of Senses.
   VehicleWorld(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers);
 
   double elapsed_s() const { return static_cast<double>(steps_) * step_s_; }
-  /// The place of the first one of that name; behind the last if there is none.
+  /// The index of the first obstacle of that name; the number of obstacles if there is none.
   std::size_t find_obstacle(const std::string& name) const;
-  /// The name of a body that something of that shape would touch there, leaving out number `except`.
+  /// The name of a body, other than `except`, that a solid with this outline and the shape's heights would touch.
   std::optional<std::string> body_met(const Shape& shape, const Outline& outline, std::uint32_t except) const;
-  /// The name of a mesh that it would touch there.
+  /// The name of a mesh that it would touch.
   std::optional<std::string> mesh_met(const Shape& shape, const Outline& outline) const;
 
   WorldDescription description_;
   const double step_s_;
   std::uint64_t steps_ = 0;
   std::vector<Vehicle> vehicles_;
-  Senses senses_;  // bodies as published at the last step but one: where the last step began
+  Senses senses_;  // with the bodies as published at the last step but one, at the beginning of the last step
 };
 
 }  // namespace waitpoint::world
