@@ -13,7 +13,7 @@ std::vector<double> sliced_heights(const WorldDescription& description) {
   std::vector<double> heights;
   if (description.engine == Engine::fcl) return heights;
   for (const BodyDescription& body : description.bodies) {
-    // What climbs would need a slice of every height.
+    // Aerial bodies would need a slice at every height.
     if (body.base.kind == BaseDescription::Kind::aerial) continue;
     for (const LaserDescription& laser : body.lasers) heights.push_back(laser.height_m);
     for (const SonarRingDescription& ring : body.sonars) heights.push_back(ring.height_m);
@@ -87,7 +87,7 @@ void BeamCaster::cast(const Fan& fan, double height_m, std::uint32_t own, double
   WAITPOINT_CHECK(fan.directions.size() == ranges_m.size(), "as many directions as ranges");
   if (const Slice* slice = slice_at(height_m)) {
     buffer_.begin(fan, range_max_m);
-    // What moves is mostly nearer than walls are, but walls hide more of it from many beams than it of them.
+    // Movers are mostly nearer than walls, but for many beams walls hide more of the movers than movers of the walls.
     const bool few = fan.directions.size() <= FewBeams::most;
     if (few) buffer_.lower(moving_, height_m, own);
     buffer_.lower(*slice);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Upright shapes as FCL has them.
+// Upright shapes as FCL geometry.
 #pragma once
 
 #include <fcl/geometry/shape/box.h>
@@ -14,13 +14,13 @@
 
 namespace waitpoint::world {
 
-/// About its middle: corners of the lower face, then of the upper one.
+/// A prism about its centre. Corners: those of the lower face, then those of the upper one.
 inline std::shared_ptr<fcl::CollisionGeometryd> prism_of(std::span<const ConvexPolygon::Side> sides, double height_m) {
   const auto n = static_cast<int>(sides.size());
   auto corners = std::make_shared<std::vector<fcl::Vector3d>>();
   for (const double z : {-0.5 * height_m, 0.5 * height_m})
     for (const ConvexPolygon::Side& side : sides) corners->emplace_back(side.start.x, side.start.y, z);
-  // Each face by how many corners it has, and which: counter-clockwise as seen from outside.
+  // Each face: the count and the indices of its corners, counter-clockwise as seen from outside.
   auto faces = std::make_shared<std::vector<int>>();
   faces->push_back(n);
   for (int i = n; i-- > 0;) faces->push_back(i);
@@ -40,7 +40,7 @@ inline std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Shape& shape) 
   return std::make_shared<fcl::Boxd>(shape.length_m, shape.width_m, height);
 }
 
-/// Where it is, its outline being that.
+/// The pose of a solid with that outline.
 inline fcl::Transform3d transform_of(const Outline& outline, double z_low_m, double z_high_m) {
   fcl::Transform3d transform = fcl::Transform3d::Identity();
   const double c = outline.axis_cos, s = outline.axis_sin;

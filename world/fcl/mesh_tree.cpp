@@ -50,10 +50,10 @@ struct Pending {
 
 struct MeshTree::Models {
   std::vector<Triangle> triangles;
-  // Boxes along the axes are quickest for rays; FCL's own narrow phase would copy such a model for every question.
+  // Axis-parallel boxes are fastest for rays; but FCL's narrow phase copies such a model in every query.
   std::shared_ptr<fcl::BVHModel<fcl::AABBd>> boxes;
-  std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> turned_boxes;  // made when first asked for
-  std::vector<Pending> pending;                               // of one call
+  std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> turned_boxes;  // for the narrow phase; built on first use
+  std::vector<Pending> pending;                               // scratch space of one call
 
   void cast(Point origin, std::span<const Point> directions, double height_m, std::span<double> ranges_m) {
     const Wedge wedge = {origin, directions.front(), directions.back()};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes in FCL's bounding-volume hierarchy.
 //
-// FCL knows them as a BVHModel of triangles, which its narrow phase can be asked about. Level rays come from an own
-// walk of that model's tree (FCL 0.7 has no rays): what of it is at the ray's height and in its way; each triangle that
-// is reached is cut at the height (world/mesh/section.hpp), and hit_distance() is asked of the segment. So ranges are
-// those of asking every triangle, to the last bit, and those of a slice.
+// A mesh is a BVHModel of triangles, which FCL's narrow phase can query. FCL 0.7 has no ray queries: level rays use an
+// own walk of that model's tree, restricted to the nodes at the ray's height and in its way. Each triangle reached is
+// cut at the height (world/mesh/section.hpp), and its segment is tested with hit_distance(). So ranges equal those of a
+// test of every triangle, and those of a slice, to the last bit.
 #pragma once
 
 #include <memory>
@@ -22,10 +22,10 @@ class MeshTree {
   MeshTree(MeshTree&&) noexcept;
   MeshTree& operator=(MeshTree&&) noexcept;
 
-  /// Casts a fan of rays as Scene::cast() does.
+  /// Casts a fan of rays; see Scene::cast().
   void cast(Point origin, std::span<const Point> directions, double height_m, std::span<double> ranges_m) const;
 
-  /// Whether an upright solid standing there would collide with any triangle, by FCL's narrow phase.
+  /// True if an upright solid collides with any triangle, by FCL's narrow phase.
   bool collides(const Shape& shape) const;
 
  private:

@@ -17,15 +17,15 @@ namespace waitpoint::world {
 namespace {
 
 // With another alignment of Eigen's types than Debian's libfcl was built with, calls into it corrupt memory.
-static_assert(sizeof(fcl::CollisionObjectd) == 224, "Eigen is aligned otherwise than in the FCL library");
+static_assert(sizeof(fcl::CollisionObjectd) == 224, "Eigen is aligned differently in the FCL library");
 
 using Node = fcl::detail::NodeBase<fcl::AABBd>;
 
 constexpr double padding_m = Scene::padding_m;
 
-// As FCL's own manager keeps its tree: a little better after each update, built anew where it is so much higher than it
-// need be. (That manager itself measures the height at each update, which among thousands takes a thousand times
-// longer than the update.)
+// Maintenance as in FCL's own manager: the tree is improved a little after each update, and rebuilt if it is this much
+// higher than necessary. (The manager measures the height at each update, which for thousands of solids takes a
+// thousand times longer than the update.)
 constexpr int better_by = 10;
 constexpr std::size_t higher_max = 10;
 
@@ -41,14 +41,14 @@ class Solid : public fcl::CollisionObjectd {
     settle();
   }
 
-  // What FCL knows of it, as it is now.
+  // Brings FCL's transform up to date.
   void settle() {
     setTransform(transform_of(outline, z_low_m, z_high_m));
     unsettled = false;
   }
   bool reaches(double height_m) const { return z_low_m <= height_m && height_m <= z_high_m; }
 
-  // FCL's own bounds of a turned box are those of a sphere around it, which for walls are far too wide.
+  // FCL's own bounds of a rotated box are those of its circumscribed sphere, which for walls are far too wide.
   void set_bounds(const Bounds& b) {
     aabb = fcl::AABBd(fcl::Vector3d(b.low.x, b.low.y, z_low_m - padding_m),
                       fcl::Vector3d(b.high.x, b.high.y, z_high_m + padding_m));
@@ -70,7 +70,7 @@ const Solid& solid_in(const Node* leaf) {
   return *static_cast<const Solid*>(static_cast<const fcl::CollisionObjectd*>(leaf->data));
 }
 
-// Nodes left to visit. FCL keeps its trees balanced to within ten levels; this many is a bug.
+// The nodes left to visit. FCL keeps its trees balanced to within ten levels; an overflow is a bug.
 template <class Item>
 class Stack {
  public:
@@ -98,11 +98,11 @@ struct Scene::Trees {
   std::vector<std::unique_ptr<Solid>> solids;
   fcl::detail::HierarchyTree<fcl::AABBd> tree;
   std::size_t updates = 0;
-  std::vector<std::uint32_t> unsettled;  // have been placed, which the tree does not know yet
+  std::vector<std::uint32_t> unsettled;  // placed, but not yet updated in the tree
 
   const Node* root() const { return tree.getRoot(); }
 
-  /// Brings the tree up to what was placed, for whoever asks: who never asks does not pay for it.
+  /// Brings the tree up to date; called by queries, so a scene without queries costs nothing.
   void settle() {
     for (const std::uint32_t number : unsettled) {
       Solid& solid = *solids[number];
@@ -120,7 +120,7 @@ struct Scene::Trees {
     for (const Shape& shape : shapes) {
       auto solid = std::make_unique<Solid>(shape, static_cast<std::uint32_t>(solids.size()));
       solid->set_bounds(bounds_of(solid->outline).grown(margin_m));
-      solid->leaf = leaves.emplace_back(new Node);  // the tree's own from now on
+      solid->leaf = leaves.emplace_back(new Node);  // owned by the tree
       solid->leaf->bv = solid->getAABB();
       solid->leaf->parent = nullptr;
       solid->leaf->children[1] = nullptr;

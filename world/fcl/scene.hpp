@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Solids in FCL's dynamic tree of bounding boxes.
 //
-// FCL knows each solid twice: as its own geometry (box, cylinder), which its narrow phase can be asked about, and by a
-// bounding box, which its tree sorts. Rays and candidates come from an own walk of that tree (FCL 0.7 has no rays).
-// Neighbouring rays of a fan walk it together, as a wedge: near child first, dropping what lies beside the wedge or
-// beyond the farthest of the ranges found so far; every solid that is reached is then asked for each ray.
+// Each solid has two representations in FCL: its geometry (box, cylinder, convex) for the narrow phase, and a bounding
+// box in the tree. Rays and candidates come from an own walk of that tree, since FCL 0.7 has no ray queries.
+// Neighbouring rays of a fan walk it together, as a wedge: near child first, without nodes beside the wedge or beyond
+// the farthest of the ranges found so far; every solid reached is tested against each ray.
 //
-// The boxes are wider than the solids by more than any rounding, so that culling never loses a hit that hit_distance()
-// reports: results are those of asking every solid, to the last bit, whatever the shape of the tree. Solids have own
-// numbers, and results are in their order.
+// The boxes exceed the solids by more than any rounding, so that culling never loses a hit of hit_distance(): results
+// equal those of a test of every solid, to the last bit, for any shape of the tree. Solids have their own numbers, and
+// results are in that order.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ namespace waitpoint::world {
 class Scene {
  public:
   static constexpr std::uint32_t none = 0xFFFFFFFFu;
-  /// Bounding boxes are wider by this: far above the rounding of coordinates (1e-10 m even a thousand kilometres from
-  /// the origin) and of a ray's entry into a bounding box, far below anything that would cost time.
+  /// The padding of bounding boxes: far above the rounding of coordinates (1e-10 m even a thousand kilometres from the
+  /// origin) and of a ray's entry into a box, far below a size that would cost time.
   static constexpr double padding_m = 1e-7;
 
-  /// Solids numbered from 0. `roam_m` widens the bounding boxes of a scene whose solids move, so that most moves leave
-  /// the tree as it is.
+  /// Solids are numbered from 0. `roam_m` widens the bounding boxes of solids that move, so that most moves leave the
+  /// tree unchanged.
   explicit Scene(std::span<const Shape> shapes, double roam_m = 0);
   ~Scene();
   Scene(Scene&&) noexcept;
@@ -36,10 +36,10 @@ class Scene {
 
   std::uint32_t size() const;
   const Outline& outline(std::uint32_t solid) const;
-  /// Whether the height is within the solid, its lower and upper face included.
+  /// True if the height is within the solid, its lower and upper face included.
   bool reaches(std::uint32_t solid, double height_m) const;
 
-  /// Moves a solid; its heights stay, or are those.
+  /// Moves a solid, keeping its heights or with new ones.
   void place(std::uint32_t solid, const Outline& outline);
   void place(std::uint32_t solid, const Outline& outline, double z_low_m, double z_high_m);
 
@@ -53,7 +53,7 @@ class Scene {
   void cast(Point origin, std::span<const Point> directions, double height_m, std::uint32_t except,
             std::span<double> ranges_m) const;
 
-  /// Whether a solid standing there would collide with any of the scene, by FCL's narrow phase.
+  /// True if a solid of that shape collides with any of the scene, by FCL's narrow phase.
   bool collides(const Shape& shape) const;
 
  private:

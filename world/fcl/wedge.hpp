@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A few neighbouring rays of a fan, as they walk one of FCL's trees of boxes together: they meet much the same ones.
+// A wedge: a few neighbouring rays of a fan that walk one of FCL's trees together, since they meet nearly the same
+// boxes.
 #pragma once
 
 #include <fcl/math/bv/AABB.h>
@@ -19,7 +20,7 @@ inline constexpr std::size_t rays_together = 16;
 struct Wedge {
   Point origin, first, last;
 
-  /// A lower bound of the squared distance at which one of the rays could meet the box; `no_hit` if they all pass it.
+  /// A lower bound of the squared distance at which one of the rays could meet the box; `no_hit` if all miss it.
   double entry(const fcl::AABBd& box) const {
     const Point half = {0.5 * (box.max_[0] - box.min_[0]), 0.5 * (box.max_[1] - box.min_[1])};
     const Point centre = {0.5 * (box.max_[0] + box.min_[0]) - origin.x, 0.5 * (box.max_[1] + box.min_[1]) - origin.y};
@@ -31,7 +32,7 @@ struct Wedge {
   }
 };
 
-/// Of a wedge's ranges so far.
+/// The square of the greatest of a wedge's ranges.
 inline double farthest_m2(std::span<const double> ranges_m) {
   const double range = *std::max_element(ranges_m.begin(), ranges_m.end());
   return range * range;
