@@ -53,6 +53,7 @@ void BeamCaster::move(std::span<const Shape> movers) {
 }
 
 void BeamCaster::place(std::uint32_t mover, const Outline& outline, double z_low_m, double z_high_m) {
+  WAITPOINT_FAST_CHECK(mover < is_late_.size(), "a mover that does not exist is placed");
   if (!slices_beams_) return movers_.place(mover, outline, z_low_m, z_high_m);
   moving_.place(mover, outline, z_low_m, z_high_m);
   if (is_late_[mover] != 0) return;
@@ -77,6 +78,7 @@ void BeamCaster::list_movers(std::vector<std::uint32_t>& movers) const {
 
 const Slice* BeamCaster::slice_at(double height_m) const {
   const auto found = std::lower_bound(heights_m_.begin(), heights_m_.end(), height_m);
+  WAITPOINT_FAST_CHECK(slices_.size() == heights_m_.size(), "there is not one slice for each height");
   return found == heights_m_.end() || *found != height_m
              ? nullptr
              : &slices_[static_cast<std::size_t>(found - heights_m_.begin())];
@@ -84,7 +86,7 @@ const Slice* BeamCaster::slice_at(double height_m) const {
 
 void BeamCaster::cast(const Fan& fan, double height_m, std::uint32_t own, double range_max_m,
                       std::span<double> ranges_m) const {
-  WAITPOINT_CHECK(fan.directions.size() == ranges_m.size(), "as many directions as ranges");
+  WAITPOINT_CHECK(fan.directions.size() == ranges_m.size(), "there are not as many directions as ranges");
   if (const Slice* slice = slice_at(height_m)) {
     buffer_.begin(fan, range_max_m);
     // Movers are mostly nearer than walls, but for many beams walls hide more of the movers than movers of the walls.

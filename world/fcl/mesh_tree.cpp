@@ -75,6 +75,8 @@ struct MeshTree::Models {
         if (near.entry_m2 <= limit_m2 && near.entry_m2 < no_hit) pending.push_back(near);
         continue;
       }
+      WAITPOINT_FAST_CHECK(static_cast<std::size_t>(node.primitiveId()) < triangles.size(),
+                           "a leaf of FCL's tree is of a triangle that does not exist");
       const std::optional<Outline> segment = cut(triangles[static_cast<std::size_t>(node.primitiveId())], height_m);
       if (!segment) continue;
       for (std::size_t i = 0; i < directions.size(); ++i)
@@ -96,6 +98,7 @@ MeshTree& MeshTree::operator=(MeshTree&&) noexcept = default;
 
 void MeshTree::cast(Point origin, std::span<const Point> directions, double height_m,
                     std::span<double> ranges_m) const {
+  WAITPOINT_CHECK(directions.size() == ranges_m.size(), "there are not as many directions as ranges");
   if (models_->triangles.empty()) return;
   for_each_wedge(directions, [&](std::size_t first, std::size_t count) {
     models_->cast(origin, directions.subspan(first, count), height_m, ranges_m.subspan(first, count));

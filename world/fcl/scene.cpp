@@ -79,7 +79,10 @@ class Stack {
     WAITPOINT_CHECK(size_ < items_.size(), "a tree of bounding boxes far out of balance");
     items_[size_++] = item;
   }
-  Item pop() { return items_[--size_]; }
+  Item pop() {
+    WAITPOINT_FAST_CHECK(size_ > 0, "a walk continues with no node left");
+    return items_[--size_];
+  }
 
  private:
   std::array<Item, 256> items_;
@@ -110,14 +113,18 @@ struct Scene::Trees {
       const Bounds bounds = bounds_of(solid.outline);
       if (solid.has_heights() && solid.bounds().contains(bounds.grown(padding_m))) continue;
       solid.set_bounds(bounds.grown(margin_m));
+      WAITPOINT_FAST_CHECK(solid.has_heights() && solid.bounds().contains(bounds.grown(padding_m)),
+                           "a solid's box is smaller than the solid");
       update(solid);
     }
     unsettled.clear();
   }
 
   void grow(std::span<const Shape> shapes) {
+    WAITPOINT_CHECK(shapes.size() < none && margin_m >= padding_m, "a scene has too many solids, or too narrow boxes");
     std::vector<Node*> leaves;
     for (const Shape& shape : shapes) {
+      WAITPOINT_CHECK(shape.z_low_m <= shape.z_high_m, "a solid ends below its lower face");
       auto solid = std::make_unique<Solid>(shape, static_cast<std::uint32_t>(solids.size()));
       solid->set_bounds(bounds_of(solid->outline).grown(margin_m));
       solid->leaf = leaves.emplace_back(new Node);  // owned by the tree
@@ -131,6 +138,7 @@ struct Scene::Trees {
   }
 
   void update(const Solid& solid) {
+    WAITPOINT_FAST_CHECK(&solid_in(solid.leaf) == &solid, "a solid's leaf is another's");
     tree.update(solid.leaf, solid.getAABB());
     tree.balanceIncremental(better_by);
     if (++updates < solids.size()) return;
@@ -188,6 +196,8 @@ void Scene::place(std::uint32_t solid, const Outline& outline) {
 }
 
 void Scene::place(std::uint32_t solid, const Outline& outline, double z_low_m, double z_high_m) {
+  WAITPOINT_FAST_CHECK(solid < size() && z_low_m <= z_high_m,
+                       "a solid that does not exist is placed, or it ends below its lower face");
   Solid& s = *trees_->solids[solid];
   s.z_low_m = z_low_m;
   s.z_high_m = z_high_m;
@@ -219,7 +229,7 @@ void Scene::near(const Bounds& bounds, double z_low_m, double z_high_m, std::vec
 
 void Scene::cast(Point origin, std::span<const Point> directions, double height_m, std::uint32_t except,
                  std::span<double> ranges_m) const {
-  WAITPOINT_CHECK(directions.size() == ranges_m.size(), "as many directions as ranges");
+  WAITPOINT_CHECK(directions.size() == ranges_m.size(), "there are not as many directions as ranges");
   if (trees_->solids.empty()) return;
   trees_->settle();
   for_each_wedge(directions, [&](std::size_t first, std::size_t count) {

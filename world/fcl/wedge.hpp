@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <span>
 
+#include "core/error.hpp"
 #include "world/planar/ray.hpp"
 
 namespace waitpoint::world {
@@ -47,6 +48,7 @@ void for_each_wedge(std::span<const Point> directions, Cast cast) {
            dot(directions[first], directions[first + count]) > 0) {
       ++count;
     }
+    WAITPOINT_FAST_CHECK(count <= rays_together && first + count <= directions.size(), "a wedge ends beyond its fan");
     cast(first, count);
     first += count;
   }

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 
 void ExpectedScans::List::clear() {
@@ -20,6 +22,7 @@ void ExpectedScans::restart(std::size_t bodies) {
 
 void ExpectedScans::expect(std::uint32_t body, std::uint32_t laser, std::uint64_t number) {
   std::uint32_t& last = coming_.of_body.at(body);
+  WAITPOINT_FAST_CHECK(last == none || last < coming_.entries.size(), "a body's list begins beyond its end");
   coming_.entries.push_back({body, laser, number, last});
   last = static_cast<std::uint32_t>(coming_.entries.size() - 1);
 }
@@ -28,6 +31,7 @@ bool ExpectedScans::begin() {
   made_.clear();
   std::swap(made_, coming_);
   ranges_m_.clear();
+  WAITPOINT_FAST_CHECK(made_.of_body.size() == coming_.of_body.size(), "two lists of scans are of different bodies");
   valid_ = !made_.entries.empty();
   return valid_;
 }
@@ -40,6 +44,7 @@ bool ExpectedScans::find(std::uint32_t body, std::uint32_t laser, std::uint64_t 
     out.first_angle_rad = entry.first_angle_rad;
     out.angle_step_rad = entry.angle_step_rad;
     out.range_max_m = entry.range_max_m;
+    WAITPOINT_CHECK(std::size_t{entry.first_range} + entry.ranges <= ranges_m_.size(), "a scan lies beyond its array");
     const double* const first = ranges_m_.data() + entry.first_range;
     out.range_m.assign(first, first + entry.ranges);
     return true;

@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "core/error.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::world {
@@ -64,9 +65,13 @@ class ExpectedScans {
 
 template <class Make>
 void ExpectedScans::make(std::uint32_t body, Make make) {
+  WAITPOINT_CHECK(body < made_.of_body.size(), "scans are made of a body that does not exist");
   for (std::uint32_t at = made_.of_body[body]; at != none; at = made_.entries[at].next_of_body) {
     Entry& entry = made_.entries[at];
+    WAITPOINT_FAST_CHECK(entry.body == body, "a body's list has a scan of another");
     make(entry, scan_);
+    WAITPOINT_CHECK(ranges_m_.size() + scan_.range_m.size() <= none,
+                    "the ranges of a step's scans exceed 32-bit indices");
     entry.first_range = static_cast<std::uint32_t>(ranges_m_.size());
     entry.ranges = static_cast<std::uint32_t>(scan_.range_m.size());
     entry.first_angle_rad = scan_.first_angle_rad;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/kinematic/kinematic_world.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "world/kinematic/start_check.hpp"
 #include "world/kinematic/vehicle_world.hpp"
@@ -113,6 +115,7 @@ Mover KinematicWorld::mover(std::uint32_t body) const {
 // Numbers beyond the obstacles are triangles of meshes.
 Mover KinematicWorld::obstacle(std::uint32_t obstacle) const {
   const std::uint32_t solids = senses_.standing().size();
+  WAITPOINT_CHECK(obstacle < solids + senses_.surfaces().size(), "an obstacle does not exist");
   if (obstacle >= solids)
     return {senses_.surfaces().triangle(obstacle - solids), senses_.surfaces().outline(obstacle - solids)};
   const Shape& shape = description_.obstacles[obstacle].shape;
@@ -141,11 +144,15 @@ void KinematicWorld::near(std::uint32_t body, const Bounds& bounds, std::vector<
   const Heights own = climbs(vehicle) ? any : Heights{shape.z_low_m, shape.z_high_m};
   senses_.surfaces().near(bounds, own.low_m, own.high_m, near_);
   for (const std::uint32_t number : near_) found.push_back(senses_.standing().size() + number);
+  WAITPOINT_FAST_CHECK(std::is_sorted(found.begin(), found.end()),
+                       "the obstacles near a body are not in ascending order");
 }
 
 void KinematicWorld::publish() {
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
-    vehicles_[i].publish(steps_, description_.step, arcs_[i], meetings_.stop(i));
+    const std::optional<double> stop = meetings_.stop(i);
+    WAITPOINT_CHECK(!stop || (0 <= *stop && *stop < 1), "a body stops outside of its step");
+    vehicles_[i].publish(steps_, description_.step, arcs_[i], stop);
     senses_.moved(i, vehicles_[i], steps_);
   }
 }
@@ -197,6 +204,7 @@ void KinematicWorld::change_obstacles(std::vector<Obstacle> obstacles) {
   if (!first_obstacles_) first_obstacles_ = description_.obstacles;
   description_.obstacles = std::move(obstacles);
   senses_.stand(shapes_of(description_.obstacles));
+  WAITPOINT_CHECK(senses_.standing().size() == description_.obstacles.size(), "the scene lacks an obstacle");
   footprints_ = footprints_of(description_);
   meetings_.forget();
 }

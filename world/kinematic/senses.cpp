@@ -88,6 +88,7 @@ void Senses::restart(std::uint64_t seed) {
 }
 
 void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t step) {
+  WAITPOINT_FAST_CHECK(body < devices_.size(), "a body without devices has moved");
   Devices& devices = devices_[body];
   const BodyState& state = vehicle.state();
   if (devices.looks_back) devices.trail.add(state.arc);
@@ -125,6 +126,7 @@ void Senses::stand(std::span<const Shape> standing) {
 }
 
 void Senses::move(std::span<const Shape> movers) {
+  WAITPOINT_CHECK(movers.size() >= description_.bodies.size(), "the movers lack a body");
   expected_.forget();
   movers_ = Scene(movers, roam_m);
   caster_.move(movers);
@@ -143,6 +145,8 @@ void Senses::make_expected_scans(std::span<const Vehicle> vehicles, double time_
   if (!expected_.begin()) return;
   caster_.list_movers(in_turn_);
   constexpr std::size_t ahead = 2;  // a crowd's bodies are mostly out of the cache
+  WAITPOINT_CHECK(vehicles.size() == devices_.size() && in_turn_.size() >= vehicles.size(),
+                  "there are not as many vehicles as bodies, or the movers lack one");
   const auto body_in = [&](std::size_t turn) { return std::min<std::size_t>(in_turn_[turn], vehicles.size() - 1); };
   for (std::size_t turn = 0; turn < in_turn_.size(); ++turn) {
     if (turn + 2 * ahead < in_turn_.size()) __builtin_prefetch(&devices_[body_in(turn + 2 * ahead)]);
@@ -183,6 +187,9 @@ void Senses::make_scan(const Vehicle& vehicle, std::uint32_t own, std::size_t la
     laser.look(scan_number, devices_[own].trail, SensorRays(caster_, height_m, own, device.range_max_m), out.range_m);
   }
   laser.measure(scan_number, time_s, out.range_m);
+  WAITPOINT_FAST_CHECK(
+      std::all_of(out.range_m.begin(), out.range_m.end(), [&](double r) { return 0 <= r && r <= out.range_max_m; }),
+      "a range of a scan is not between 0 and the laser's greatest");
 }
 
 double Senses::cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const {
@@ -198,6 +205,7 @@ void Senses::sonar(const Vehicle& vehicle, std::uint32_t own, std::size_t ring_n
   distances_.resize(ring.count);
   sonar_echoes_.fire(vehicle, own, ring_number, firing_number, distances_);
   for (std::uint32_t i = 0; i < ring.count; ++i) {
+    WAITPOINT_FAST_CHECK(!fires(ring, i, firing_number) || distances_[i] >= 0, "the distance of an echo is negative");
     if (fires(ring, i, firing_number))
       range_m[i] = sonar_range_m(ring, distances_[i], devices_[own].sonar_noise[ring_number].normal(firing_number, i));
   }

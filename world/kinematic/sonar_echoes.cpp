@@ -19,6 +19,7 @@ SonarEchoes::SonarEchoes(const Scene& obstacles, const Surfaces& surfaces, const
     : obstacles_(obstacles), surfaces_(surfaces), caster_(caster) {}
 
 void SonarEchoes::stand(std::span<const Shape> obstacles) {
+  WAITPOINT_CHECK(obstacles.size() == obstacles_.size(), "corners are searched for in another scene than the sonars'");
   corners_.clear();
   corners_.resize(obstacles.size());
   std::vector<ConcaveCorner> found;
@@ -56,7 +57,7 @@ void SonarEchoes::fire(const Vehicle& body, std::uint32_t own, std::size_t ring_
   const SonarRingDescription& ring = rings.at(ring_number);
   const Pose& pose = body.state().pose;
   const double height_m = ring.height_m + body.state().height_m;
-  WAITPOINT_CHECK(distances_m.size() == ring.count, "as many distances as transducers");
+  WAITPOINT_CHECK(distances_m.size() == ring.count, "there are not as many distances as transducers");
   collect_surroundings(pose.position(), height_m, own, ring);
   emitters_.clear();
   for (const SonarRingDescription& other : rings) {
@@ -79,6 +80,7 @@ void SonarEchoes::fire(const Vehicle& body, std::uint32_t own, std::size_t ring_
 double SonarEchoes::nearest_echo(const SonarCone& cone, double height_m, std::uint32_t own) const {
   echoes_.clear();
   for (const std::uint32_t obstacle : near_) {
+    WAITPOINT_FAST_CHECK(obstacle < corners_.size(), "an obstacle has no list of corners");
     cone.add(obstacles_.outline(obstacle), echoes_);
     for (const auto& [corner, other] : corners_[obstacle]) {
       if (obstacles_.reaches(other, height_m)) cone.add(corner, echoes_);

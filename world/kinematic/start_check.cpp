@@ -2,7 +2,6 @@
 #include "world/kinematic/start_check.hpp"
 
 #include <algorithm>
-
 #include "world/mesh/surfaces.hpp"
 #include "world/motion/first_contact.hpp"
 #include "world/slice/footprints.hpp"

@@ -13,7 +13,7 @@ namespace waitpoint::world {
 VehicleWorld::VehicleWorld(const WorldDescription& description, std::span<const Shape> standing,
                            std::span<const Shape> movers)
     : description_(description), step_s_(description.step.seconds()), senses_(description_, standing, movers) {
-  WAITPOINT_CHECK(step_s_ > 0, "a world steps by a positive period");
+  WAITPOINT_CHECK(step_s_ > 0, "a world has no positive period");
   WAITPOINT_CHECK(start_overlaps(description_).empty(), "a body starts inside something solid");
 }
 
