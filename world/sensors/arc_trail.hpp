@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a body was a moment ago: the arcs of its last steps, for sensors that measure while it moves.
+// A body's recent path: the arcs of its last steps, for sensors that measure while it moves.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@ namespace waitpoint::world {
 
 class ArcTrail {
  public:
-  /// Reaches `span_s` into the past, in steps of `step_s` seconds. Before the first step the body stood at `start`.
+  /// Reaches `span_s` into the past, in steps of `step_s` seconds. Before the first step the body was at `start`.
   ArcTrail(double span_s, double step_s, const Pose& start);
 
-  /// The arc of one more step, which is the newest now.
+  /// Adds the arc of the newest step.
   void add(const Arc& arc);
   /// Forgets the past: the body is at `pose` as if it had always been.
   void restart(const Pose& pose);
 
-  /// Where the body was `age_s` before the end of the newest step; ages beyond the span give the oldest pose there is.
+  /// The pose `age_s` >= 0 before the end of the newest step; ages beyond the span give the oldest pose.
   Pose at(double age_s) const;
 
  private:

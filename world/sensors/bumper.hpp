@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bumper: panels about a body, each pressed by what touches it from the directions that it faces.
+// A bumper: panels about a body, each pressed by contacts from its sector of directions.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace waitpoint::world {
 
-/// The bit of the panel that something at `separation` from a body of that heading presses; 0 if it is not near enough.
+/// The bit of the panel pressed by an outline at `separation` from a body of that heading; 0 if it is too far away.
 std::uint32_t pressed_panel(const BumperDescription& bumper, double heading_rad, const Separation& separation);
 
 }  // namespace waitpoint::world

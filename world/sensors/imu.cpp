@@ -40,7 +40,7 @@ void Imu::add(Duration now, Duration step, const Arc& arc, const Velocity& veloc
   const double step_s = step.seconds();
   const double turn_rad_s = arc.turn_rad / step_s;
   gyro_.add(arc.turn_rad);
-  // The velocity is told in a frame that turns.
+  // Velocities are in the body's frame, which rotates.
   ahead_.add(velocity.v_m_s - velocity_.v_m_s - arc.side_m * turn_rad_s);
   left_.add(velocity.side_m_s - velocity_.side_m_s + arc.distance_m * turn_rad_s);
   up_.add(velocity.climb_m_s - velocity_.climb_m_s + gravity_m_s2 * step_s);

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An inertial measurement unit in the plane: a gyro about the vertical, and accelerometers ahead, to the left and up.
 //
-// A sample is the mean over the time T since the last one, with errors of the usual kinds, on each axis of its own:
+// A sample is the mean over the time T since the last one, with the usual errors, independent on each axis:
 //
 //   reading = s truth + b + d + N n / sqrt(T)               white noise
-//   b' = b + K sqrt(T) n        b ~ N(0, B)                 a bias that walks from the one at switching on
-//   d' = p d + D sqrt(1 - p^2) n,  p = e^(-T/tau)           a bias that wanders about 0 (first-order Gauss-Markov)
+//   b' = b + K sqrt(T) n        b ~ N(0, B)                 turn-on bias, and its random walk
+//   d' = p d + D sqrt(1 - p^2) n,  p = e^(-T/tau)           first-order Gauss-Markov bias about 0
 //
-// so the angle that is integrated from the gyro has the variance N^2 t + B^2 t^2 + K^2 t^3 / 3 + 2 D^2 tau (t - tau (1
-// - e^(-t/tau))), and the Allan variance over t is N^2 / t + K^2 t / 3 + (2 D^2 tau / t) (1 - tau / (2 t) (3 - 4
-// e^(-t/tau)
-// + e^(-2t/tau))) (IEEE Std 952, annexes B and C). Accelerometers measure what holds the body, gravity too: at rest the
-// one that looks up reads 9.81.
+// so the angle integrated from the gyro has the variance
+//
+//   N^2 t + B^2 t^2 + K^2 t^3 / 3 + 2 D^2 tau (t - tau (1 - e^(-t/tau)))
+//
+// and the Allan variance over t is
+//
+//   N^2 / t + K^2 t / 3 + (2 D^2 tau / t) (1 - tau / (2 t) (3 - 4 e^(-t/tau) + e^(-2t/tau)))
+//
+// (IEEE Std 952, annexes B and C). Accelerometers measure the specific force, gravity included: at rest the upward one
+// reads 9.81 m/s2.
 #pragma once
 
 #include <cstdint>
@@ -31,18 +36,18 @@ class Imu {
   /// "imu.ahead", "imu.left" and "imu.up", at tick = number of the sample.
   Imu(const ImuDescription& description, std::uint64_t seed, std::string_view robot);
 
-  /// Takes in what the body did in the step that ends at `now` since the start, one of `step`: it moved along `arc`,
-  /// and is at `velocity` now. With a period shorter than the step there is a sample a step.
+  /// Adds the body's motion in the step of length `step` that ends at `now` since the start: along `arc`, to
+  /// `velocity`. With a period shorter than the step there is one sample per step.
   void add(Duration now, Duration step, const Arc& arc, const Velocity& velocity);
   const ImuSample& sample() const { return sample_; }
 
  private:
-  /// One axis: what it sums up, and its errors.
+  /// One axis: the integral of its quantity since the last sample, and its errors.
   class Axis {
    public:
     Axis(const InertialErrors& errors, std::uint64_t seed, std::string_view robot, const std::string& name);
     void add(double of_step) { sum_ += of_step; }
-    /// The reading over the last `elapsed_s`; the next sum begins.
+    /// The reading over the last `elapsed_s`; resets the integral.
     double take(std::uint64_t number, double elapsed_s);
 
    private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Infrared range finders: triangulation gives a voltage that falls with the range, V = r^(1/e) / g, with noise, in
-// whole steps of a converter. Near ranges are told well and far ones badly: the deviation is |e| r / V times that of V.
+// Infrared range finders: triangulation gives a voltage that falls with the range, V = r^(1/e) / g, with noise, and
+// quantised by a converter. The standard deviation of a range is |e| r / V times that of V: small near, large far away.
 //
 // Without an echo the voltage is that of the greatest range; below the least range it is that of the least.
 #pragma once

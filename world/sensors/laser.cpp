@@ -12,9 +12,9 @@
 namespace waitpoint::world {
 namespace {
 
-// The angle between the ends of a spot has a bound: the nearest range at which a beam can be as wide as it is.
+// The least range in the computation of a spot's angular width, which it bounds.
 constexpr double nearest_spot_m = 0.05;
-// Where a beam is a line, two more beside it tell how flatly it meets a surface.
+// For a beam that is a line, two more rays at this angle beside it give the incidence on a surface.
 constexpr double feeler_rad = 5e-4;
 
 Point turned(Point v, double angle_rad) {
@@ -29,11 +29,11 @@ double measured(const LaserDescription& laser, double true_m, double bias_m, dou
   return std::clamp(range, 0.0, laser.range_max_m);
 }
 
-/// What three rays of one spot met: the middle one, and those at +- `half_rad`.
+/// The hits of the three rays of one spot: the middle one, and those at +- `half_rad`.
 struct Spot {
   double middle_m, left_m, right_m, half_rad;
 
-  // On a plane, 1 / distance is a cosine of the angle: its mean over the two ends is known from the middle,
+  // On a plane, 1 / distance is a cosine of the angle: its mean over the two ends follows from the middle,
   bool on_a_plane() const {
     constexpr double rounding = 1e-6;
     return std::fabs(middle_m * (1 / left_m + 1 / right_m) - 2 * exact::cos(half_rad)) < rounding;

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mirror laser, a SICK LMS above all, as a model of errors:
+// The error model of a scanning laser with a mirror, such as the SICK LMS:
 //
-//   when     each beam is measured at its own time, from where the device is then (world/sensors/laser_timing.hpp)
-//   where    its direction is a little off
-//   what     a spot that falls on two surfaces far apart reads something between (a mixed pixel), uniformly; what is
-//            met too flatly sends no echo; some echoes are lost
-//   range    r = q(d + b + b_w e^(-t/T) + s(d) n): a bias, one that fades while the device warms up, noise that grows
-//            with the range, whole steps of resolution
+//   time       each beam is measured at its own time, from the device's pose then (world/sensors/laser_timing.hpp)
+//   direction  has an error
+//   echo       a spot on two surfaces far apart reads a range between them (a mixed pixel), uniformly distributed; flat
+//              incidence gives no echo; some echoes are lost
+//   range      r = q(d + b + b_w e^(-t/T) + s(d) n): a bias, a decaying warm-up bias, noise that grows with the range,
+//              quantisation
 //
-// The data sheet gives the standard deviation s to 8 m, and twice that at 20 m; between, we take it as linear, and
-// beyond as constant. Mixed pixels, warming up and the effect of incidence after Ye and Borenstein, "Characterization
-// of a 2-D laser scanner for mobile robot obstacle negotiation", ICRA 2002. A spot is three rays: its middle and two
-// ends.
+// The data sheet gives the standard deviation s up to 8 m, and twice that at 20 m; it is taken as linear between, and
+// constant beyond. Mixed pixels, warming up and the effect of incidence after Ye and Borenstein, "Characterization of a
+// 2-D laser scanner for mobile robot obstacle negotiation", ICRA 2002. A spot is three rays: its middle and two ends.
 #pragma once
 
 #include <cstdint>
@@ -31,20 +30,20 @@ namespace waitpoint::world {
 /// The standard deviation of a range.
 double range_noise_m(const LaserDescription& laser, double range_m);
 
-/// What all lasers of one description have in common: of a crowd's it is read from memory once, and not for each alone.
+/// The data shared by all lasers with equal descriptions, so that a crowd's lasers read it from memory once.
 struct LaserKind {
   explicit LaserKind(const LaserDescription& of);
 
   LaserDescription description;
-  bool plain;                              ///< the beams are lines at equal angles from one point, at one instant
+  bool plain;                              ///< the beams are equally spaced lines from one point, at one instant
   double first_angle_rad, angle_step_rad;  ///< between neighbouring beams; 0 for a single one
   std::vector<Point> directions;           ///< of the beams in the device's frame, counter-clockwise; unit vectors
 };
 
-/// The kinds of some lasers.
+/// A cache of kinds.
 class LaserKinds {
  public:
-  /// A kind that was asked for lately, or a new one.
+  /// A recently used kind, or a new one.
   std::shared_ptr<const LaserKind> of(const LaserDescription& description);
 
  private:
@@ -67,15 +66,14 @@ class Laser {
   /// The unit vectors of the beams in the device's frame, counter-clockwise.
   std::span<const Point> directions() const { return kind_->directions; }
 
-  /// Whether the beams are lines at equal angles from one point, so that a fan cast from there is what look() finds.
+  /// True if the beams are equally spaced lines from one point, at one instant: casting a fan then equals look().
   bool plain() const { return kind_->plain; }
-  /// Finds what each beam sees of a scan that has just ended, from where the body has been: range_max_m without echo.
-  /// As many ranges as beams.
+  /// Sets the true range of each beam of a scan that has just ended, along the body's recent path; range_max_m without
+  /// echo. As many ranges as beams.
   void look(std::uint64_t scan_number, const ArcTrail& body, const RayCaster& caster, std::span<double> ranges_m) const;
 
-  /// Turns seen ranges into measured ones, in place, `on_s` after the device was switched on. A range at or beyond
-  /// range_max_m stays without echo and reads range_max_m, as does a measured one that comes out beyond it; none is
-  /// below 0.
+  /// Turns true ranges into measured ones, in place, `on_s` after the device was switched on. A true range of at least
+  /// range_max_m has no echo; measured ranges are clamped to [0, range_max_m].
   void measure(std::uint64_t scan_number, double on_s, std::span<double> ranges_m) const;
 
  private:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lasers that can be bought, by the figures of their data sheets and of their protocol.
+// Commercial lasers, by the figures of their data sheets and of their protocol.
 //
 //                    noise (1 sigma)           resolution, greatest range
 //   LMS 200          5 mm to 8 m, 10 mm at 20  1, 10 or 100 mm a unit, 8191 units
 //   LMS 291          10 mm to 20 m             the same
 //
-// Both turn 75 times a second and look each degree; half degrees take two interlaced turns, quarters four, and quarters
-// only over 100 degrees. The light's diameter is the one that the maker gives for the LMS 1xx: 8 mm + 15 mrad.
+// Both turn 75 times a second and measure at each degree; half degrees take two interlaced turns, quarters four, and
+// quarters only over at most 100 degrees. The spot's diameter is the maker's figure for the LMS 1xx: 8 mm + 15 mrad.
 #pragma once
 
 #include <optional>
@@ -20,11 +20,11 @@ namespace waitpoint::world {
 LaserDescription lms_200();
 LaserDescription lms_291();
 
-/// Sets the turns that an LMS needs for its beams and its field of view. Says what such a device cannot do; then the
-/// description is as it was.
+/// Sets the interlaced turns that an LMS needs for its beams and field of view. Returns an error message, and leaves
+/// the description unchanged, for a mode that such a device does not have.
 std::optional<std::string> set_lms_mode(LaserDescription& laser);
 
-/// The greatest range that an LMS has a number for, at that resolution.
+/// The greatest range that an LMS can encode at that resolution.
 double lms_range_max_m(double resolution_m);
 
 }  // namespace waitpoint::world

@@ -14,7 +14,7 @@ double beam_time_s(const LaserDescription& laser, std::uint32_t beam) {
 
 double scan_span_s(const LaserDescription& laser) {
   double span_s = 0;
-  // The last beam of each turn is one of the last of all.
+  // The last beam of each turn is among the last `interlaced_turns` beams.
   for (std::uint32_t i = 0; i < std::min(laser.interlaced_turns, laser.beams); ++i)
     span_s = std::max(span_s, beam_time_s(laser, laser.beams - 1 - i));
   return span_s;

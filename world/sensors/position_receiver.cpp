@@ -30,7 +30,7 @@ double PositionReceiver::measured(std::uint64_t axis, double true_m) const {
 
 void PositionReceiver::add(Duration now, Duration step, const Pose& pose, double height_m) {
   const PositionReceiverDescription& d = description_;
-  // Where several tries fall into one step, all but the last are as good as not made.
+  // Of several tries in one step only the last gives a fix; the drift advances with each.
   const std::int64_t due = now / d.period - (now - step) / d.period;
   for (std::int64_t n = 0; n < due; ++n) {
     ++tries_;

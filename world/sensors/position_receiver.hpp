@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Positions as of a satellite receiver: a bias, an error that wanders slowly, one of each fix, and fixes that fail.
+// The position of a satellite receiver: a bias, a slow Gauss-Markov error, noise per fix, and dropouts.
 //
 //   d' = p d + D sqrt(1 - p^2) n,  p = e^(-T/tau)     on each axis: variance D^2, correlated by e^(-t/tau)
 //   fix = q(truth + b + d + s n')
 //
-// so positions of one receiver that are t apart differ with the variance 2 D^2 (1 - e^(-t/tau)) + 2 s^2: what the
-// atmosphere and the satellites' places add stays for minutes, and averaging over less does not take it away.
+// so two positions at times t apart differ with the variance 2 D^2 (1 - e^(-t/tau)) + 2 s^2: errors of the atmosphere
+// and of the satellites' positions last for minutes, and averaging over less does not remove them.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class PositionReceiver {
   /// the try, index = axis.
   PositionReceiver(const PositionReceiverDescription& description, std::uint64_t seed, std::string_view robot);
 
-  /// The body is at `pose` and `height_m` when the step that ends at `now` since the start, one of `step`, is done.
+  /// The body is at `pose` and `height_m` at the end of the step of length `step` that ends at `now` since the start.
   void add(Duration now, Duration step, const Pose& pose, double height_m);
   const PositionFix& fix() const { return fix_; }
 
@@ -34,7 +34,7 @@ class PositionReceiver {
 
   PositionReceiverDescription description_;
   RandomStream drift_, noise_, dropout_;
-  double kept_;  // of what has wandered off, from try to try
+  double kept_;  // the correlation p of the drift from try to try
   std::array<double, 3> wandered_m_{};
   std::uint64_t tries_ = 0;
   PositionFix fix_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a sensor asks of an engine: how far a ray goes.
+// The interface of a sensor to an engine: the length of a ray.
 #pragma once
 
 #include "world/planar/ray.hpp"
@@ -8,8 +8,8 @@ namespace waitpoint::world {
 
 class RayCaster {
  public:
-  /// The distance to what the ray hits first, as the sensor's body sees the world; the sensor's greatest range where
-  /// nothing is nearer.
+  /// The distance of the ray's first hit, without the sensor's own body; the sensor's greatest range if nothing is
+  /// nearer.
   virtual double distance_m(const Ray& ray) const = 0;
 
  protected:

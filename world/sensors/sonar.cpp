@@ -8,7 +8,7 @@
 namespace waitpoint::world {
 namespace {
 
-// How near to each other two walls must come to make a corner.
+// The greatest gap between two walls that make a corner.
 constexpr double meeting_m = 1e-6;
 
 bool on_face(const Face& face, Point p) {
@@ -66,7 +66,7 @@ void SonarCone::add_faces(const Outline& outline, std::vector<Echo>& echoes) con
 }
 
 void SonarCone::add(const Outline& outline, std::vector<Echo>& echoes) const {
-  // What lies wholly behind or too far needs no closer look.
+  // A quick rejection of outlines wholly behind or beyond the range.
   const double extent = outline.half_length_m + outline.half_width_m + outline.radius_m;
   const Point d = outline.centre - origin_;
   if (dot(d, axis_) < -extent || dot(d, d) > (range_max_m_ + extent) * (range_max_m_ + extent)) return;
@@ -91,7 +91,7 @@ void find_concave_corners(const Outline& a, const Outline& b, std::vector<Concav
       const double slope = dot(edge, g.normal);
       if (slope == 0) continue;
       const Point p = f.start + (dot(g.start - f.start, g.normal) / slope) * edge;
-      // Each wall goes on before the other, or the corner is none.
+      // Each wall must extend in front of the other, else there is no concave corner.
       if (on_face(f, p) && on_face(g, p) && on_face(f, p + corner_wall_m_min * g.normal) &&
           on_face(g, p + corner_wall_m_min * f.normal)) {
         corners.push_back({p, f.normal, g.normal});

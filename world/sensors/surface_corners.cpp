@@ -8,9 +8,9 @@
 namespace waitpoint::world {
 namespace {
 
-// Ends so near are one point.
+// Ends within this distance coincide.
 constexpr double meeting_m = 1e-6;
-// A wall of several triangles has no edges where they join, however they are rounded.
+// The least turn at an edge: joints within a wall of several triangles turn less, by rounding.
 constexpr double turn_rad_min = 1e-3;
 
 }  // namespace
@@ -42,7 +42,7 @@ void SurfaceCorners::find(std::span<const Outline> segments) {
   }
 }
 
-// Those about the point where the ends here are.
+// Adds the sectors about the point where the ends in here_ meet.
 void SurfaceCorners::add_sectors() {
   std::sort(here_.begin(), here_.end(), [](const End& a, const End& b) {
     return std::tie(a.angle_rad, a.length_m) < std::tie(b.angle_rad, b.length_m);

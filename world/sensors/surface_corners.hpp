@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sonars hear of a cut surface beside its walls: where its segments end, and where they meet.
+// The edges and corners of a cut surface, which sonars hear besides its walls: the ends and junctions of its segments.
 //
-// About such a point the directions in which segments go off divide the plane into sectors. A sector wider than a half
-// turn is what is before a convex edge (all of the plane, where a single segment ends); one of nearly a right angle,
-// between segments that each go on, is what is before a concave corner. Neighbouring sectors have edges and corners of
-// their own: a wall thinner than nothing has an edge on one side and a corner on the other.
+// The directions of the segments at such a point divide the plane into sectors. A sector wider than a half turn is the
+// space in front of a convex edge (the whole plane at the end of a single segment); a sector of nearly a right angle,
+// between segments long enough, is the space in front of a concave corner. Each sector has its own edge or corner: a
+// bend of a wall without thickness is an edge on one side and a corner on the other.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace waitpoint::world {
 
-/// An edge, heard from the sector that goes counter-clockwise from one direction to another, wider than a half turn.
+/// An edge, heard in the sector counter-clockwise from direction `from` to direction `to`, wider than a half turn.
 struct ConvexEdge {
   Point at, from, to;
 
@@ -24,7 +24,7 @@ struct ConvexEdge {
   }
 };
 
-/// Finds them. Used again and again, it allocates only for more segments than ever before.
+/// Finds the edges and corners. Reused: it allocates only for more segments than ever before.
 class SurfaceCorners {
  public:
   void find(std::span<const Outline> segments);
