@@ -8,10 +8,13 @@
 namespace waitpoint::world {
 
 ArcTrail::ArcTrail(double span_s, double step_s, const Pose& start)
-    : step_s_(step_s), arcs_(static_cast<std::size_t>(std::ceil(span_s / step_s)) + 1, Arc{start, 0, 0}) {}
+    : step_s_(step_s), arcs_(static_cast<std::size_t>(std::ceil(span_s / step_s)) + 1, Arc{start, 0, 0}) {
+  WAITPOINT_CHECK(step_s > 0 && span_s >= 0, "a trail of arcs has no positive step, or a negative span");
+}
 
 void ArcTrail::add(const Arc& arc) {
   newest_ = (newest_ + 1) % arcs_.size();
+  WAITPOINT_FAST_CHECK(newest_ < arcs_.size(), "the newest arc is beyond its ring");
   arcs_[newest_] = arc;
 }
 
@@ -20,7 +23,7 @@ void ArcTrail::restart(const Pose& pose) {
 }
 
 Pose ArcTrail::at(double age_s) const {
-  WAITPOINT_CHECK(age_s >= 0, "where a body will be is not known yet");
+  WAITPOINT_CHECK(age_s >= 0, "a body's pose is asked for in the future");
   const double steps = age_s / step_s_, whole = std::floor(steps);
   if (whole >= static_cast<double>(arcs_.size())) return arcs_[(newest_ + 1) % arcs_.size()].start;
   const std::size_t back = static_cast<std::size_t>(whole);

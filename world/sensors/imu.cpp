@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 
 Imu::Axis::Axis(const InertialErrors& errors, std::uint64_t seed, std::string_view robot, const std::string& name)
@@ -15,6 +17,7 @@ Imu::Axis::Axis(const InertialErrors& errors, std::uint64_t seed, std::string_vi
       wandered_(errors.drift * drift_.normal(0)) {}
 
 double Imu::Axis::take(std::uint64_t number, double elapsed_s) {
+  WAITPOINT_FAST_CHECK(elapsed_s > 0, "a sample is a mean over no time");
   const InertialErrors& e = errors_;
   const double root_s = std::sqrt(elapsed_s);
   double reading = e.scale * (sum_ / elapsed_s) + bias_ + wandered_;
@@ -34,9 +37,14 @@ Imu::Imu(const ImuDescription& description, std::uint64_t seed, std::string_view
       gyro_(description.gyro, seed, robot, "imu.gyro"),
       ahead_(description.accelerometer, seed, robot, "imu.ahead"),
       left_(description.accelerometer, seed, robot, "imu.left"),
-      up_(description.accelerometer, seed, robot, "imu.up") {}
+      up_(description.accelerometer, seed, robot, "imu.up") {
+  WAITPOINT_CHECK(period_ > Duration(), "an inertial unit has no positive period");
+  for (const InertialErrors& errors : {description.gyro, description.accelerometer})
+    WAITPOINT_CHECK(!(errors.drift > 0) || errors.drift_s > 0, "a drift has no positive correlation time");
+}
 
 void Imu::add(Duration now, Duration step, const Arc& arc, const Velocity& velocity) {
+  WAITPOINT_FAST_CHECK(step > Duration() && now >= step, "a step of an inertial unit begins before time 0");
   const double step_s = step.seconds();
   const double turn_rad_s = arc.turn_rad / step_s;
   gyro_.add(arc.turn_rad);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 
 Pose infrared_mount(const InfraredRingDescription& ring, std::uint32_t finder) {
@@ -13,6 +15,8 @@ Pose infrared_mount(const InfraredRingDescription& ring, std::uint32_t finder) {
 }
 
 double infrared_v(const InfraredRingDescription& ring, double range_m, double normal) {
+  WAITPOINT_CHECK(0 < ring.range_min_m && ring.range_min_m <= ring.range_max_m,
+                  "an infrared ring's least range is not positive, or above its greatest");
   const double range = std::clamp(range_m, ring.range_min_m, ring.range_max_m);
   const double true_v = exact::exp(exact::log(range) / ring.exponent) / ring.gain_per_v;
   const double measured_v = true_v + ring.noise_v * normal;

@@ -68,6 +68,7 @@ LaserKind::LaserKind(const LaserDescription& of)
       plain(is_plain(of)),
       first_angle_rad(-0.5 * of.field_of_view_rad),
       angle_step_rad(of.beams > 1 ? of.field_of_view_rad / (of.beams - 1) : 0) {
+  WAITPOINT_CHECK(of.beams > 0 && of.range_max_m > 0, "a laser has no beam or no range");
   for (std::uint32_t i = 0; i < of.beams; ++i) {
     const auto [s, c] = exact::sincos(first_angle_rad + i * angle_step_rad);
     directions.push_back({c, s});
@@ -95,6 +96,7 @@ void Laser::look(std::uint64_t scan_number, const ArcTrail& body, const RayCaste
   const LaserDescription& d = description();
   const double span_s = scan_span_s(d);
   for (std::uint32_t i = 0; i < d.beams; ++i) {
+    WAITPOINT_FAST_CHECK(beam_time_s(d, i) <= span_s, "a beam is measured after the end of its scan");
     const Pose device = compose(body.at(span_s - beam_time_s(d, i)), d.mount);
     Point direction = turned(directions()[i], device.heading);
     if (d.angle_noise_rad > 0) {
@@ -108,6 +110,7 @@ void Laser::look(std::uint64_t scan_number, const ArcTrail& body, const RayCaste
 double Laser::seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& middle, const RayCaster& caster) const {
   const LaserDescription& d = description();
   const double middle_m = caster.distance_m(middle);
+  WAITPOINT_FAST_CHECK(0 <= middle_m && middle_m <= d.range_max_m, "a ray's length is not between 0 and its limit");
   const bool wide = d.spot_m > 0 || d.spot_divergence_rad > 0;
   if (!wide && d.incidence_max_rad >= 0.5 * exact::pi) return middle_m;
 
@@ -130,6 +133,7 @@ double Laser::seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& mid
 
 void Laser::measure(std::uint64_t scan_number, double on_s, std::span<double> ranges_m) const {
   const LaserDescription& d = description();
+  WAITPOINT_FAST_CHECK(on_s >= 0, "a laser measures before it is switched on");
   const bool warms_up = d.warm_up_bias_m != 0;
   const double bias_m = d.range_bias_m + (warms_up ? d.warm_up_bias_m * exact::exp(-on_s / d.warm_up_s) : 0);
   const bool noisy = d.range_noise_m > 0;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 
 double beam_time_s(const LaserDescription& laser, std::uint32_t beam) {
+  WAITPOINT_CHECK(beam < laser.beams && laser.interlaced_turns > 0, "a laser has no such beam, or turns by no turn");
   if (laser.beams < 2) return 0;
   const double angle_rad = laser.field_of_view_rad * beam / (laser.beams - 1);
   const double turns = beam % laser.interlaced_turns + angle_rad / (2 * exact::pi);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -17,6 +19,7 @@ PositionReceiver::PositionReceiver(const PositionReceiverDescription& descriptio
       noise_(seed, robot, "gps.noise"),
       dropout_(seed, robot, "gps.dropout"),
       kept_(exact::exp(-description.period.seconds() / description.drift_s)) {
+  WAITPOINT_CHECK(0 <= kept_ && kept_ <= 1, "a receiver's drift grows: its period or its correlation time is negative");
   for (std::uint64_t axis = 0; axis < wandered_m_.size(); ++axis)
     wandered_m_[axis] = description_.drift_m * drift_.normal(0, axis);
 }
@@ -32,6 +35,7 @@ void PositionReceiver::add(Duration now, Duration step, const Pose& pose, double
   const PositionReceiverDescription& d = description_;
   // Of several tries in one step only the last gives a fix; the drift advances with each.
   const std::int64_t due = now / d.period - (now - step) / d.period;
+  WAITPOINT_FAST_CHECK(due >= 0, "the time of a receiver goes back");
   for (std::int64_t n = 0; n < due; ++n) {
     ++tries_;
     for (std::uint64_t axis = 0; axis < wandered_m_.size(); ++axis)

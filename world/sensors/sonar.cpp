@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -112,12 +114,17 @@ std::uint64_t slots(const SonarRingDescription& ring) {
 
 bool fires(const SonarRingDescription& ring, std::uint32_t transducer, std::uint64_t firing) {
   const std::uint64_t turns = slots(ring);
+  WAITPOINT_FAST_CHECK(turns == 1 || ring.firing_order[firing % turns] < turns,
+                       "a ring's order names no member of a bank");
   return turns == 1 || transducer % turns == ring.firing_order[firing % turns];
 }
 
 double sound_m_s(double celsius) { return 331.3 + 0.606 * celsius; }
 
 double sonar_range_m(const SonarRingDescription& ring, double distance_m, double normal) {
+  WAITPOINT_CHECK(0 <= ring.range_min_m && ring.range_min_m <= ring.range_max_m,
+                  "a sonar ring's least range is negative, or above its greatest");
+  WAITPOINT_FAST_CHECK(distance_m >= 0, "the distance of an echo is negative or NaN");
   if (distance_m > ring.range_max_m) return ring.range_max_m;
   const double taken_for = sound_m_s(ring.calibrated_celsius) / sound_m_s(ring.air_celsius);
   const double range = taken_for * distance_m * (1 + ring.range_noise_relative * normal);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/error.hpp"
+
 namespace waitpoint::world {
 namespace {
 
@@ -38,6 +40,7 @@ void SurfaceCorners::find(std::span<const Outline> segments) {
       ends_[j].is_taken = true;
       here_.push_back(ends_[j]);
     }
+    WAITPOINT_FAST_CHECK(!here_.empty(), "a point of a cut surface has no segment");
     add_sectors();
   }
 }
@@ -50,6 +53,8 @@ void SurfaceCorners::add_sectors() {
   for (std::size_t i = 0; i < here_.size(); ++i) {
     const bool is_last = i + 1 == here_.size();
     const End &from = here_[i], &to = here_[is_last ? 0 : i + 1];
+    WAITPOINT_FAST_CHECK(is_last || from.angle_rad <= to.angle_rad,
+                         "the segments at a point are not in order of angle");
     const double wide_rad = to.angle_rad - from.angle_rad + (is_last ? 2 * exact::pi : 0);
     if (wide_rad > exact::pi + turn_rad_min) {
       edges_.push_back({here_[0].at, from.along, to.along});
