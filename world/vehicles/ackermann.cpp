@@ -7,7 +7,7 @@
 namespace waitpoint::world {
 namespace {
 
-// The steering at which the body turns by w_rad_s at v_m_s, both not 0 at once, if it can steer so far.
+// The steering angle for w_rad_s at v_m_s, clamped to the range of the steering; at least one of the two is not 0.
 double steering_for(const BaseDescription& base, double v_m_s, double w_rad_s) {
   const double across = v_m_s < 0 ? -base.wheelbase_m * w_rad_s : base.wheelbase_m * w_rad_s;
   return std::clamp(exact::atan2(across, std::fabs(v_m_s)), -base.steering_max_rad, base.steering_max_rad);
@@ -43,7 +43,7 @@ BaseMotion next_of_steering(const BaseDescription& base, const BaseMotion& now, 
       std::clamp(limited_by_steering(base, wanted).v_m_s, now.velocity.v_m_s - faster, now.velocity.v_m_s + faster);
   double steering = std::clamp(wanted_steering(base, wanted, now.steering_rad), now.steering_rad - further,
                                now.steering_rad + further);
-  // Together they must not turn the body too fast. It does not now: so whichever of the two rises waits.
+  // Together they must not exceed the limit of the turn. The present state does not, so the rising one is held back.
   const double was = std::fabs(now.steering_rad);
   if (std::fabs(steering) > was) {
     const double bound = std::max(was, steering_for(base, std::fabs(v), base.w_max_rad_s));

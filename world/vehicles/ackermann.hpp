@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A base that steers by its front wheels, as a car does.
+// A base with steered front wheels, as a car.
 //
-// One front wheel stands for both, in the middle (the bicycle model); the body's origin is above the rear axle, which
+// The bicycle model: one front wheel in the middle represents both; the body's origin is above the rear axle, which
 // cannot move sideways:  w = v tan(steering) / wheelbase.
 #pragma once
 
@@ -10,15 +10,15 @@
 
 namespace waitpoint::world {
 
-/// At that steering, the turn for each metre driven.
+/// The curvature of the path, in rad per metre driven, at that steering angle.
 double curvature_per_m(const BaseDescription& base, double steering_rad);
 
-/// As limited(): the curvature w / v is clamped to what the steering allows, then both are slowed alike until the body
-/// does not turn too fast. Standing still it turns nowhere.
+/// limited() for this base: the curvature w / v is clamped to the steering's range, then v and w are scaled down alike
+/// until w is within its limit. Without speed there is no turn.
 Velocity limited_by_steering(const BaseDescription& base, Velocity wanted);
 
-/// As next_motion(): the steering follows the wanted curvature at its rate, the speed at its acceleration. A turn that
-/// is wanted without speed steers to the end of its range; a stop leaves the wheels as they are.
+/// next_motion() for this base: the steering follows the wanted curvature at its rate, the speed at its acceleration. A
+/// wanted turn without speed steers to the end of the range; a stop keeps the steering angle.
 BaseMotion next_of_steering(const BaseDescription& base, const BaseMotion& now, Velocity wanted, double step_s);
 
 }  // namespace waitpoint::world

@@ -19,7 +19,7 @@ double wheel_speed(const BaseDescription& base, Velocity velocity) {
   return std::fabs(velocity.v_m_s) + std::fabs(velocity.w_rad_s) * 0.5 * base.axle_m;
 }
 
-// The vector, shortened to that length.
+// The vector, shortened to at most that length.
 Point at_most(Point vector, double length_max) {
   const double longer = length(vector);
   return longer > length_max ? (length_max / longer) * vector : vector;
@@ -48,8 +48,8 @@ Velocity limited_by_wheels(const BaseDescription& base, Velocity wanted) {
 Velocity next_of_wheels(const BaseDescription& base, Velocity now, Velocity wanted, double step_s) {
   Velocity next = approach_each(base, now, limited_by_wheels(base, wanted), step_s);
   if (wheel_speed(base, next) <= base.v_max_m_s) return next;
-  // One component has not fallen as far as the other has risen: the rising one waits. (Both rising end within the
-  // target's limits, both falling within the present ones.)
+  // One component has fallen by less than the other has risen: the rising one is held back. (If both rise, they end
+  // within the target's limits; if both fall, within the present ones.)
   if (std::fabs(next.w_rad_s) > std::fabs(now.w_rad_s)) {
     const double w_max = (base.v_max_m_s - std::fabs(next.v_m_s)) / (0.5 * base.axle_m);
     next.w_rad_s = std::clamp(next.w_rad_s, -w_max, w_max);

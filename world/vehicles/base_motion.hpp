@@ -6,7 +6,7 @@
 
 namespace waitpoint::world {
 
-/// How a base moves: its body, and where its wheels point (Ackermann; 0 is straight ahead).
+/// The velocity of the body and the steering angle (Ackermann; 0 is straight ahead).
 struct BaseMotion {
   Velocity velocity;
   double steering_rad = 0;

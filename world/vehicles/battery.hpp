@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pack of accumulators that is discharged: a voltage that falls with the charge drawn and sags with the current.
+// A battery pack in discharge: its voltage falls with the charge drawn and sags with the current.
 //
 //   I = idle + a |v| + b |w| + c climb (+ stalled)      U = full - (full - empty) q / C - R I
 //   dq = I (I H / C)^(k - 1) dt
 //
-// C is the capacity when it is emptied in the rated time of H hours, k Peukert's exponent (W. Peukert, ETZ 20, 1897):
-// at a constant current the full pack is empty after H (C / (I H))^k hours. The open voltage of lead is about linear in
-// its charge. It is empty when C is drawn, or when U falls below the voltage at which what it feeds goes off, for good.
+// C is the capacity when discharged in the rated time of H hours, k Peukert's exponent (W. Peukert, ETZ 20, 1897): at a
+// constant current the full pack is empty after H (C / (I H))^k hours. The open-circuit voltage of lead-acid cells is
+// about linear in the charge. The pack is empty, for good, when C is drawn or when U falls below the cut-off voltage.
 #pragma once
 
 #include "world/arc.hpp"
@@ -19,7 +19,7 @@ class Battery {
  public:
   explicit Battery(const BatteryDescription& description);
 
-  /// Feeds, for the step that ends at `now` since the start, one of `step`, a body of that velocity.
+  /// Supplies a body of that velocity in the step of length `step` that ends at `now` since the start.
   void draw(Duration now, Duration step, const Velocity& velocity, bool stalled);
   bool empty() const { return empty_at_.has_value(); }
   BatteryState state() const;

@@ -6,7 +6,7 @@
 namespace waitpoint::world {
 namespace {
 
-// So many slips in one step that they are no longer events.
+// A bound of the slips in one step, far above a plausible number.
 constexpr std::uint64_t slips_max = 1000;
 
 bool wheels_err(const OdometryErrors& e) {
@@ -85,7 +85,7 @@ Odometer::Motion Odometer::of_wheels(std::uint64_t step, Motion moved) {
   return {0.5 * (measured[1] + measured[0]), e.wheel_base_ratio * (measured[1] - measured[0]) / axle_m_};
 }
 
-// What spinning wheels count in a step of that distance. The number of times is drawn by inversion.
+// The excess motion counted by spinning wheels in a step of that distance. The number of slips is drawn by inversion.
 Odometer::Motion Odometer::slipped(std::uint64_t step, double distance_m) const {
   const double expected = errors_.slips_per_m * std::fabs(distance_m);
   double left = slip_.uniform(step), probability = exact::exp(-expected);

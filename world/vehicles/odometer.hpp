@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a base's controller counts while the base moves: wheel odometry with its errors.
+// Wheel odometry with its errors, as counted by a base's controller.
 //
-//   systematic    travel and turn scaled; a turn for every metre (unequal wheels): grows with the distance, with sign
-//   random        independent of step to step, with variances that grow with the distance and the angle moved
-//   slip          now and then wheels spin: a Poisson process in the distance, each time an exponentially distributed
-//                 distance more, and a normally distributed turn
-//   quantisation  whole units; the rest is carried, so it never exceeds half a unit in all
+//   systematic    travel and turn scaled; a turn for every metre (unequal wheels): grows with the signed distance
+//   random        independent from step to step, with variances that grow with the distance and the angle moved
+//   slip          wheels spin: a Poisson process in the distance, each event with an exponentially distributed excess
+//                 distance and a normally distributed turn
+//   quantisation  whole units; the remainder is carried, so the total error never exceeds half a unit
 //
 //   travel = s d + k_d sqrt|d| n1      turn = s_a a + c d + sqrt(k_ad^2 |d| + k_aa^2 |a|) n2
 //
-// What two driven wheels have beside that comes first: diameters in the ratio E_d (right to left, their mean as it
-// should be), a base of E_b times the nominal one, a noise of each wheel, an encoder's ticks.
+// The errors of two driven wheels are applied first: diameters in the ratio E_d (right to left, with the nominal mean),
+// a wheel base of E_b times the nominal one, noise of each wheel, and the ticks of an encoder.
 //
 //   w_r, w_l = d +- a axle / 2                                    m_r = w_r (E_d + 1) / (2 E_d) + k_w sqrt|w_r| n_r
 //   d' = (m_r + m_l) / 2       a' = E_b (m_r - m_l) / axle        m_l = w_l (E_d + 1) / 2       + k_w sqrt|w_l| n_l
@@ -28,12 +28,12 @@
 
 namespace waitpoint::world {
 
-/// A number of whole units, and what is not counted yet, in [-1/2, 1/2].
+/// A number of whole units, and the remainder in [-1/2, 1/2].
 struct UnitCounter {
   std::int64_t total = 0;
   double rest = 0;
 
-  /// Returns the whole units that came with it.
+  /// Returns the whole units added to the total.
   std::int64_t add(double units);
 };
 
@@ -42,7 +42,7 @@ class Odometer {
   /// Draws from streams (seed, robot, "odometry...") at tick = number of the step.
   Odometer(const BaseDescription& base, std::uint64_t seed, std::string_view robot);
 
-  /// Counts what the base moved in that step of `step_s` seconds, as its wheels see it (as_wheels_count()).
+  /// Counts the base's motion in a step of `step_s` seconds; `moved` is from as_wheels_count().
   void add(std::uint64_t step, double step_s, const Arc& moved);
   const OdometerReading& reading() const { return reading_; }
 

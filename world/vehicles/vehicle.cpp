@@ -8,7 +8,7 @@
 namespace waitpoint::world {
 namespace {
 
-// Less than this part of the way that was tried is no way.
+// A body that moves less than this fraction of the tried motion is held.
 constexpr double way_least = 0.1;
 
 bool held(const Arc& tried, const Arc& came) {

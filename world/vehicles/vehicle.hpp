@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A body on its base, between the commands that it gets and what became of its motion: the part of a world's step that
-// is the same whatever finds the contacts.
+// A body on its base: commands, motion, odometer and battery; the part of a world's step that is independent of the
+// engine that finds the contacts.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 
 namespace waitpoint::world {
 
-/// What became of a body's step where forces decide.
+/// A body's motion in a step of a dynamic world.
 struct BodyMotion {
   Point moved;  ///< in the world's frame
   double turned_rad = 0, climbed_m = 0;
   Velocity velocity;     ///< at the end, in the body's frame
-  bool touched = false;  ///< whether something pressed against it
+  bool touched = false;  ///< by anything but the floor
 };
 
 class Vehicle {
@@ -28,27 +28,27 @@ class Vehicle {
   const BodyDescription& description() const { return *description_; }
   const BodyState& state() const { return state_; }
   const OdometerReading& odometer() const { return odometer_.reading(); }
-  /// Adds what its state and a command touch.
+  /// Adds the memory that queries of its state and commands touch.
   void add_to(WorkingSet& set) const { set.add_between(this, &motion_); }
-  /// So long after the start.
+  /// `elapsed_s` is the time since the start.
   BatteryState battery(double elapsed_s) const;
-  /// Where it stands.
+  /// Its outline in its current pose.
   const Outline& outline() const { return outline_; }
-  /// Its shape in the body's frame, as high as it is now.
+  /// Its shape in the body's frame, raised to its current height.
   Shape shape() const { return raised(description_->shape, state_.height_m); }
 
-  /// Takes over a command that was given after `steps` steps.
+  /// Takes a command given after `steps` steps; NaN is a bug.
   void command(Velocity velocity, std::uint64_t steps);
-  /// Begins step number `step`, of that period: changes the velocity, and says how it would move at it. With an empty
-  /// battery it brakes to stand still, and what flies sinks to the floor.
+  /// Begins step number `step`: updates the velocity, and returns the arc of a free motion at it. With an empty battery
+  /// the body brakes to a stop, and an aerial body descends to the floor.
   Arc latch(std::uint64_t step, Duration period);
-  /// Ends it: the body has moved on that arc, unless a contact stopped it at a fraction of it.
+  /// Ends the step: the body has moved along `arc`, up to the fraction `stop` if a contact stopped it.
   void publish(std::uint64_t step, Duration period, const Arc& arc, std::optional<double> stop);
-  /// Ends it where forces decide: `tried` is what latch() said. A body that something touches, and that comes less than
-  /// a tenth of what its drive tried, is stalled. Its wheels count what it went along them and how it turned, be it
-  /// driven or pushed: held, they stand. What drags them sideways they do not count.
+  /// Ends the step in a dynamic world; `tried` is the result of latch(). A body that is touched and moves less than a
+  /// tenth of the tried motion is stalled. The wheels count travel along their direction and turns, driven or pushed;
+  /// sideways drag is not counted.
   void publish(std::uint64_t step, Duration period, const Arc& tried, const BodyMotion& motion);
-  /// A person's hand puts it there, at rest.
+  /// An intervention puts it there, at rest.
   void put(const Pose& pose);
 
  private:
@@ -60,7 +60,7 @@ class Vehicle {
   BodyState state_;
   Velocity commanded_;
   std::uint64_t commanded_at_ = 0;  // step
-  BaseMotion motion_;               // from which the base goes on
+  BaseMotion motion_;               // the start of the next step's motion
   Outline outline_;                 // at state_.pose
   Odometer odometer_;
   std::optional<Battery> battery_;
