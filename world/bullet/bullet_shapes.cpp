@@ -10,10 +10,10 @@ namespace {
 
 static_assert(sizeof(btScalar) == sizeof(double), "Bullet is to compute in double precision");
 
-// Bullet rounds the edges of what it finds contacts of, other than of two boxes, by this much.
+// The margin by which Bullet rounds edges, except in contacts of two boxes.
 constexpr double rounding_m = 0.002;
 
-// Bullet rounds a hull's edges outwards. So it is given a smaller one, whose sides lie so much within.
+// Bullet rounds a convex hull's edges outwards, so its sides are moved inwards by the margin.
 std::unique_ptr<btCollisionShape> prism(const Shape& shape) {
   const std::span<const ConvexPolygon::Side> sides = shape.polygon->sides();
   const btVector3 half = 0.5 * vector(size_of(shape));
@@ -21,7 +21,7 @@ std::unique_ptr<btCollisionShape> prism(const Shape& shape) {
   auto hull = std::make_unique<btConvexHullShape>();
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Point before = sides[(i + sides.size() - 1) % sides.size()].outward, after = sides[i].outward;
-    // Of a corner that is sharper than that, less.
+    // A bound for sharp corners.
     const double along = std::max(1 + dot(before, after), 0.1);
     const Point corner = sides[i].start - (margin_m / along) * (before + after);
     for (const double z : {-half.z() + margin_m, half.z() - margin_m}) hull->addPoint({corner.x, corner.y, z}, false);

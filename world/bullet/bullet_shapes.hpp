@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Our shapes and vectors as Bullet's.
+// Conversion of shapes and vectors to Bullet's types.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -13,12 +13,12 @@ namespace waitpoint::world {
 inline btVector3 vector(SpaceVector v) { return {v.x, v.y, v.z}; }
 inline SpaceVector space_vector(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// The axes of what stands upright.
+/// The axes of an upright solid.
 btMatrix3x3 upright(double heading_rad);
 
-/// Of these extents along its own axes, about its middle: a box or a cylinder.
+/// A box or a cylinder of these extents along its own axes, about its centre.
 std::unique_ptr<btCollisionShape> collision_shape(Shape::Kind kind, SpaceVector size_m);
-/// Of what stands upright, about its middle.
+/// An upright solid, about its centre.
 std::unique_ptr<btCollisionShape> collision_shape(const Shape& shape);
 
 }  // namespace waitpoint::world

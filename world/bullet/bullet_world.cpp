@@ -15,12 +15,12 @@
 namespace waitpoint::world {
 namespace {
 
-// The parts in which Bullet makes a step: while nothing loose moves, and while something does. In one part nothing that
-// drives goes further than is seen by it beforehand (2 cm).
+// The parts of a step for Bullet: without and with loose obstacles in motion. In one part no hull travels farther than
+// Bullet's range of contacts (2 cm).
 constexpr double part_s_max = 0.01, loose_part_s_max = 0.002, way_m_max = 0.015;
 constexpr double parts_max = 1000;
 
-/// That fraction of the way from one to the other.
+/// Linear interpolation.
 Velocity between(const Velocity& from, const Velocity& to, double fraction) {
   const auto part = [&](double a, double b) { return fraction == 1 ? b : a + fraction * (b - a); };
   return {part(from.v_m_s, to.v_m_s), part(from.w_rad_s, to.w_rad_s), part(from.side_m_s, to.side_m_s),
@@ -34,7 +34,7 @@ std::vector<Shape> standing_shapes(const std::vector<Obstacle>& obstacles) {
   return shapes;
 }
 
-/// Of an obstacle, how it moves; none of what is new or stands.
+/// The motion of an obstacle; none for a new or fixed one.
 using MaybeMoving = std::optional<LooseSolid>;
 
 class BulletWorld final : public VehicleWorld {
@@ -52,7 +52,7 @@ class BulletWorld final : public VehicleWorld {
   std::span<const LooseState> loose() const override { return loose_; }
 
  private:
-  /// A force that goes on acting, on what bears that name.
+  /// A lasting force on the body or obstacle of that name.
   struct Push {
     std::string name;
     Point force_n;
@@ -73,7 +73,7 @@ class BulletWorld final : public VehicleWorld {
 
   const std::vector<Obstacle> first_obstacles_;
   std::optional<Dynamics> dynamics_;
-  std::vector<DriveAim> forces_;  // of each vehicle's drive
+  std::vector<DriveAim> forces_;  // per vehicle: its drive's
   std::vector<LooseState> loose_;
   std::vector<char> loose_moved_;  // in the last step
   std::vector<Push> pushes_;
@@ -109,7 +109,7 @@ void BulletWorld::change_obstacles(std::vector<Obstacle> obstacles, const std::v
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) senses_.place(i, vehicles_[i]);
 }
 
-// All anew, in the order of the description: a person's hand is slow.
+// Rebuilds everything, in the order of the description: interventions are rare.
 void BulletWorld::make_dynamics(const std::vector<MaybeMoving>& moving) {
   dynamics_.emplace(standing_shapes(description_.obstacles), description_.meshes);
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
@@ -138,7 +138,7 @@ void BulletWorld::step() {
   senses_.make_expected_scans(vehicles_, elapsed_s());
 }
 
-// What moved in the last step, others see from now on.
+// Shows sensors the poses published by the last step.
 void BulletWorld::show() {
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i)
     if (vehicles_[i].state().arc.moves()) senses_.place(i, vehicles_[i]);
@@ -163,7 +163,7 @@ void BulletWorld::move() {
   const double part_s = step_s_ / static_cast<double>(parts);
   for (std::uint32_t i = 0; i < vehicles_.size(); ++i)
     dynamics_->place_hull(i, vehicles_[i].state().pose, vehicles_[i].state().height_m);
-  // What a drive is to reach by the end comes evenly over the parts.
+  // A drive's target for the end of the step is interpolated over the parts.
   for (std::uint64_t part = 1; part <= parts; ++part) {
     const double fraction = static_cast<double>(part) / static_cast<double>(parts);
     for (std::uint32_t i = 0; i < vehicles_.size(); ++i) {
@@ -198,7 +198,7 @@ void BulletWorld::publish() {
     senses_.moved(i, vehicles_[i], steps_);
   }
   for (std::uint32_t i = 0; i < loose_.size(); ++i) {
-    // What fell asleep in this step has moved in it.
+    // An obstacle that fell asleep in this step may have moved in it.
     const bool awake = dynamics_->awake(i);
     if (awake || loose_moved_[i]) publish_loose(i);
     loose_moved_[i] = awake;
@@ -218,7 +218,7 @@ void BulletWorld::publish_loose(std::uint32_t number) {
   state.w_rad_s = solid.spin_rad_s.z;
 }
 
-// --- a person's hand ---
+// --- interventions ---
 
 std::optional<std::string> BulletWorld::move_body(BodyId id, const Pose& pose) {
   Vehicle& vehicle = vehicles_.at(index(id));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drive: motors between a hull and the floor, each as strong as it is.
+// A drive: motors of limited force between a hull and the floor, as a constraint.
 //
-// Its rows are velocities of the hull: along, across, about (and upwards, in the air). The solver finds the impulses
-// that bring them to their targets, each within force times step, together with all contacts: so a drive that is held
-// by a wall gives its greatest force and no more, and one that nothing holds reaches its target exactly.
+// Its rows are velocities of the hull: along, across, about the vertical (and upwards, in the air). The solver finds
+// the impulses that bring them to their targets, each within force times step, together with all contacts: so a drive
+// held by a wall exerts its greatest force and no more, and a free one reaches its target exactly.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -16,8 +16,8 @@ class Drive final : public btTypedConstraint {
  public:
   Drive(btRigidBody& hull, bool flies) : btTypedConstraint(MAX_CONSTRAINT_TYPE, hull), flies_(flies) {}
 
-  /// What it tries from now on. The motors act at `from_centre`, a level vector of the world from the hull's centre,
-  /// along and across that direction.
+  /// Sets the target of the following steps. The motors act along and across `direction`, at `from_centre`: a
+  /// horizontal vector in the world frame from the hull's centre.
   void aim(const DriveAim& aim, Point direction, Point from_centre) {
     aim_ = aim;
     direction_ = direction;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command of a drive for one step, between whoever drives and the motors.
+// The command of a drive for one step.
 #pragma once
 
 #include "world/world.hpp"
 
 namespace waitpoint::world {
 
-/// What a drive is to reach by the end of a step, and the forces that it has for it.
+/// The velocity that a drive is to reach by the end of a step, and the limits of its forces.
 struct DriveAim {
   Velocity velocity;
   double force_n = 0, side_force_n = 0, torque_nm = 0, climb_force_n = 0;

@@ -12,15 +12,15 @@
 namespace waitpoint::world {
 namespace {
 
-// Slower than this for two seconds (of Bullet's own), something is at rest.
+// A body slower than this for two seconds (Bullet's default) is at rest.
 constexpr double rest_m_s = 1e-3, rest_rad_s = 1e-3;
 constexpr int iterations = 50;
-// What of a mesh is no higher is floor, on which wheels roll whatever it is like.
+// Triangles of a mesh up to this height are floor, on which wheels roll.
 constexpr double floor_m = 1e-3;
 
 enum Group : int { of_floor = 1, of_standing = 2, of_rolling = 4, of_flying = 8, of_loose = 16 };
 
-// Bullet's own way there takes the C library's sine, whose bits depend on the processor.
+// In place of Bullet's integration, which uses the C library's sine: its bits depend on the processor.
 btQuaternion turned(const btQuaternion& now, const btVector3& spin_rad_s, double step_s) {
   const double rate = spin_rad_s.length();
   if (rate == 0) return now;
@@ -92,7 +92,7 @@ class BulletSteps final : public btDiscreteDynamicsWorld {
   using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
 
  private:
-  // As Bullet does, but for where sines come from.
+  // As in Bullet, but with exact sines.
   void integrateTransforms(btScalar step_s) override {
     for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
       btRigidBody& body = *m_nonStaticRigidBodies[i];
@@ -121,7 +121,7 @@ struct Dynamics::Bodies {
   BulletSteps steps{&dispatcher, &broad_phase, &solver, &configuration};
 
   Bodies(std::span<const Shape> shapes, std::span<const MeshObstacle> of_meshes) {
-    // Contacts within 2 cm, whatever the size of a body: what comes nearer in a step is met before it is inside.
+    // Contacts within 2 cm, for bodies of any size: an approach of less per step is found before an overlap.
     dispatcher.setDispatcherFlags(dispatcher.getDispatcherFlags() &
                                   ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
     steps.setGravity({0, 0, -gravity_m_s2});
@@ -131,9 +131,9 @@ struct Dynamics::Bodies {
     btContactSolverInfo& info = steps.getSolverInfo();
     info.m_numIterations = iterations;
     info.m_minimumSolverBatchSize = 1;
-    // With one alone, what is pushed against its friction creeps.
+    // With a single direction, bodies creep under forces below their friction.
     info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
-    // What is pushed out of another one must not leave at that speed.
+    // The correction of an overlap must not become a velocity.
     info.m_splitImpulse = true;
     info.m_splitImpulsePenetrationThreshold = 0;
     floor.setCollisionShape(&plane);

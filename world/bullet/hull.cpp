@@ -9,13 +9,13 @@
 namespace waitpoint::world {
 namespace {
 
-// Of length 1, on which a body turns by so much. Turns of a step are below half a turn, but for blows.
+// The chord of an arc of length 1 and that turn. Turns of a step are below half a turn, except after an impact.
 double chord_of_arc(double turn_rad) {
   const double half = 0.5 * turn_rad;
   return half == 0 ? 1 : std::max(exact::sin(half) / half, 0.5);
 }
 
-// No inertia is an infinite one, to Bullet.
+// To Bullet, an inertia of 0 is infinite.
 btRigidBody::btRigidBodyConstructionInfo upright_body(const Shape& s, double mass_kg, btCollisionShape* shape) {
   return {mass_kg, nullptr, shape, {0, 0, inertia_kg_m2(s, mass_kg)}};
 }
@@ -36,7 +36,7 @@ Hull::Hull(const Shape& shape, double mass_kg, bool flies)
     body_.setLinearFactor({1, 1, 0});
 }
 
-// In the world, where the body has that heading.
+// In the world frame, for a body of that heading.
 Point Hull::origin_from_centre(double heading_rad) const {
   const Point p = transform({0, 0, heading_rad}, in_body_.pose.position());
   return {-p.x, -p.y};
@@ -85,7 +85,7 @@ BodyMotion Hull::motion() const {
   const Point before = origin_from_centre(placed_heading_rad_), now = origin_from_centre(heading_rad_);
   const btVector3& v = body_.getLinearVelocity();
   const double w = body_.getAngularVelocity().z();
-  // Of the origin, as the drive saw it.
+  // The velocity of the origin, at the heading in the middle of the step, as aimed by the drive.
   const double middle_rad = heading_rad_ - 0.5 * last_turn_rad_;
   const double shortening = chord_of_arc(last_turn_rad_);
   const Point arm = origin_from_centre(middle_rad);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot as a rigid body of Bullet's: upright, turned about the vertical alone, with a drive.
+// A robot as a rigid body of Bullet: upright, rotating about the vertical only, with a drive.
 //
 // Bullet moves the centre of its shape; poses and velocities here are those of the body's origin, as everywhere else.
-// Its heading is counted up from its turns, not read back from Bullet's matrix.
+// The heading is accumulated from its turns, not read back from Bullet's matrix.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace waitpoint::world {
 
-/// Of hulls; of floor and standing solids it is 1.
+/// The friction coefficient of hulls; that of floor and fixed solids is 1.
 inline constexpr double hull_friction = 0.5;
 
 class Hull {
@@ -23,13 +23,13 @@ class Hull {
   btRigidBody& body() { return body_; }
   Drive& drive() { return drive_; }
 
-  /// See Dynamics for these.
+  /// See Dynamics.
   void place(const Pose& pose, double height_m);
   void set_velocity(const Velocity& velocity);
   void aim(const DriveAim& aim, double step_s);
   BodyMotion motion() const;
 
-  /// After a step of Bullet's.
+  /// To be called after each step of Bullet.
   void stepped(double step_s);
   void touch() { touched_ = true; }
 

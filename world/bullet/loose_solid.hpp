@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Something with a mass that lies, stands or tumbles in space, and how it looks from a world of upright shapes.
+// A solid with a mass, free in space, and its representation in a world of upright shapes.
 #pragma once
 
 #include "world/description.hpp"
@@ -16,15 +16,15 @@ struct LooseSolid {
   SpaceVector velocity_m_s, spin_rad_s;
 };
 
-/// As the shape of that mass stands upright, at rest; for a prism the box about it.
+/// The upright shape as a loose solid at rest; a prism becomes its bounding box.
 LooseSolid loose_solid(const Shape& shape, double mass_kg, double friction);
 
-/// The upright shape that it is, or while it tips the one about it.
+/// The solid as an upright shape; its upright bounding shape while it is tilted.
 Shape upright_shape(const LooseSolid& solid);
 
-/// Its extents along its own axes.
+/// A shape's extents along its own axes.
 SpaceVector size_of(const Shape& shape);
-/// Of a shape about the vertical through its middle.
+/// A shape's moment of inertia about the vertical through its centre.
 double inertia_kg_m2(const Shape& shape, double mass_kg);
 
 }  // namespace waitpoint::world

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of bullet_world.cpp where there is no Bullet.
+// In place of bullet_world.cpp in builds without Bullet.
 #include "world/bullet/bullet_world.hpp"
 
 namespace waitpoint::world {
