@@ -18,7 +18,7 @@ bool assimp_reads(const std::string& ending) {
 
 TriangleMesh read_mesh_by_assimp(const std::string& contents, const std::string& file, LeftOut& left_out) {
   Assimp::Importer importer;
-  // The axis that a COLLADA file calls up is turned up by nobody: robots' files take it as it is written.
+  // COLLADA's up axis is ignored, as in other readers of robots' files.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const std::string ending = file.substr(file.rfind('.') + 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names that all differ, from names that may not.
+// Makes names distinct.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace waitpoint::world {
 
 class DistinctNames {
  public:
-  /// `name`, or where that is taken, with the first of "_1", "_2", ... behind it that makes it another.
+  /// `name`, or if that is taken, `name` with the first free suffix of "_1", "_2", ...
   std::string take(const std::string& name) {
     std::string distinct = name;
     while (!names_.insert(distinct).second) distinct = name + "_" + std::to_string(++counts_[name]);

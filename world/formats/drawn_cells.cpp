@@ -13,13 +13,13 @@ namespace {
 
 constexpr double edge_m = 1e-9;
 
-// The cell that holds the coordinate, or the nearest one of the grid.
+// The index of the cell at the coordinate, clamped to the grid.
 int clamped_cell(double coordinate_m, double cell_m, int count) {
   return static_cast<int>(std::clamp(std::floor(coordinate_m / cell_m), 0.0, static_cast<double>(count - 1)));
 }
 
-/// Marks the cells that something reaches into by more than `depth_m`. In the grid's own frame its cells are
-/// axis-parallel.
+/// Marks the cells that the outline overlaps by more than `depth_m`. The outline is in the grid's frame, where cells
+/// are axis-parallel.
 void draw_in_frame(const Outline& outline, double depth_m, OccupancyGrid& grid) {
   const double cell = grid.resolution_m();
   Outline square;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes drawn onto a grid of cells, so that a planner sees a world that was given as shapes.
+// Rasterises shapes onto an occupancy grid, for planners in a world given as shapes.
 #pragma once
 
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace waitpoint::world {
 
-/// Marks as occupied every cell whose interior a shape reaches into (by more than 1e-9 m, so that a shape that ends on
-/// a cell's edge does not take the next cell too). Shapes outside the grid are left out.
+/// Marks as occupied every cell whose interior overlaps a shape, by more than 1e-9 m, so that a shape that ends on a
+/// cell's edge does not mark the next cell. Shapes outside the grid are ignored.
 void draw(std::span<const Shape> shapes, OccupancyGrid& grid);
 
-/// Marks as occupied every cell that the mesh has a point in, or on the edge of, between these heights: a surface has
-/// no inside, and one that runs between two rows of cells is in both.
+/// Marks as occupied every cell with a point of the mesh between these heights in it or on its edge: a surface has no
+/// interior, and one exactly between two rows of cells is in both.
 void draw(const TriangleMesh& mesh, double z_low_m, double z_high_m, OccupancyGrid& grid);
 
 }  // namespace waitpoint::world

@@ -10,7 +10,7 @@
 namespace waitpoint::world {
 
 std::string file_contents(const std::string& file, std::string_view expected, std::size_t bytes_max) {
-  // A device may have no end, a pipe no beginning.
+  // Reading a device may never end, opening a pipe may block.
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
     throw BadInput(file, "expected " + std::string(expected) + ", found what is no file");

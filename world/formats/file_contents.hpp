@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file's bytes, never more of them than can be meant.
+// Reads a whole file, up to a limit of its size.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace waitpoint::world {
 
-/// All bytes of a file. BadInput, naming it and what was `expected` ("an image (PGM or PNG)"), if it is missing, no
+/// All bytes of a file. BadInput, naming the file and `expected` ("an image (PGM or PNG)"), if it is missing, no
 /// regular file, empty or longer than `bytes_max`.
 std::string file_contents(const std::string& file, std::string_view expected, std::size_t bytes_max);
 
-/// The path of a file that `file` names by a path relative to itself.
+/// Resolves `path`, relative to the folder of `file`.
 std::string beside(const std::string& file, const std::string& path);
 
 }  // namespace waitpoint::world

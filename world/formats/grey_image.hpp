@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A grey image of 8 bits, as maps are drawn in.
+// An 8-bit greyscale image, the format of maps.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace waitpoint::world {
 
-/// Rows from the top, each from the left.
+/// Rows from top to bottom, each from left to right.
 struct GreyImage {
   int width = 0, height = 0;
   std::vector<std::uint8_t> grey;          ///< width * height; the mean of a colour's channels
-  std::vector<std::uint8_t> transparency;  ///< 255 where a pixel is fully transparent; empty where all are opaque
+  std::vector<std::uint8_t> transparency;  ///< 255: fully transparent; empty if all pixels are opaque
 };
 
 }  // namespace waitpoint::world

@@ -15,11 +15,11 @@
 namespace waitpoint::world {
 namespace {
 
-// Of the compression that PNG uses: a file cannot hold more bytes than so many times its own.
+// The greatest ratio of PNG's compression.
 constexpr std::uint64_t deflate_ratio_max = 1032;
 constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 
-// libpng's simplified reader; what it holds is freed whether or not the image can be read.
+// libpng's simplified reader; frees libpng's memory also if the image cannot be read.
 class PngReader {
  public:
   PngReader(const std::string& contents, const std::string& file) : contents_(contents), file_(file) {
@@ -32,14 +32,14 @@ class PngReader {
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
-  // The pixels as grey and opacity, or where the image has colours as red, green, blue and opacity.
+  // The pixels as grey and opacity, or for a colour image as red, green, blue and opacity.
   std::vector<std::uint8_t> pixels() {
     if (std::uint64_t{image_.width} * image_.height > static_cast<std::uint64_t>(OccupancyGrid::cells_max)) {
       throw BadInput(file_, "expected at most " + std::to_string(OccupancyGrid::cells_max) + " pixels, found " +
                                 std::to_string(image_.width) + " x " + std::to_string(image_.height));
     }
     if (bytes_least() > deflate_ratio_max * contents_.size()) throw BadInput(file_, "the PNG image is cut short");
-    // Without this, 16 bits would be taken for linear light, and 8 for what a screen shows.
+    // By default libpng takes 16-bit images as linear, and 8-bit images as sRGB.
     image_.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     image_.format = has_colours() ? PNG_FORMAT_RGBA : PNG_FORMAT_GA;
     std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image_));
@@ -52,7 +52,7 @@ class PngReader {
   int height() const { return static_cast<int>(image_.height); }
 
  private:
-  // What the pixels come to before they are compressed, by what the file's first chunk says; at least that.
+  // A lower bound of the uncompressed size of the pixels, from the file's first chunk.
   std::uint64_t bytes_least() const {
     constexpr std::size_t at_depth = 24;  // behind magic, length, type, width and height; the colour type is next
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(contents_[i]); };

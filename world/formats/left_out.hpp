@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file has and this world does not: told, never silently dropped. One line for each kind of thing, however often
-// the file has it.
+// Warnings about unsupported parts of a file, which are never dropped silently: one line per kind of part, with a
+// count.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ class LeftOut {
   /// More kinds than these are only counted.
   static constexpr std::size_t kinds_max = 100;
 
-  /// Notes a thing at that line. `what` is its kind and `consequence` what that comes to: "'light'", "is left out".
+  /// Notes a part at that line, with its kind and the consequence: "'light'", "is left out".
   void add(const std::string& file, int line, std::string_view what, std::string_view consequence);
 
-  /// In the order in which kinds came first: "a.world:3: 'light' is left out (12 times)".
+  /// In the order of the first occurrence of each kind: "a.world:3: 'light' is left out (12 times)".
   std::vector<std::string> warnings() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of a line of text, and a word in a message.
+// Splits a line of text into words, and quotes a word in a message.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace waitpoint::world {
 
 inline constexpr std::string_view blanks = " \t\r";
 
-/// Takes the first word off the line; empty at its end.
+/// Removes the first word from the line and returns it; empty at the end.
 inline std::string_view take_word(std::string_view& line, std::string_view between_words = blanks) {
   line.remove_prefix(std::min(line.find_first_not_of(between_words), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(between_words));
@@ -18,7 +18,7 @@ inline std::string_view take_word(std::string_view& line, std::string_view betwe
   return word;
 }
 
-/// "'vertexx'": its beginning, if it is long.
+/// The word in quotes, truncated if it is long: "'vertexx'".
 inline std::string shown(std::string_view word) {
   constexpr std::size_t letters_max = 20;
   return "'" + std::string(word.substr(0, letters_max)) + "'";

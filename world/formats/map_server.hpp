@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps of ROS's map_server: a YAML file that names an image and says what its grey means.
+// Maps of ROS's map_server: a YAML file that names an image and defines the meaning of its grey values.
 //
 //   image            PGM or PNG, relative to the YAML file             (required)
 //   resolution       metres a pixel                                    (required)
@@ -20,11 +20,10 @@
 
 namespace waitpoint::world {
 
-/// Reads the map that `yaml_file` describes. BadInput, naming the file and line, for a file that is missing or does not
-/// parse, an unknown, doubled or missing key, a value out of range; and naming the image for an image that cannot be
-/// used.
+/// Reads the map described by `yaml_file`. BadInput, naming the file and line, for a missing or malformed file, an
+/// unknown, duplicate or missing key, a value out of range; and naming the image for an unusable image.
 OccupancyGrid read_map_server_map(const std::string& yaml_file);
-/// Reads the contents of such a file; `yaml_file` is its name, for messages and for where the image is.
+/// Reads the contents of such a file; `yaml_file` is its name, for messages and the path of the image.
 OccupancyGrid parse_map_server_map(const std::string& contents, const std::string& yaml_file);
 
 }  // namespace waitpoint::world

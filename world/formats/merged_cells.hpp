@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map's occupied cells as few, larger shapes: exact, not sampled.
+// Merges a map's occupied cells into fewer, larger boxes with exactly the same area.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ struct CellBlock {
 };
 
 /// Blocks that cover every occupied cell once and no other. Greedy: from each cell not yet covered, in row order, the
-/// larger of the block that grows first along the row and the one that grows first along the column. BadInput, naming
-/// the map by its `file`, for more than obstacle_count_max of them.
+/// larger of the block grown first along the row and the block grown first along the column. BadInput, naming `file`,
+/// for more than obstacle_count_max blocks.
 std::vector<CellBlock> merged_occupied_cells(const OccupancyGrid& grid, const std::string& file = "the map");
 
 /// The merged blocks as obstacles from z_low_m to z_high_m, named "<name> 0", "<name> 1", ...

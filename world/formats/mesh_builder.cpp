@@ -24,7 +24,7 @@ void MeshBuilder::fail(int line, const std::string& message) const {
 }
 
 void MeshBuilder::add_corner(const SpaceVector& corner, int line) {
-  // Each has at least one triangle, or the file is more than a little strange.
+  // A bound for files with unused corners.
   constexpr std::size_t corner_count_max = 3 * triangle_count_max;
   if (!corner.is_within(mesh_coordinate_max)) fail(line, "expected coordinates of corners to be numbers up to 1e9");
   if (mesh_.corners.size() == corner_count_max)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh as it is read, corner by corner: what all mesh formats refuse and leave out alike.
+// Builds a mesh corner by corner, with the limits and warnings shared by all mesh formats.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,15 @@ class MeshBuilder {
  public:
   MeshBuilder(const std::string& file, LeftOut& left_out) : file_(file), left_out_(left_out) {}
 
-  /// BadInput at that line (0: of a file without lines) for coordinates that are no numbers or too large.
+  /// BadInput at that line (0 for a file without lines) for coordinates that are not finite or too large.
   void add_corner(const SpaceVector& corner, int line);
-  /// The same of three words of a line; more may come behind. BadInput begins with `expected` where they are no
-  /// numbers.
+  /// The same from the first three words of a line; further words are ignored. The message of BadInput begins with
+  /// `expected` if they are not numbers.
   void read_corner(std::string_view line, int number, const std::string& expected);
   std::size_t corner_count() const { return mesh_.corners.size(); }
 
-  /// Of corners that are there. One without area is left out, and told. BadInput for one too many.
+  /// Adds a triangle of corners already added. A triangle without area is left out, with a warning. BadInput beyond
+  /// triangle_count_max.
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, int line);
 
   /// BadInput if there is no triangle.

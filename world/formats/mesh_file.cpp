@@ -13,7 +13,7 @@
 namespace waitpoint::world {
 namespace {
 
-// In lower case.
+// The extension in lower case.
 std::string ending_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   for (char& c : ending)

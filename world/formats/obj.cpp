@@ -12,7 +12,7 @@
 namespace waitpoint::world {
 namespace {
 
-// What says how a mesh looks, or what its parts are called.
+// Keywords of appearance and names, which are ignored.
 constexpr std::array<std::string_view, 17> looks = {"vn",     "vt",     "vp",     "g",          "o",        "s",
                                                     "mtllib", "usemtl", "mg",     "bevel",      "c_interp", "d_interp",
                                                     "lod",    "usemap", "maplib", "shadow_obj", "trace_obj"};
@@ -59,7 +59,7 @@ class ObjReader {
     if (count < 3) builder_.fail(number, "expected three corners of a face, or more");
   }
 
-  // From 1 on; from the last one backwards where it is negative.
+  // Corners are numbered from 1; negative numbers count back from the last corner.
   std::uint32_t corner_of(std::string_view word, int number) const {
     const auto count = static_cast<std::int64_t>(builder_.corner_count());
     std::int64_t given = 0;

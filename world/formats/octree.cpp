@@ -20,7 +20,7 @@ namespace {
 constexpr int levels = 16;
 constexpr double resolution_m_max = 1e3;
 
-/// A box of cells, in cells of the least size from the corner of the whole.
+/// A box of cells, in units of the least cell from the corner of the tree.
 struct Block {
   std::uint32_t x_low, x_high, y_low, y_high, z_low, z_high;
   std::uint32_t size() const { return y_high - y_low; }  // while it is a column
@@ -105,7 +105,7 @@ class OctreeReader {
     is_binary_ ? read_states(root, levels) : read_odds(root, levels);
   }
 
-  // Of a node with children; its own state is theirs.
+  // A node with children; it has no state of its own.
   void read_states(const Block& node, int level) {
     if (level == 0) fail("expected a tree of at most 16 levels");
     unsigned states = take_byte();
@@ -123,7 +123,7 @@ class OctreeReader {
     for (int i = 0; is_coloured_ && i < 3; ++i) take_byte();
     const unsigned children = take_byte();
     if (children != 0 && level == 0) fail("expected a tree of at most 16 levels");
-    if (children == 0 && odds >= 0) add(node);  // which a NaN is not
+    if (children == 0 && odds >= 0) add(node);  // false for NaN
     for (unsigned child = 0; child < 8; ++child)
       if ((children >> child & 1) != 0) read_odds(child_of(node, child), level - 1);
   }
@@ -136,8 +136,8 @@ class OctreeReader {
   std::vector<Block> cells_;
 };
 
-// Merges neighbours in a list that `key` sorts so that they follow each other; `joins` says whether the second goes on
-// where the first ends, and makes it longer.
+// Merges neighbours, which sorting by `key` makes adjacent; `joins(first, second)` extends the first and returns true
+// if the second continues it.
 template <class Key, class Joins>
 void merge(std::vector<Block>& blocks, Key key, Joins joins) {
   std::sort(blocks.begin(), blocks.end(), [&](const Block& a, const Block& b) { return key(a) < key(b); });
@@ -174,7 +174,7 @@ void merge_all(std::vector<Block>& blocks) {
       });
 }
 
-// Two boxes that share a face have it at the same coordinate.
+// Boxes that share a face have it at exactly the same coordinate.
 Shape shape_of(const Block& block, double resolution_m) {
   const auto at = [&](std::uint32_t cell) { return (static_cast<double>(cell) - (1 << (levels - 1))) * resolution_m; };
   Shape shape;

@@ -59,7 +59,7 @@ class Reader {
   const std::string& file_;
 };
 
-// A value of 0 to `value_max` as one of 0 to 255, rounded.
+// Scales a value from 0 ... `value_max` to 0 ... 255, rounded.
 std::uint8_t scaled(std::int64_t value, std::int64_t value_max) {
   return static_cast<std::uint8_t>((510 * value + value_max) / (2 * value_max));
 }
@@ -113,7 +113,7 @@ GreyImage parse_pgm(std::string_view contents, const std::string& file) {
   }
   GreyImage image = {static_cast<int>(width), static_cast<int>(height), {}, {}};
   const std::size_t count = static_cast<std::size_t>(width * height);
-  // No more than the file can hold, whatever its head promises.
+  // At most the file's size, since the header may be wrong.
   image.grey.reserve(count < contents.size() ? count : contents.size());
   if (magic == "P5") {
     read_raw(in, count, value_max, image.grey);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a robot of a world's file comes from, and what its things are called there.
+// The source of a robot in a world file, and the names in it.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace waitpoint::world {
 struct RobotOrigin {
   std::string file;
   int line = 0;
-  std::vector<std::string> types;        ///< its own first, then what that one is made from, to the built-in one
-  std::vector<std::string> laser_names;  ///< in the order of the body's lasers; they differ
+  std::vector<std::string> types;        ///< its own type first, then the base types, down to the built-in one
+  std::vector<std::string> laser_names;  ///< in the order of the body's lasers; distinct
 };
 
 }  // namespace waitpoint::world

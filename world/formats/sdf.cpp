@@ -29,7 +29,7 @@ class SdfReader {
  public:
   SdfReader(IncludedFiles& included, LeftOut& left_out) : included_(included), left_out_(left_out) {}
 
-  // A file's first world, or the models that stand in it without one.
+  // A file's first world, or the models of a file without one.
   void read(const std::string& contents, const std::string& file, const SpacePose& outer, const std::string& name) {
     const XmlReader document(contents, file, "sdf");
     const XmlReader* const above = std::exchange(xml_, &document);
@@ -60,7 +60,8 @@ class SdfReader {
       if (!read_part(*child, outer, name)) leave_out(*child);
   }
 
-  // False for what is neither a model nor an include. `name` is what an include calls its models; may be empty.
+  // False for an element that is neither a model nor an include. `name` is an include's name for its models; may be
+  // empty.
   bool read_part(const Element& element, const SpacePose& outer, const std::string& name) {
     const std::string_view kind = element.Name();
     if (kind == "model") {
@@ -196,7 +197,7 @@ class SdfReader {
     world_.meshes.push_back({next_name(), std::make_shared<const TriangleMesh>(std::move(mesh)), true});
   }
 
-  // The model's, with a number from its second part on.
+  // The model's name, with a number from its second part on.
   std::string next_name() {
     const std::size_t number = count_++;
     return number == 0 ? model_ : model_ + " " + std::to_string(number);
@@ -241,7 +242,7 @@ class SdfReader {
     included_.leave();
   }
 
-  // The file that a URI names, or of a folder the model in it; empty for a model:// that is nowhere.
+  // The file of a URI, or the model of a folder; empty for a model:// that is not found.
   std::string found_file(const std::string& uri) const {
     namespace fs = std::filesystem;
     std::error_code error;
@@ -260,7 +261,7 @@ class SdfReader {
     return "";
   }
 
-  // The file that an <include>'s <uri> names; empty for what may be missing.
+  // The file of an <include>'s <uri>; empty for a model that may be missing.
   std::string included_file(const Element& element) {
     const std::string uri = xml_->text(element);
     if (std::string file = found_file(uri); !file.empty()) return file;
@@ -272,7 +273,7 @@ class SdfReader {
     return "";
   }
 
-  // The element's own <pose> in the outer frame. False, and told, if it is given in a frame of another name.
+  // The element's own <pose> in the outer frame. False, with a warning, if it refers to a named frame.
   bool read_pose(const Element& holder, const SpacePose& outer, SpacePose& pose) {
     const Element* element = holder.FirstChildElement("pose");
     pose = outer;
@@ -301,9 +302,9 @@ class SdfReader {
 
   IncludedFiles& included_;
   LeftOut& left_out_;
-  const XmlReader* xml_ = nullptr;  // of the file that is being read
-  std::string model_;               // whose solids are being added,
-  std::size_t count_ = 0;           // and so many of them are there
+  const XmlReader* xml_ = nullptr;  // of the current file
+  std::string model_;               // the current model,
+  std::size_t count_ = 0;           // and the number of its solids so far
   std::size_t triangle_count_ = 0;  // of all meshes
   SdfWorld world_;
 };

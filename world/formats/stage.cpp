@@ -20,7 +20,7 @@ namespace {
 
 constexpr int dark_below = 128;  // of 255
 
-// An axis-parallel box of a model, in units of its own.
+// An axis-parallel box of a model, in the model's units.
 struct Part {
   double low_x, low_y, high_x, high_y, low_z, high_z;
 };
@@ -44,7 +44,7 @@ class StageReader {
     left_out_.add(*thing.place.file, thing.place.line, what, consequence);
   }
 
-  // Names what the thing or its type has beside what is read of its kind; of each definition once.
+  // Warns about properties and parts of the thing, and of its type, that are not supported; once per definition.
   void tell_unread(const StageThing& thing) {
     for (const StageThing* at = &thing; at != nullptr; at = at->base) {
       if (!told_.insert(at).second) return;
@@ -113,7 +113,7 @@ class StageReader {
     }
   }
 
-  // Whether anything is stopped by the thing; what passes one of bodies and beams is told.
+  // True if the thing stops bodies or beams, with a warning if it stops only one of them.
   bool is_there(const StageThing& thing) {
     const StageProperty* bodies = thing.find(StageKey::obstacle_return);
     const StageProperty* beams = thing.find(StageKey::ranger_return);
@@ -127,7 +127,7 @@ class StageReader {
     return stops_bodies || stops_beams;
   }
 
-  // What the model consists of, filling the unit square; heights are fractions too.
+  // The model's parts, scaled to the unit square; heights are fractions, too.
   std::vector<Part> parts_of(const StageThing& model) {
     if (const StageProperty* bitmap = model.find(StageKey::bitmap)) return parts_of_bitmap(*bitmap);
     std::vector<Part> parts;
@@ -243,7 +243,7 @@ class StageReader {
     ++count;
   }
 
-  // As given, or by its type; "_2" behind the second of a name.
+  // The given name, or one from its type; the second of a name gets "_2".
   std::string name_of_robot(const StageThing& thing) {
     const StageProperty* given = thing.find(StageKey::name);
     const std::string stem = given != nullptr ? stage_text(*given) : std::string(thing.type) + "_";
@@ -261,7 +261,7 @@ class StageReader {
   std::int64_t pixel_count_ = 0;
   StageRobotReader robots_;
   StageWorld world_;
-  std::set<const StageThing*> told_;  // only asked whether something is in it
+  std::set<const StageThing*> told_;  // for membership only: the order of pointers varies from run to run
   std::map<std::string, std::size_t> name_counts_, robot_counts_;
   std::set<std::string> robot_names_;
 };

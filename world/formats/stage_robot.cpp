@@ -18,7 +18,7 @@ constexpr double steering_max_rad = 0.25 * exact::pi;
 constexpr double beams_max = 100000;
 constexpr double interval_ms_max = 1e5;
 
-// The one laser that lasers of one beam each make, if they stand at one place, their headings evenly spaced, counter-
+// Combines lasers of one beam each into one laser, if they are at one place with evenly spaced headings, counter-
 // clockwise, within a turn.
 std::optional<LaserDescription> one_fan(const std::vector<LaserDescription>& lasers) {
   if (lasers.size() < 2) return std::nullopt;
@@ -102,7 +102,7 @@ void StageRobotReader::read_drive(const StageThing& position, BaseDescription& b
   }
 }
 
-// A car's bounds about its middle are those of its steering, and of how fast it steers.
+// For a car, the bounds about the vertical are those of the steering angle and its rate.
 void StageRobotReader::read_steering(const StageThing& position, BaseDescription& base) {
   base.wheelbase_m = stage_number_or(position, StageKey::wheelbase, 1e-3, 100, 1);
   base.steering_rate_rad_s = base.w_acceleration_rad_s2;
@@ -172,7 +172,7 @@ LaserDescription StageRobotReader::read_sensor(const StageThing& sensor, const S
   laser.height_m = at.z_m;
   laser.beams = static_cast<std::uint32_t>(stage_number_or(sensor, StageKey::samples, 1, beams_max, 1));
   laser.field_of_view_rad = radians(stage_number_or(sensor, StageKey::fov, 0, 360, 0));
-  // A single beam goes straight ahead, however wide the cone that it stands for.
+  // A single beam points straight ahead, for any width of its cone.
   if (laser.beams == 1) laser.field_of_view_rad = 0;
   laser.range_max_m = 5;
   if (const StageProperty* range = sensor.find(StageKey::range)) {

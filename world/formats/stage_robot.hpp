@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage's `position` as a body: see stage.hpp.
+// Reads Stage's `position` as a body; see stage.hpp.
 #pragma once
 
 #include "world/description.hpp"
@@ -10,7 +10,7 @@
 
 namespace waitpoint::world {
 
-/// How many things a file may have, those counted anew that a type brings along.
+/// The limit of things in a file; the things of a type count at each use.
 inline constexpr std::size_t stage_thing_count_max = std::size_t{1} << 20;
 
 struct StageRobot {
@@ -18,14 +18,14 @@ struct StageRobot {
   RobotOrigin origin;
 };
 
-/// Reads robots, one after the other.
+/// Reads robots one by one.
 class StageRobotReader {
  public:
-  /// `thing_count` goes up with every thing looked at; BadInput beyond the limit.
+  /// Increments `thing_count` for every thing read; BadInput beyond the limit.
   StageRobotReader(LeftOut& left_out, std::size_t& thing_count) : left_out_(left_out), thing_count_(thing_count) {}
 
-  /// The robot that the thing, a `position`, is. Its lasers are called by their rangers: by the ranger's name, else
-  /// "ranger_0", "ranger_1", ..., with "_0", "_1", ... behind where one ranger has several.
+  /// The robot of a `position`. Its lasers are named after their rangers: by the ranger's name, else "ranger_0",
+  /// "ranger_1", ..., with the suffix "_0", "_1", ... if a ranger has several.
   StageRobot read(const StageThing& position);
 
  private:
@@ -42,7 +42,7 @@ class StageRobotReader {
 
   LeftOut& left_out_;
   std::size_t& thing_count_;
-  std::size_t ranger_count_ = 0;  // of the robot that is read
+  std::size_t ranger_count_ = 0;  // of the current robot
   DistinctNames laser_names_;     // likewise
 };
 

@@ -26,7 +26,7 @@ struct Token {
   int line = 0;
 };
 
-// The words of one file.
+// The tokens of one file.
 class Tokens {
  public:
   Tokens(std::string_view text, const std::string& file) : rest_(text), file_(file) { advance(); }
@@ -40,7 +40,7 @@ class Tokens {
   StagePlace place(const Token& token) const { return {&file_, token.line}; }
   [[noreturn]] void fail(const Token& at, const std::string& message) const { throw BadInput(file_, at.line, message); }
 
-  // What the token is, for messages.
+  // The description of a token in messages.
   static std::string described(const Token& token) {
     constexpr std::size_t shown_max = 20;
     return token.kind == Token::Kind::end ? "the file's end" : "'" + std::string(token.text.substr(0, shown_max)) + "'";
@@ -159,10 +159,10 @@ class StageParser {
       in.fail(name, "expected at most " + std::to_string(definition_count_max) + " definitions");
     }
     const StageThing& definition = text_.definitions_.emplace_back(std::move(thing));
-    text_.types_[definition.type] = &definition;  // the last one of a name counts
+    text_.types_[definition.type] = &definition;  // the last definition of a name counts
   }
 
-  // A thing of that type, without what is in it.
+  // A thing of that type, without its body.
   StageThing thing_of(const Tokens& in, const Token& type, const Token& name) {
     StageThing thing;
     thing.type = name.text;
@@ -183,7 +183,7 @@ class StageParser {
   }
 
   std::string hint(std::string_view name) const {
-    constexpr std::size_t letters_max = 40;  // longer ones are nobody's typing
+    constexpr std::size_t letters_max = 40;  // longer names are not misspelt ones
     if (name.size() > letters_max) return "";
     std::vector<std::string_view> names(built_in_types.begin(), built_in_types.end());
     for (const auto& [type, definition] : text_.types_)
@@ -207,7 +207,7 @@ class StageParser {
     }
   }
 
-  // What begins with `word`: a thing or a property of `holder`.
+  // A thing or a property of `holder` that begins with `word`.
   void read_item(Tokens& in, const Token& word, StageThing& holder, int nesting) {
     if (in.next().kind == Kind::open) {
       StageThing thing = thing_of(in, word, word);

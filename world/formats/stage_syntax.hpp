@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of a world of Stage's, and of what it includes, as a tree.
+// Parses the text of a Stage world, with its includes, into a tree.
 //
 //   include "pioneer.inc"            the text of another file, relative to this one
-//   define NAME TYPE ( ... )         a type: what TYPE has, and this
-//   TYPE ( ... )                     a thing of a type; `size [1 2 3]`, `color "red"`, `fov 180` in it are its
-//   properties # ...                            a comment, to the end of the line
+//   define NAME TYPE ( ... )         a type derived from TYPE
+//   TYPE ( ... )                     a thing of a type, with properties: `size [1 2 3]`, `color "red"`, `fov 180`
+//   # ...                            a comment, to the end of the line
 //
-// Types are built in or defined before. A thing has the properties of its type where it gives none of its own, and the
-// things in its type beside its own: they are looked up, not copied, so that a tree is never larger than its text.
+// Types are built in or defined before. A thing inherits the properties of its type that it does not set itself, and
+// the things in its type besides its own. These are looked up, not copied, so that a tree is never larger than its
+// text.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@ struct StagePlace {
   int line = 0;
 };
 
-/// The properties that mean something here.
+/// The supported properties.
 enum class StageKey {
   acceleration_bounds,
   bitmap,
@@ -68,26 +69,26 @@ inline constexpr std::array<std::string_view, 18> stage_keys = {"acceleration_bo
 
 struct StageProperty {
   std::string_view name;
-  std::vector<std::string_view> values;  ///< one, or those of a list
+  std::vector<std::string_view> values;  ///< one, or the elements of a list
   StagePlace place;
 };
 
 struct StageThing {
   std::string_view type;             ///< as written
-  std::string_view built_in;         ///< what it is at last: "model", "position", "ranger", ...
+  std::string_view built_in;         ///< its built-in base type: "model", "position", "ranger", ...
   const StageThing* base = nullptr;  ///< the definition of its type; null for a built-in one
-  int depth = 0;                     ///< of definitions below it
-  int nesting = 0;                   ///< of things within it, those of its type included
+  int depth = 0;                     ///< length of its chain of definitions
+  int nesting = 0;                   ///< depth of the things within it, those of its type included
   std::array<const StageProperty*, stage_keys.size()> known{};  ///< the last mention of each, here or in its type
   StagePlace place;
   std::vector<StageProperty> properties;
   std::vector<StageThing> things;
 
-  /// Null for what is not given.
+  /// Null if the property is not given.
   const StageProperty* find(StageKey key) const { return known[static_cast<std::size_t>(key)]; }
 };
 
-/// Must stay where it is made: its parts refer to each other.
+/// Not movable: its parts refer to each other.
 class StageText {
  public:
   /// Parses the contents of `file`. BadInput, naming file and line.
@@ -95,7 +96,7 @@ class StageText {
   StageText(const StageText&) = delete;
   StageText& operator=(const StageText&) = delete;
 
-  /// The world's own properties, and what is in it.
+  /// The world, with its own properties and its things.
   const StageThing& world() const { return world_; }
 
  private:

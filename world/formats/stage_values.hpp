@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of properties in a world of Stage's, read strictly: what is not what was expected is BadInput at its line.
+// Values of properties in a Stage world, read strictly: anything unexpected is BadInput at its line.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace waitpoint::world {
 
-/// A place on a floor at some height: what holds a thing.
+/// The frame of a thing: a planar pose and a height.
 struct StageFrame {
   Pose pose;
   double z_m = 0;
@@ -33,9 +33,9 @@ double stage_number_or(const StageThing& thing, StageKey key, double low, double
 
 /// The thing's place, given by its `pose` in `outer`.
 StageFrame stage_frame(const StageThing& thing, const StageFrame& outer);
-/// The middle of the thing in its own frame: `origin`.
+/// The centre of the thing in its own frame: `origin`.
 Pose stage_origin(const StageThing& thing);
-/// `size`, all positive; 0.1 m each where it is not given.
+/// `size`, all positive; 0.1 m each by default.
 StageSize stage_size(const StageThing& thing);
 
 }  // namespace waitpoint::world

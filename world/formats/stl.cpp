@@ -90,7 +90,7 @@ TriangleMesh parse_stl(std::string_view contents, const std::string& file, LeftO
     return parse_bytes(contents, count, builder);
   if (!is_word(contents.substr(0, 5), "solid")) {
     if (has_header && contents.size() > header_bytes + triangle_bytes * count && count > 0)
-      return parse_bytes(contents, count, builder);  // with something behind
+      return parse_bytes(contents, count, builder);  // with trailing bytes
     builder.fail(
         0, "expected STL: text that begins with 'solid', or 84 bytes and 50 for each triangle" +
                (has_header ? ", found " + std::to_string(contents.size()) + " bytes for " + counted(count, "triangle")

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes in STL, of text ("solid", "facet", "vertex" and so on) or of bytes (80 of any kind, a count, 50 a triangle).
+// Meshes in STL, text ("solid", "facet", "vertex" and so on) or binary (80 bytes of header, a count, 50 bytes per
+// triangle).
 //
-// Which of them a file is, its length tells: files of bytes may begin with "solid", too.
+// A file is binary if its length agrees with its count: binary files may begin with "solid", too.
 #pragma once
 
 #include <string>
@@ -12,9 +13,9 @@
 
 namespace waitpoint::world {
 
-/// Reads the contents of an STL file; `file` is its name, for messages. A file has no unit: one is one metre. Triangles
-/// without area are left out, and told. BadInput for what is no STL, is cut off, has coordinates that are no numbers or
-/// beyond mesh_coordinate_max, no triangle, or more than triangle_count_max.
+/// Reads the contents of an STL file; `file` is its name, for messages. STL has no unit: it is taken as a metre.
+/// Triangles without area are left out with a warning. BadInput for another format, a truncated file, coordinates that
+/// are not numbers or are beyond mesh_coordinate_max, no triangle, or more than triangle_count_max.
 TriangleMesh parse_stl(std::string_view contents, const std::string& file, LeftOut& left_out);
 
 }  // namespace waitpoint::world

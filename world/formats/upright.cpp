@@ -14,7 +14,7 @@ double level_length(SpaceVector v) { return exact::hypot(v.x, v.y); }
 constexpr double thin_m = 1e-4;
 bool is_vertical(SpaceVector axis) { return level_length(axis) < tilt_max_rad; }
 
-// The shape's middle and heights; its heading is that of `along` as seen from above.
+// A shape with centre and heights; its heading is that of the projection of `along`.
 Shape shape_at(const SpacePose& pose, SpaceVector along, double half_height_m) {
   Shape shape;
   shape.pose = {pose.position.x, pose.position.y, exact::atan2(along.y, along.x)};
@@ -23,7 +23,7 @@ Shape shape_at(const SpacePose& pose, SpaceVector along, double half_height_m) {
   return shape;
 }
 
-// How far a disc of radius 1 across the axis reaches along a direction with that component along the axis.
+// The extent of a disc of radius 1, normal to the axis, along a direction with that component along the axis.
 double disc_reach(double component) { return std::sqrt(std::fmax(0, 1 - component * component)); }
 
 }  // namespace

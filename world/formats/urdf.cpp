@@ -27,7 +27,7 @@ using Element = XmlReader::Element;
 constexpr std::size_t link_count_max = 10'000;
 constexpr double thin_m = 1e-4;
 constexpr int folders_up_max = 32;
-// Sides of the polygon about something round; a prism takes the place of a box or a cylinder that it so much undercuts.
+// The sides of a polygon about a disc; and the ratio of areas below which a prism replaces a box or a cylinder.
 constexpr int round_sides = 24;
 constexpr double much_tighter = 0.9;
 
@@ -41,7 +41,7 @@ double area_m2(const ConvexPolygon& polygon) {
 struct Link {
   const Element* element;
   std::string name;
-  const Element* joint = nullptr;  // by which it hangs; none of the root
+  const Element* joint = nullptr;  // to its parent; null for the root
   std::vector<std::size_t> children;
 };
 
@@ -121,7 +121,7 @@ class UrdfReader {
     return found;
   }
 
-  // Links in a circle beside the tree are not come to.
+  // Does not reach links in a cycle apart from the tree.
   void place(std::size_t first, const SpacePose& pose) {
     std::vector<std::pair<std::size_t, SpacePose>> open = {{first, pose}};
     for (std::size_t next = 0; next < open.size(); ++next) {
@@ -202,7 +202,7 @@ class UrdfReader {
     }
   }
 
-  // About what has hardly an extent in some direction.
+  // The bounding box of a mesh that is thin in some direction.
   Shape thin_box(const Element& mesh, const std::vector<SpaceVector>& corners, const SpacePose& pose) {
     SpaceVector low = corners[0], high = corners[0];
     for (const SpaceVector& c : corners) {
@@ -213,11 +213,11 @@ class UrdfReader {
     middle.position = pose.position + pose.turned(0.5 * (low + high));
     const SpaceVector size = high + -1 * low;
     tell(mesh, "a <mesh>", "is taken as the box about it");
-    // A box has an extent along each of its axes, if only a hair's.
+    // A box must not be flat.
     return upright_box(middle, {std::max(size.x, thin_m), std::max(size.y, thin_m), std::max(size.z, thin_m)}).shape;
   }
 
-  // Empty for a package that is nowhere.
+  // Empty for a package that is not found.
   std::string found_file(const std::string& uri) const {
     namespace fs = std::filesystem;
     constexpr std::string_view file_scheme = "file://", package_scheme = "package://";
@@ -288,7 +288,7 @@ class UrdfReader {
     return all;
   }
 
-  // As seen from above; what is round as the polygon about it.
+  // The convex hull of the projection; cylinders as polygons.
   std::optional<PlacedPolygon> hull_around_all() const {
     std::vector<Point> corners;
     for (const Shape& solid : solids_) {

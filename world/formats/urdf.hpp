@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's shape and where its sensors are, from a URDF (http://wiki.ros.org/urdf/XML).
+// A robot's shape and the frames of its links, from a URDF (http://wiki.ros.org/urdf/XML).
 //
 //   <robot>      <link>, <joint>
 //   <link>       name, <collision>
@@ -7,13 +7,13 @@
 //                <mesh filename scale>
 //   <joint>      name, type, <parent link>, <child link>, <origin xyz rpy>
 //
-// Links hang together by joints as a tree; joints that move stand at 0. A body of this world is one upright solid on
-// the floor: where the file has one such, that; else the smaller of the upright box about all, and of the cylinder
-// about all whose middle is the root link's. A mesh is taken as the upright
-// prism over its convex outline as seen from above (what is thinner than 0.1 mm as the box about it), and told. Its
-// file is a path relative to the URDF, also behind "file://", or "package://NAME/PATH": PATH in a folder NAME that the
-// URDF is in, or that lies in one of those. Everything else (<visual>, <inertial>, <transmission>, <gazebo>, ...) is
-// left out and told, so is a mesh whose file is missing or of a kind that this program does not read.
+// Links form a tree, connected by joints; movable joints are at 0. A body is one upright solid on the floor: the file's
+// only solid if it is upright; else the smaller of the upright bounding box and of the bounding cylinder centred at the
+// root link, or the prism over the convex hull of the projection if that is smaller by a tenth. A mesh becomes the
+// upright prism over the convex hull of its projection (a mesh thinner than 0.1 mm its bounding box), with a warning.
+// Its file is a path relative to the URDF, with or without "file://", or "package://NAME/PATH": PATH in a folder NAME
+// that contains the URDF, or is in a folder that does. Everything else (<visual>, <inertial>, <transmission>,
+// <gazebo>, ...) is left out with a warning, and so are meshes with a missing or unsupported file.
 #pragma once
 
 #include <string>
@@ -34,13 +34,13 @@ struct UrdfFrame {
 struct UrdfRobot {
   std::string name;
   Shape shape;                    ///< in the root link's frame
-  std::vector<UrdfFrame> frames;  ///< of all links, the root first, each behind its parent
+  std::vector<UrdfFrame> frames;  ///< of all links, the root first, each after its parent
 };
 
-/// Reads the contents of a URDF file; `file` is its name, for messages. What reaches below the root link's height
-/// stands on the floor, and all heights are counted from there. BadInput, naming file and line, for what is no XML or
-/// no URDF, a number that is none or out of bounds, links that are no tree, more than 10 000 of them, and for a robot
-/// of which nothing collides.
+/// Reads the contents of a URDF file; `file` is its name, for messages. If the robot extends below the root link, its
+/// lowest point is on the floor, and heights are counted from there. BadInput, naming file and line, for malformed XML
+/// or URDF, an invalid number or one out of range, links that do not form a tree, more than 10 000 links, and for a
+/// robot without collision geometry.
 UrdfRobot parse_urdf(const std::string& contents, const std::string& file, LeftOut& left_out);
 
 }  // namespace waitpoint::world

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of assimp.cpp where there is no Assimp.
+// In place of assimp.cpp in builds without Assimp.
 #include "core/error.hpp"
 #include "world/formats/mesh_file.hpp"
 

@@ -23,7 +23,7 @@ constexpr std::string_view expectation =
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// What is left of the text behind blanks and comments, which all but SDF begin with '#'.
+// The rest of the text after leading blanks and comments, which begin with '#' in all formats but SDF.
 std::string_view behind_comments(std::string_view text) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   while (!text.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files in which people already have worlds. Which kind a file is of, its first words tell, not its name:
+// Reads world files of all formats. The format is recognised by the file's first word, not by its name:
 //
 //   "<"                   SDF                     sdf.hpp
 //   a number              a segment map           segments.hpp
@@ -20,22 +20,22 @@ namespace waitpoint::world {
 
 enum class WorldFormat { sdf, segments, map_server, stage };
 
-/// What one file, with those that it names, says of a world.
+/// The world of one file and of the files that it names.
 struct WorldFile {
-  std::vector<Obstacle> obstacles;  ///< those of a map's cells included
+  std::vector<Obstacle> obstacles;  ///< including those of a map's cells
   std::vector<MeshObstacle> meshes;
   std::vector<BodyDescription> bodies;  ///< robots, in the order of the file
-  std::vector<RobotOrigin> origins;     ///< of each of them
-  std::optional<OccupancyGrid> grid;    ///< the cells, where the file is a map of cells
-  bool has_heights = false;             ///< whether the file says how high things are
-  std::vector<std::string> warnings;    ///< what is left out or taken otherwise, a line each
+  std::vector<RobotOrigin> origins;     ///< one per body
+  std::optional<OccupancyGrid> grid;    ///< of a map of cells
+  bool has_heights = false;             ///< the format has heights
+  std::vector<std::string> warnings;    ///< parts left out or approximated, a line each
 };
 
-/// The kind of a file with these contents; none if they are none of them.
+/// The format of a file with these contents; none if it is unknown.
 std::optional<WorldFormat> format_of(std::string_view contents);
 
-/// Reads a file of any kind. What has no height of its own stands from the floor to `height_m`. BadInput, one line that
-/// names file, line and what was expected, for whatever cannot be read.
+/// Reads a file of any format. Obstacles of formats without heights extend from the floor to `height_m`. BadInput, one
+/// line that names file, line and the expected input, for unreadable files.
 WorldFile read_world_file(const std::string& file, double height_m);
 
 }  // namespace waitpoint::world

@@ -25,7 +25,7 @@ XmlReader::XmlReader(const std::string& contents, const std::string& file, const
   if (contents.size() > tree_bytes_max) {
     throw BadInput(file, "expected XML of at most " + std::to_string(tree_bytes_max >> 20) + " MiB");
   }
-  // tinyxml2 would take the text to end there.
+  // To tinyxml2, a zero byte ends the text.
   if (contents.find('\0') != std::string::npos) throw BadInput(file, 1, "expected XML, found a zero byte");
   if (document_->Parse(contents.data(), contents.size()) != tinyxml2::XML_SUCCESS) {
     throw BadInput(file, std::max(document_->ErrorLineNum(), 1),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of XML elements, read strictly: what is not what was expected is BadInput at the element's line.
+// Values of XML elements, read strictly: anything unexpected is BadInput at the element's line.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@ class XMLElement;
 
 namespace waitpoint::world {
 
-/// The document in `contents`, for as long as this lives; `file` is its name, for messages.
+/// Owns the parsed document; `file` is its name, for messages.
 class XmlReader {
  public:
   using Element = tinyxml2::XMLElement;
 
-  /// BadInput for what is no XML, or whose outermost element is not called `root`.
+  /// BadInput for malformed XML, or a root element with another name than `root`.
   XmlReader(const std::string& contents, const std::string& file, const char* root);
   ~XmlReader();
   XmlReader(const XmlReader&) = delete;
@@ -32,12 +32,12 @@ class XmlReader {
   [[noreturn]] void fail(const Element& at, const std::string& message) const;
   const Element& required(const Element& holder, const char* name) const;
 
-  /// Without the blanks at both ends; may be empty.
+  /// The element's text without the blanks at both ends; may be empty.
   static std::string text_or_nothing(const Element& element);
   std::string text(const Element& element) const;
   /// "true", "1", "false" or "0".
   bool flag(const Element& element) const;
-  /// As many numbers, none beyond coordinate_m_max.
+  /// Exactly `count` numbers, none beyond coordinate_m_max.
   template <std::size_t count>
   std::array<double, count> numbers(const Element& element) const {
     std::array<double, count> values{};
@@ -58,7 +58,7 @@ class XmlReader {
   double positive(const Element& element, const char* attribute) const;
 
  private:
-  // `attribute` is that of the text, for messages; empty for the element's own text.
+  // `attribute` is the source of the text, for messages; empty for the element's own text.
   void read_numbers(const Element& element, const std::string& text, const std::string& attribute,
                     std::span<double> values) const;
 
