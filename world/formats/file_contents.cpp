@@ -13,7 +13,7 @@ std::string file_contents(const std::string& file, std::string_view expected, st
   // Reading a device may never end, opening a pipe may block.
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
-    throw BadInput(file, "expected " + std::string(expected) + ", found what is no file");
+    throw BadInput(file, "expected " + std::string(expected) + ", found no regular file");
   }
   std::ifstream in(file, std::ios::binary);
   std::string contents;

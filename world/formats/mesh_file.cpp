@@ -42,7 +42,8 @@ TriangleMesh read_mesh_file(const std::string& file, const MeshPlacement& placem
   TriangleMesh mesh = placed(read(file, left_out), placement.scale, placement.pose);
   const bool within = std::all_of(mesh.corners.begin(), mesh.corners.end(),
                                   [](const SpaceVector& corner) { return corner.is_within(coordinate_m_max); });
-  if (!within) throw BadInput(file, "expected a mesh within 100 km of the world's origin, in metres: has it a scale?");
+  if (!within)
+    throw BadInput(file, "expected a mesh within 100 km of the world's origin, in metres: does it need a scale?");
   return mesh;
 }
 

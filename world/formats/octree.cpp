@@ -215,7 +215,7 @@ std::vector<Obstacle> read_octree(const std::string& file, const std::string& na
     shape.z_low_m += height_m;
     shape.z_high_m += height_m;
     if (shape.z_high_m <= 0) {
-      left_out.add(file, 1, "what ends below the floor", "is left out");
+      left_out.add(file, 1, "an obstacle below the floor", "is left out");
     } else {
       obstacles.push_back({name + " " + std::to_string(obstacles.size()), shape});
     }

@@ -92,7 +92,7 @@ class SdfReader {
         leave_out(*child);
       }
     }
-    if (!is_static && count_ > 0) tell(model, "a model that is not <static>", "stands still here");
+    if (!is_static && count_ > 0) tell(model, "a model that is not <static>", "is fixed here");
     model_ = above;
     count_ = count_above;
   }
@@ -187,7 +187,7 @@ class SdfReader {
   void add(const Element& element, TriangleMesh mesh) {
     const auto is_above = [](const SpaceVector& corner) { return corner.z > 0; };
     if (std::none_of(mesh.corners.begin(), mesh.corners.end(), is_above)) {
-      return tell(element, "what ends below the floor", "is left out");
+      return tell(element, "an obstacle below the floor", "is left out");
     }
     triangle_count_ += mesh.triangles.size();
     if (triangle_count_ > triangle_count_max || world_.meshes.size() == mesh_count_max) {
@@ -205,7 +205,7 @@ class SdfReader {
 
   void add(const Element& element, const UprightSolid& solid) {
     if (solid.shape.z_high_m <= 0) {
-      tell(element, "what ends below the floor", "is left out");
+      tell(element, "an obstacle below the floor", "is left out");
       return;
     }
     const std::string_view kind = element.Name();
@@ -281,12 +281,12 @@ class SdfReader {
     for (const char* attribute : {"frame", "relative_to"}) {
       const char* frame = element->Attribute(attribute);
       if (frame == nullptr || *frame == '\0') continue;
-      tell(*element, "what has a <pose> in a named frame", "is left out");
+      tell(*element, "an element with a <pose> in a named frame", "is left out");
       return false;
     }
     if (const char* degrees = element->Attribute("degrees");
         degrees != nullptr && std::string_view(degrees) == "true") {
-      tell(*element, "what has a <pose> in degrees", "is left out");
+      tell(*element, "an element with a <pose> in degrees", "is left out");
       return false;
     }
     if (XmlReader::text_or_nothing(*element).empty()) return true;

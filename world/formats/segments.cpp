@@ -36,7 +36,7 @@ class SegmentReader {
       word = take_word(line, between_words);
     }
     if (!word.empty()) {
-      throw BadInput(file_, number, "expected nothing behind 'x0 y0 x1 y1', found " + shown(word));
+      throw BadInput(file_, number, "expected nothing after 'x0 y0 x1 y1', found " + shown(word));
     }
     const Point a = {ends[0], ends[1]}, b = {ends[2], ends[3]};
     if (length(b - a) < shortest_m) {

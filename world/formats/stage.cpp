@@ -122,7 +122,7 @@ class StageReader {
     if (stops_bodies != stops_beams) {
       const StagePlace& place = (stops_bodies ? beams : bodies)->place;
       left_out_.add(*place.file, place.line, stops_bodies ? "a 'ranger_return' below 0" : "an 'obstacle_return' of 0",
-                    "is left out: what stops one of bodies and beams stops both");
+                    "is left out: a model that stops only bodies or only beams stops both");
     }
     return stops_bodies || stops_beams;
   }
@@ -139,7 +139,7 @@ class StageReader {
              std::max(all.high_y, part.high_y), std::min(all.low_z, part.low_z), std::max(all.high_z, part.high_z)};
     }
     const double width = all.high_x - all.low_x, depth = all.high_y - all.low_y;
-    if (!(width > 0 && depth > 0 && all.high_z > 0)) refuse(model.place, "expected blocks that take up room");
+    if (!(width > 0 && depth > 0 && all.high_z > 0)) refuse(model.place, "expected blocks with a volume");
     for (Part& part : parts) {
       part = {(part.low_x - all.low_x) / width,  (part.low_y - all.low_y) / depth, (part.high_x - all.low_x) / width,
               (part.high_y - all.low_y) / depth, part.low_z / all.high_z,          part.high_z / all.high_z};
@@ -236,7 +236,7 @@ class StageReader {
       refuse(model.place, "expected at most " + std::to_string(obstacle_count_max) + " obstacles");
     }
     if (!(shape.length_m > 0 && shape.width_m > 0 && shape.z_high_m > shape.z_low_m)) {
-      refuse(model.place, "expected a model that takes up room");
+      refuse(model.place, "expected a model with a volume");
     }
     std::size_t& count = name_counts_[name];
     world_.obstacles.push_back({count == 0 ? name : name + " " + std::to_string(count), shape, true});

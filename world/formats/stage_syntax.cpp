@@ -173,7 +173,7 @@ class StageParser {
       thing.built_in = thing.base->built_in;
       thing.depth = thing.base->depth + 1;
       thing.nesting = thing.base->nesting;
-      if (thing.depth > nesting_max) in.fail(type, "expected types made from types at most 64 times over");
+      if (thing.depth > nesting_max) in.fail(type, "expected types derived from types at most 64 deep");
     } else if (std::find(built_in_types.begin(), built_in_types.end(), type.text) != built_in_types.end()) {
       thing.built_in = type.text;
     } else {

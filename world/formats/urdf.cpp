@@ -55,7 +55,8 @@ class UrdfReader {
     read_links();
     read_joints();
     place(root(), {});
-    if (solids_.empty()) xml_.fail(xml_.root(), "expected a <collision> in some <link>: nothing of the robot collides");
+    if (solids_.empty())
+      xml_.fail(xml_.root(), "expected a <collision> in some <link>: the robot has no collision geometry");
     robot_.shape = solids_.size() == 1 ? solids_[0] : around_all();
     stand_on_floor();
     return std::move(robot_);
@@ -103,7 +104,7 @@ class UrdfReader {
       if (child.joint != nullptr) xml_.fail(*joint, "expected one joint above each link, '" + child.name + "' has two");
       child.joint = joint;
       links_[parent].children.push_back(static_cast<std::size_t>(&child - links_.data()));
-      if (xml_.text(*joint, "type") != "fixed") tell(*joint, "a <joint> that is not fixed", "stands at 0");
+      if (xml_.text(*joint, "type") != "fixed") tell(*joint, "a <joint> that is not fixed", "is held at 0");
     }
   }
 

@@ -289,7 +289,7 @@ TEST(MapServer, ATruncatedPngIsNamed) {
 
 TEST(MapServer, AFolderIsNoMap) {
   const Folder folder;
-  EXPECT_TRUE(refuses(folder.path(""), folder.path(""), "found what is no file"));
+  EXPECT_TRUE(refuses(folder.path(""), folder.path(""), "found no regular file"));
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(Octree, IsPlaced) {
   EXPECT_EQ(boxes[0].shape.z_low_m, 0.5);
   EXPECT_EQ(boxes[0].shape.z_high_m, 1.5);
   ASSERT_EQ(left_out.warnings().size(), 1u);
-  EXPECT_NE(left_out.warnings()[0].find("what ends below the floor is left out"), std::string::npos);
+  EXPECT_NE(left_out.warnings()[0].find("an obstacle below the floor is left out"), std::string::npos);
 }
 
 TEST(Octree, RefusesWhatIsNone) {

@@ -159,10 +159,10 @@ TEST(Sdf, WhatIsLeftOutIsToldOnceForEachKind) {
             (std::vector<std::string>{"a.world:2: <light> is left out", "a.world:3: <visual> is left out (2 times)",
                                       "a.world:3: a level <plane> is left out: robots drive on the floor, at height 0",
                                       "a.world:4: <surface> is left out",
-                                      "a.world:4: a model that is not <static> stands still here",
+                                      "a.world:4: a model that is not <static> is fixed here",
                                       "a.world:5: the <mesh> 'model://chair.dae' is left out: there is no such file",
-                                      "a.world:6: what ends below the floor is left out",
-                                      "a.world:7: what has a <pose> in a named frame is left out"}));
+                                      "a.world:6: an obstacle below the floor is left out",
+                                      "a.world:7: an element with a <pose> in a named frame is left out"}));
 }
 
 TEST(Sdf, ModelsAreIncluded) {
@@ -284,7 +284,7 @@ TEST(Sdf, MeshesStandWhereTheirPosesPutThem) {
   EXPECT_NEAR(read.meshes[1].mesh->corners[1].y, 5, 1e-12);
   const std::vector<std::string> warnings = left_out.warnings();
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[0].find("what ends below the floor is left out"), std::string::npos);
+  EXPECT_NE(warnings[0].find("an obstacle below the floor is left out"), std::string::npos);
   EXPECT_NE(warnings[1].find("a <mesh> with a <submesh> is left out"), std::string::npos);
 }
 

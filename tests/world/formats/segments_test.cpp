@@ -132,7 +132,7 @@ TEST(Segments, AWrongLineIsNamed) {
   EXPECT_TRUE(refuses("0 0 1 inf\n", "walls.txt:1: ", "found 'inf'"));
   EXPECT_TRUE(refuses("0 0 1 1e6\n", "walls.txt:1: ", "found '1e6'"));
   EXPECT_TRUE(refuses("0 0 1 0x10\n", "walls.txt:1: ", "found '0x10'"));
-  EXPECT_TRUE(refuses("\n0 0 1 1 5\n", "walls.txt:2: ", "expected nothing behind"));
+  EXPECT_TRUE(refuses("\n0 0 1 1 5\n", "walls.txt:2: ", "expected nothing after"));
   EXPECT_TRUE(refuses("0 0 1 \x01\xff\n", "walls.txt:1: ", "found '?"));
   EXPECT_TRUE(refuses("# nothing\n", "walls.txt: ", "found none"));
 }

@@ -104,10 +104,12 @@ TEST(Stage, WhatPassesBodiesAndBeamsIsNotThere) {
       "define zone model( obstacle_return 0 ranger_return -1 )\nzone()\nmodel( obstacle_return 0 )\n"
       "model( ranger_return -1 )\nmodel( ranger_return 0.5 )\n");
   EXPECT_EQ(read.obstacles.size(), 3u);
-  EXPECT_EQ(read.warnings,
-            (std::vector<std::string>{
-                "a.world:3: an 'obstacle_return' of 0 is left out: what stops one of bodies and beams stops both",
-                "a.world:4: a 'ranger_return' below 0 is left out: what stops one of bodies and beams stops both"}));
+  EXPECT_EQ(
+      read.warnings,
+      (std::vector<std::string>{
+          "a.world:3: an 'obstacle_return' of 0 is left out: a model that stops only bodies or only beams stops both",
+          "a.world:4: a 'ranger_return' below 0 is left out: a model that stops only bodies or only beams stops "
+          "both"}));
 }
 
 TEST(Stage, ModelsInAModelStandOnIt) {

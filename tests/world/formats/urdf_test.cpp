@@ -79,7 +79,7 @@ TEST(Urdf, SeveralSolidsAreTakenTogetherAndFramesFollowTheJoints) {
   EXPECT_NEAR(laser.pose.position.z, 0.6, 1e-12);
   EXPECT_NEAR(laser.pose.axes[0].y, 1, 1e-12);
   ASSERT_EQ(read.warnings.size(), 2u);
-  EXPECT_EQ(read.warnings[0], "r.urdf:6: a <joint> that is not fixed stands at 0");
+  EXPECT_EQ(read.warnings[0], "r.urdf:6: a <joint> that is not fixed is held at 0");
   EXPECT_EQ(read.warnings[1], "r.urdf:1: a <robot> of several solids is taken as the upright box about them");
 }
 
@@ -135,7 +135,7 @@ TEST(Urdf, WhatItDoesNotKnowIsTold) {
 TEST(Urdf, BadInputIsOneLineAtItsPlace) {
   const std::string base = link("base", collision(hull));
   EXPECT_TRUE(refuses("", "r.urdf:1", "expected a <link>"));
-  EXPECT_TRUE(refuses(link("base"), "r.urdf:1", "nothing of the robot collides"));
+  EXPECT_TRUE(refuses(link("base"), "r.urdf:1", "the robot has no collision geometry"));
   EXPECT_TRUE(refuses(base + base, "r.urdf:3", "'base' is there already"));
   EXPECT_TRUE(refuses(base + link("arm"), "r.urdf:3", "neither 'base' nor 'arm' is the child of a joint"));
   EXPECT_TRUE(refuses(base + joint("base", "arm"), "r.urdf:3", "expected a link of the robot, found 'arm'"));

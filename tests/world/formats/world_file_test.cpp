@@ -31,7 +31,7 @@ TEST(WorldFile, WhatIsOfNoKindIsRefused) {
   EXPECT_TRUE(refuses("# nothing but this\n"));
   EXPECT_TRUE(refuses("\x89PNG\r\n\x1a\n"));
   EXPECT_TRUE(refuses(std::string(1000, '\0')));
-  EXPECT_TRUE(complains([&] { read_world_file(folder.path("."), 2); }, folder.path("."), "found what is no file"));
+  EXPECT_TRUE(complains([&] { read_world_file(folder.path("."), 2); }, folder.path("."), "found no regular file"));
   EXPECT_TRUE(complains([&] { read_world_file(folder.path("none"), 2); }, folder.path("none"), "found no file"));
 }
 
@@ -44,7 +44,7 @@ TEST(WorldFile, AFileThatIsTooLargeIsRefused) {
 
 TEST(WorldFile, AFileWithoutEndIsRefused) {
   if (!std::filesystem::exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero";
-  EXPECT_TRUE(complains([] { read_world_file("/dev/zero", 2); }, "/dev/zero: ", "found what is no file"));
+  EXPECT_TRUE(complains([] { read_world_file("/dev/zero", 2); }, "/dev/zero: ", "found no regular file"));
 }
 
 TEST(WorldFile, AMapOfCellsKeepsItsCells) {
