@@ -83,6 +83,8 @@ Separation core_to_point(const CorePoints& core, Point p) {
     const Separation s = of_segment_to_point(start, end, p);
     if (s.distance_m < nearest.distance_m) nearest = s;
   }
+  // All its points coincide, so no side has a normal.
+  if (nearest.distance_m == HUGE_VAL) return point_to_point(core[0], p);
   return deepest.distance_m <= 0 ? deepest : nearest;
 }
 

@@ -135,5 +135,12 @@ TEST(Triangles, HaveTheDistanceOfTheirNearestPoints) {
   }
 }
 
+// A triangle clipped at its tip may round to one point.
+TEST(Cover, PieceOfOnePointIsAsFarAsThePoint) {
+  const Outline body = outline_of(prism({0, 0, 0}, {{-1, -1}, {1, -1}, {0, 1}}));
+  const Separation s = separation(body, triangle_outline({0, -3}, {0, -3}, {0, -3}));
+  EXPECT_NEAR(s.distance_m, separation(body, outline_of(cylinder({0, -3}, 1e-12))).distance_m, 1e-9);
+}
+
 }  // namespace
 }  // namespace waitpoint::world
