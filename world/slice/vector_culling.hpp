@@ -119,7 +119,7 @@ struct VectorCulling {
     const bool meets = first <= last;
     if (left > pi && from_start >= 0) {
       if (!meets) first = 0;
-      last = from_start;
+      last = from_start < view.beams ? from_start : view.beams - 1;
     } else if (right < -pi && to_end < view.beams) {
       if (!meets) last = view.beams - 1;
       first = to_end;

@@ -249,6 +249,16 @@ TEST(DepthBuffer, NoBeamSlipsBetweenShapesThatTouch) {
   }
 }
 
+// Its edge reaches from ahead to behind, where an interval of beams wraps; the fan is narrower than the margin of
+// angles.
+TEST(DepthBuffer, NarrowFanAlongAWallStaysWithinItsBeams) {
+  const std::vector<Shape> shapes = {box({0, 0, 0}, 10, 10)};
+  const Slice slice(shapes, height_m);
+  for (const double gap_m : {1e-5, 1e-4, 1e-3})
+    for (const double turn_rad : {-3e-5, -1e-5, 0.0, 1e-5, 3e-5})
+      expect_as_asking_all(shapes, slice, OwnFan({0, -5 - gap_m}, turn_rad - exact::pi, 1e-5, 24), 30);
+}
+
 TEST(DepthBuffer, OfNothingAndOfOneShape) {
   const OwnFan fan({0, 0}, 0, exact::pi, 181);
   for (const auto& shapes :
