@@ -63,7 +63,7 @@ void DepthBuffer::begin(const Fan& fan, double range_max_m, bool identify) {
     x_[i] = axis_.x * d.x - axis_.y * d.y;
     y_[i] = axis_.y * d.x + axis_.x * d.y;
   }
-  for (std::size_t i = beams_; i < x_.size(); ++i) {
+  for (std::size_t i = beams_; beams_ > 0 && i < x_.size(); ++i) {
     x_[i] = x_[beams_ - 1];
     y_[i] = y_[beams_ - 1];
   }
