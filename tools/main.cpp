@@ -21,12 +21,12 @@ namespace waitpoint {
 namespace {
 
 int check(const tools::CheckOptions& options, std::span<const genom::ModuleType> types) {
-  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   tools::begin_with_program_layer(scenario);
-  const bridge::Experiment experiment(scenario, types, {});
+  const run::Experiment experiment(scenario, types, {});
   std::size_t modules = 0;
-  for (const bridge::RobotScenario& robot : scenario.robots)
-    for (const bridge::ModuleScenario& module : robot.modules) modules += module.enabled ? 1 : 0;
+  for (const scenario::RobotScenario& robot : scenario.robots)
+    for (const scenario::ModuleScenario& module : robot.modules) modules += module.enabled ? 1 : 0;
   std::printf("%s: good: %zu robots, %zu modules, %zu goals, %zu obstacles\n", options.scenario.c_str(),
               scenario.robots.size(), modules, experiment.goals(), experiment.world().description().obstacles.size());
   for (const std::string& warning : experiment.result().warnings) std::printf("warning: %s\n", warning.c_str());

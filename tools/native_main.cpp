@@ -10,7 +10,7 @@
 #include "tools/main.hpp"
 #include "tools/papers_modules.hpp"
 
-namespace waitpoint {
+namespace waitpoint::tools {
 namespace {
 
 struct Arguments {
@@ -38,15 +38,15 @@ void print(const bridge::RunResult& result) {
 }
 
 int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
-  const bridge::Scenario scenario = bridge::read_scenario(arguments.scenario, arguments.assignments);
-  bridge::ThreadedExperiment experiment(scenario, types, arguments.seed);
-  tools::heed_signals();
+  const scenario::Scenario scenario = scenario::read_scenario(arguments.scenario, arguments.assignments);
+  run::ThreadedExperiment experiment(scenario, types, arguments.seed);
+  heed_signals();
   experiment.run_for(arguments.until_s > 0 ? Duration::from_seconds(arguments.until_s) : scenario.until,
-                     [] { return tools::interruption() != 0; });
+                     [] { return interruption() != 0; });
   const bridge::RunResult result = experiment.result();
   print(result);
   if (result.outcome == bridge::Outcome::interrupted) return 130;
-  const std::vector<std::string> unmet = bridge::unmet(scenario.expect, result);
+  const std::vector<std::string> unmet = run::unmet(scenario.expect, result);
   std::fflush(stdout);
   for (const std::string& line : unmet) std::fprintf(stderr, "waitpoint: not as expected: %s\n", line.c_str());
   return unmet.empty() ? 0 : 1;
@@ -78,13 +78,16 @@ int read_and_run(int argc, const char* const* argv, std::span<const genom::Modul
 }
 
 }  // namespace
+}  // namespace waitpoint::tools
+
+namespace waitpoint {
 
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
   // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
   try {
-    return read_and_run(argc, argv, types);
+    return tools::read_and_run(argc, argv, types);
   } catch (const BadInput& error) {
     std::fprintf(stderr, "waitpoint: %s\n", error.what());
     return 2;

@@ -10,7 +10,7 @@ namespace {
 
 // Runs what may find bad input, and adds where the scenario asked for it.
 template <class Function>
-void at(const Location& written, Function&& function) {
+void at(const scenario::Location& written, Function&& function) {
   try {
     function();
   } catch (const BadInput& error) {
@@ -35,7 +35,7 @@ std::string report_text(const executive::GoalRecord& record) {
 
 }  // namespace
 
-Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types,
+Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::ModuleType> types,
              std::shared_ptr<const executive::KnownSpace> known, world::World& world, world::BodyId body,
              io::Network* network, std::uint64_t seed)
     : scenario_(scenario), world_(world), body_(body), bridge_(scenario, world, body, names_) {
@@ -46,7 +46,7 @@ Robot::Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> t
 }
 
 void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* network) {
-  for (const ModuleScenario& module : scenario_.modules) {
+  for (const scenario::ModuleScenario& module : scenario_.modules) {
     if (!module.enabled) continue;
     const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == module.type; });
     if (type == types.end()) {
@@ -78,7 +78,7 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   computing_ = genom::read_computing(settings, "", names_, {});
   settings.check_all_used();
   std::vector<Point> goals;
-  for (const Goal& goal : scenario_.goals) goals.push_back(goal.position);
+  for (const scenario::Goal& goal : scenario_.goals) goals.push_back(goal.position);
   posters::KnownPose start;
   start.pose = scenario_.body.start;
   executive_.emplace(names_, parameters, std::move(known), start, goals,
@@ -159,7 +159,7 @@ RobotResult Robot::result() const {
 }
 
 std::size_t index_of(std::string_view name, const std::vector<std::unique_ptr<Robot>>& robots,
-                     const Location& written) {
+                     const scenario::Location& written) {
   std::vector<std::string_view> known;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (robots[i]->name() == name) return i;

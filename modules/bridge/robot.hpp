@@ -27,7 +27,7 @@ class Robot {
  public:
   /// Makes and connects everything. What does not fit together is BadInput, naming the scenario's line. The scenario,
   /// the world and the network, null where there is none, must outlive the robot.
-  Robot(const RobotScenario& scenario, std::span<const genom::ModuleType> types,
+  Robot(const scenario::RobotScenario& scenario, std::span<const genom::ModuleType> types,
         std::shared_ptr<const executive::KnownSpace> known, world::World& world, world::BodyId body,
         io::Network* network, std::uint64_t seed);
 
@@ -68,12 +68,12 @@ class Robot {
   void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
   void connect();
 
-  const RobotScenario& scenario_;
+  const scenario::RobotScenario& scenario_;
   world::World& world_;
   world::BodyId body_;
   genom::NameSpace names_;
   std::vector<std::unique_ptr<genom::Module>> modules_;
-  std::vector<const ModuleScenario*> module_scenarios_;  // of each module
+  std::vector<const scenario::ModuleScenario*> module_scenarios_;  // of each module
   RobotBridge bridge_;
   genom::TaskComputing computing_;
   std::optional<executive::Executive> executive_;
@@ -81,6 +81,7 @@ class Robot {
 };
 
 /// Which of `robots` has that name; BadInput at `written` if none has.
-std::size_t index_of(std::string_view name, const std::vector<std::unique_ptr<Robot>>& robots, const Location& written);
+std::size_t index_of(std::string_view name, const std::vector<std::unique_ptr<Robot>>& robots,
+                     const scenario::Location& written);
 
 }  // namespace waitpoint::bridge

@@ -15,17 +15,18 @@ RobotBridge::Laser::Laser(std::size_t n, const world::LaserDescription& d)
   scan.range_m.resize(d.beams);
 }
 
-RobotBridge::RobotBridge(const RobotScenario& robot, world::World& world, world::BodyId body, genom::NameSpace& names)
+RobotBridge::RobotBridge(const scenario::RobotScenario& robot, world::World& world, world::BodyId body,
+                         genom::NameSpace& names)
     : world_(world), body_(body), has_battery_(robot.body.battery.has_value()), robot_(robot), names_(names) {
   lasers_.reserve(robot.body.lasers.size());  // rows refer to them
   for (const world::LaserDescription& laser : robot.body.lasers) lasers_.emplace_back(lasers_.size(), laser);
   sonar_rings_.resize(robot.body.sonars.size());
   find_device_values();
   rows_.reserve(robot.bridge.size());
-  for (const BridgeRow& row : robot.bridge) add_row(row);
+  for (const scenario::BridgeRow& row : robot.bridge) add_row(row);
 }
 
-void RobotBridge::add_row(const BridgeRow& scenario) {
+void RobotBridge::add_row(const scenario::BridgeRow& scenario) {
   for (const Origin& other : origins_)
     if (other.scenario->device == scenario.device)
       throw scenario.written.bad("device '" + scenario.device + "' is in the table already, at " +
@@ -195,7 +196,7 @@ void RobotBridge::add_laser_reading(Row& row, Laser& laser) {
 void RobotBridge::connect() {
   for (const Origin& origin : origins_) {
     if (origin.connect == nullptr) continue;
-    const BridgeRow& row = *origin.scenario;
+    const scenario::BridgeRow& row = *origin.scenario;
     genom::PosterBase* poster = names_.find_poster(row.poster);
     if (poster == nullptr) {
       std::vector<std::string_view> known;

@@ -45,7 +45,7 @@ inline constexpr Duration base_report_period = std::chrono::milliseconds(20);
 class RobotBridge {
  public:
   /// Creates the posters of the readings. A row of an unknown device or a device given twice is BadInput.
-  RobotBridge(const RobotScenario& robot, world::World& world, world::BodyId body, genom::NameSpace& names);
+  RobotBridge(const scenario::RobotScenario& robot, world::World& world, world::BodyId body, genom::NameSpace& names);
 
   /// Finds the posters of the commands, once the modules are made. One that no module writes is BadInput.
   void connect();
@@ -83,7 +83,7 @@ class RobotBridge {
 
   /// How a row came about: what no exchange touches.
   struct Origin {
-    const BridgeRow* scenario;
+    const scenario::BridgeRow* scenario;
     std::function<void(genom::PosterBase&)> connect;  // of commands
   };
 
@@ -95,7 +95,7 @@ class RobotBridge {
 
   void find_device_values();
   Origin& origin(const Row& row) { return origins_[static_cast<std::size_t>(&row - rows_.data())]; }
-  void add_row(const BridgeRow& row);
+  void add_row(const scenario::BridgeRow& row);
   void add_base_command(Row& row);
   void add_base_reading(Row& row);
   void add_bumper_reading(Row& row);
@@ -128,7 +128,7 @@ class RobotBridge {
   std::vector<double> infrared_v_;
   std::uint64_t step_ = 0;  // exchanges made
   threads::counting_semaphore<> stepped_{0, "world step"};
-  const RobotScenario& robot_;
+  const scenario::RobotScenario& robot_;
   genom::NameSpace& names_;
   std::vector<DeviceValue> device_values_;
   std::vector<Origin> origins_;  // of each row

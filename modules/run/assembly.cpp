@@ -14,21 +14,21 @@
 #include "world/kinematic/kinematic_world.hpp"
 #include "world/planar/outline.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
-GoalPlace place_on(const OccupancyGrid& map, Point goal) {
+scenario::GoalPlace place_on(const OccupancyGrid& map, Point goal) {
   const std::optional<CellIndex> cell = map.cell_at(goal);
-  if (!cell || map[*cell] == Cell::unknown) return GoalPlace::outside_map;
-  return map[*cell] == Cell::occupied ? GoalPlace::inside_obstacle : GoalPlace::free;
+  if (!cell || map[*cell] == Cell::unknown) return scenario::GoalPlace::outside_map;
+  return map[*cell] == Cell::occupied ? scenario::GoalPlace::inside_obstacle : scenario::GoalPlace::free;
 }
 
 /// Of each robot; those that are as high as another share its map.
 class KnownMaps {
  public:
-  KnownMaps(const Scenario& scenario, const world::WorldFile* file) : scenario_(scenario), file_(file) {}
+  KnownMaps(const scenario::Scenario& scenario, const world::WorldFile* file) : scenario_(scenario), file_(file) {}
 
-  std::shared_ptr<const executive::KnownSpace> of(const RobotScenario& robot) {
+  std::shared_ptr<const executive::KnownSpace> of(const scenario::RobotScenario& robot) {
     const world::Shape shape = raised(robot.body.shape, robot.body.start_height_m);
     const std::pair heights(shape.z_low_m, shape.z_high_m);
     auto& map = maps_[heights];
@@ -37,14 +37,14 @@ class KnownMaps {
   }
 
  private:
-  const Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   const world::WorldFile* file_;
   std::map<std::pair<double, double>, std::shared_ptr<const executive::KnownSpace>> maps_;
 };
 
 }  // namespace
 
-Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
+Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
                    std::uint64_t seed)
     : scenario_(scenario) {
   world::WorldDescription description = scenario.world_without_map();
@@ -55,21 +55,23 @@ Assembly::Assembly(const Scenario& scenario, std::span<const genom::ModuleType> 
     description.meshes.insert(description.meshes.end(), file->meshes.begin(), file->meshes.end());
   }
   KnownMaps maps(scenario, file.get());
-  check_goals(scenario, [&](const RobotScenario& robot, Point goal) { return place_on(maps.of(robot)->map(), goal); });
-  check_starts(scenario, world::start_overlaps(description));
+  scenario::check_goals(scenario, [&](const scenario::RobotScenario& robot, Point goal) {
+    return place_on(maps.of(robot)->map(), goal);
+  });
+  scenario::check_starts(scenario, world::start_overlaps(description));
   make_world(description, seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
-    robots_.push_back(std::make_unique<Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
-                                              world::BodyId(i), network, seed));
+    robots_.push_back(std::make_unique<bridge::Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
+                                                      world::BodyId(i), network, seed));
   warnings_.insert(warnings_.end(), scenario.warnings.begin(), scenario.warnings.end());
   // Robots of one type have one file.
-  for (const RobotScenario& robot : scenario.robots)
+  for (const scenario::RobotScenario& robot : scenario.robots)
     for (const std::string& warning : robot.warnings)
       if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
   check_step();
 }
 
-std::shared_ptr<const world::WorldFile> Assembly::load(MapFile map) {
+std::shared_ptr<const world::WorldFile> Assembly::load(scenario::MapFile map) {
   map.read();
   const world::WorldFile& file = *map.contents;
   if (map.height_m && file.has_heights)
@@ -84,7 +86,7 @@ std::shared_ptr<const world::WorldFile> Assembly::load(MapFile map) {
 
 void Assembly::make_world(const world::WorldDescription& description, std::uint64_t seed) {
   if (scenario_.engine == world::Engine::bullet) {
-    check_dynamic(scenario_, world::loose_overlaps(description));
+    scenario::check_dynamic(scenario_, world::loose_overlaps(description));
     world_ = world::make_bullet_world(description, seed);
     if (world_ == nullptr)
       throw scenario_.engine_written.bad(
@@ -102,7 +104,7 @@ void Assembly::make_world(const world::WorldDescription& description, std::uint6
 
 // A coarse step is a legitimate choice, but rarely meant.
 void Assembly::check_step() {
-  const Robot* quickest = nullptr;
+  const bridge::Robot* quickest = nullptr;
   std::size_t quicker = 0;
   for (const auto& robot : robots_) {
     const std::optional<Duration> least = robot->least_period();
@@ -128,12 +130,12 @@ std::size_t Assembly::goals() const {
   return count;
 }
 
-RunResult Assembly::result() const {
-  RunResult result;
+bridge::RunResult Assembly::result() const {
+  bridge::RunResult result;
   result.scenario = scenario_.name;
   result.warnings = warnings_;
   for (const auto& robot : robots_) result.robots.push_back(robot->result());
   return result;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -7,10 +7,10 @@
 #include "core/number_text.hpp"
 #include "modules/scenario/words.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
-using Figure = double (*)(const Robot& robot, const world::BodyState& body);
+using Figure = double (*)(const bridge::Robot& robot, const world::BodyState& body);
 
 struct NamedFigure {
   std::string_view name;
@@ -18,12 +18,14 @@ struct NamedFigure {
 };
 
 constexpr NamedFigure figures[] = {
-    {"goals", [](const Robot& robot, const world::BodyState&) { return static_cast<double>(robot.goals_reached()); }},
-    {"collisions", [](const Robot&, const world::BodyState& body) { return static_cast<double>(body.collisions); }},
-    {"travelled_m", [](const Robot&, const world::BodyState& body) { return body.travelled_m; }},
-    {"x_m", [](const Robot&, const world::BodyState& body) { return body.pose.x; }},
-    {"y_m", [](const Robot&, const world::BodyState& body) { return body.pose.y; }},
-    {"stalled", [](const Robot&, const world::BodyState& body) { return body.stalled ? 1.0 : 0.0; }},
+    {"goals",
+     [](const bridge::Robot& robot, const world::BodyState&) { return static_cast<double>(robot.goals_reached()); }},
+    {"collisions",
+     [](const bridge::Robot&, const world::BodyState& body) { return static_cast<double>(body.collisions); }},
+    {"travelled_m", [](const bridge::Robot&, const world::BodyState& body) { return body.travelled_m; }},
+    {"x_m", [](const bridge::Robot&, const world::BodyState& body) { return body.pose.x; }},
+    {"y_m", [](const bridge::Robot&, const world::BodyState& body) { return body.pose.y; }},
+    {"stalled", [](const bridge::Robot&, const world::BodyState& body) { return body.stalled ? 1.0 : 0.0; }},
 };
 
 using Compare = bool (*)(double, double);
@@ -40,7 +42,7 @@ constexpr NamedComparison comparisons[] = {
     {"<", [](double a, double b) { return a < b; }},
 };
 
-Figure figure_of(std::string_view name, const Location& written) {
+Figure figure_of(std::string_view name, const scenario::Location& written) {
   std::vector<std::string_view> known;
   for (const NamedFigure& figure : figures) {
     if (figure.name == name) return figure.value;
@@ -51,28 +53,29 @@ Figure figure_of(std::string_view name, const Location& written) {
 
 }  // namespace
 
-Condition parse_condition(std::string_view text, const Experiment& experiment, const Location& written) {
+Condition parse_condition(std::string_view text, const Experiment& experiment, const scenario::Location& written) {
   const std::size_t at = text.find_first_of("<>=");
-  const std::string_view left = trimmed(text.substr(0, at));
+  const std::string_view left = scenario::trimmed(text.substr(0, at));
   const std::size_t dot = left.rfind('.');
   if (at == std::string_view::npos || dot == std::string_view::npos)
-    throw written.bad("expected ROBOT.FIGURE >= NUMBER, found '" + std::string(trimmed(text)) + "'");
+    throw written.bad("expected ROBOT.FIGURE >= NUMBER, found '" + std::string(scenario::trimmed(text)) + "'");
   Compare holds = nullptr;
   std::string_view right = text.substr(at);
   for (const NamedComparison& comparison : comparisons) {
     if (!right.starts_with(comparison.name)) continue;
     holds = comparison.holds;
-    right = trimmed(right.substr(comparison.name.size()));
+    right = scenario::trimmed(right.substr(comparison.name.size()));
     break;
   }
   double number = 0;
   if (holds == nullptr || !parse_number(right, number))
-    throw written.bad("expected a comparison with a number, found '" + std::string(trimmed(text.substr(at))) + "'");
-  const std::size_t robot = index_of(left.substr(0, dot), experiment.robots(), written);
+    throw written.bad("expected a comparison with a number, found '" + std::string(scenario::trimmed(text.substr(at))) +
+                      "'");
+  const std::size_t robot = bridge::index_of(left.substr(0, dot), experiment.robots(), written);
   const Figure figure = figure_of(left.substr(dot + 1), written);
   return [&experiment, robot, figure, holds, number] {
     return holds(figure(*experiment.robots()[robot], experiment.world().body(world::BodyId(robot))), number);
   };
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -11,12 +11,12 @@
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/location.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 /// Whether it holds now. It only looks, and may be asked after every event.
 using Condition = std::function<bool()>;
 
 /// Throws BadInput at `written` for what is no condition on this experiment, which must outlive the condition.
-Condition parse_condition(std::string_view text, const Experiment& experiment, const Location& written);
+Condition parse_condition(std::string_view text, const Experiment& experiment, const scenario::Location& written);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

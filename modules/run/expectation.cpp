@@ -5,10 +5,10 @@
 
 #include <limits>
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
-std::string goals_text(const RunTotals& sum) {
+std::string goals_text(const bridge::RunTotals& sum) {
   return fmt::format("{} of {} goals reached", sum.goals_reached, sum.goals);
 }
 
@@ -22,7 +22,7 @@ std::string greater_text(double value, double limit) {
 
 }  // namespace
 
-std::vector<std::string> broken(const Expectation& expect, const RunTotals& figures) {
+std::vector<std::string> broken(const scenario::Expectation& expect, const bridge::RunTotals& figures) {
   std::vector<std::string> lines;
   if (expect.goals_reached && figures.goals_reached > *expect.goals_reached)
     lines.push_back(goals_text(figures) + ", expected " + std::to_string(*expect.goals_reached));
@@ -35,11 +35,11 @@ std::vector<std::string> broken(const Expectation& expect, const RunTotals& figu
   return lines;
 }
 
-std::vector<std::string> unmet(const Expectation& expect, const RunResult& result) {
+std::vector<std::string> unmet(const scenario::Expectation& expect, const bridge::RunResult& result) {
   std::vector<std::string> lines;
-  const RunTotals sum = totals(result);
-  if (result.outcome == Outcome::deadlock) lines.push_back("the run ended in a deadlock");
-  if (result.outcome == Outcome::no_progress) lines.push_back("the run made no progress");
+  const bridge::RunTotals sum = bridge::totals(result);
+  if (result.outcome == bridge::Outcome::deadlock) lines.push_back("the run ended in a deadlock");
+  if (result.outcome == bridge::Outcome::no_progress) lines.push_back("the run made no progress");
   if (expect.all_goals_reached && sum.goals_reached != sum.goals) lines.push_back(goals_text(sum) + ", expected all");
   if (expect.goals_reached && sum.goals_reached < *expect.goals_reached)
     lines.push_back(goals_text(sum) + ", expected " + std::to_string(*expect.goals_reached));
@@ -49,4 +49,4 @@ std::vector<std::string> unmet(const Expectation& expect, const RunResult& resul
   return lines;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -8,20 +8,20 @@
 #include "fibers/sync/threads.hpp"
 #include "modules/run/heap_pages.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 // Of so many robots the processor does not find the memory on small pages.
 constexpr std::size_t crowd = 200;
 
-Outcome outcome_of(RunEnd end) {
+bridge::Outcome outcome_of(RunEnd end) {
   switch (end) {
-    case RunEnd::time_reached: return Outcome::time_limit;
-    case RunEnd::ended: return Outcome::finished;
-    case RunEnd::deadlock: return Outcome::deadlock;
-    case RunEnd::no_progress: return Outcome::no_progress;
+    case RunEnd::time_reached: return bridge::Outcome::time_limit;
+    case RunEnd::ended: return bridge::Outcome::finished;
+    case RunEnd::deadlock: return bridge::Outcome::deadlock;
+    case RunEnd::no_progress: return bridge::Outcome::no_progress;
   }
-  return Outcome::time_limit;
+  return bridge::Outcome::time_limit;
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ class PauseWatch : private kernel::Watch {
 
 }  // namespace
 
-Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
+Experiment::Experiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
                        const ExperimentOptions& options)
     : options_(options), simulation_({options.order, options.seed, options.replay}) {
   if (options.order == kernel::Order::explored) decide_in_the_explored_order(simulation_.scheduler());
@@ -86,7 +86,7 @@ Experiment::Experiment(const Scenario& scenario, std::span<const genom::ModuleTy
   for (const auto& robot : robots()) spawn(*robot);
   if (scenario.medium) programs_.set_network(*network_);
   for (std::size_t i = 0; i < lanes_.size(); ++i)
-    for (const ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
+    for (const scenario::ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
   if (robots().size() >= crowd) put_heap_on_large_pages();
 }
 
@@ -96,7 +96,7 @@ void Experiment::unwind() {
 }
 
 // Distances are those of the true positions at the last step of the world.
-void Experiment::make_network(const Scenario& scenario) {
+void Experiment::make_network(const scenario::Scenario& scenario) {
   network_.emplace(simulation_);
   if (scenario.medium) network_->declare(*scenario.medium);
   network_->set_distance([this](const std::string& from, const std::string& to) {
@@ -116,7 +116,7 @@ const world::BodyState* Experiment::body_of(const std::string& robot) const {
 }
 
 // A robot with goals is alive until its executive ends; one without does not keep the run alive.
-void Experiment::spawn(Robot& robot) {
+void Experiment::spawn(bridge::Robot& robot) {
   kernel::Robot& lane = simulation_.add_robot(robot.name());
   lanes_.push_back(&lane);
   simulation_.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true},
@@ -176,8 +176,8 @@ Time Experiment::intervene(Intervention intervention, std::optional<Time> date) 
   return at;
 }
 
-RunTotals Experiment::figures() const {
-  RunTotals sum;
+bridge::RunTotals Experiment::figures() const {
+  bridge::RunTotals sum;
   sum.goals = goals();
   sum.goals_reached = goals_reached();
   for (std::size_t i = 0; i < robots().size(); ++i) {
@@ -187,13 +187,13 @@ RunTotals Experiment::figures() const {
   return sum;
 }
 
-RunResult Experiment::result() const {
-  RunResult result = assembly_->result();
+bridge::RunResult Experiment::result() const {
+  bridge::RunResult result = assembly_->result();
   result.seed = options_.seed;
   result.digest = simulation_.digest();
   result.environment_digest = simulation_.environment().digest.digest();
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    RobotResult& robot = result.robots[i];
+    bridge::RobotResult& robot = result.robots[i];
     robot.digest = lanes_[i]->digest.digest();
     const std::vector<std::optional<int>> statuses = programs_.exit_statuses(*lanes_[i]);
     for (std::size_t k = 0; k < statuses.size(); ++k)
@@ -205,4 +205,4 @@ RunResult Experiment::result() const {
   return result;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -20,7 +20,7 @@
 #include "modules/run/operator.hpp"
 #include "modules/run/robot_program.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 struct ExperimentOptions {
   std::uint64_t seed = 0;
@@ -31,7 +31,8 @@ struct ExperimentOptions {
 class Experiment {
  public:
   /// Everything that can be wrong with the input is found here, as BadInput. The scenario must outlive the experiment.
-  Experiment(const Scenario& scenario, std::span<const genom::ModuleType> types, const ExperimentOptions& options);
+  Experiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
+             const ExperimentOptions& options);
 
   /// Ends every task that is left, those of programs too. Nothing can be run afterwards.
   void unwind();
@@ -53,20 +54,20 @@ class Experiment {
   Simulation& simulation() { return simulation_; }
   io::Network& network() { return *network_; }
   const world::World& world() const { return assembly_->world(); }
-  const std::vector<std::unique_ptr<Robot>>& robots() const { return assembly_->robots(); }
+  const std::vector<std::unique_ptr<bridge::Robot>>& robots() const { return assembly_->robots(); }
   /// Goals reached so far, and all there are.
   std::size_t goals_reached() const { return assembly_->goals_reached(); }
   std::size_t goals() const { return assembly_->goals(); }
 
   /// Of what has come out so far, the figures that expectations are about: at no cost.
-  RunTotals figures() const;
+  bridge::RunTotals figures() const;
   /// What has come out so far.
-  RunResult result() const;
+  bridge::RunResult result() const;
 
  private:
-  void make_network(const Scenario& scenario);
+  void make_network(const scenario::Scenario& scenario);
   const world::BodyState* body_of(const std::string& robot) const;
-  void spawn(Robot& robot);
+  void spawn(bridge::Robot& robot);
   void run_world();
 
   ExperimentOptions options_;
@@ -81,4 +82,4 @@ class Experiment {
   bool paused_ = false;
 };
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

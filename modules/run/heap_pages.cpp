@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 // MADV_COLLAPSE, which the C library's headers have since 2.37.
@@ -39,4 +39,4 @@ void put_heap_on_large_pages() {
   if (begin != nullptr && begin < end) madvise(begin, static_cast<std::size_t>(end - begin), collapse);
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

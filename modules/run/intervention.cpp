@@ -8,39 +8,40 @@
 #include "modules/scenario/shape_reader.hpp"
 #include "modules/scenario/words.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 constexpr double height_default_m = 2;
 
 using What = decltype(Intervention::what);
 
-std::string require(std::string_view& text, const char* expected, const Location& written) {
-  std::string word = take_word(text, written);
+std::string require(std::string_view& text, const char* expected, const scenario::Location& written) {
+  std::string word = scenario::take_word(text, written);
   if (word.empty()) throw written.bad(std::string("expected ") + expected);
   return word;
 }
 
 // As the poses of a scenario.
-Pose require_pose(std::string_view& text, const Location& written) {
+Pose require_pose(std::string_view& text, const scenario::Location& written) {
   std::string list = "[";
   for (int i = 0; i < 3; ++i) {
-    const std::string word = take_word(text, written);
+    const std::string word = scenario::take_word(text, written);
     if (i == 2 && word.empty()) break;
     double number = 0;
     if (!parse_number(word, number)) throw written.bad("expected a place, X Y [HEADING_DEG], found '" + word + "'");
     list += (i == 0 ? "" : ", ") + word;
   }
-  require_end(text, written);
-  return read_pose(parse_yaml(list + "]", written.text(), false), "the place");
+  scenario::require_end(text, written);
+  return scenario::read_pose(scenario::parse_yaml(list + "]", written.text(), false), "the place");
 }
 
-What parse_request(std::string_view text, const Location& written) {
+What parse_request(std::string_view text, const scenario::Location& written) {
   ModuleRequest request;
   request.robot = require(text, "a robot", written);
   request.module = require(text, "a module", written);
   request.request = require(text, "a request", written);
-  for (std::string word = take_word(text, written); !word.empty(); word = take_word(text, written)) {
+  for (std::string word = scenario::take_word(text, written); !word.empty();
+       word = scenario::take_word(text, written)) {
     const std::size_t equals = word.find('=');
     if (equals == 0 || equals == std::string::npos) throw written.bad("expected FIELD=VALUE, found '" + word + "'");
     Setting setting{word.substr(0, equals), word.substr(equals + 1), written.file, written.line};
@@ -52,35 +53,35 @@ What parse_request(std::string_view text, const Location& written) {
   return request;
 }
 
-What parse_move(std::string_view text, const Location& written) {
+What parse_move(std::string_view text, const scenario::Location& written) {
   std::string robot = require(text, "a robot", written);
   return RobotMove{std::move(robot), require_pose(text, written)};
 }
 
-What parse_obstacle(std::string_view text, const Location& written) {
-  const YamlNode node = parse_yaml(std::string(trimmed(text)), written.text(), false);
-  if (name_of(node).empty()) throw written.bad("expected {name: ..., ...}, a shape with a name");
-  return ObstaclePut{read_obstacle(node, height_default_m, 1)};
+What parse_obstacle(std::string_view text, const scenario::Location& written) {
+  const scenario::YamlNode node = scenario::parse_yaml(std::string(scenario::trimmed(text)), written.text(), false);
+  if (scenario::name_of(node).empty()) throw written.bad("expected {name: ..., ...}, a shape with a name");
+  return ObstaclePut{scenario::read_obstacle(node, height_default_m, 1)};
 }
 
-What parse_obstacle_move(std::string_view text, const Location& written) {
+What parse_obstacle_move(std::string_view text, const scenario::Location& written) {
   std::string name = require(text, "an obstacle", written);
   return ObstacleMove{std::move(name), require_pose(text, written)};
 }
 
-What parse_removal(std::string_view text, const Location& written) {
+What parse_removal(std::string_view text, const scenario::Location& written) {
   ObstacleRemoval removal{require(text, "an obstacle", written)};
-  require_end(text, written);
+  scenario::require_end(text, written);
   return removal;
 }
 
 // At most a day: a force is something that a person does.
 constexpr double force_n_max = 1e6, time_s_max = 86400;
 
-What parse_push(std::string_view text, const Location& written) {
+What parse_push(std::string_view text, const scenario::Location& written) {
   Push push{require(text, "a robot or an obstacle", written), {}, {}};
   const auto number = [&](const char* expected, double low, double high) {
-    const std::string word = take_word(text, written);
+    const std::string word = scenario::take_word(text, written);
     double value = 0;
     if (!parse_number(word, value) || value < low || value > high)
       throw written.bad(std::string("expected ") + expected + ", found '" + word + "'");
@@ -89,13 +90,13 @@ What parse_push(std::string_view text, const Location& written) {
   push.force_n.x = number("a force, FX_N FY_N, within 1000000 N", -force_n_max, force_n_max);
   push.force_n.y = number("a force, FX_N FY_N, within 1000000 N", -force_n_max, force_n_max);
   push.time = Duration::from_seconds(number("a time in seconds, at most 86400", 0, time_s_max));
-  require_end(text, written);
+  scenario::require_end(text, written);
   return push;
 }
 
 struct Verb {
   std::string_view name;
-  What (*parse)(std::string_view text, const Location& written);
+  What (*parse)(std::string_view text, const scenario::Location& written);
 };
 
 constexpr Verb verbs[] = {{"request", parse_request},         {"move", parse_move},
@@ -110,17 +111,17 @@ std::vector<std::string_view> intervention_verbs() {
   return names;
 }
 
-Intervention parse_intervention(std::string_view text, const Location& written) {
+Intervention parse_intervention(std::string_view text, const scenario::Location& written) {
   // It is a line of a journal.
-  if (trimmed(text).find('\n') != std::string_view::npos) throw written.bad("expected one line");
+  if (scenario::trimmed(text).find('\n') != std::string_view::npos) throw written.bad("expected one line");
   std::string_view rest = text;
-  const std::string word = take_word(rest, written);
+  const std::string word = scenario::take_word(rest, written);
   for (const Verb& verb : verbs)
-    if (verb.name == word) return {std::string(trimmed(text)), written, verb.parse(rest, written)};
+    if (verb.name == word) return {std::string(scenario::trimmed(text)), written, verb.parse(rest, written)};
   const std::string hint = did_you_mean(word, intervention_verbs());
   throw written.bad(
       "unknown intervention '" + word + "'" +
       (hint.empty() ? ", expected request, move, obstacle, move-obstacle, remove-obstacle or push" : hint));
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

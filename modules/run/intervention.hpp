@@ -23,7 +23,7 @@
 #include "modules/scenario/location.hpp"
 #include "world/description.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 struct ModuleRequest {
   std::string robot, module, request;
@@ -56,7 +56,7 @@ struct Push {
 
 struct Intervention {
   std::string text;
-  Location written;
+  scenario::Location written;
   std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push> what;
 };
 
@@ -65,6 +65,6 @@ std::vector<std::string_view> intervention_verbs();
 
 /// Reads one line. Throws BadInput at `written` for what is no intervention; whether the run has such a robot is asked
 /// when it is given to the run.
-Intervention parse_intervention(std::string_view text, const Location& written);
+Intervention parse_intervention(std::string_view text, const scenario::Location& written);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -8,7 +8,7 @@
 #include "core/number_text.hpp"
 #include "modules/scenario/words.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 constexpr std::string_view first_line = "waitpoint journal 1";
@@ -50,32 +50,34 @@ class Lines {
   void expect(std::string_view expected, const std::string& otherwise) {
     std::string_view line;
     if (!next(line))
-      throw Location{at_.file, at_.line + 1}.bad("the journal ends early, expected '" + std::string(expected) + "'");
+      throw scenario::Location{at_.file, at_.line + 1}.bad("the journal ends early, expected '" +
+                                                           std::string(expected) + "'");
     if (line != expected)
       throw at_.bad(otherwise + ": expected '" + std::string(expected) + "', found '" + shown(line) + "'");
   }
-  const Location& at() const { return at_; }
+  const scenario::Location& at() const { return at_; }
 
  private:
-  Location at_;
+  scenario::Location at_;
   std::string text_;
   std::string_view rest_;
 };
 
-Time require_time(std::string_view& line, const Location& at) {
-  const std::string word = take_word(line, at);
+Time require_time(std::string_view& line, const scenario::Location& at) {
+  const std::string word = scenario::take_word(line, at);
   const std::optional<Time> time = parse_time(word);
   if (!time) throw at.bad("expected a time in seconds, found '" + word + "'");
   return *time;
 }
 
-JournalEnd read_end(std::string_view line, const Location& at) {
+JournalEnd read_end(std::string_view line, const scenario::Location& at) {
   JournalEnd end;
   end.time = require_time(line, at);
-  const std::string after = take_word(line, at), events = take_word(line, at), unit = take_word(line, at);
-  end.digest = take_word(line, at);
+  const std::string after = scenario::take_word(line, at), events = scenario::take_word(line, at),
+                    unit = scenario::take_word(line, at);
+  end.digest = scenario::take_word(line, at);
   if (after != "after" || unit != "events" || !parse_number(events, end.events) || end.digest.empty() ||
-      !take_word(line, at).empty())
+      !scenario::take_word(line, at).empty())
     throw at.bad("expected 'end TIME after N events DIGEST'");
   return end;
 }
@@ -88,7 +90,7 @@ std::string scenario_line(const JournalHead& head) {
 
 }  // namespace
 
-JournalHead journal_head(const Scenario& scenario, std::uint64_t seed, kernel::Order order) {
+JournalHead journal_head(const scenario::Scenario& scenario, std::uint64_t seed, kernel::Order order) {
   return {scenario.name, Digest(scenario.fingerprint), seed, order};
 }
 
@@ -115,7 +117,7 @@ Journal read_journal(const std::filesystem::path& file, const JournalHead& head)
   std::string_view line;
   while (lines.next(line)) {
     if (journal.end) throw lines.at().bad("nothing may follow the end");
-    const std::string word = take_word(line, lines.at());
+    const std::string word = scenario::take_word(line, lines.at());
     if (word == "end") {
       journal.end = read_end(line, lines.at());
     } else if (word == "at") {
@@ -142,4 +144,4 @@ std::optional<Time> parse_time(std::string_view text) {
   return Time::from_ns(ns);
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -25,7 +25,7 @@
 #include "modules/run/intervention.hpp"
 #include "modules/scenario/scenario.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 /// Which run it is.
 struct JournalHead {
@@ -34,7 +34,7 @@ struct JournalHead {
   std::uint64_t seed = 0;
   kernel::Order order = kernel::Order::fifo;
 };
-JournalHead journal_head(const Scenario& scenario, std::uint64_t seed, kernel::Order order);
+JournalHead journal_head(const scenario::Scenario& scenario, std::uint64_t seed, kernel::Order order);
 
 struct JournalEnd {
   Time time;
@@ -64,4 +64,4 @@ Journal read_journal(const std::filesystem::path& file, const JournalHead& head)
 /// Seconds in decimals, exactly: "12", "12.34", at most nine decimals, at most 1e9 s; nothing if it is no such number.
 std::optional<Time> parse_time(std::string_view text);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -7,7 +7,7 @@
 #include "world/formats/drawn_cells.hpp"
 #include "world/planar/outline.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 /// What a floor must hold.
@@ -35,16 +35,16 @@ void hold(Extent& extent, const std::vector<world::MeshObstacle>& meshes) {
     for (const world::SpaceVector& corner : obstacle.mesh->corners) extent.hold({corner.x, corner.y}, 0);
 }
 
-OccupancyGrid grid_around(const Scenario& scenario, const world::WorldFile* map) {
+OccupancyGrid grid_around(const scenario::Scenario& scenario, const world::WorldFile* map) {
   Extent extent;
   for (const world::Obstacle& obstacle : scenario.shapes) extent.hold(bounds_of(outline_of(obstacle.shape)));
   hold(extent, scenario.meshes);
   if (map != nullptr) {
     hold(extent, map->meshes);
     for (const world::Obstacle& obstacle : map->obstacles) extent.hold(bounds_of(outline_of(obstacle.shape)));
-    for (const RobotScenario& robot : scenario.robots) {
+    for (const scenario::RobotScenario& robot : scenario.robots) {
       extent.hold(robot.body.start.position(), drawn_margin_m);
-      for (const Goal& goal : robot.goals) extent.hold(goal.position, drawn_margin_m);
+      for (const scenario::Goal& goal : robot.goals) extent.hold(goal.position, drawn_margin_m);
     }
   }
   const auto [low, high] = extent.bounds();
@@ -61,7 +61,8 @@ OccupancyGrid grid_around(const Scenario& scenario, const world::WorldFile* map)
 
 }  // namespace
 
-OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map, const RobotScenario& robot) {
+OccupancyGrid known_map(const scenario::Scenario& scenario, const world::WorldFile* map,
+                        const scenario::RobotScenario& robot) {
   const bool has_cells = map != nullptr && map->grid;
   OccupancyGrid grid = has_cells ? *map->grid : grid_around(scenario, map);
   const world::Shape body = raised(robot.body.shape, robot.body.start_height_m);
@@ -82,4 +83,4 @@ OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map, c
   return grid;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -6,7 +6,7 @@
 #include "modules/scenario/scenario.hpp"
 #include "world/formats/world_file.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 /// Edge of a cell where the world is drawn by shapes alone.
 inline constexpr double drawn_resolution_m = 0.05;
@@ -18,6 +18,7 @@ inline constexpr double drawn_margin_m = 2;
 /// holds all shapes, and with a map file of shapes also every start and goal, with a margin. `map` is what the map file
 /// says, null if there is none. What ends below the robot, where it starts, or begins above it is not in its way and
 /// not drawn.
-OccupancyGrid known_map(const Scenario& scenario, const world::WorldFile* map, const RobotScenario& robot);
+OccupancyGrid known_map(const scenario::Scenario& scenario, const world::WorldFile* map,
+                        const scenario::RobotScenario& robot);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

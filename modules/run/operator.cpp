@@ -7,7 +7,7 @@
 #include "fibers/sync/thread.hpp"
 #include "modules/genom/client.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 constexpr std::uint64_t by_the_operator = 0x6F70657261746F72;  // "operator"
@@ -23,7 +23,7 @@ std::string text_of(genom::Report report) {
   return text == "own report" ? text + " " + std::to_string(genom::code_of(report)) : text;
 }
 
-[[noreturn]] void unknown(const Location& written, const std::string& what, const std::string& name,
+[[noreturn]] void unknown(const scenario::Location& written, const std::string& what, const std::string& name,
                           const std::vector<std::string_view>& known) {
   throw written.bad("there is no " + what + " '" + name + "'" + did_you_mean(name, known));
 }
@@ -57,11 +57,11 @@ void Operator::act(Time now) {
 void Operator::check(const Intervention& intervention) const {
   if (const auto* request = std::get_if<ModuleRequest>(&intervention.what)) check(*request, intervention.written);
   if (const auto* move = std::get_if<RobotMove>(&intervention.what))
-    (void)index_of(move->robot, robots_, intervention.written);
+    (void)bridge::index_of(move->robot, robots_, intervention.written);
 }
 
-void Operator::check(const ModuleRequest& request, const Location& written) const {
-  Robot& owner = *robots_[index_of(request.robot, robots_, written)];
+void Operator::check(const ModuleRequest& request, const scenario::Location& written) const {
+  bridge::Robot& owner = *robots_[bridge::index_of(request.robot, robots_, written)];
   const genom::Module* module = owner.names().find_module(request.module);
   if (module == nullptr) {
     std::vector<std::string_view> known;
@@ -85,8 +85,8 @@ std::string Operator::carry_out(const Intervention& intervention) {
 }
 
 std::string Operator::carry_out(const ModuleRequest& request, const Intervention& whole) {
-  const std::size_t index = index_of(request.robot, robots_, whole.written);
-  Robot& owner = *robots_[index];
+  const std::size_t index = bridge::index_of(request.robot, robots_, whole.written);
+  bridge::Robot& owner = *robots_[index];
   genom::Settings arguments(request.arguments);
   const genom::Payload input =
       owner.names().find_module(request.module)->find_request(request.request)->read_input(arguments);
@@ -101,7 +101,7 @@ std::string Operator::carry_out(const ModuleRequest& request, const Intervention
 }
 
 std::string Operator::carry_out(const RobotMove& move, const Intervention& whole) {
-  return placed(world_.move_body(world::BodyId(index_of(move.robot, robots_, whole.written)), move.pose));
+  return placed(world_.move_body(world::BodyId(bridge::index_of(move.robot, robots_, whole.written)), move.pose));
 }
 
 std::string Operator::carry_out(const ObstacleMove& move, const Intervention&) {
@@ -127,4 +127,4 @@ std::string Operator::carry_out(const Push& push, const Intervention&) {
   return why_not ? "refused, " + *why_not : "done";
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -19,7 +19,7 @@
 #include "modules/run/intervention.hpp"
 #include "world/world.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 /// Interventions of one run.
 inline constexpr std::size_t interventions_max = 100'000;
@@ -33,7 +33,7 @@ struct InterventionOutcome {
 class Operator {
  public:
   /// All must outlive the operator; lanes in the order of the robots.
-  Operator(world::World& world, const std::vector<std::unique_ptr<Robot>>& robots,
+  Operator(world::World& world, const std::vector<std::unique_ptr<bridge::Robot>>& robots,
            const std::vector<kernel::Robot*>& lanes)
       : world_(world), robots_(robots), lanes_(lanes) {}
 
@@ -54,7 +54,7 @@ class Operator {
   };
 
   void check(const Intervention& intervention) const;
-  void check(const ModuleRequest& request, const Location& written) const;
+  void check(const ModuleRequest& request, const scenario::Location& written) const;
   std::string carry_out(const Intervention& intervention);
   std::string carry_out(const ModuleRequest& request, const Intervention& whole);
   std::string carry_out(const RobotMove& move, const Intervention& whole);
@@ -64,11 +64,11 @@ class Operator {
   std::string carry_out(const Push& push, const Intervention& whole);
 
   world::World& world_;
-  const std::vector<std::unique_ptr<Robot>>& robots_;
+  const std::vector<std::unique_ptr<bridge::Robot>>& robots_;
   const std::vector<kernel::Robot*>& lanes_;
   std::deque<Planned> planned_;  // by date
   std::size_t added_ = 0;
   std::vector<InterventionOutcome> outcomes_;
 };
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

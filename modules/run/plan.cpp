@@ -6,7 +6,7 @@
 #include "world/formats/segments.hpp"
 #include "world/mesh/section.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 double plan_height_m(const world::WorldDescription& world) {
   for (const world::BodyDescription& body : world.bodies)
@@ -32,4 +32,4 @@ std::vector<world::Obstacle> meshes_on_plan(const world::WorldDescription& world
   return walls;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -8,7 +8,7 @@
 
 #include "fibers/sync/signals.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 const posix::Guests* guests() { return static_cast<const posix::Guests*>(dlsym(RTLD_DEFAULT, posix::Guests::symbol)); }
@@ -29,9 +29,9 @@ bool carry(void* network, const kernel::Robot& from, const kernel::Robot& to, st
 
 }  // namespace
 
-bool has_programs(const Scenario& scenario) {
+bool has_programs(const scenario::Scenario& scenario) {
   return std::any_of(scenario.robots.begin(), scenario.robots.end(),
-                     [](const RobotScenario& robot) { return !robot.programs.empty(); });
+                     [](const scenario::RobotScenario& robot) { return !robot.programs.empty(); });
 }
 
 bool can_load_programs() { return guests() != nullptr; }
@@ -41,7 +41,7 @@ void RobotPrograms::set_network(io::Network& network) {
   if (can_load_programs()) guests()->set_carrier(&carrier_);
 }
 
-void RobotPrograms::add(const ProgramScenario& program, kernel::Robot& robot) {
+void RobotPrograms::add(const scenario::ProgramScenario& program, kernel::Robot& robot) {
   if (!can_load_programs()) throw program.written.bad("programs can be loaded by the program `waitpoint` alone");
   std::vector<const char*> words{program.file.c_str()};
   for (const std::string& argument : program.arguments) words.push_back(argument.c_str());
@@ -73,4 +73,4 @@ std::vector<std::optional<int>> RobotPrograms::exit_statuses(const kernel::Robot
   return statuses;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

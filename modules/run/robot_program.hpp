@@ -12,10 +12,10 @@
 #include "fibers/posix/guests/guests.hpp"
 #include "modules/scenario/scenario.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 /// Whether any robot has one.
-bool has_programs(const Scenario& scenario);
+bool has_programs(const scenario::Scenario& scenario);
 /// Whether this process can load them.
 bool can_load_programs();
 
@@ -31,7 +31,7 @@ class RobotPrograms {
   RobotPrograms& operator=(const RobotPrograms&) = delete;
 
   /// Loads one that begins at the start of the run. BadInput where it cannot be.
-  void add(const ProgramScenario& program, kernel::Robot& robot);
+  void add(const scenario::ProgramScenario& program, kernel::Robot& robot);
   /// To be called before the run is unwound: they end where they are.
   void take_away();
   /// The exit statuses of the robot's, in the order in which they were added; none of those that have not ended.
@@ -48,4 +48,4 @@ class RobotPrograms {
   posix::Carrier carrier_{};
 };
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -3,17 +3,17 @@
 
 #include <algorithm>
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 constexpr Duration look_period = std::chrono::milliseconds(100);  // for interruptions
 
 }  // namespace
 
-ThreadedExperiment::ThreadedExperiment(const Scenario& scenario, std::span<const genom::ModuleType> types,
+ThreadedExperiment::ThreadedExperiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
                                        std::uint64_t seed)
     : assembly_(scenario, types, nullptr, seed), seed_(seed) {
-  for (const RobotScenario& robot : scenario.robots)
+  for (const scenario::RobotScenario& robot : scenario.robots)
     if (!robot.programs.empty())
       throw robot.programs.front().written.bad("programs of robots run in virtual time alone: by `waitpoint run`");
 }
@@ -41,16 +41,16 @@ void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& in
 }
 
 // Robots without goals never come to an end of their own.
-Outcome ThreadedExperiment::wait_for_rounds(Time end, const std::function<bool()>& interrupted) {
+bridge::Outcome ThreadedExperiment::wait_for_rounds(Time end, const std::function<bool()>& interrupted) {
   const auto with_goals =
       std::count_if(robots().begin(), robots().end(), [](auto& robot) { return robot->goals() > 0; });
   for (std::ptrdiff_t ended = 0; ended < with_goals || with_goals == 0;) {
-    if (interrupted()) return Outcome::interrupted;
+    if (interrupted()) return bridge::Outcome::interrupted;
     const Duration left = end - threads::now();
-    if (left <= Duration()) return Outcome::time_limit;
+    if (left <= Duration()) return bridge::Outcome::time_limit;
     if (round_ended_.try_acquire_for(std::chrono::nanoseconds(std::min(left, look_period).ns()))) ++ended;
   }
-  return Outcome::finished;
+  return bridge::Outcome::finished;
 }
 
 void ThreadedExperiment::run_world() {
@@ -71,12 +71,12 @@ void ThreadedExperiment::exchange(Time date) {
   }
 }
 
-RunResult ThreadedExperiment::result() const {
-  RunResult result = assembly_.result();
+bridge::RunResult ThreadedExperiment::result() const {
+  bridge::RunResult result = assembly_.result();
   result.seed = seed_;
   result.outcome = outcome_;
   result.simulated = took_;
   return result;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

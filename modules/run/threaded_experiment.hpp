@@ -18,12 +18,12 @@
 #include "fibers/sync/threads.hpp"
 #include "modules/run/assembly.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 
 class ThreadedExperiment {
  public:
   /// Everything that can be wrong with the input is found here, as BadInput. The scenario must outlive the experiment.
-  ThreadedExperiment(const Scenario& scenario, std::span<const genom::ModuleType> types, std::uint64_t seed);
+  ThreadedExperiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, std::uint64_t seed);
 
   /// Carries out the run, once: until every robot with goals has ended its round, for `limit` at most, or until
   /// `interrupted` says so, which is asked now and then. Then every robot is stopped, its modules are ended, and all
@@ -32,23 +32,23 @@ class ThreadedExperiment {
       Duration limit, const std::function<bool()>& interrupted = [] { return false; });
 
   const world::World& world() const { return assembly_.world(); }
-  const std::vector<std::unique_ptr<Robot>>& robots() const { return assembly_.robots(); }
+  const std::vector<std::unique_ptr<bridge::Robot>>& robots() const { return assembly_.robots(); }
 
   /// What came out, after the run: without digests and events. Dates are those of
   /// threads::now().
-  RunResult result() const;
+  bridge::RunResult result() const;
 
  private:
-  Outcome wait_for_rounds(Time end, const std::function<bool()>& interrupted);
+  bridge::Outcome wait_for_rounds(Time end, const std::function<bool()>& interrupted);
   void run_world();
   void exchange(Time date);
 
   Assembly assembly_;
   std::uint64_t seed_;
-  Outcome outcome_ = Outcome::time_limit;
+  bridge::Outcome outcome_ = bridge::Outcome::time_limit;
   Duration took_;
   threads::counting_semaphore<> round_ended_{0, "end of a robot's round"};
   threads::binary_semaphore world_ends_{0, "end of the world"};
 };
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -8,7 +8,7 @@
 #include "modules/scenario/sensor_reader.hpp"
 #include "modules/scenario/shape_reader.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using namespace std::chrono_literals;
@@ -198,4 +198,4 @@ BodyReading read_body(const YamlMap& robot, const BodyReading* given) {
   return reading;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -10,7 +10,7 @@
 #include "modules/scenario/yaml_reader.hpp"
 #include "world/description.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 struct BodyReading {
   world::BodyDescription body;           ///< as read_body() reads it, without name and start
@@ -22,4 +22,4 @@ struct BodyReading {
 /// robot has that of `given`, if there is any.
 BodyReading read_body(const YamlMap& robot, const BodyReading* given = nullptr);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

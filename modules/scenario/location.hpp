@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 struct Location {
   std::string file;  ///< as the user named it; for an option, its text: "--set world.step_ms=5"
@@ -25,4 +25,4 @@ struct Location {
   std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
 };
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -9,7 +9,7 @@
 #include "world/formats/distinct_names.hpp"
 #include "world/formats/left_out.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 struct Row {
@@ -108,4 +108,4 @@ void read_robots_from_map(const YamlNode& node, const YamlNode* types, Scenario&
   scenario.warnings = left_out.warnings();
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -13,10 +13,10 @@
 #include "modules/scenario/scenario.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// Reads the scenario's map, which must be known, and adds its robots to those of the scenario. BadInput where a row is
 /// for no robot, and where two robots have one name.
 void read_robots_from_map(const YamlNode& node, const YamlNode* types, Scenario& scenario);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

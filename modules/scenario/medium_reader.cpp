@@ -3,7 +3,7 @@
 
 #include "modules/scenario/yaml_reader.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using namespace std::chrono_literals;
@@ -45,4 +45,4 @@ io::Medium read_medium(const YamlNode& node) {
   return medium;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

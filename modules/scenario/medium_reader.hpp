@@ -5,9 +5,9 @@
 #include "fibers/io/medium.hpp"
 #include "modules/scenario/yaml_tree.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// What makes no sense is BadInput, naming the line.
 io::Medium read_medium(const YamlNode& node);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -9,7 +9,7 @@
 #include "world/formats/limits.hpp"
 #include "world/formats/upright.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 std::optional<RobotModel> read_robot_model(const YamlMap& robot) {
   const YamlNode* named = robot.find("urdf");
@@ -43,4 +43,4 @@ void mount_at_frame(const YamlNode& laser, const std::optional<RobotModel>& mode
   device.height_m = pose.position.z;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -12,7 +12,7 @@
 #include "modules/scenario/yaml_reader.hpp"
 #include "world/formats/urdf.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 struct RobotModel {
   world::UrdfRobot robot;
@@ -25,4 +25,4 @@ std::optional<RobotModel> read_robot_model(const YamlMap& robot);
 /// Puts a laser where a link of the model is, if the scenario's `laser` says so by `frame`. The link must be upright.
 void mount_at_frame(const YamlNode& laser, const std::optional<RobotModel>& model, world::LaserDescription& device);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -8,7 +8,7 @@
 #include "modules/scenario/shape_reader.hpp"
 #include "modules/scenario/yaml_override.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 constexpr std::size_t letters_max = 40;  // the kernel keeps names in place
@@ -253,4 +253,4 @@ std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix) 
   return settings;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

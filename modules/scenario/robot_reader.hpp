@@ -7,7 +7,7 @@
 #include "modules/scenario/scenario.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// Reads an element of `robots`. `types` is the map `robot_types`, or null; the robot needs none of them if it has all
 /// that a type has.
@@ -28,4 +28,4 @@ void check_robot_type(const YamlEntry& type, bool for_map);
 /// The values under `node`, nested keys and list positions joined by dots behind `prefix`; nulls are left out.
 std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix = "");
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -22,7 +22,7 @@
 #include "world/description.hpp"
 #include "world/formats/world_file.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// What the author says a run comes to; what is left out is not expected.
 struct Expectation {
@@ -118,4 +118,4 @@ struct Scenario {
   world::WorldDescription world_without_map() const;
 };
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/scenario/scenario_checks.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 /// Where the obstacle was written; the map's obstacles are all at the map's line.
@@ -73,4 +73,4 @@ void check_dynamic(const Scenario& scenario, const std::vector<world::LooseOverl
   }
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

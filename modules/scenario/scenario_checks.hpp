@@ -9,7 +9,7 @@
 #include "modules/scenario/scenario.hpp"
 #include "world/kinematic/start_check.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// What is at a point where a robot is to go.
 enum class GoalPlace {
@@ -29,4 +29,4 @@ void check_starts(const Scenario& scenario, const std::vector<world::StartOverla
 /// turn by half a turn in a step.
 void check_dynamic(const Scenario& scenario, const std::vector<world::LooseOverlap>& overlaps);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -4,7 +4,7 @@
 #include "modules/scenario/yaml_override.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 void check_format(const YamlNode& document) {
@@ -112,4 +112,4 @@ YamlNode scenario_document(const std::filesystem::path& file, const std::vector<
   return document;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -16,7 +16,7 @@
 
 #include "modules/scenario/yaml_tree.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// The format number that this program reads.
 inline constexpr int scenario_format = 1;
@@ -24,4 +24,4 @@ inline constexpr int scenario_format = 1;
 /// Throws BadInput where a file cannot be read, has another format, or an option has no place.
 YamlNode scenario_document(const std::filesystem::path& file, const std::vector<std::string>& assignments);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -13,7 +13,7 @@
 #include "modules/scenario/surface_reader.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using namespace std::chrono_literals;
@@ -145,4 +145,4 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   return scenario;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -16,10 +16,10 @@
 
 #include "modules/scenario/scenario.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// Reads the file with the options `--set key=value` (given without "--set ") applied. Throws BadInput(file, line, what
 /// was expected); for a value that an option set, the option is named instead.
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments = {});
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

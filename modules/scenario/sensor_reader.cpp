@@ -10,7 +10,7 @@
 #include "world/sensors/laser_timing.hpp"
 #include "world/sensors/sonar.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using namespace std::chrono_literals;
@@ -227,4 +227,4 @@ world::PositionReceiverDescription read_gps(const YamlNode& node) {
   return gps;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

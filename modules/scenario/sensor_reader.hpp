@@ -8,7 +8,7 @@
 #include "modules/scenario/yaml_reader.hpp"
 #include "world/sensor_description.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 struct LaserReading {
   world::LaserDescription laser;
@@ -22,4 +22,4 @@ world::InfraredRingDescription read_infrareds(const YamlNode& node);
 world::ImuDescription read_imu(const YamlNode& node);
 world::PositionReceiverDescription read_gps(const YamlNode& node);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

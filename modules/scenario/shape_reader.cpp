@@ -6,7 +6,7 @@
 
 #include "core/exact_math.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using world::Shape;
@@ -117,4 +117,4 @@ Pose read_pose(const YamlNode& node, std::string_view what) {
   return {numbers[0], numbers[1], exact::wrap_angle(radians(heading_deg))};
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -12,7 +12,7 @@
 #include "modules/scenario/yaml_reader.hpp"
 #include "world/description.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
 
@@ -31,4 +31,4 @@ Point read_point(const YamlNode& node, std::string_view what);
 /// `[x, y, heading_deg]`, `[x, y]` or `{x_m: x, y_m: y, heading_deg: h}`.
 Pose read_pose(const YamlNode& node, std::string_view what);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -5,7 +5,7 @@
 #include "world/formats/mesh_file.hpp"
 #include "world/formats/octree.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
@@ -65,4 +65,4 @@ std::vector<world::Obstacle> read_octomap(const YamlNode& node, const std::strin
   return boxes;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -12,7 +12,7 @@
 #include "world/description.hpp"
 #include "world/formats/left_out.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// What is left out of the file is told. BadInput as of world::read_mesh_file().
 world::MeshObstacle read_mesh(const YamlNode& node, const std::string& name, world::LeftOut& left_out);
@@ -20,4 +20,4 @@ world::MeshObstacle read_mesh(const YamlNode& node, const std::string& name, wor
 /// Boxes called "NAME 0", "NAME 1", .... BadInput as of world::read_octree().
 std::vector<world::Obstacle> read_octomap(const YamlNode& node, const std::string& name, world::LeftOut& left_out);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
@@ -35,4 +35,4 @@ void require_end(std::string_view text, const Location& written) {
   if (!trimmed(text).empty()) throw written.bad("unexpected '" + std::string(trimmed(text)) + "'");
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -7,7 +7,7 @@
 
 #include "modules/scenario/location.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// Without the blanks at both ends.
 std::string_view trimmed(std::string_view text);
@@ -18,4 +18,4 @@ std::string take_word(std::string_view& text, const Location& written);
 /// Throws BadInput at `written` if there is one more word.
 void require_end(std::string_view text, const Location& written);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -7,7 +7,7 @@
 
 #include "core/nearest_name.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 bool all_have_names(const std::vector<YamlNode>& items) {
@@ -106,4 +106,4 @@ void assign(YamlNode& document, const Assignment& assignment) {
   *node = assignment.value;
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

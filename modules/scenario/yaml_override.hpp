@@ -7,7 +7,7 @@
 
 #include "modules/scenario/yaml_tree.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// `over` laid over `base`. Maps are merged key by key; so are lists whose elements all have names, element by element
 /// (new names at the end); anything else in `over` takes the place of what `base` has.
@@ -27,4 +27,4 @@ struct Assignment {
 /// plain value.
 void assign(YamlNode& document, const Assignment& assignment);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -7,7 +7,7 @@
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 [[noreturn]] void refuse(const YamlNode& node, std::string_view what, const std::string& expected) {
@@ -146,4 +146,4 @@ void YamlMap::read_degrees(std::string_view key, double& value_rad, const Number
 
 double radians(double degrees) { return degrees / 180 * exact::pi; }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -14,7 +14,7 @@
 #include "core/time.hpp"
 #include "modules/scenario/yaml_tree.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 /// The numbers that make sense somewhere, and how to say so.
 struct NumberRange {
@@ -76,4 +76,4 @@ class YamlMap {
 /// Degrees in radians; quarters of a turn come out as the nearest double.
 double radians(double degrees);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -13,7 +13,7 @@
 
 #include "core/digest.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 constexpr int depth_max = 32;
@@ -182,4 +182,4 @@ YamlNode parse_yaml(const std::string& text, const std::string& file, bool file_
   }
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -14,7 +14,7 @@
 
 #include "modules/scenario/location.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 struct YamlEntry;
 
@@ -62,4 +62,4 @@ YamlNode load_yaml(const std::filesystem::path& file);
 /// Reads text whose lines count from 1 in `file`; with `file_has_lines` false all of it is written at `file` alone.
 YamlNode parse_yaml(const std::string& text, const std::string& file, bool file_has_lines = true);
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -5,10 +5,10 @@
 
 namespace waitpoint::bench {
 
-bridge::Scenario side_by_side(const bridge::Scenario& floor, int floors) {
+scenario::Scenario side_by_side(const scenario::Scenario& floor, int floors) {
   constexpr double side_m = 60;
   constexpr int floors_in_a_row = 10;
-  bridge::Scenario all = floor;
+  scenario::Scenario all = floor;
   all.shapes.clear();
   all.shapes_written.clear();
   all.robots.clear();
@@ -20,12 +20,12 @@ bridge::Scenario side_by_side(const bridge::Scenario& floor, int floors) {
       all.shapes.push_back(std::move(obstacle));
     }
     all.shapes_written.insert(all.shapes_written.end(), floor.shapes_written.begin(), floor.shapes_written.end());
-    for (bridge::RobotScenario robot : floor.robots) {
+    for (scenario::RobotScenario robot : floor.robots) {
       robot.name += fmt::format("{}", i);
       robot.body.name = robot.name;
       robot.body.start.x += x_m;
       robot.body.start.y += y_m;
-      for (bridge::Goal& goal : robot.goals) {
+      for (scenario::Goal& goal : robot.goals) {
         goal.position.x += x_m;
         goal.position.y += y_m;
       }

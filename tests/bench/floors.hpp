@@ -8,6 +8,6 @@ namespace waitpoint::bench {
 
 /// `floors` copies in rows of ten, without contact if a floor lies within 60 m x 60 m of the origin; robots' names get
 /// the number of their floor as suffix. For scenarios without a map file.
-bridge::Scenario side_by_side(const bridge::Scenario& floor, int floors);
+scenario::Scenario side_by_side(const scenario::Scenario& floor, int floors);
 
 }  // namespace waitpoint::bench

@@ -31,8 +31,8 @@ const std::vector<Case> cases = {{"office.yaml", 1, 50},
                                  {"office-10.yaml", 100, std::nullopt, std::chrono::seconds(5)}};
 
 // Many floors use the engine for many robots; the digest is the same with both.
-bridge::Scenario scenario_of(const Case& of) {
-  bridge::Scenario scenario = runs::shipped(of.scenario);
+scenario::Scenario scenario_of(const Case& of) {
+  scenario::Scenario scenario = runs::shipped(of.scenario);
   if (of.floors > 1) {
     scenario = side_by_side(scenario, of.floors);
     scenario.engine = world::Engine::slice;
@@ -81,9 +81,9 @@ struct Speed {
   double simulated_s = 0, wall_s = 0, processor_s = 0;
 };
 
-Speed carry_out(const bridge::Scenario& scenario, const std::string& what, Costs* costs) {
+Speed carry_out(const scenario::Scenario& scenario, const std::string& what, Costs* costs) {
   const std::vector<genom::ModuleType> types = tools::papers_modules();
-  bridge::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
+  run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
   if (costs != nullptr) experiment.simulation().scheduler().set_watch(costs);
   const std::int64_t wall_ns = clock_ns(CLOCK_MONOTONIC), processor_ns = clock_ns(CLOCK_PROCESS_CPUTIME_ID);
   const Time until = Time() + scenario.until;
@@ -103,7 +103,7 @@ Speed carry_out(const bridge::Scenario& scenario, const std::string& what, Costs
 class Bench {
  public:
   void run(const Case& of, int repeats) {
-    const bridge::Scenario scenario = scenario_of(of);
+    const scenario::Scenario scenario = scenario_of(of);
     const std::string bench = scenario.name;
     double by_wall = 0, by_processor = 0;
     for (int i = 1; i <= repeats; ++i) {

@@ -9,6 +9,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string contents(reinterpret_cast<const char*>(data), size);
-  waitpoint::fuzz::reads_or_refuses([&] { waitpoint::bridge::parse_yaml(contents, "scenario"); });
+  waitpoint::fuzz::reads_or_refuses([&] { waitpoint::scenario::parse_yaml(contents, "scenario"); });
   return 0;
 }

@@ -22,9 +22,9 @@ using namespace std::chrono_literals;
 
 constexpr const char* on_bullet = "world.engine=bullet";
 
-std::string complaint(const bridge::Scenario& scenario) {
+std::string complaint(const scenario::Scenario& scenario) {
   try {
-    bridge::Experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
+    run::Experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
   } catch (const BadInput& error) {
     return error.what();
   }
@@ -38,14 +38,14 @@ class DynamicWorlds : public testing::Test {
   }
 
   /// A robot at (0, 0) that drives ahead without sensors, and shapes.
-  bridge::Scenario scenario_with(const std::string& shapes, const std::vector<std::string>& more = {on_bullet}) {
+  scenario::Scenario scenario_with(const std::string& shapes, const std::vector<std::string>& more = {on_bullet}) {
     folder_.write("s.yaml", "format: 1\nworld: {engine: fcl, shapes: [" + shapes +
                                 "]}\nrobots:\n  - name: robot\n    start: [0, 0]\n"
                                 "    shape: {radius_m: 0.25, height_m: 0.4}\n    base: {mass_kg: 40}\n"
                                 "    modules: [{name: rflex}]\n    bridge:\n"
                                 "      - {poster: rflex.command, device: base.command}\n"
                                 "      - {poster: rflex.reading, device: base.reading}\n");
-    return bridge::read_scenario(folder_ / "s.yaml", more);
+    return scenario::read_scenario(folder_ / "s.yaml", more);
   }
 
   tools::Folder folder_;
@@ -53,7 +53,7 @@ class DynamicWorlds : public testing::Test {
 
 // All nine goals: docs/dynamics.md promises it.
 TEST_F(DynamicWorlds, TheOfficesFirstGoalsAreReached) {
-  const bridge::Scenario scenario =
+  const scenario::Scenario scenario =
       shipped("office.yaml", {on_bullet, "robots.0.goals=[[2.4, 4.6], [5.3, 9.4]]", "until_s=120"});
   const bridge::RunResult result = run(scenario, scenario.until);
   EXPECT_EQ(result.outcome, bridge::Outcome::finished);
@@ -63,8 +63,8 @@ TEST_F(DynamicWorlds, TheOfficesFirstGoalsAreReached) {
 }
 
 TEST_F(DynamicWorlds, ParcelsThatNobodySawArePushedOutOfTheWay) {
-  const bridge::Scenario scenario = shipped("office-dynamic.yaml");
-  bridge::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
+  const scenario::Scenario scenario = shipped("office-dynamic.yaml");
+  run::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
   const std::vector<world::Obstacle> before = experiment.world().description().obstacles;
   experiment.run_before(Time() + 40s);
   EXPECT_EQ(experiment.goals_reached(), 1u);
@@ -77,7 +77,7 @@ TEST_F(DynamicWorlds, ParcelsThatNobodySawArePushedOutOfTheWay) {
 }
 
 TEST_F(DynamicWorlds, RepeatInThisProcessAndInANewOne) {
-  const bridge::Scenario scenario = shipped("office-dynamic.yaml");
+  const scenario::Scenario scenario = shipped("office-dynamic.yaml");
   const std::string digest = to_string(run(scenario).digest);
   EXPECT_EQ(to_string(run(scenario).digest), digest);
   EXPECT_EQ(outcome_of(run_command("office-dynamic.yaml", "20")).digest(), digest);
@@ -96,17 +96,17 @@ TEST_F(DynamicWorlds, WhatIsLooseIsInTheDigest) {
 
 TEST_F(DynamicWorlds, APushFromTheOutsideActsAndAKinematicWorldRefusesIt) {
   const std::string box = "{name: box, centre_m: [3, 0], size_m: [0.4, 0.4], height_m: 0.4, mass_kg: 5}";
-  const auto outcome = [](bridge::Experiment& experiment) {
-    experiment.intervene(bridge::parse_intervention("push box 0 60 0.5", {}));
+  const auto outcome = [](run::Experiment& experiment) {
+    experiment.intervene(run::parse_intervention("push box 0 60 0.5", {}));
     experiment.run_before(Time() + 3s);
     return experiment.outcomes().at(0).text;
   };
-  const bridge::Scenario dynamic = scenario_with(box), kinematic = scenario_with(box, {});
-  bridge::Experiment pushed(dynamic, tools::papers_modules(), {1, kernel::Order::fifo, ""});
+  const scenario::Scenario dynamic = scenario_with(box), kinematic = scenario_with(box, {});
+  run::Experiment pushed(dynamic, tools::papers_modules(), {1, kernel::Order::fifo, ""});
   EXPECT_EQ(outcome(pushed), "push box 0 60 0.5: done");
   EXPECT_GT(pushed.world().loose()[0].pose.y, 0.5);
   EXPECT_TRUE(pushed.result().warnings.empty());
-  bridge::Experiment refused(kinematic, tools::papers_modules(), {1, kernel::Order::fifo, ""});
+  run::Experiment refused(kinematic, tools::papers_modules(), {1, kernel::Order::fifo, ""});
   EXPECT_EQ(outcome(refused), "push box 0 60 0.5: refused, there are no forces in a kinematic world");
   EXPECT_EQ(refused.result().warnings, std::vector<std::string>{"1 shape with mass_kg taken to stand fast: only engine "
                                                                 "bullet lets things be pushed"});

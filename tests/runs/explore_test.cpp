@@ -263,7 +263,7 @@ TEST_F(ExploreScenario, ScheduleIsTheSameRunInAnyProcess) {
   };
   const std::string results = digests(1);
   EXPECT_EQ(digests(2), results);
-  const bridge::Scenario scenario = bridge::read_scenario(folder_ / "pair.yaml", options(0).assignments);
+  const scenario::Scenario scenario = scenario::read_scenario(folder_ / "pair.yaml", options(0).assignments);
   const std::vector<genom::ModuleType> types = {genom::module_type<Pair>("pair")};
   const tools::ExploreOptions same = options(0);
   tools::Scene scene(scenario, types, same, "");

@@ -33,7 +33,7 @@ Span inside_strip(double from, double slope, double half) {
 
 }  // namespace
 
-Interactions::Interactions(bridge::Experiment& experiment) : experiment_(experiment) {
+Interactions::Interactions(run::Experiment& experiment) : experiment_(experiment) {
   for (const world::BodyDescription& description : experiment.world().description().bodies) {
     WAITPOINT_CHECK(description.shape.kind == world::Shape::Kind::cylinder, "a robot that is no cylinder");
     Body body{description.name, description.shape.radius_m, {}, {}, description.start.position()};

@@ -22,7 +22,7 @@ using Pairs = std::set<std::pair<std::string, std::string>>;
 class Interactions {
  public:
   /// All bodies must be cylinders centred on their robots.
-  explicit Interactions(bridge::Experiment& experiment);
+  explicit Interactions(run::Experiment& experiment);
 
   /// Call at the start and after every step of the world.
   void observe();
@@ -51,7 +51,7 @@ class Interactions {
   static bool hides(const Obstacle& obstacle, Point origin, Point direction, double distance_m, double height_m);
   bool hears(const Body& body, std::size_t number, const Body& other) const;
 
-  bridge::Experiment& experiment_;
+  run::Experiment& experiment_;
   std::vector<Body> bodies_;
   std::vector<Obstacle> obstacles_;
   std::size_t hid_last_ = 0;  // the obstacle that hid the last beam: it most likely hides the next one too

@@ -204,18 +204,18 @@ TEST(Interactive, a_paced_run_reports_its_lag) {
 
 // The same through the programming interface.
 TEST(Interactive, interventions_of_the_interface_known_early_or_late_are_the_same_run) {
-  const bridge::Scenario scenario = shipped("office.yaml");
+  const scenario::Scenario scenario = shipped("office.yaml");
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   const Time date = Time::from_ns(700'000'000), end = Time::from_ns(1'500'000'000);
-  const auto move = bridge::parse_intervention("move rackham 21 4.5 45", {"test", 0});
-  const auto ask = bridge::parse_intervention("request rackham ndd Stop", {"test", 0});
+  const auto move = run::parse_intervention("move rackham 21 4.5 45", {"test", 0});
+  const auto ask = run::parse_intervention("request rackham ndd Stop", {"test", 0});
 
-  bridge::Experiment early(scenario, types, {usual_seed, kernel::Order::fifo, ""});
+  run::Experiment early(scenario, types, {usual_seed, kernel::Order::fifo, ""});
   EXPECT_EQ(early.intervene(move, date), date);
   EXPECT_EQ(early.intervene(ask, date), date);
   early.run_before(end);
 
-  bridge::Experiment late(scenario, types, {usual_seed, kernel::Order::fifo, ""});
+  run::Experiment late(scenario, types, {usual_seed, kernel::Order::fifo, ""});
   late.run_before(Time::from_ns(690'000'000));
   std::uint64_t steps = 0;
   late.run_before(end, [&](const kernel::EventRecord&) { return ++steps == 5; });
@@ -223,7 +223,7 @@ TEST(Interactive, interventions_of_the_interface_known_early_or_late_are_the_sam
   EXPECT_LT(late.simulation().global_time(), date);
   EXPECT_EQ(late.intervene(move), date);
   EXPECT_EQ(late.intervene(ask), date);
-  const auto there = bridge::parse_condition("rackham.x_m > 20.9", late, {"test", 0});
+  const auto there = run::parse_condition("rackham.x_m > 20.9", late, {"test", 0});
   late.run_before(end, [&](const kernel::EventRecord&) { return there(); });
   EXPECT_TRUE(late.paused());
   EXPECT_EQ(late.simulation().global_time(), date);

@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 
 template <class T>
-std::optional<T> shown(const bridge::Experiment& experiment, const std::string& poster) {
+std::optional<T> shown(const run::Experiment& experiment, const std::string& poster) {
   return dynamic_cast<const genom::Poster<T>&>(*experiment.robots()[0]->names().find_poster(poster)).look();
 }
 
@@ -21,8 +21,8 @@ constexpr const char* slow_lms =
 
 TEST(LaserLine, AScanReachesItsPosterWhenTheLastByteHasCome) {
   const std::vector<genom::ModuleType> types = tools::papers_modules();
-  const bridge::Scenario scenario = shipped("office.yaml", {slow_lms});
-  bridge::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
+  const scenario::Scenario scenario = shipped("office.yaml", {slow_lms});
+  run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
   Time now;
   const auto reading = [&] { return shown<posters::LaserReading>(experiment, "sick.reading"); };
   for (std::uint32_t number = 1; number <= 3; ++number) {
@@ -37,9 +37,9 @@ TEST(LaserLine, AScanReachesItsPosterWhenTheLastByteHasCome) {
 
 TEST(LaserLine, TheModuleDatesAScanBackToTheMiddleOfItsTurns) {
   const std::vector<genom::ModuleType> types = tools::papers_modules();
-  const bridge::Scenario scenario =
+  const scenario::Scenario scenario =
       shipped("office.yaml", {slow_lms, "robot_types.rackham.modules.sick.scan_age_ms=10"});
-  bridge::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
+  run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
   experiment.run_before(Time() + Duration(1100ms));
   const auto reading = shown<posters::LaserReading>(experiment, "sick.reading");
   const auto echoes = shown<posters::Echoes>(experiment, "sick.echoes");

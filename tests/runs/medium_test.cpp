@@ -118,7 +118,7 @@ struct Outcome {
 };
 
 template <class T>
-T last(const bridge::Experiment& experiment, std::size_t robot, const std::string& poster) {
+T last(const run::Experiment& experiment, std::size_t robot, const std::string& poster) {
   return *dynamic_cast<genom::Poster<T>&>(*experiment.robots()[robot]->names().find_poster(poster)).look();
 }
 
@@ -126,10 +126,10 @@ T last(const bridge::Experiment& experiment, std::size_t robot, const std::strin
 Outcome run(const std::string& medium, std::uint64_t seed = 1, const std::string& without = "") {
   const tools::Folder folder;
   folder.write("s.yaml", text + medium);
-  bridge::Scenario scenario = bridge::read_scenario(folder / "s.yaml");
+  scenario::Scenario scenario = scenario::read_scenario(folder / "s.yaml");
   std::erase_if(scenario.robots, [&](const auto& robot) { return robot.name == without; });
   const std::vector<genom::ModuleType> types = {genom::module_type<Beacon>("beacon")};
-  bridge::Experiment experiment(scenario, types, {seed, kernel::Order::fifo, ""});
+  run::Experiment experiment(scenario, types, {seed, kernel::Order::fifo, ""});
   experiment.run_before(Time() + Duration(10s));
   Outcome outcome;
   outcome.heard = last<Heard>(experiment, 1, "beacon.heard");

@@ -35,7 +35,7 @@ class Circler : public genom::Module {
 };
 
 /// The office, with free space for a circle, and the robot's usual bridge table with `rows` added.
-bridge::Scenario circling(const std::string& rows, std::vector<std::string> more) {
+scenario::Scenario circling(const std::string& rows, std::vector<std::string> more) {
   std::vector<std::string> assignments = {
       "world.shapes=[]", "robots.0.goals=[]", "robots.0.start=[20,13,0]",
       "robot_types.rackham.modules.ndd.type=circler",
@@ -49,7 +49,7 @@ bridge::Scenario circling(const std::string& rows, std::vector<std::string> more
 
 class CirclingRun {
  public:
-  CirclingRun(const bridge::Scenario& scenario, int seconds, std::uint64_t seed = 1)
+  CirclingRun(const scenario::Scenario& scenario, int seconds, std::uint64_t seed = 1)
       : experiment_(scenario, types(), {seed, kernel::Order::fifo, ""}) {
     experiment_.run_before(Time() + Duration(std::chrono::seconds(seconds)));
   }
@@ -71,7 +71,7 @@ class CirclingRun {
     return types;
   }
 
-  bridge::Experiment experiment_;
+  run::Experiment experiment_;
 };
 
 const std::string both_rows =
@@ -132,7 +132,7 @@ TEST(MotionSensors, OdometryTurnsByACalibratedGyroWhereItsWheelsErr) {
 
 // 0.02 Ah at 10 A: 7.2 s.
 TEST(Battery, ThatIsEmptyLeavesTheRobotStandingAndItsPostersGrowOld) {
-  const bridge::Scenario scenario = circling(
+  const scenario::Scenario scenario = circling(
       "", {"robot_types.rackham.battery={capacity_ah: 0.02, rated_h: 1, peukert: 1, idle_a: 10, drive_a_per_m_s: 0, "
            "turn_a_per_rad_s: 0}"});
   const CirclingRun half(scenario, 4), run(scenario, 15);

@@ -86,14 +86,14 @@ struct Round {
   Pose start;
   std::vector<Point> goals;
 
-  bridge::Scenario scenario() const {
+  scenario::Scenario scenario() const {
     std::string list;
     for (const Point goal : goals) list += (list.empty() ? "[" : ", [") + number(goal.x) + ", " + number(goal.y) + "]";
-    return bridge::read_scenario(test::project_root() / "scenarios" / "office.yaml",
-                                 {"world.shapes=[]", "world.map.file=" + map.string(), "until_s=4000",
-                                  "robots.0.start=[" + number(start.x) + ", " + number(start.y) + ", " +
-                                      number(start.heading * 180 / exact::pi) + "]",
-                                  "robots.0.goals=[" + list + "]"});
+    return scenario::read_scenario(test::project_root() / "scenarios" / "office.yaml",
+                                   {"world.shapes=[]", "world.map.file=" + map.string(), "until_s=4000",
+                                    "robots.0.start=[" + number(start.x) + ", " + number(start.y) + ", " +
+                                        number(start.heading * 180 / exact::pi) + "]",
+                                    "robots.0.goals=[" + list + "]"});
   }
 };
 
@@ -127,9 +127,9 @@ TEST_P(RealMap, EveryGoalThatIsFreeAndConnectedIsReached) {
       std::getenv("WAITPOINT_ROUNDS") ? std::strtoull(std::getenv("WAITPOINT_ROUNDS"), nullptr, 10) : 10;
   for (std::uint64_t seed = 1; seed <= rounds; ++seed) {
     const Round round = draw_round(map, seed);
-    const bridge::Scenario scenario = round.scenario();
-    bridge::Experiment experiment(scenario, tools::papers_modules(),
-                                  {.seed = seed, .order = kernel::Order::fifo, .replay = ""});
+    const scenario::Scenario scenario = round.scenario();
+    run::Experiment experiment(scenario, tools::papers_modules(),
+                               {.seed = seed, .order = kernel::Order::fifo, .replay = ""});
     EXPECT_EQ(experiment.run_before(Time() + scenario.until), RunEnd::ended) << "seed " << seed;
     const bridge::RunResult result = experiment.result();
     const bridge::RobotResult& robot = result.robots[0];

@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Repetition, a_hundred_runs_in_one_process_are_one_run) {
-  const bridge::Scenario scenario = shipped("office.yaml");
+  const scenario::Scenario scenario = shipped("office.yaml");
   const bridge::RunResult first = run(scenario);
   ASSERT_GT(first.events, 10'000u);
   ASSERT_GT(first.robots.at(0).distance_m, 5);
@@ -29,7 +29,7 @@ TEST(Repetition, a_hundred_runs_in_one_process_are_one_run) {
 }
 
 TEST(Repetition, the_seeded_order_repeats_too_and_is_another) {
-  const bridge::Scenario scenario = shipped("office.yaml");
+  const scenario::Scenario scenario = shipped("office.yaml");
   const auto seeded = [&](std::uint64_t seed) {
     return to_string(run(scenario, first_seconds, seed, kernel::Order::seeded).digest);
   };
@@ -40,18 +40,18 @@ TEST(Repetition, the_seeded_order_repeats_too_and_is_another) {
 }
 
 TEST(Repetition, every_seed_gives_another_digest) {
-  const bridge::Scenario scenario = shipped("office.yaml");
+  const scenario::Scenario scenario = shipped("office.yaml");
   std::set<std::string> digests;
   for (std::uint64_t seed = 0; seed < 20; ++seed) digests.insert(to_string(run(scenario, 2s, seed).digest));
   EXPECT_EQ(digests.size(), 20u);
 }
 
 TEST(Repetition, the_windows_in_which_it_is_run_do_not_change_a_run) {
-  const bridge::Scenario scenario = shipped("office.yaml");
+  const scenario::Scenario scenario = shipped("office.yaml");
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   const std::string whole = to_string(run(scenario).digest);
   const auto in_windows = [&](auto width_of) {
-    bridge::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});
+    run::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});
     Time until;
     for (std::uint64_t window = 0; until < Time() + first_seconds; ++window) {
       until = std::min(until + Duration(width_of(window)), Time() + first_seconds);
@@ -67,9 +67,9 @@ TEST(Repetition, the_windows_in_which_it_is_run_do_not_change_a_run) {
 }
 
 TEST(Repetition, looking_on_does_not_change_a_run) {
-  const bridge::Scenario scenario = shipped("office.yaml");
+  const scenario::Scenario scenario = shipped("office.yaml");
   const std::vector<genom::ModuleType> types = tools::papers_modules();
-  bridge::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});
+  run::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});
   struct Counter : kernel::Watch {
     std::uint64_t events = 0;
   } counter;

@@ -7,13 +7,13 @@
 
 namespace waitpoint::runs {
 
-bridge::Scenario shipped(const std::string& name, const std::vector<std::string>& assignments) {
-  return bridge::read_scenario(test::project_root() / "scenarios" / name, assignments);
+scenario::Scenario shipped(const std::string& name, const std::vector<std::string>& assignments) {
+  return scenario::read_scenario(test::project_root() / "scenarios" / name, assignments);
 }
 
-bridge::RunResult run(const bridge::Scenario& scenario, Duration until, std::uint64_t seed, kernel::Order order) {
+bridge::RunResult run(const scenario::Scenario& scenario, Duration until, std::uint64_t seed, kernel::Order order) {
   const std::vector<genom::ModuleType> types = tools::papers_modules();
-  bridge::Experiment experiment(scenario, types, {seed, order, ""});
+  run::Experiment experiment(scenario, types, {seed, order, ""});
   experiment.run_before(Time() + until);
   return experiment.result();
 }

@@ -17,10 +17,10 @@ inline constexpr Duration first_seconds = std::chrono::seconds(20);
 inline constexpr std::uint64_t usual_seed = 1;
 
 /// `scenarios/<name>`, with assignments as by `--set`.
-bridge::Scenario shipped(const std::string& name, const std::vector<std::string>& assignments = {});
+scenario::Scenario shipped(const std::string& name, const std::vector<std::string>& assignments = {});
 
 /// Runs a scenario with the paper's modules, in one window.
-bridge::RunResult run(const bridge::Scenario& scenario, Duration until = first_seconds, std::uint64_t seed = usual_seed,
-                      kernel::Order order = kernel::Order::fifo);
+bridge::RunResult run(const scenario::Scenario& scenario, Duration until = first_seconds,
+                      std::uint64_t seed = usual_seed, kernel::Order order = kernel::Order::fifo);
 
 }  // namespace waitpoint::runs

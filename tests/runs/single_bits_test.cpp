@@ -106,21 +106,21 @@ class SingleBits : public ::testing::Test {
  protected:
   SingleBits() {
     folder_.write("room.yaml", room);
-    scenario_ = bridge::read_scenario(folder_ / "room.yaml");
+    scenario_ = scenario::read_scenario(folder_ / "room.yaml");
     unchanged_ = digest(scenario_);
     EXPECT_EQ(digest(scenario_), unchanged_);
   }
 
-  static std::string digest(const bridge::Scenario& scenario, std::uint64_t seed = 1) {
+  static std::string digest(const scenario::Scenario& scenario, std::uint64_t seed = 1) {
     const std::vector<genom::ModuleType> types = {genom::module_type<Prober>("prober")};
-    bridge::Experiment experiment(scenario, types, {seed, kernel::Order::fifo, ""});
+    run::Experiment experiment(scenario, types, {seed, kernel::Order::fifo, ""});
     experiment.run_before(Time() + tick * static_cast<std::int64_t>(ticks));
     return to_string(experiment.result().robots.at(0).digest);
   }
 
   /// The scenario in which the prober flips bit `bit` of `what` at tick `at`.
-  bridge::Scenario flipped(const std::string& what, std::uint64_t at, std::uint64_t bit) const {
-    bridge::Scenario scenario = scenario_;
+  scenario::Scenario flipped(const std::string& what, std::uint64_t at, std::uint64_t bit) const {
+    scenario::Scenario scenario = scenario_;
     std::vector<Setting>& settings = scenario.robots[0].modules[0].settings;
     settings.push_back({what + "_tick", std::to_string(at), "room.yaml", 1});
     settings.push_back({what + "_bit", std::to_string(bit), "room.yaml", 1});
@@ -137,7 +137,7 @@ class SingleBits : public ::testing::Test {
   }
 
   tools::Folder folder_;
-  bridge::Scenario scenario_;
+  scenario::Scenario scenario_;
   std::string unchanged_;
   RandomStream random_{1, "test", "bits"};
   std::uint64_t drawn_ = 0;
@@ -152,7 +152,7 @@ TEST_F(SingleBits, of_posters_times_poses_and_streams_all_change_the_digest) {
   for (int i = 0; i < 250; ++i) flip("byte", 8 * sizeof(Bytes::bytes));
   for (int i = 0; i < 250; ++i) flip("cost", 22);  // at most 4 ms, so that the tick is not missed
   for (int i = 0; i < 250; ++i) {
-    bridge::Scenario scenario = scenario_;
+    scenario::Scenario scenario = scenario_;
     Pose& start = scenario.robots[0].body.start;
     const std::uint64_t which = draw(3), bit = draw(52);  // of the mantissa
     double& coordinate = which == 0 ? start.x : which == 1 ? start.y : start.heading;

@@ -32,7 +32,7 @@ class SonarUser : public genom::Module {
 };
 
 template <class T>
-T shown(const bridge::Experiment& experiment, const std::string& poster) {
+T shown(const run::Experiment& experiment, const std::string& poster) {
   const auto value = dynamic_cast<const genom::Poster<T>&>(*experiment.robots()[0]->names().find_poster(poster)).look();
   EXPECT_TRUE(value.has_value()) << poster;
   return value.value_or(T());
@@ -42,9 +42,9 @@ TEST(Sonars, ReachTheirPosterWhenSwitchedOnAndSeeTheWallAhead) {
   std::vector<genom::ModuleType> types = tools::papers_modules();
   types.push_back(genom::module_type<SonarUser>("sonar-user"));
   // 1.15 m from the inner face of the southern wall, facing it.
-  const bridge::Scenario scenario = shipped("office.yaml", {"robots.0.goals=[]", "robots.0.start=[20,1.3,-90]",
-                                                            "robot_types.rackham.modules.ndd.type=sonar-user"});
-  bridge::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
+  const scenario::Scenario scenario = shipped("office.yaml", {"robots.0.goals=[]", "robots.0.start=[20,1.3,-90]",
+                                                              "robot_types.rackham.modules.ndd.type=sonar-user"});
+  run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
   experiment.run_before(Time() + Duration(std::chrono::seconds(1)));
   const auto* poster =
       dynamic_cast<genom::Poster<posters::Sonars>*>(experiment.robots()[0]->names().find_poster("rflex.sonars"));
@@ -60,7 +60,7 @@ TEST(Sonars, ReachTheirPosterWhenSwitchedOnAndSeeTheWallAhead) {
 TEST(Sonars, RingsInfraredAndBumperAreDescriptionsAndLinesOfTheTable) {
   std::vector<genom::ModuleType> types = tools::papers_modules();
   types.push_back(genom::module_type<SonarUser>("sonar-user"));
-  const bridge::Scenario scenario = shipped(
+  const scenario::Scenario scenario = shipped(
       "office.yaml",
       {"robots.0.goals=[]", "robots.0.start=[20,0.6,-90]", "robot_types.rackham.modules.ndd.type=sonar-user",
        "robots.0.modules=[{name: ndd, speed_m_s: 0.2}]",
@@ -72,7 +72,7 @@ TEST(Sonars, RingsInfraredAndBumperAreDescriptionsAndLinesOfTheTable) {
        "{poster: rflex.reading, device: base.reading}, {poster: sick.command, device: laser.command}, "
        "{poster: sick.reading, device: laser.reading}, {poster: rflex.bumper_reading, device: bumpers.reading}, "
        "{poster: rflex.infrared_reading, device: infrareds.reading}]"});
-  bridge::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
+  run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
   experiment.run_before(Time() + Duration(std::chrono::milliseconds(250)));
   const double to_the_wall_m = experiment.world().body(world::BodyId(0)).pose.y - 0.15;
   EXPECT_EQ(shown<posters::Bumpers>(experiment, "rflex.bumpers").pressed, 0u);

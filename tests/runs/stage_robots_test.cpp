@@ -54,16 +54,16 @@ class StageRobots : public testing::Test {
     folder_.write(name, contents);
     return (folder_ / name).string();
   }
-  bridge::Scenario wandering(const std::string& map, const std::string& laser) const {
+  scenario::Scenario wandering(const std::string& map, const std::string& laser) const {
     std::string rest = wanderers;
     for (std::size_t at = rest.find("LASER"); at != std::string::npos; at = rest.find("LASER"))
       rest.replace(at, 5, laser);
-    return bridge::read_scenario(write("s.yaml", "format: 1\nworld: {engine: slice, map: " + map + "}\n" + rest));
+    return scenario::read_scenario(write("s.yaml", "format: 1\nworld: {engine: slice, map: " + map + "}\n" + rest));
   }
-  static bridge::RunResult run(const bridge::Scenario& scenario, Duration until) {
+  static bridge::RunResult run(const scenario::Scenario& scenario, Duration until) {
     std::vector<genom::ModuleType> types = tools::shipped_modules();
     types.push_back(genom::module_type<Driver>("driver"));
-    bridge::Experiment experiment(scenario, types, {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
+    run::Experiment experiment(scenario, types, {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
     experiment.run_before(Time() + until);
     return experiment.result();
   }
@@ -84,7 +84,7 @@ TEST_F(StageRobots, FindTheirWayWithThePapersModules) {
                         "  velocity_bounds [-0.6 0.6 0 0 0 0 -80 80] acceleration_bounds [-1 1 0 0 0 0 -180 180]\n"
                         "  ranger( name \"laser\" pose [0.1 0 -0.1 0] sensor( samples 361 fov 180 range [0 20] ) ) )\n"
                         "rover( name \"one\" pose [2 1 0 90] )\nrover( name \"two\" pose [6 5 0 -90] )\n");
-  const bridge::Scenario scenario = bridge::read_scenario(
+  const scenario::Scenario scenario = scenario::read_scenario(
       test::project_root() / "scenarios" / "office.yaml",
       {"world.shapes=[]", "world.map=" + map, "until_s=300",
        "robots=", "robot_types.rackham.shape=", "robot_types.rackham.base=", "robot_types.rackham.lasers=",
@@ -121,7 +121,7 @@ TEST_F(StageRobots, MoveAsTheirDriveCan) {
             "define bot position( size [0.4 0.4 0.4] velocity_bounds [-0.5 0.5 -0.5 0.5 0 0 -90 90] )\n"
             "bot( name \"diff\" pose [0 0 0 0] )\nbot( name \"omni\" drive \"omni\" pose [0 5 0 0] )\n"
             "bot( name \"car\" drive \"car\" wheelbase 0.5 pose [0 10 0 0] )\n");
-  const bridge::Scenario scenario = bridge::read_scenario(
+  const scenario::Scenario scenario = scenario::read_scenario(
       write("s.yaml",
             "format: 1\nworld: {map: " + map +
                 "}\nrobot_types:\n  driven:\n"
@@ -142,8 +142,8 @@ TEST_F(StageRobots, MoveAsTheirDriveCan) {
 TEST_F(StageRobots, WhatNoRowIsForIsLeftOutAndTold) {
   const std::string map =
       write("two.world", "define a position()\ndefine b position()\na( pose [0 0] )\nb( pose [3 0] )\n");
-  const bridge::Scenario scenario =
-      bridge::read_scenario(write("s.yaml", "format: 1\nworld: {map: " + map + "}\nrobots_from_map: [{model: a}]\n"));
+  const scenario::Scenario scenario =
+      scenario::read_scenario(write("s.yaml", "format: 1\nworld: {map: " + map + "}\nrobots_from_map: [{model: a}]\n"));
   const bridge::RunResult result = run(scenario, std::chrono::seconds(1));
   ASSERT_EQ(result.robots.size(), 1u);
   EXPECT_EQ(result.robots[0].name, "a_0");
@@ -153,7 +153,7 @@ TEST_F(StageRobots, WhatNoRowIsForIsLeftOutAndTold) {
 
 TEST_F(StageRobots, OneThatStandsInAWallIsRefusedAtItsLine) {
   const std::string map = write("walled.world", room + "position( name \"stuck\" pose [4 2 0 0] )\n");
-  const bridge::Scenario scenario = bridge::read_scenario(
+  const scenario::Scenario scenario = scenario::read_scenario(
       write("s.yaml", "format: 1\nworld: {map: " + map + "}\nrobot_types: {bare: {}}\nrobots_from_map: bare\n"));
   try {
     run(scenario, std::chrono::seconds(1));
@@ -174,7 +174,7 @@ class StageRobotsData : public StageRobots {
 };
 
 TEST_F(StageRobotsData, AHundredRobotsWanderInTheCave) {
-  const bridge::Scenario scenario = wandering(*data_ + "/stage/benchmark/cave.world", "ranger_1");
+  const scenario::Scenario scenario = wandering(*data_ + "/stage/benchmark/cave.world", "ranger_1");
   const bridge::RunResult result = run(scenario, std::chrono::seconds(5));
   ASSERT_EQ(result.robots.size(), 100u);
   std::size_t movers = 0;
@@ -185,7 +185,7 @@ TEST_F(StageRobotsData, AHundredRobotsWanderInTheCave) {
 }
 
 TEST_F(StageRobotsData, AThousandRobotsWanderInTheHospital) {
-  const bridge::Scenario scenario = wandering(*data_ + "/stage/benchmark/hospital.world", "ranger_0");
+  const scenario::Scenario scenario = wandering(*data_ + "/stage/benchmark/hospital.world", "ranger_0");
   const bridge::RunResult result = run(scenario, std::chrono::milliseconds(500));
   EXPECT_EQ(result.robots.size(), 1000u);
 }

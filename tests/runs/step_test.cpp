@@ -9,7 +9,7 @@ namespace {
 
 TEST(WorldStep, TheOfficesGoalsAreReachedAtACoarseStepTooAndItIsTold) {
   for (const std::string step_ms : {"40", "100"}) {
-    const bridge::Scenario scenario = shipped("office.yaml", {"world.step_ms=" + step_ms});
+    const scenario::Scenario scenario = shipped("office.yaml", {"world.step_ms=" + step_ms});
     const bridge::RunResult result = run(scenario, scenario.until);
     EXPECT_EQ(result.warnings,
               std::vector<std::string>{"the world's step of " + to_string(scenario.step) +

@@ -21,9 +21,9 @@ struct Watched {
   Pairs pairs;
 };
 
-Watched watch(const bridge::Scenario& scenario, kernel::Order order) {
+Watched watch(const scenario::Scenario& scenario, kernel::Order order) {
   const std::vector<genom::ModuleType> types = tools::papers_modules();
-  bridge::Experiment experiment(scenario, types, {usual_seed, order, ""});
+  run::Experiment experiment(scenario, types, {usual_seed, order, ""});
   Interactions interactions(experiment);
   for (Time now; now <= Time() + watched(order); now += scenario.step) {
     experiment.run_before(now + std::chrono::nanoseconds(1));  // all events at `now`
@@ -36,24 +36,24 @@ Watched watch(const bridge::Scenario& scenario, kernel::Order order) {
   return result;
 }
 
-bridge::Scenario ten() { return shipped("office-10.yaml"); }
+scenario::Scenario ten() { return shipped("office-10.yaml"); }
 
-bridge::RobotScenario& robot_of(bridge::Scenario& scenario, const std::string& name) {
+scenario::RobotScenario& robot_of(scenario::Scenario& scenario, const std::string& name) {
   return *std::find_if(scenario.robots.begin(), scenario.robots.end(), [&](const auto& r) { return r.name == name; });
 }
 
-bridge::Scenario without(const std::string& name) {
-  bridge::Scenario scenario = ten();
-  std::erase_if(scenario.robots, [&](const bridge::RobotScenario& robot) { return robot.name == name; });
+scenario::Scenario without(const std::string& name) {
+  scenario::Scenario scenario = ten();
+  std::erase_if(scenario.robots, [&](const scenario::RobotScenario& robot) { return robot.name == name; });
   return scenario;
 }
 
-void rename(bridge::RobotScenario& robot, const std::string& name) { robot.name = robot.body.name = name; }
+void rename(scenario::RobotScenario& robot, const std::string& name) { robot.name = robot.body.name = name; }
 
 /// A robot like ada, with goals of its own.
-bridge::RobotScenario newcomer(const std::string& name, Pose start, std::vector<Point> goals) {
-  bridge::Scenario scenario = ten();
-  bridge::RobotScenario robot = robot_of(scenario, "ada");
+scenario::RobotScenario newcomer(const std::string& name, Pose start, std::vector<Point> goals) {
+  scenario::Scenario scenario = ten();
+  scenario::RobotScenario robot = robot_of(scenario, "ada");
   rename(robot, name);
   robot.body.start = start;
   robot.goals.resize(goals.size());
@@ -96,13 +96,13 @@ TEST_P(UnrelatedRobots, do_not_notice_when_one_is_removed) {
 
 TEST_P(UnrelatedRobots, do_not_notice_when_an_eleventh_comes) {
   const Watched all = watch(ten(), GetParam());
-  const std::vector<bridge::RobotScenario> newcomers = {
+  const std::vector<scenario::RobotScenario> newcomers = {
       newcomer("aaron", {20, 9.4, 0}, {{30, 9.5}, {20, 9.4}}),        // in the south corridor
       newcomer("ilse", {36.5, 24.6, 180}, {{33, 23.2}, {36, 28.4}}),  // with ines
       newcomer("zoe", {12.9, 12.4, 0}, {{13.2, 18}, {17, 17.6}}),     // with hugo
   };
   for (std::size_t i = 0; i < newcomers.size(); ++i) {
-    bridge::Scenario scenario = ten();
+    scenario::Scenario scenario = ten();
     scenario.robots.insert(scenario.robots.begin() + static_cast<std::ptrdiff_t>(5 * i), newcomers[i]);
     const Watched eleven = watch(scenario, GetParam());
     ASSERT_EQ(eleven.digests.size(), 11u);
@@ -112,7 +112,7 @@ TEST_P(UnrelatedRobots, do_not_notice_when_an_eleventh_comes) {
 
 TEST_P(UnrelatedRobots, do_not_notice_the_order_of_the_file) {
   const Watched all = watch(ten(), GetParam());
-  bridge::Scenario reversed = ten();
+  scenario::Scenario reversed = ten();
   std::reverse(reversed.robots.begin(), reversed.robots.end());
   // Related robots do not notice either.
   EXPECT_EQ(watch(reversed, GetParam()).digests, all.digests);
@@ -120,7 +120,7 @@ TEST_P(UnrelatedRobots, do_not_notice_the_order_of_the_file) {
 
 TEST_P(UnrelatedRobots, do_not_notice_when_one_is_renamed) {
   const Watched all = watch(ten(), GetParam());
-  bridge::Scenario scenario = ten();
+  scenario::Scenario scenario = ten();
   rename(robot_of(scenario, "emil"), "zacharias");
   Watched renamed = watch(scenario, GetParam());
   ASSERT_TRUE(renamed.digests.contains("zacharias"));

@@ -18,14 +18,14 @@ using namespace std::chrono_literals;
 
 class Vehicles : public testing::Test {
  protected:
-  bridge::Scenario scenario_of(const std::string& base, const std::string& module = "rflex") {
+  scenario::Scenario scenario_of(const std::string& base, const std::string& module = "rflex") {
     folder_.write("s.yaml",
                   "format: 1\nrobots:\n  - name: robot\n    start: [0, 0]\n"
                   "    shape: {radius_m: 0.25, height_m: 0.4}\n    base: {v_max_m_s: 2, w_max_rad_s: 3, "
                   "v_acceleration_m_s2: 1000, w_acceleration_rad_s2: 1000, " +
                       base + "}\n    modules: [{name: " + module + "}]\n    bridge:\n      - {poster: " + module +
                       ".command, device: base.command}\n      - {poster: rflex.reading, device: base.reading}\n");
-    return bridge::read_scenario(folder_ / "s.yaml");
+    return scenario::read_scenario(folder_ / "s.yaml");
   }
   tools::Folder folder_;
 };
@@ -55,10 +55,9 @@ TEST_F(Vehicles, ARobotWhoseHullIsAMeshStopsWhereItsNoseMeetsTheWall) {
                       "    modules: [{name: rflex}]\n    bridge:\n"
                       "      - {poster: rflex.command, device: base.command}\n"
                       "      - {poster: rflex.reading, device: base.reading}\n");
-    const bridge::Scenario scenario = bridge::read_scenario(folder_ / "wedge.yaml");
-    bridge::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
-    experiment.intervene(bridge::parse_intervention("request robot rflex GotoSpeed v_m_s=0.5 w_rad_s=0", {}),
-                         Time() + 1s);
+    const scenario::Scenario scenario = scenario::read_scenario(folder_ / "wedge.yaml");
+    run::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
+    experiment.intervene(run::parse_intervention("request robot rflex GotoSpeed v_m_s=0.5 w_rad_s=0", {}), Time() + 1s);
     experiment.run_before(Time() + 6s);
     const world::BodyState& body = experiment.world().body(world::BodyId(0));
     EXPECT_NEAR(body.pose.x, 1.6 - 1e-6, 1e-8) << engine;
@@ -72,9 +71,9 @@ class VehicleKinds : public Vehicles, public testing::WithParamInterface<Told> {
 
 TEST_P(VehicleKinds, GoRoundTheCircleThatTheyAreToldAndReckonIt) {
   const Told& told = GetParam();
-  const bridge::Scenario scenario = scenario_of(told.base);
-  bridge::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
-  experiment.intervene(bridge::parse_intervention("request robot rflex GotoSpeed " + told.request, {}), Time() + 1s);
+  const scenario::Scenario scenario = scenario_of(told.base);
+  run::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
+  experiment.intervene(run::parse_intervention("request robot rflex GotoSpeed " + told.request, {}), Time() + 1s);
   const double radius = length(told.centre);
   std::size_t moving = 0;
   experiment.set_observer([&](Time) {
@@ -137,8 +136,8 @@ TEST_F(Vehicles, ABasesWatchdogStopsItWhenItsModuleFallsSilent) {
   std::vector<genom::ModuleType> types = tools::papers_modules();
   types.push_back(genom::module_type<Mute>("mute"));
   for (const bool watched : {true, false}) {
-    const bridge::Scenario scenario = scenario_of(watched ? "watchdog_ms: 200" : "kind: synchro", "mute");
-    bridge::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
+    const scenario::Scenario scenario = scenario_of(watched ? "watchdog_ms: 200" : "kind: synchro", "mute");
+    run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
     experiment.run_before(Time() + 2s);
     const world::BodyState& body = experiment.world().body(world::BodyId(0));
     EXPECT_EQ(body.velocity.v_m_s, watched ? 0 : 0.6);
@@ -147,16 +146,16 @@ TEST_F(Vehicles, ABasesWatchdogStopsItWhenItsModuleFallsSilent) {
 }
 
 TEST_F(Vehicles, ABasesWatchdogHearsAModuleThatGoesOnSayingTheSame) {
-  const bridge::Scenario scenario = scenario_of("watchdog_ms: 50");
-  bridge::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
-  experiment.intervene(bridge::parse_intervention("request robot rflex GotoSpeed v_m_s=0.6", {}), Time() + 1s);
+  const scenario::Scenario scenario = scenario_of("watchdog_ms: 50");
+  run::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
+  experiment.intervene(run::parse_intervention("request robot rflex GotoSpeed v_m_s=0.6", {}), Time() + 1s);
   experiment.run_before(Time() + 3s);
   EXPECT_EQ(experiment.world().body(world::BodyId(0)).velocity.v_m_s, 0.6);
 }
 
 TEST(AirAndGround, ShareAnOfficeAndReachAllTheirGoals) {
-  const bridge::Scenario scenario = shipped("office-air.yaml");
-  bridge::Experiment experiment(scenario, tools::papers_modules(), {usual_seed, kernel::Order::fifo, ""});
+  const scenario::Scenario scenario = shipped("office-air.yaml");
+  run::Experiment experiment(scenario, tools::papers_modules(), {usual_seed, kernel::Order::fifo, ""});
   bool above_the_table = false;
   double highest = 0;
   experiment.set_observer([&](Time) {

@@ -12,18 +12,18 @@
 #include "tests/tools/folder.hpp"
 #include "tools/papers_modules.hpp"
 
-namespace waitpoint {
+namespace waitpoint::runs {
 namespace {
 
-bridge::Scenario scenario_on(const std::string& map, const std::string& start, const std::string& goals) {
-  return bridge::read_scenario(
+scenario::Scenario scenario_on(const std::string& map, const std::string& start, const std::string& goals) {
+  return scenario::read_scenario(
       test::project_root() / "scenarios" / "office.yaml",
       {"world.shapes=[]", "world.map=" + map, "until_s=600", "robots.0.start=" + start, "robots.0.goals=" + goals});
 }
 
-bridge::RunResult run(const bridge::Scenario& scenario) {
-  bridge::Experiment experiment(scenario, tools::papers_modules(),
-                                {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
+bridge::RunResult run(const scenario::Scenario& scenario) {
+  run::Experiment experiment(scenario, tools::papers_modules(),
+                             {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
   EXPECT_EQ(experiment.run_before(Time() + scenario.until), RunEnd::ended);
   return experiment.result();
 }
@@ -111,7 +111,7 @@ TEST_F(WorldFiles, ARobotFindsItsWayInAMeshTheSameWithBothEngines) {
   const std::string room = write("room.obj", text);
   std::optional<bridge::RunResult> first;
   for (const char* engine : {"fcl", "slice"}) {
-    const bridge::RunResult result = run(bridge::read_scenario(
+    const bridge::RunResult result = run(scenario::read_scenario(
         test::project_root() / "scenarios" / "office.yaml",
         {"world.shapes=[{mesh: " + room + ", scale: 0.001}]", "until_s=600", std::string("world.engine=") + engine,
          "robots.0.start=[2, 1, 90]", "robots.0.goals=[[6, 1], [2, 2]]"}));
@@ -126,9 +126,9 @@ TEST_F(WorldFiles, ARobotFindsItsWayInAMeshTheSameWithBothEngines) {
 
 TEST_F(WorldFiles, AHeightIsForWhatHasNone) {
   const std::string map = write("a.world", "model( size [1 1 1] )\n");
-  const bridge::Scenario scenario = scenario_on("{file: " + map + ", height_m: 2}", "[2, 1, 90]", "[]");
+  const scenario::Scenario scenario = scenario_on("{file: " + map + ", height_m: 2}", "[2, 1, 90]", "[]");
   try {
-    bridge::Experiment(scenario, tools::papers_modules(), {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
+    run::Experiment(scenario, tools::papers_modules(), {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
     ADD_FAILURE() << "no BadInput";
   } catch (const BadInput& bad) {
     EXPECT_EQ(bad.what(), "--set world.map={file: " + map + ", height_m: 2}: expected no height_m: '" + map +
@@ -155,4 +155,4 @@ TEST_F(RealWorldFiles, ARobotCrossesStagesCave) {
 }
 
 }  // namespace
-}  // namespace waitpoint
+}  // namespace waitpoint::runs

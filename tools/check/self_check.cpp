@@ -79,7 +79,7 @@ std::string contents(int file) {
 
 class SelfCheck {
  public:
-  SelfCheck(const RunOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types,
+  SelfCheck(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
             const std::string& replay, bool (*interrupted)())
       : options_(options), scenario_(scenario), types_(types), replay_(replay), interrupted_(interrupted) {}
 
@@ -87,15 +87,15 @@ class SelfCheck {
   int perturbed(const PerturbedFiles& files);
 
  private:
-  bridge::ExperimentOptions experiment_options() const { return {options_.seed, options_.order, replay_}; }
+  run::ExperimentOptions experiment_options() const { return {options_.seed, options_.order, replay_}; }
   Carried first(EventLog& log);
   Carried compared(EventComparison& comparison);
-  Carried carry_out(bridge::Experiment& experiment, const EventComparison* comparison);
+  Carried carry_out(run::Experiment& experiment, const EventComparison* comparison);
   int tell(const std::optional<Difference>& difference, const std::string& run) const;
   void tell_same(const Carried& run, const SharedPage& seen) const;
 
   const RunOptions& options_;
-  const bridge::Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   std::span<const genom::ModuleType> types_;
   const std::string& replay_;
   bool (*interrupted_)();
@@ -103,7 +103,7 @@ class SelfCheck {
   DurationRecord durations_;  // of the first run
 };
 
-Carried SelfCheck::carry_out(bridge::Experiment& experiment, const EventComparison* comparison) {
+Carried SelfCheck::carry_out(run::Experiment& experiment, const EventComparison* comparison) {
   const Time until = options_.limit(scenario_.until);
   const double start_s = wall_clock_s();
   Carried run;
@@ -128,7 +128,7 @@ Carried SelfCheck::carry_out(bridge::Experiment& experiment, const EventComparis
 }
 
 Carried SelfCheck::first(EventLog& log) {
-  bridge::Experiment experiment(scenario_, types_, experiment_options());
+  run::Experiment experiment(scenario_, types_, experiment_options());
   const DurationFiles given(options_, scenario_, experiment);
   std::optional<DurationRecorder> recorder;
   if (!options_.replay_durations) recorder.emplace(experiment.simulation(), durations_name);
@@ -140,7 +140,7 @@ Carried SelfCheck::first(EventLog& log) {
 }
 
 Carried SelfCheck::compared(EventComparison& comparison) {
-  bridge::Experiment experiment(scenario_, types_, experiment_options());
+  run::Experiment experiment(scenario_, types_, experiment_options());
   const DurationFiles given(options_, scenario_, experiment);
   std::optional<DurationReplay> replay;
   if (!durations_.entries.empty()) replay.emplace(experiment.simulation(), durations_, durations_name, durations_name);
@@ -234,7 +234,7 @@ int status_of(SelfCheck& check) {
 }  // namespace
 
 int self_check(const RunOptions& options, std::span<const genom::ModuleType> types) {
-  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   heed_signals();
   const std::string replay = replay_line(options, options.seed);

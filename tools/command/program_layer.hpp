@@ -8,6 +8,6 @@ namespace waitpoint::tools {
 
 /// If the scenario's robots have programs and the library is not loaded, restarts this process with it: the same
 /// program and arguments. Must be called first. BadInput if the library cannot be loaded.
-void begin_with_program_layer(const bridge::Scenario& scenario);
+void begin_with_program_layer(const scenario::Scenario& scenario);
 
 }  // namespace waitpoint::tools

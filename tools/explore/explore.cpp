@@ -108,7 +108,7 @@ int explore(const ExploreOptions& options, std::span<const genom::ModuleType> ty
     ProgramTarget program(options);
     return search(program, files);
   }
-  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   if (!options.replay.empty()) return replay(options, scenario, types);
   Files files(options);

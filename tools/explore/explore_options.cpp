@@ -54,7 +54,7 @@ std::string assignment_of(const std::string& property) {
   const std::size_t equals = property.find('=');
   if (equals == std::string::npos || equals == 0) throw BadInput(option, "expected key=value");
   const std::string key = property.substr(0, equals);
-  const auto known = bridge::expectation_keys();
+  const auto known = scenario::expectation_keys();
   if (std::find(known.begin(), known.end(), key) == known.end()) {
     std::string all;
     for (const std::string_view name : known) all.append(all.empty() ? "" : ", ").append(name);

@@ -13,7 +13,7 @@
 
 namespace waitpoint::tools {
 
-int replay(const ExploreOptions& asked, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types) {
+int replay(const ExploreOptions& asked, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
   ExploreOptions options = asked;
   const ReplayRecord record = read_replay_record(options, scenario.fingerprint);
   std::optional<OutputFile> trace;

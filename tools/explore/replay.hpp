@@ -12,6 +12,6 @@ namespace waitpoint::tools {
 
 /// Runs the schedule that options.replay names; prints its outcome and whether it equals the recorded run. Returns the
 /// exit status: 0 if it passes and is equal, else 1. BadInput for a token or a file of another target.
-int replay(const ExploreOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types);
+int replay(const ExploreOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types);
 
 }  // namespace waitpoint::tools

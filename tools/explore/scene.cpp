@@ -34,8 +34,8 @@ bool is_of_goals(const std::string& property) { return property.starts_with("goa
 }  // namespace
 
 struct Scene::Stage {
-  Stage(const bridge::Scenario& scenario, std::span<const genom::ModuleType> types,
-        const bridge::ExperimentOptions& options)
+  Stage(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
+        const run::ExperimentOptions& options)
       : experiment(scenario, types, options),
         explorer(experiment.simulation().scheduler(), steps_of_an_instant_max),
         narrator(experiment.simulation().scheduler(), explorer) {
@@ -47,7 +47,7 @@ struct Scene::Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  bridge::Experiment experiment;
+  run::Experiment experiment;
   std::unique_ptr<exploration::Strategy> strategy = std::make_unique<exploration::Fifo>();
   Plan plan;  // the explorer borrows its switches
   exploration::Explorer explorer;
@@ -55,8 +55,8 @@ struct Scene::Stage {
   std::optional<exploration::EventStop> stop;
 };
 
-Scene::Scene(const bridge::Scenario& scenario, std::span<const genom::ModuleType> types, const ExploreOptions& options,
-             std::string replay)
+Scene::Scene(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
+             const ExploreOptions& options, std::string replay)
     : scenario_(scenario),
       types_(types),
       options_(options),
@@ -74,7 +74,7 @@ void Scene::prepare() {
   // Runs from the beginning make their own stage, each with its own noise; but errors of the scenario must be reported
   // now.
   stage_ =
-      std::make_unique<Stage>(scenario_, types_, bridge::ExperimentOptions{noise(0), kernel::Order::explored, replay_});
+      std::make_unique<Stage>(scenario_, types_, run::ExperimentOptions{noise(0), kernel::Order::explored, replay_});
   is_left_ = false;
   if (!options_.from) return;
   const RunEnd end = stage_->experiment.run_before(Time() + *options_.from);
@@ -87,7 +87,7 @@ Finding Scene::run(const Plan& plan, const Request& request) {
     WAITPOINT_CHECK(!is_left_, "a run sets out from mid-run twice in one process");
   } else {
     stage_ = std::make_unique<Stage>(scenario_, types_,
-                                     bridge::ExperimentOptions{noise(plan.number), kernel::Order::explored, replay_});
+                                     run::ExperimentOptions{noise(plan.number), kernel::Order::explored, replay_});
   }
   is_left_ = true;
   exploration::Explorer& explorer = stage_->explorer;
@@ -146,7 +146,7 @@ void Scene::tell_stop(Finding& finding) const {
 }
 
 void Scene::carry_out(Time until, Finding& finding) {
-  bridge::Experiment& experiment = stage_->experiment;
+  run::Experiment& experiment = stage_->experiment;
   const bool is_cut = until < options_.limit(scenario_.until);
   until = std::min(until, options_.limit(scenario_.until));
   Time reached = Time() + options_.from.value_or(Duration());
@@ -155,7 +155,7 @@ void Scene::carry_out(Time until, Finding& finding) {
     while (end == RunEnd::time_reached && reached < until && finding.passed() && !is_stopped()) {
       reached = std::min(until, Time() + window * (reached.since_start() / window + 1));
       end = experiment.run_before(reached);
-      finding.words = joined(bridge::broken(scenario_.expect, experiment.figures()));
+      finding.words = joined(run::broken(scenario_.expect, experiment.figures()));
       if (!finding.words.empty()) finding.kind = Finding::Kind::unmet;
     }
     if (finding.passed()) judge(finding, end != RunEnd::time_reached || (judged_at_until_ && !is_cut));
@@ -175,12 +175,12 @@ void Scene::carry_out(Time until, Finding& finding) {
 bool Scene::is_stopped() const { return stage_->stop && stage_->stop->stopped_before() != nullptr; }
 
 void Scene::judge(Finding& finding, bool goals_too) const {
-  bridge::Expectation expect = scenario_.expect;
+  scenario::Expectation expect = scenario_.expect;
   if (!goals_too) {
     expect.all_goals_reached = false;
     expect.goals_reached.reset();
   }
-  finding.words = joined(bridge::unmet(expect, stage_->experiment.result()));
+  finding.words = joined(run::unmet(expect, stage_->experiment.result()));
   if (!finding.words.empty()) finding.kind = Finding::Kind::unmet;
 }
 

@@ -22,7 +22,7 @@ namespace waitpoint::tools {
 class Scene final : public Target {
  public:
   /// BadInput for an invalid scenario. The arguments must outlive the scene.
-  Scene(const bridge::Scenario& scenario, std::span<const genom::ModuleType> types, const ExploreOptions& options,
+  Scene(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, const ExploreOptions& options,
         std::string replay);
   ~Scene() override;
 
@@ -52,7 +52,7 @@ class Scene final : public Target {
   bool is_stopped() const;
   void tell_stop(Finding& finding) const;
 
-  const bridge::Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   std::span<const genom::ModuleType> types_;
   const ExploreOptions& options_;
   std::string replay_;

@@ -15,21 +15,21 @@ std::string ending(Time time, const std::string& robot) {
 
 }  // namespace
 
-CarmenRecording::CarmenRecording(const std::filesystem::path& path, const bridge::Scenario& scenario)
+CarmenRecording::CarmenRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
     : scenario_(scenario), file_(path) {
   file_.write("# CARMEN Logfile\n");
 }
 
-void CarmenRecording::begin(bridge::Experiment& experiment) {
+void CarmenRecording::begin(run::Experiment& experiment) {
   for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
     robots_.push_back({RobotPosters(scenario_.robots[i], *experiment.robots()[i]), std::nullopt});
 }
 
-void CarmenRecording::record(const bridge::Experiment& experiment, Time) {
+void CarmenRecording::record(const run::Experiment& experiment, Time) {
   for (std::size_t i = 0; i < robots_.size(); ++i) record_robot(experiment, i);
 }
 
-void CarmenRecording::record_robot(const bridge::Experiment& experiment, std::size_t i) {
+void CarmenRecording::record_robot(const run::Experiment& experiment, std::size_t i) {
   OfRobot& robot = robots_[i];
   const std::string& name = scenario_.robots[i].name;
   if (const auto odometry = robot.posters.odometry()) {

@@ -17,9 +17,9 @@ namespace waitpoint::tools {
 class CarmenRecording final : public Recording {
  public:
   /// Throws BadInput if the file cannot be written.
-  CarmenRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
+  CarmenRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
-  void begin(bridge::Experiment& experiment) override;
+  void begin(run::Experiment& experiment) override;
 
  private:
   struct OfRobot {
@@ -27,11 +27,11 @@ class CarmenRecording final : public Recording {
     std::optional<Pose> odometry;
   };
 
-  void record(const bridge::Experiment& experiment, Time now) override;
+  void record(const run::Experiment& experiment, Time now) override;
   void commit(const bridge::RunResult& result) override;
-  void record_robot(const bridge::Experiment& experiment, std::size_t i);
+  void record_robot(const run::Experiment& experiment, std::size_t i);
 
-  const bridge::Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   OutputFile file_;
   std::vector<OfRobot> robots_;
 };

@@ -13,7 +13,7 @@ namespace waitpoint::tools {
 namespace {
 
 std::unique_ptr<Recording> make_bag(const std::filesystem::path& path,
-                                    [[maybe_unused]] const bridge::Scenario& scenario) {
+                                    [[maybe_unused]] const scenario::Scenario& scenario) {
 #ifdef WAITPOINT_ROS_BAGS
   return std::make_unique<RosBagRecording>(path, scenario);
 #else
@@ -25,7 +25,7 @@ std::unique_ptr<Recording> make_bag(const std::filesystem::path& path,
 
 }  // namespace
 
-std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const bridge::Scenario& scenario) {
+std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const scenario::Scenario& scenario) {
   if (path.extension() == ".mcap") return std::make_unique<McapRecording>(path, scenario);
   if (path.extension() == ".log") return std::make_unique<CarmenRecording>(path, scenario);
   if (path.extension() == ".bag") return make_bag(path, scenario);

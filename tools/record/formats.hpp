@@ -10,6 +10,6 @@
 namespace waitpoint::tools {
 
 /// Chosen by the file's extension; BadInput for an unknown one, or if the file cannot be written.
-std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const bridge::Scenario& scenario);
+std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
 }  // namespace waitpoint::tools

@@ -19,7 +19,7 @@ namespace waitpoint::tools {
 class McapRecording final : public ViewerRecording {
  public:
   /// Throws BadInput if the file cannot be written.
-  McapRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
+  McapRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
  private:
   /// Of one robot.

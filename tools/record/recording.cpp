@@ -3,7 +3,7 @@
 
 namespace waitpoint::tools {
 
-void Recording::observe(const bridge::Experiment& experiment, Time now) {
+void Recording::observe(const run::Experiment& experiment, Time now) {
   if (failure_ != nullptr) return;
   try {
     record(experiment, now);

@@ -15,15 +15,15 @@ class Recording {
  public:
   virtual ~Recording() = default;
   /// Call before the run; the recording must outlive it. The scenario is the experiment's.
-  virtual void begin(bridge::Experiment& experiment) = 0;
+  virtual void begin(run::Experiment& experiment) = 0;
   /// Call after a step of the world, at `now`. Does not throw, as exceptions would pass through the world's task:
   /// finish() reports failures.
-  void observe(const bridge::Experiment& experiment, Time now);
+  void observe(const run::Experiment& experiment, Time now);
   /// Call after the run: renames the file into place. Throws BadInput if it could not be written.
   void finish(const bridge::RunResult& result);
 
  private:
-  virtual void record(const bridge::Experiment& experiment, Time now) = 0;
+  virtual void record(const run::Experiment& experiment, Time now) = 0;
   virtual void commit(const bridge::RunResult& result) = 0;
 
   std::exception_ptr failure_;

@@ -41,10 +41,10 @@ class RobotPosters {
     NewValues<posters::LaserReading> readings;
   };
 
-  RobotPosters(const bridge::RobotScenario& scenario, const bridge::Robot& robot)
+  RobotPosters(const scenario::RobotScenario& scenario, const bridge::Robot& robot)
       : odometry_(robot.names(), "rflex.odometry"), position_(robot.names(), "pom.position") {
     constexpr std::string_view reading = ".reading";
-    for (const bridge::BridgeRow& row : scenario.bridge)
+    for (const scenario::BridgeRow& row : scenario.bridge)
       for (std::size_t i = 0; i < scenario.laser_names.size(); ++i)
         if (row.device == scenario.laser_names[i] + std::string(reading))
           lasers.push_back({scenario.laser_names[i], scenario.body.lasers[i], {robot.names(), row.poster}});

@@ -24,7 +24,7 @@ RosBagFile::Solid solid(const world::Shape& shape, const std::string& frame) {
 
 }  // namespace
 
-RosBagRecording::RosBagRecording(const std::filesystem::path& path, const bridge::Scenario& scenario)
+RosBagRecording::RosBagRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
     : ViewerRecording(scenario), file_(path) {
   try {
     bag_ = std::make_unique<RosBagFile>(file_.written_to().string());

@@ -21,7 +21,7 @@ namespace waitpoint::tools {
 class RosBagRecording final : public ViewerRecording {
  public:
   /// Throws BadInput if the file cannot be written.
-  RosBagRecording(const std::filesystem::path& path, const bridge::Scenario& scenario);
+  RosBagRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
  private:
   void add(const OfRobot&) override {}

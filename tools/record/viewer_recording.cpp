@@ -16,7 +16,7 @@ std::vector<world::Shape> shapes_of(const std::vector<world::Obstacle>& obstacle
 
 }  // namespace
 
-void ViewerRecording::begin(bridge::Experiment& experiment) {
+void ViewerRecording::begin(run::Experiment& experiment) {
   for (std::size_t i = 0; i < scenario_.robots.size(); ++i) {
     bridge::Robot& robot = *experiment.robots()[i];
     robots_.push_back({i, robot.name(), RobotPosters(scenario_.robots[i], robot), std::make_unique<ModuleLog>()});
@@ -25,13 +25,13 @@ void ViewerRecording::begin(bridge::Experiment& experiment) {
   }
 }
 
-void ViewerRecording::record(const bridge::Experiment& experiment, Time now) {
+void ViewerRecording::record(const run::Experiment& experiment, Time now) {
   set_time(now);
   const bool is_sampled = !sampled_ || now - *sampled_ >= sampling;
   if (is_sampled) {
     sampled_ = now;
     write_clock();
-    if (!meshes_) meshes_ = shapes_of(bridge::meshes_on_plan(experiment.world().description()));
+    if (!meshes_) meshes_ = shapes_of(run::meshes_on_plan(experiment.world().description()));
     record_obstacles(experiment.world().description().obstacles);
   }
   for (OfRobot& robot : robots_) {

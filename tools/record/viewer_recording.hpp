@@ -14,7 +14,7 @@ namespace waitpoint::tools {
 
 class ViewerRecording : public Recording {
  public:
-  void begin(bridge::Experiment& experiment) final;
+  void begin(run::Experiment& experiment) final;
 
  protected:
   struct OfRobot {
@@ -26,10 +26,10 @@ class ViewerRecording : public Recording {
 
   static constexpr const char* root = "world";  ///< the root frame
 
-  explicit ViewerRecording(const bridge::Scenario& scenario) : scenario_(scenario) {}
+  explicit ViewerRecording(const scenario::Scenario& scenario) : scenario_(scenario) {}
 
  private:
-  void record(const bridge::Experiment& experiment, Time now) final;
+  void record(const run::Experiment& experiment, Time now) final;
   void commit(const bridge::RunResult& result) final;
   void record_obstacles(const std::vector<world::Obstacle>& obstacles);
   void record_truth(const OfRobot& robot, const world::World& world, Time now);
@@ -56,7 +56,7 @@ class ViewerRecording : public Recording {
   /// Called last.
   virtual void close(const bridge::RunResult& result) = 0;
 
-  const bridge::Scenario& scenario_;
+  const scenario::Scenario& scenario_;
   std::vector<OfRobot> robots_;
   std::optional<std::vector<world::Shape>> meshes_;  // as shown on a plan, computed once
   std::optional<std::vector<world::Shape>> drawn_;   // the obstacles as last written

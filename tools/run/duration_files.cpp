@@ -20,15 +20,15 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 /// The run that durations belong to: the scenario's content, regardless of its path, the seed and the order.
-std::string name_of_run(const RunOptions& options, const bridge::Scenario& scenario) {
+std::string name_of_run(const RunOptions& options, const scenario::Scenario& scenario) {
   return fmt::format("{:016x} seed {} order {}", scenario.fingerprint, options.seed,
                      options.order == kernel::Order::seeded ? "seeded" : "fifo");
 }
 
 }  // namespace
 
-DurationFiles::DurationFiles(const RunOptions& options, const bridge::Scenario& scenario,
-                             bridge::Experiment& experiment) {
+DurationFiles::DurationFiles(const RunOptions& options, const scenario::Scenario& scenario,
+                             run::Experiment& experiment) {
   const std::string run = name_of_run(options, scenario);
   if (options.record_durations) {
     file_.emplace(*options.record_durations);

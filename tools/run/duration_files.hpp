@@ -16,7 +16,7 @@ class DurationFiles {
  public:
   /// Opens the files that the options name. `experiment` has not begun and outlives this. BadInput for a file that
   /// cannot be written or read, is not a record, or belongs to another scenario, seed or order.
-  DurationFiles(const RunOptions& options, const bridge::Scenario& scenario, bridge::Experiment& experiment);
+  DurationFiles(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment);
 
   /// Writes the record after the run. BadInput if a run that `ended` by itself did not use up the replayed record.
   void finish(bool ended);

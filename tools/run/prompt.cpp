@@ -76,11 +76,11 @@ void Prompt::obey(std::string_view line, bool running) {
   if (!terminal_) ++written_.line;
   try {
     std::string_view rest = line;
-    const std::string word = bridge::take_word(rest, written_);
+    const std::string word = scenario::take_word(rest, written_);
     if (word.empty() || word.starts_with('#')) return;
-    std::vector<std::string_view> known = bridge::intervention_verbs();
+    std::vector<std::string_view> known = run::intervention_verbs();
     if (std::find(known.begin(), known.end(), word) != known.end()) {
-      session_.intervene(bridge::parse_intervention(line, written_));
+      session_.intervene(run::parse_intervention(line, written_));
       return;
     }
     for (const Named& named : commands) {
@@ -122,13 +122,13 @@ void Prompt::tell_place() {
 }
 
 void Prompt::help(std::string_view rest) {
-  bridge::require_end(rest, written_);
+  scenario::require_end(rest, written_);
   std::fputs(help_text, stdout);
 }
 
 void Prompt::step(std::string_view rest) {
-  const std::string word = bridge::take_word(rest, written_);
-  bridge::require_end(rest, written_);
+  const std::string word = scenario::take_word(rest, written_);
+  scenario::require_end(rest, written_);
   std::uint64_t left = 1;
   if (!word.empty() && (!parse_number(word, left) || left == 0))
     throw written_.bad("expected a number of events, found '" + word + "'");
@@ -146,12 +146,12 @@ void Prompt::step(std::string_view rest) {
 void Prompt::run_to(std::string_view rest) { run_to(rest, terminal_); }
 
 void Prompt::run_to(std::string_view rest, bool heeding) {
-  const std::string word = bridge::take_word(rest, written_);
-  bridge::require_end(rest, written_);
+  const std::string word = scenario::take_word(rest, written_);
+  scenario::require_end(rest, written_);
   Time target = session_.until();
   if (!word.empty()) {
     const bool relative = word.starts_with('+');
-    const std::optional<Time> time = bridge::parse_time(relative ? word.substr(1) : word);
+    const std::optional<Time> time = run::parse_time(relative ? word.substr(1) : word);
     if (!time) throw written_.bad("expected a time in seconds, found '" + word + "'");
     target = relative ? session_.now() + time->since_start() : *time;
     if (target < session_.now()) throw written_.bad(word + " s is past");
@@ -163,7 +163,7 @@ void Prompt::go(std::string_view rest) { run_to(rest, true); }
 
 void Prompt::until(std::string_view rest) {
   if (rest.find_first_of("<>=") == std::string_view::npos) return run_to(rest);
-  const bridge::Condition condition = bridge::parse_condition(rest, session_.experiment(), written_);
+  const run::Condition condition = run::parse_condition(rest, session_.experiment(), written_);
   if (!condition())
     carry_on(
         session_.until(), [&](const kernel::EventRecord&) { return condition(); }, terminal_);
@@ -172,13 +172,13 @@ void Prompt::until(std::string_view rest) {
 }
 
 void Prompt::pause(std::string_view rest) {
-  bridge::require_end(rest, written_);
+  scenario::require_end(rest, written_);
   pause_ = true;
 }
 
 void Prompt::speed(std::string_view rest) {
-  const std::string word = bridge::take_word(rest, written_);
-  bridge::require_end(rest, written_);
+  const std::string word = scenario::take_word(rest, written_);
+  scenario::require_end(rest, written_);
   double speed = 0;
   if (!parse_number(word, speed) || !is_speed(speed))
     throw written_.bad(std::string("expected ") + speeds + ", found '" + word + "'");
@@ -186,9 +186,9 @@ void Prompt::speed(std::string_view rest) {
 }
 
 void Prompt::status(std::string_view rest) {
-  bridge::require_end(rest, written_);
+  scenario::require_end(rest, written_);
   tell_place();
-  const bridge::Experiment& experiment = session_.experiment();
+  const run::Experiment& experiment = session_.experiment();
   for (std::size_t i = 0; i < experiment.robots().size(); ++i) {
     const bridge::Robot& robot = *experiment.robots()[i];
     const auto& body = experiment.world().body(world::BodyId(i));
@@ -200,7 +200,7 @@ void Prompt::status(std::string_view rest) {
 }
 
 void Prompt::tasks(std::string_view rest) {
-  bridge::require_end(rest, written_);
+  scenario::require_end(rest, written_);
   for (const kernel::Task* task = session_.experiment().simulation().scheduler().first_task(); task != nullptr;
        task = task->next) {
     fmt::print("  {:<24} {:<12} {:<8} {} s, {}", task->name, task->robot->name, state_name(task->state),
@@ -212,14 +212,14 @@ void Prompt::tasks(std::string_view rest) {
 }
 
 void Prompt::at(std::string_view rest) {
-  const std::string word = bridge::take_word(rest, written_);
-  const std::optional<Time> time = bridge::parse_time(word);
+  const std::string word = scenario::take_word(rest, written_);
+  const std::optional<Time> time = run::parse_time(word);
   if (!time) throw written_.bad("expected a time in seconds, found '" + word + "'");
-  session_.intervene(bridge::parse_intervention(rest, written_), time);
+  session_.intervene(run::parse_intervention(rest, written_), time);
 }
 
 void Prompt::quit(std::string_view rest) {
-  bridge::require_end(rest, written_);
+  scenario::require_end(rest, written_);
   quit_ = true;
 }
 

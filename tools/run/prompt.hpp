@@ -51,7 +51,7 @@ class Prompt {
   Session& session_;
   LineReader lines_;
   bool terminal_;
-  bridge::Location written_;  // the line being executed
+  scenario::Location written_;  // the line being executed
   bool pause_ = false;        // requested during the run
   bool quit_ = false;
   bool interrupted_ = false;

@@ -31,7 +31,7 @@ namespace {
 // The output files of one run: opened before it starts, written when it is over.
 class Outputs {
  public:
-  Outputs(const RunOptions& options, const bridge::Scenario& scenario) {
+  Outputs(const RunOptions& options, const scenario::Scenario& scenario) {
     if (options.summary) summary_.emplace(*options.summary);
     if (options.picture) picture_.emplace(*options.picture);
     if (options.digests) digests_.emplace(*options.digests);
@@ -39,11 +39,11 @@ class Outputs {
     if (options.record) recording_ = make_recording(*options.record, scenario);
     if (!options.trajectory) return;
     std::vector<std::string> names;
-    for (const bridge::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
+    for (const scenario::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
     trajectory_.emplace(*options.trajectory, names);
   }
 
-  void watch(bridge::Experiment& experiment) {
+  void watch(run::Experiment& experiment) {
     if (events_) events_->watch(experiment.simulation());
     if (!recording_) return;
     recording_->begin(experiment);
@@ -52,14 +52,14 @@ class Outputs {
   void second(const Simulation& simulation, std::int64_t second) {
     if (digests_) digests_->record(simulation, second);
   }
-  void write(bridge::Experiment& experiment, const bridge::RunResult& result) {
+  void write(run::Experiment& experiment, const bridge::RunResult& result) {
     if (summary_) {
       summary_->write(summary_json(result));
       summary_->commit();
     }
     if (picture_) {
       const world::WorldDescription& world = experiment.world().description();
-      std::vector<world::Obstacle> shown = world.obstacles, meshes = bridge::meshes_on_plan(world);
+      std::vector<world::Obstacle> shown = world.obstacles, meshes = run::meshes_on_plan(world);
       shown.insert(shown.end(), meshes.begin(), meshes.end());
       picture_->write(picture_svg(shown, result));
       picture_->commit();
@@ -85,14 +85,14 @@ bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool int
   return result;
 }
 
-Session session_of(const RunOptions& options, bridge::Experiment& experiment, Outputs& outputs, Time until) {
+Session session_of(const RunOptions& options, run::Experiment& experiment, Outputs& outputs, Time until) {
   outputs.watch(experiment);
   return {experiment, until, options.speed,
           [&](std::int64_t second) { outputs.second(experiment.simulation(), second); }};
 }
 
-bridge::RunResult carry_out(const RunOptions& options, const bridge::Scenario& scenario, std::uint64_t seed,
-                            bridge::Experiment& experiment, Outputs& outputs, JournalFile* journal) {
+bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario& scenario, std::uint64_t seed,
+                            run::Experiment& experiment, Outputs& outputs, JournalFile* journal) {
   Session session = session_of(options, experiment, outputs, options.limit(scenario.until));
   if (journal != nullptr) session.keep(*journal);
   bool interrupted = false;
@@ -100,16 +100,16 @@ bridge::RunResult carry_out(const RunOptions& options, const bridge::Scenario& s
     interrupted = !Prompt(session, STDIN_FILENO, isatty(STDIN_FILENO) != 0).run();
   else
     interrupted = session.carry_on(session.until()) == Session::Stop::interrupted;
-  if (journal != nullptr) journal->write(bridge::to_text(session.here()));
+  if (journal != nullptr) journal->write(run::to_text(session.here()));
   bridge::RunResult result = result_of(session, seed, interrupted);
   if (!interrupted && !session.over()) result.outcome = bridge::Outcome::left;
   return result;
 }
 
 // Replays a journal to its end; `same` tells if the run ended with the journal's event count and digest.
-bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scenario, const bridge::Journal& journal,
-                         bridge::Experiment& experiment, Outputs& outputs, JournalFile* kept, bool& same) {
-  const std::optional<bridge::JournalEnd> end = options.until ? std::nullopt : journal.end;
+bridge::RunResult repeat(const RunOptions& options, const scenario::Scenario& scenario, const run::Journal& journal,
+                         run::Experiment& experiment, Outputs& outputs, JournalFile* kept, bool& same) {
+  const std::optional<run::JournalEnd> end = options.until ? std::nullopt : journal.end;
   // The run may have been left between two events of an instant: the number of events says where.
   const Time until = end ? end->time + Duration::from_ns(1) : options.limit(scenario.until);
   Session session = session_of(options, experiment, outputs, until);
@@ -122,9 +122,9 @@ bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scen
       return ++seen == last;
     });
   const bool interrupted = stop == Session::Stop::interrupted;
-  const bridge::JournalEnd here = session.here();
+  const run::JournalEnd here = session.here();
   same = interrupted || !end || (here.events == end->events && here.digest == end->digest);
-  if (kept != nullptr) kept->write(bridge::to_text(here));
+  if (kept != nullptr) kept->write(run::to_text(here));
   bridge::RunResult result = result_of(session, options.seed, interrupted);
   if (end && !interrupted && result.outcome == bridge::Outcome::time_limit) {
     result.simulated = end->time.since_start();
@@ -133,29 +133,29 @@ bridge::RunResult repeat(const RunOptions& options, const bridge::Scenario& scen
   return result;
 }
 
-int status(const bridge::Scenario& scenario, const bridge::RunResult& result) {
+int status(const scenario::Scenario& scenario, const bridge::RunResult& result) {
   if (result.outcome == bridge::Outcome::interrupted) return 130;
-  const std::vector<std::string> unmet = bridge::unmet(scenario.expect, result);
+  const std::vector<std::string> unmet = run::unmet(scenario.expect, result);
   std::fflush(stdout);
   for (const std::string& line : unmet) std::fprintf(stderr, "waitpoint: not as expected: %s\n", line.c_str());
   return unmet.empty() ? 0 : 1;
 }
 
-void tell_of(const bridge::Journal& journal, bool same) {
+void tell_of(const run::Journal& journal, bool same) {
   if (!journal.end) std::fputs("waitpoint: the journal has no end: the run that wrote it did not finish\n", stderr);
   if (same) return;
   std::fprintf(stderr, "waitpoint: this is not the run of the journal, which ended with %s after %llu events\n",
                journal.end->digest.c_str(), static_cast<unsigned long long>(journal.end->events));
 }
 
-int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::span<const genom::ModuleType> types) {
+int run_seeds(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
   std::optional<OutputFile> summary;
   if (options.summary) summary.emplace(*options.summary);
   std::vector<bridge::RunResult> results;
   int worst = 0;
   std::fputs(seeds_head().c_str(), stdout);
   for (std::uint64_t seed = options.seeds->first; interruption() == 0; ++seed) {
-    bridge::Experiment experiment(scenario, types, {seed, options.order, replay_line(options, seed)});
+    run::Experiment experiment(scenario, types, {seed, options.order, replay_line(options, seed)});
     RunOptions single = options;
     single.summary.reset();
     Outputs none(single, scenario);
@@ -176,16 +176,16 @@ int run_seeds(const RunOptions& options, const bridge::Scenario& scenario, std::
 }  // namespace
 
 int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
-  const bridge::Scenario scenario = bridge::read_scenario(options.scenario, options.assignments);
+  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   heed_signals();
   if (options.seeds) return run_seeds(options, scenario, types);
-  bridge::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
-  const bridge::JournalHead head = bridge::journal_head(scenario, options.seed, options.order);
+  run::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
+  const run::JournalHead head = run::journal_head(scenario, options.seed, options.order);
   std::string lines = to_text(head);
-  std::optional<bridge::Journal> journal;
+  std::optional<run::Journal> journal;
   if (options.replay_journal) {
-    journal = bridge::read_journal(*options.replay_journal, head);
+    journal = run::read_journal(*options.replay_journal, head);
     for (const auto& [date, intervention] : journal->interventions)
       lines += to_text(experiment.intervene(intervention, date), intervention);
   }

@@ -19,7 +19,7 @@ std::int64_t seconds_begun(Time time) {
 
 }  // namespace
 
-Session::Session(bridge::Experiment& experiment, Time until, double speed, Second second)
+Session::Session(run::Experiment& experiment, Time until, double speed, Second second)
     : experiment_(experiment),
       until_(until),
       second_(std::move(second)),
@@ -59,19 +59,19 @@ void Session::close_window(Time end) {
 }
 
 void Session::tell_outcomes() {
-  const std::vector<bridge::InterventionOutcome>& outcomes = experiment_.outcomes();
+  const std::vector<run::InterventionOutcome>& outcomes = experiment_.outcomes();
   for (; told_ < outcomes.size(); ++told_) progress_.log(outcomes[told_].date, "operator", outcomes[told_].text);
 }
 
-Time Session::intervene(const bridge::Intervention& intervention, std::optional<Time> date) {
+Time Session::intervene(const run::Intervention& intervention, std::optional<Time> date) {
   const Time at = experiment_.intervene(intervention, date);
-  if (journal_ != nullptr) journal_->write(bridge::to_text(at, intervention));
+  if (journal_ != nullptr) journal_->write(run::to_text(at, intervention));
   return at;
 }
 
 Time Session::now() const { return experiment_.paused() ? experiment_.simulation().global_time() : reached_; }
 
-bridge::JournalEnd Session::here() const {
+run::JournalEnd Session::here() const {
   const Simulation& simulation = experiment_.simulation();
   return {now(), simulation.scheduler().events(), to_string(simulation.digest())};
 }

@@ -30,7 +30,7 @@ class Session {
   using Second = std::function<void(std::int64_t)>;
 
   /// A run to `until` at the latest. `second` is called after each simulated second, with their number, and at the end.
-  Session(bridge::Experiment& experiment, Time until, double speed, Second second);
+  Session(run::Experiment& experiment, Time until, double speed, Second second);
 
   /// Also writes interventions to the journal from now on, with their dates.
   void keep(JournalFile& journal) { journal_ = &journal; }
@@ -40,7 +40,7 @@ class Session {
   Stop carry_on(Time target, const Enough& enough = nullptr, const Heed& heed = nullptr);
 
   /// See Experiment::intervene; recorded in the journal.
-  Time intervene(const bridge::Intervention& intervention, std::optional<Time> date = std::nullopt);
+  Time intervene(const run::Intervention& intervention, std::optional<Time> date = std::nullopt);
   /// Changes the speed from now on.
   void set_speed(double speed) { pacing_.restart(now(), speed); }
   double speed() const { return pacing_.speed(); }
@@ -50,8 +50,8 @@ class Session {
   Time until() const { return until_; }
   bool over() const { return end_ != RunEnd::time_reached || reached_ >= until_; }
   /// The run's current position, for the journal.
-  bridge::JournalEnd here() const;
-  bridge::Experiment& experiment() { return experiment_; }
+  run::JournalEnd here() const;
+  run::Experiment& experiment() { return experiment_; }
 
   /// The results so far, with the wall clock's figures.
   bridge::RunResult result() const;
@@ -61,7 +61,7 @@ class Session {
   void close_window(Time end);
   void tell_outcomes();
 
-  bridge::Experiment& experiment_;
+  run::Experiment& experiment_;
   Time until_;
   Second second_;
   Progress progress_;

@@ -13,15 +13,15 @@
 namespace waitpoint::bench {
 namespace {
 
-bridge::Scenario scenario_of(const std::string& world, const std::string& data) {
+scenario::Scenario scenario_of(const std::string& world, const std::string& data) {
   const std::filesystem::path file = test::project_root() / "tests/bench/world" / (world + ".yaml");
-  return bridge::read_scenario(file, {"world.map=" + data + "/stage/benchmark/" + world + ".world"});
+  return scenario::read_scenario(file, {"world.map=" + data + "/stage/benchmark/" + world + ".world"});
 }
 
 // The file has its second thousand as comments: the first, moved 59 m east.
-void add_second_thousand(bridge::Scenario& scenario) {
-  const std::vector<bridge::RobotScenario> first = scenario.robots;
-  for (bridge::RobotScenario robot : first) {
+void add_second_thousand(scenario::Scenario& scenario) {
+  const std::vector<scenario::RobotScenario> first = scenario.robots;
+  for (scenario::RobotScenario robot : first) {
     robot.name += "_east";
     robot.body.name = robot.name;
     robot.body.start.x += 59;
@@ -29,12 +29,12 @@ void add_second_thousand(bridge::Scenario& scenario) {
   }
 }
 
-void measure(const bridge::Scenario& scenario, const std::string& name, Duration simulated, int repeats, Limit must,
+void measure(const scenario::Scenario& scenario, const std::string& name, Duration simulated, int repeats, Limit must,
              Limit aim, Figures& figures) {
   const std::vector<genom::ModuleType> types = tools::shipped_modules();
   double best = 0, distance_m = 0;
   for (int i = 0; i < repeats; ++i) {
-    bridge::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
+    run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
     const std::int64_t from = clock_ns(Clock::processor);
     experiment.run_before(Time() + simulated);
     best = std::max(best, simulated.seconds() / (1e-9 * static_cast<double>(clock_ns(Clock::processor) - from)));
@@ -67,7 +67,7 @@ void stages_cave(bool quick, Figures& figures) {
 void stages_hospital(bool quick, Figures& figures) {
   const auto data = stages_files();
   if (!data) return;
-  bridge::Scenario hospital = scenario_of("hospital", *data);
+  scenario::Scenario hospital = scenario_of("hospital", *data);
   add_second_thousand(hospital);
   measure(hospital, "Stage's hospital", quick ? 5s : 20s, repeats(quick), {20}, {40}, figures);
 }

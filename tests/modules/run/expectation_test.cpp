@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 using Lines = std::vector<std::string>;
 
-RunResult result_with(std::size_t reached, std::size_t goals, std::uint64_t collisions) {
-  RunResult result;
+bridge::RunResult result_with(std::size_t reached, std::size_t goals, std::uint64_t collisions) {
+  bridge::RunResult result;
   result.robots.resize(2);
   result.robots[0].goals.resize(goals);
   for (std::size_t i = 0; i < reached; ++i) result.robots[0].goals[i].reached = true;
@@ -20,7 +20,8 @@ RunResult result_with(std::size_t reached, std::size_t goals, std::uint64_t coll
 TEST(Expectation, nothing_expected_is_always_met) { EXPECT_EQ(unmet({}, result_with(0, 3, 9)), Lines{}); }
 
 TEST(Expectation, all_goals_and_no_collisions) {
-  const Expectation expect{.all_goals_reached = true, .goals_reached = {}, .collisions = 0, .position_error_max_m = {}};
+  const scenario::Expectation expect{
+      .all_goals_reached = true, .goals_reached = {}, .collisions = 0, .position_error_max_m = {}};
   EXPECT_EQ(unmet(expect, result_with(3, 3, 0)), Lines{});
   EXPECT_EQ(unmet(expect, result_with(2, 3, 0)), Lines{"2 of 3 goals reached, expected all"});
   EXPECT_EQ(unmet(expect, result_with(3, 3, 1)), Lines{"1 collisions, expected 0"});
@@ -28,16 +29,16 @@ TEST(Expectation, all_goals_and_no_collisions) {
 }
 
 TEST(Expectation, a_number_of_goals_is_exact) {
-  const Expectation expect{
+  const scenario::Expectation expect{
       .all_goals_reached = false, .goals_reached = 2, .collisions = {}, .position_error_max_m = {}};
   EXPECT_EQ(unmet(expect, result_with(2, 3, 5)), Lines{});
   EXPECT_EQ(unmet(expect, result_with(3, 3, 5)), Lines{"3 of 3 goals reached, expected 2"});
 }
 
 TEST(Expectation, what_is_greater_by_little_is_told_with_the_digits_that_differ) {
-  const Expectation expect{
+  const scenario::Expectation expect{
       .all_goals_reached = false, .goals_reached = {}, .collisions = {}, .position_error_max_m = 0.025};
-  RunResult result = result_with(0, 0, 0);
+  bridge::RunResult result = result_with(0, 0, 0);
   for (const auto& [error_m, text] : {std::pair{0.0250004, "0.0250004"}, std::pair{0.5, "0.5"}}) {
     result.robots[0].position_error_max_m = error_m;
     EXPECT_EQ(unmet(expect, result), Lines{std::string("position error of ") + text + " m, expected at most 0.025 m"});
@@ -45,25 +46,25 @@ TEST(Expectation, what_is_greater_by_little_is_told_with_the_digits_that_differ)
 }
 
 TEST(Expectation, a_run_without_progress_is_never_expected) {
-  RunResult result = result_with(0, 0, 0);
-  result.outcome = Outcome::no_progress;
+  bridge::RunResult result = result_with(0, 0, 0);
+  result.outcome = bridge::Outcome::no_progress;
   EXPECT_EQ(unmet({}, result), Lines{"the run made no progress"});
 }
 
 TEST(Expectation, a_deadlock_is_never_expected) {
-  RunResult result = result_with(0, 0, 0);
-  result.outcome = Outcome::deadlock;
+  bridge::RunResult result = result_with(0, 0, 0);
+  result.outcome = bridge::Outcome::deadlock;
   EXPECT_EQ(unmet({}, result), Lines{"the run ended in a deadlock"});
 }
 
 TEST(RunTotals, sum_counts_and_keep_the_greatest_errors) {
-  RunResult result = result_with(1, 2, 3);
+  bridge::RunResult result = result_with(1, 2, 3);
   result.robots[0].position_error_mean_m = 0.25;
   result.robots[0].position_error_max_m = 0.5;
   result.robots[1].position_error_mean_m = 0.75;
   result.robots[1].position_error_max_m = 0.125;
   result.robots[1].distance_m = 7;
-  const RunTotals sum = totals(result);
+  const bridge::RunTotals sum = bridge::totals(result);
   EXPECT_EQ(sum.goals, 2u);
   EXPECT_EQ(sum.goals_reached, 1u);
   EXPECT_EQ(sum.collisions, 3u);
@@ -73,4 +74,4 @@ TEST(RunTotals, sum_counts_and_keep_the_greatest_errors) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 using Piece = std::array<std::uint64_t, 4096>;
@@ -83,4 +83,4 @@ TEST(HeapPages, WhatWasAllocatedStaysAsItWas) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -6,14 +6,14 @@
 #include "core/exact_math.hpp"
 #include "tests/modules/scenario/scenario_text.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
-const Location here{"run.journal", 7};
+const scenario::Location here{"run.journal", 7};
 
 Intervention parse(std::string_view text) { return parse_intervention(text, here); }
 std::string complaint(std::string_view text) {
-  return message_of<BadInput>([&] { parse(text); });
+  return scenario::message_of<BadInput>([&] { parse(text); });
 }
 
 TEST(Intervention, ARequestHasItsArgumentsAsTheyAreWritten) {
@@ -71,4 +71,4 @@ TEST(Intervention, WhatIsNoneIsOneLineAtItsPlace) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -6,20 +6,20 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tests/modules/scenario/scenario_text.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 class JournalTest : public ::testing::Test {
  protected:
   Journal read(const std::string& lines) const { return read_journal(folder_.write("j", lines), head_); }
   std::string complaint(const std::string& lines) const {
-    const std::string text = message_of<BadInput>([&] { read(lines); });
+    const std::string text = scenario::message_of<BadInput>([&] { read(lines); });
     const std::string file = (folder_.path() / "j").string();
     EXPECT_TRUE(text.starts_with(file)) << text;
     return text.substr(std::min(file.size(), text.size()));
   }
 
-  TemporaryFolder folder_;
+  scenario::TemporaryFolder folder_;
   JournalHead head_{"office", Digest(5), 3, kernel::Order::seeded};
 };
 
@@ -78,13 +78,13 @@ TEST_F(JournalTest, WhatCannotBeReadIsNamedWithItsLine) {
 
 TEST_F(JournalTest, ScenariosThatSayTheSameHaveOneFingerprint) {
   const auto fingerprint = [&](const std::string& text, const std::vector<std::string>& assignments = {}) {
-    return read_scenario(folder_.write("s.yaml", text), assignments).fingerprint;
+    return scenario::read_scenario(folder_.write("s.yaml", text), assignments).fingerprint;
   };
-  const std::string text(valid_scenario);
+  const std::string text(scenario::valid_scenario);
   EXPECT_EQ(fingerprint(text), fingerprint("# a remark\n" + text));
-  EXPECT_NE(fingerprint(text), fingerprint(changed("step_ms: 5", "step_ms: 6")));
-  EXPECT_NE(fingerprint(text), fingerprint(changed("[3, 1]", "[3, 1.5]")));
-  EXPECT_EQ(fingerprint(text, {"world.step_ms=6"}), fingerprint(changed("step_ms: 5", "step_ms: 6")));
+  EXPECT_NE(fingerprint(text), fingerprint(scenario::changed("step_ms: 5", "step_ms: 6")));
+  EXPECT_NE(fingerprint(text), fingerprint(scenario::changed("[3, 1]", "[3, 1.5]")));
+  EXPECT_EQ(fingerprint(text, {"world.step_ms=6"}), fingerprint(scenario::changed("step_ms: 5", "step_ms: 6")));
 }
 
 TEST(JournalTime, IsExactDecimalsOrNothing) {
@@ -96,4 +96,4 @@ TEST(JournalTime, IsExactDecimalsOrNothing) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -14,14 +14,14 @@
 #include "tests/modules/on_threads.hpp"
 #include "tests/project.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::run {
 namespace {
 
 using namespace std::chrono_literals;
 
 // The shipped office, with other goals.
-Scenario office(const std::string& goals) {
-  return read_scenario(test::project_root() / "scenarios" / "office.yaml", {"robots.0.goals=" + goals});
+scenario::Scenario office(const std::string& goals) {
+  return scenario::read_scenario(test::project_root() / "scenarios" / "office.yaml", {"robots.0.goals=" + goals});
 }
 
 const std::vector<genom::ModuleType> papers_modules = {
@@ -29,18 +29,18 @@ const std::vector<genom::ModuleType> papers_modules = {
     genom::module_type<segloc::Segloc>("segloc"), genom::module_type<sick::Sick>("sick")};
 
 template <class T>
-T last(const Robot& robot, const std::string& poster) {
+T last(const bridge::Robot& robot, const std::string& poster) {
   return dynamic_cast<const genom::Poster<T>&>(*robot.names().find_poster(poster)).look().value_or(T());
 }
 
 TEST(ThreadedExperiment, ReachesItsFirstGoal) {
-  const Scenario scenario = office("[[22.4, 6.6]]");
+  const scenario::Scenario scenario = office("[[22.4, 6.6]]");
   on_threads([&] {
     ThreadedExperiment experiment(scenario, papers_modules, 1);
     experiment.run_for(100s);
-    const RunResult result = experiment.result();
-    EXPECT_EQ(result.outcome, Outcome::finished);
-    const RobotResult& robot = result.robots.at(0);
+    const bridge::RunResult result = experiment.result();
+    EXPECT_EQ(result.outcome, bridge::Outcome::finished);
+    const bridge::RobotResult& robot = result.robots.at(0);
     EXPECT_EQ(robot.goals_reached(), 1u) << robot.goals.at(0).report;
     const Pose& truth = experiment.world().body(world::BodyId(0)).pose;
     EXPECT_LT(length(truth.position() - Point{22.4, 6.6}), 0.5);
@@ -53,13 +53,13 @@ TEST(ThreadedExperiment, ReachesItsFirstGoal) {
 }
 
 TEST(ThreadedExperiment, StopsTheRobotAndEndsItsModulesWhenTheTimeIsUp) {
-  const Scenario scenario = office("[[2.4, 4.6], [35, 28.4]]");
+  const scenario::Scenario scenario = office("[[2.4, 4.6], [35, 28.4]]");
   on_threads([&] {
     ThreadedExperiment experiment(scenario, papers_modules, 1);
     experiment.run_for(1500ms);
-    EXPECT_EQ(experiment.result().outcome, Outcome::time_limit);
+    EXPECT_EQ(experiment.result().outcome, bridge::Outcome::time_limit);
     EXPECT_EQ(experiment.result().robots.at(0).goals_reached(), 0u);
-    const Robot& robot = *experiment.robots().at(0);
+    const bridge::Robot& robot = *experiment.robots().at(0);
     EXPECT_EQ(last<posters::BaseCommand>(robot, "rflex.command").v_m_s, 0);
     EXPECT_FALSE(last<posters::LaserCommand>(robot, "sick.command").on);
     for (const char* module : {"rflex", "sick", "segloc", "pom", "ndd"})
@@ -68,4 +68,4 @@ TEST(ThreadedExperiment, StopsTheRobotAndEndsItsModulesWhenTheTimeIsUp) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::run

@@ -12,7 +12,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tests/modules/scenario/scenario_text.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 struct BadCase {
   std::string name, from, to;
@@ -36,4 +36,4 @@ inline void expect_complaint(const BadCase& bad) {
             file.string() + ":" + std::to_string(bad.line) + ": " + with_paths(bad.expected, file));
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

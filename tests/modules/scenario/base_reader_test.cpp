@@ -5,7 +5,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tests/modules/scenario/scenario_text.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using namespace std::chrono_literals;
@@ -111,4 +111,4 @@ INSTANTIATE_TEST_SUITE_P(Scenario, BadBases, ::testing::ValuesIn(bad_bases),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

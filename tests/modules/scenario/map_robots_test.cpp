@@ -7,7 +7,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tests/modules/scenario/scenario_text.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using Kind = world::BaseDescription::Kind;
@@ -150,4 +150,4 @@ TEST_F(RobotsFromMap, WithoutThemATypeNeedsItsShapeAsEver) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -3,7 +3,7 @@
 
 #include "tests/modules/scenario/bad_case.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 constexpr const char* rover = R"(<robot name="rover">
@@ -57,4 +57,4 @@ TEST_F(RobotModelOfAScenario, that_cannot_be_meant_is_one_line) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

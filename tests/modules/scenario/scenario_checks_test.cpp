@@ -6,7 +6,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tests/modules/scenario/scenario_text.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 class ScenarioChecks : public ::testing::Test {
@@ -58,4 +58,4 @@ TEST_F(ScenarioChecks, a_robot_that_starts_inside_another_is_told_with_both_line
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

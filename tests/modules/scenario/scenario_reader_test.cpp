@@ -5,7 +5,7 @@
 
 #include "tests/modules/scenario/bad_case.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using namespace std::chrono_literals;
@@ -357,4 +357,4 @@ TEST(ScenarioFile, without_robots_is_one_line) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

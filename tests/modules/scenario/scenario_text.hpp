@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 
 inline constexpr std::string_view valid_scenario = R"(format: 1
 name: small
@@ -93,4 +93,4 @@ std::string message_of(Action&& action) {
   return "";
 }
 
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

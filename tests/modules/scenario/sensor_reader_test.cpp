@@ -3,7 +3,7 @@
 
 #include "tests/modules/scenario/bad_case.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using namespace std::chrono_literals;
@@ -187,4 +187,4 @@ INSTANTIATE_TEST_SUITE_P(Scenario, BadSensor, ::testing::ValuesIn(bad_sensors),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -9,7 +9,7 @@
 #include "world/kinematic/start_check.hpp"
 #include "world/planar/separation.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 Scenario shipped(const std::string& name, const std::vector<std::string>& assignments = {}) {
@@ -79,4 +79,4 @@ TEST(ShippedScenario, the_floor_gives_way_to_a_map_by_options) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

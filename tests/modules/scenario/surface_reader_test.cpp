@@ -6,7 +6,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tests/modules/scenario/bad_case.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 class SurfaceReader : public ::testing::Test {
@@ -75,4 +75,4 @@ TEST_F(SurfaceReader, meshes_and_octrees_that_are_bad_are_told) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario

@@ -6,7 +6,7 @@
 #include "modules/scenario/yaml_override.hpp"
 #include "tests/modules/scenario/scenario_text.hpp"
 
-namespace waitpoint::bridge {
+namespace waitpoint::scenario {
 namespace {
 
 using Kind = YamlNode::Kind;
@@ -127,4 +127,4 @@ TEST(YamlOverride, an_assignment_reaches_into_lists_and_makes_maps) {
 }
 
 }  // namespace
-}  // namespace waitpoint::bridge
+}  // namespace waitpoint::scenario
