@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact distance from every cell's centre to the nearest occupied cell, taken as the square that it is.
+// The exact distance from every cell's centre to the nearest occupied cell, as a square area.
 //
-// In integers: squared distances in half cells. A centre dx, dy cells from an occupied cell's centre is
-// (2|dx| - 1)^2 + (2|dy| - 1)^2 away from its square, a term being 0 where dx or dy is 0. The two passes are those of
+// Computed in integers, as squared distances in half cells. A centre dx, dy cells from an occupied cell's centre is at
+// (2|dx| - 1)^2 + (2|dy| - 1)^2 from its square; a term is 0 where dx or dy is 0. The two passes are those of
 // Felzenszwalb and Huttenlocher, "Distance transforms of sampled functions", 2012: along the columns, then the lower
-// envelope of parabolas along each row. On the lattice of half cells a square offers three sites to a row: its left
-// edge, its centre line and its right edge, so that plain parabolas give the distance to the square.
+// envelope of parabolas along each row. On the lattice of half cells a square contributes three sites to a row: its
+// left edge, its centre line and its right edge; plain parabolas then give the distance to the square.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace waitpoint::executive {
 
-/// What an unreachable distance reads, and the greatest one told: 127 cells.
+/// The cap on squared distances, about 127 cells; also the value where no cell is occupied.
 inline constexpr std::uint16_t square_half_cells_max = 65535;
 
 class DistanceTransform {
  public:
   /// `occupied` has width * height bytes, row by row, not 0 where occupied; `squares` receives as many squared
-  /// distances in half cells, capped. The working memory is kept for the next call.
+  /// distances in half cells, capped. Working memory is kept for the next call.
   void run(std::span<const std::uint8_t> occupied, std::int32_t width, std::int32_t height,
            std::span<std::uint16_t> squares);
 

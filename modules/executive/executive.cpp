@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 namespace {
 constexpr Duration look_period = 500ms;
-constexpr std::size_t looks_kept = 20;  // a little longer than `ndd` is patient
+constexpr std::size_t looks_kept = 20;  // slightly longer than the patience of `ndd`
 }  // namespace
 
 Executive::Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
@@ -38,7 +38,7 @@ void Executive::connect() {
 void Executive::run() {
   start_modules();
   wait_for_position();
-  // Not within one call: compilers differ in the order of arguments, and reading the position may take time.
+  // A separate statement: the order of evaluation of arguments differs between compilers, and the read may take time.
   Point here = position();
   const Order* order = planned(mission_.start(threads::now(), here));
   while (order->kind != Order::Kind::finished && !stopping_) {
@@ -57,7 +57,7 @@ void Executive::run() {
   stop_modules();
 }
 
-// What the mission says to do next has cost its planning.
+// Adds the cost of planning the order.
 const Order* Executive::planned(const Order& order) const {
   if (order.kind != Order::Kind::finished) threads::compute(parameters_.plan_cost_us);
   return &order;
@@ -67,7 +67,7 @@ void Executive::start_modules() {
   client_.call("rflex", "SetPos", start_);
   client_.call("pom", "SetPos", start_);
   client_.send("sick", "ContinuousShot");
-  // A robot without SLAM goes by its odometry.
+  // A robot without SLAM relies on its odometry.
   if (names_.find_module("segloc") != nullptr) client_.send("segloc", "Localise", start_);
   client_.send("rflex", "TrackSpeedStart");
 }
@@ -91,8 +91,8 @@ Point Executive::position() const {
   return position.position.pose.position();
 }
 
-// Sends the via points and waits for the final report, looking about meanwhile; nothing if told to stop. What one
-// request cannot hold follows in the next.
+// Sends the via points and waits for the final report, recording echoes meanwhile; nothing if stopped. Via points
+// beyond one request's capacity follow in the next.
 std::optional<genom::Report> Executive::drive(std::span<const Point> via_points) {
   looks_.clear();
   while (!via_points.empty()) {
@@ -113,7 +113,7 @@ std::optional<genom::Report> Executive::drive(std::span<const Point> via_points)
   return genom::ok;
 }
 
-// Remembers what the laser sees now: when the way is given up, the robot may have turned its back on what blocks it.
+// Keeps the current echoes: when the way is reported as blocked, the robot may face away from the obstacle.
 void Executive::look() {
   posters::FusedPosition position;
   posters::Echoes echoes;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The executive: a task above the modules that takes the robot to its goals, one after the other.
+// The executive: a task above the modules that drives the robot to its goals, one after another.
 //
-// It plans a route on the known map, sends `ndd` the via points as a request and waits for the report. A way reported
-// as blocked is planned anew, with what the laser sees there marked on the map; what was marked is forgotten when it
-// leaves no way, for it may have been somebody passing. A goal that stays out of reach ends in a report that says why.
+// It plans a route on the known map, sends `ndd` the via points as a request and waits for the report. If the way is
+// blocked, it marks the laser's current echoes on the map and plans again. Marks are deleted if they leave no route:
+// they may be of a moving obstacle. A goal that remains unreachable gets a report with the reason.
 #pragma once
 
 #include <atomic>
@@ -20,12 +20,12 @@
 
 namespace waitpoint::executive {
 
-/// What can be set of the executive.
+/// Parameters of the executive.
 struct Parameters {
   PlanningParameters planning;
   MissionParameters mission;
-  double mark_range_m = 3;     ///< echoes farther away are not marked on the map
-  Duration plan_cost_us = {};  ///< what it costs to find a route
+  double mark_range_m = 3;     ///< greatest distance of echoes to be marked on the map
+  Duration plan_cost_us = {};  ///< cost of planning a route
 
   static constexpr auto fields() {
     return std::tuple(field("planning", &Parameters::planning), field("mission", &Parameters::mission),
@@ -36,18 +36,18 @@ struct Parameters {
 
 class Executive {
  public:
-  /// `start` is where the robot is known to be, in the map frame. `random` is the executive's own stream.
+  /// `start` is the robot's known pose in the map frame. `random` is the executive's own stream.
   Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
             const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random);
 
-  /// Finds the posters that it reads. One that nobody writes, or a module that is missing, is BadInput.
+  /// Connects its posters. A missing module, or a missing poster or one of another type, is BadInput.
   void connect();
-  /// The task's own code: starts the modules' activities, visits the goals, stops the robot.
+  /// The body of the task: starts the modules' activities, visits the goals, stops the robot.
   void run();
-  /// From another task: run() ends soon, with the robot stopped, whatever goals are left.
+  /// From another task: run() stops the robot and returns soon, even with goals left.
   void stop() { stopping_ = true; }
 
-  /// What has become of each goal. While run() goes on, only for who cannot meet its task.
+  /// The state of each goal. While run() is active, only from tasks that cannot run concurrently with it.
   const std::vector<GoalRecord>& goals() const { return mission_.goals(); }
 
  private:
@@ -67,7 +67,7 @@ class Executive {
   Mission mission_;
   posters::KnownPose start_;
   std::atomic<bool> stopping_ = false;
-  std::deque<std::vector<Point>> looks_;  // near echoes in the map frame, of the last seconds
+  std::deque<std::vector<Point>> looks_;  // near echoes of the last seconds, map frame
   genom::PosterLink<posters::FusedPosition> position_{"pom.position"};
   genom::PosterLink<posters::Echoes> echoes_{"sick.echoes"};
 };

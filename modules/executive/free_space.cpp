@@ -28,7 +28,7 @@ FreeSpace::FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningPara
 
 std::uint16_t FreeSpace::square_of(double distance_m) const {
   const double half_cells = 2 * distance_m / map().resolution_m();
-  // A distance that is a whole number of half cells must not be lost to rounding.
+  // Rounding must not lose a distance of a whole number of half cells.
   const double square = std::ceil(half_cells * half_cells * (1 - 1e-12));
   return static_cast<std::uint16_t>(std::clamp(square, 1.0, static_cast<double>(square_half_cells_max)));
 }
@@ -41,8 +41,8 @@ std::uint32_t FreeSpace::cell_cost(CellIndex c) const {
   return cost_[std::min(clearance_square(c), preferred_square_)];
 }
 
-// The walk is exact: in units of half cells the boundaries between cells are at odd numbers of steps, and the side of
-// the segment that a boundary crossing lies on is decided in integers.
+// An exact traversal: in half cells, boundaries between cells are at odd numbers of steps, and the side of
+// the segment on which a crossing lies is decided in integers.
 bool FreeSpace::clear_line(CellIndex a, CellIndex b, std::uint16_t least_square) const {
   const std::int64_t dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y);
   const std::int32_t step_x = b.x > a.x ? 1 : -1, step_y = b.y > a.y ? 1 : -1;
@@ -51,7 +51,7 @@ bool FreeSpace::clear_line(CellIndex a, CellIndex b, std::uint16_t least_square)
   while (true) {
     if (clearance_square(c) < least_square) return false;
     if (c == b) return true;
-    // The next vertical boundary is at (2 crossed_x + 1) / (2 dx) of the way, the next horizontal one alike.
+    // The next vertical boundary is at (2 crossed_x + 1) / (2 dx) of the segment; the next horizontal one likewise.
     const std::int64_t vertical = (2 * crossed_x + 1) * dy, horizontal = (2 * crossed_y + 1) * dx;
     if (vertical <= horizontal && crossed_x < dx) c.x += step_x, ++crossed_x;
     if (horizontal <= vertical && crossed_y < dy) c.y += step_y, ++crossed_y;
@@ -72,7 +72,7 @@ void FreeSpace::mark(std::span<const Point> echoes) {
 
 void FreeSpace::push_away(CellIndex obstacle) {
   const auto edge = [](std::int32_t cells) { return std::max(0, 2 * std::abs(cells) - 1); };
-  std::int32_t reach = 0;  // beyond the preferred clearance an obstacle changes nothing
+  std::int32_t reach = 0;  // an obstacle has no effect beyond the preferred clearance
   while (edge(reach) * edge(reach) < preferred_square_) ++reach;
   const CellIndex low = {std::max(0, obstacle.x - reach), std::max(0, obstacle.y - reach)};
   const CellIndex high = {std::min(map().width() - 1, obstacle.x + reach),

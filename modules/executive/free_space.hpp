@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the centre of a round robot may be: the known map, inflated, plus obstacles that were met on the way.
+// Permitted positions for the centre of a round robot: the known map, inflated, plus obstacles met on the way.
 //
 // A cell is passable if its centre is at least
 //
 //   hard = radius + clearance - resolution / sqrt(2)      (never less than the radius)
 //
 // from the nearest occupied square: then every point with the full radius + clearance lies in a passable cell, and
-// whatever is connected with that clearance is connected here, cell to neighbouring cell, diagonals included. A
-// straight step between two neighbouring cells comes nearer by at most 3 mm at 5 cm cells. Unknown cells are closed to
-// the centre but push nobody away. Beyond `hard` the cost of a cell falls until the preferred clearance is reached.
+// points connected with that clearance are connected by passable cells, diagonal neighbours included. A straight step
+// between two neighbouring cells reduces the distance by at most 3 mm for cells of 5 cm. Unknown cells are forbidden to
+// the centre but are not inflated. Beyond `hard` the cost of a cell falls until the preferred clearance is reached.
 #pragma once
 
 #include <memory>
@@ -24,13 +24,13 @@ namespace waitpoint::executive {
 
 struct PlanningParameters {
   double robot_radius_m = 0.26;
-  double clearance_m = 0.05;            ///< any passage this much wider to each side is used, if it must be
-  double preferred_clearance_m = 0.55;  ///< beyond the radius, costs nothing extra
-  double explained_m = 0.25;            ///< an echo this near to a mapped obstacle is that obstacle
-  double narrow_m = 0.35;               ///< a passage with less clearance gets via points before and behind it
-  double approach_m = 0.5;              ///< these are this far from it
+  double clearance_m = 0.05;            ///< least clearance to each side; such passages are used if necessary
+  double preferred_clearance_m = 0.55;  ///< beyond the radius; no extra cost from here on
+  double explained_m = 0.25;            ///< an echo this close to a mapped obstacle is not marked
+  double narrow_m = 0.35;               ///< passages with less clearance get a via point at each end
+  double approach_m = 0.5;              ///< distance of these from the passage
   double leg_m_max = 5.0;               ///< between via points
-  double escape_m_max = 1.0;            ///< from a start that is not passable to the nearest cell that is
+  double escape_m_max = 1.0;            ///< from an impassable start to the nearest passable cell
 
   static constexpr auto fields() {
     return std::tuple(
@@ -46,7 +46,7 @@ struct PlanningParameters {
 class FreeSpace {
  public:
   FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningParameters& parameters);
-  /// Of a map that nobody shares.
+  /// With a map that is not shared.
   FreeSpace(OccupancyGrid map, const PlanningParameters& parameters)
       : FreeSpace(std::make_shared<const KnownSpace>(std::move(map)), parameters) {}
   FreeSpace(FreeSpace&&) = default;
@@ -54,25 +54,25 @@ class FreeSpace {
   const OccupancyGrid& map() const { return known_->map(); }
   const PlanningParameters& parameters() const { return parameters_; }
 
-  /// Squared distance from a cell's centre to the nearest obstacle, in half cells; 0 for cells that are occupied,
-  /// unknown or outside.
+  /// Squared distance from a cell's centre to the nearest obstacle, in half cells; 0 for occupied or unknown cells, and
+  /// outside the map.
   std::uint16_t clearance_square(CellIndex c) const { return map().contains(c) ? clearance_[index(c)] : 0; }
-  /// The distance from a cell's centre to the nearest obstacle, told up to 127 cells.
+  /// The distance from a cell's centre to the nearest obstacle, capped at 127 cells.
   double clearance_m(CellIndex c) const;
-  /// The least squared clearance, in half cells, that a distance in metres needs.
+  /// A distance in metres as a squared clearance in half cells, rounded up.
   std::uint16_t square_of(double distance_m) const;
 
   bool passable(CellIndex c) const { return clearance_square(c) >= hard_square_; }
-  /// What entering a passable cell costs per fifth of a cell's length: `least_cell_cost` where there is room.
+  /// The cost of entering a passable cell, per fifth of its length; `least_cell_cost` in the open.
   std::uint32_t cell_cost(CellIndex c) const;
   static constexpr std::uint32_t least_cell_cost = 16, greatest_cell_cost = 80;
 
-  /// Whether all cells that the segment between two cells' centres touches have at least this clearance.
+  /// True if all cells touched by the segment between two cells' centres have at least this clearance.
   bool clear_line(CellIndex a, CellIndex b, std::uint16_t least_square) const;
 
-  /// Adds obstacles at points of the map frame, except where the map has one near enough to explain the echo.
+  /// Adds obstacles at points of the map frame, except near mapped obstacles, which explain the echo.
   void mark(std::span<const Point> echoes);
-  /// Forgets all that was marked.
+  /// Deletes all marks.
   void forget();
   bool marked() const { return !marked_.empty(); }
 
@@ -85,8 +85,8 @@ class FreeSpace {
   std::shared_ptr<const KnownSpace> known_;
   PlanningParameters parameters_;
   std::uint16_t hard_square_ = 0, preferred_square_ = 0, explained_square_ = 0;
-  std::vector<std::uint16_t> marked_;         // clearances with what was marked; empty: nothing was
-  const std::uint16_t* clearance_ = nullptr;  // those, or the map's
+  std::vector<std::uint16_t> marked_;         // clearances including marks; empty without marks
+  const std::uint16_t* clearance_ = nullptr;  // marked_ or the map's
   std::vector<std::uint8_t> cost_;            // by squared clearance, up to preferred_square_
 };
 

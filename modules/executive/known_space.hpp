@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A known map and how near each cell is to its obstacles: the same for all robots that are given the map, however large
-// they are, and so shared by them.
+// A known map and the clearance of its cells. Independent of the robot's size, hence shared by all robots with the same
+// map.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ class KnownSpace {
   explicit KnownSpace(OccupancyGrid map) : map_(std::move(map)) {}
 
   const OccupancyGrid& map() const { return map_; }
-  /// Of each cell, row by row: the squared distance from its centre to the nearest obstacle, in half cells; 0 for cells
-  /// that are occupied or unknown. Found when it is first asked for: robots without goals ask for the map alone.
+  /// For each cell, row by row: the squared distance from its centre to the nearest obstacle, in half cells; 0 for
+  /// occupied or unknown cells. Computed on first use: robots without goals need only the map.
   const std::vector<std::uint16_t>& clearances() const;
 
  private:

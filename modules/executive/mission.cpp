@@ -40,7 +40,7 @@ const Order& Mission::blocked(Time now, Point robot, std::span<const Point> echo
   planner_.space().mark(echoes);
   planner_.plan(robot, goals_[current_].goal, plan_);
   if (plan_.outcome == PlanOutcome::found && plan_.length_m <= worth_m) return drive();
-  // What was marked may have been a robot that goes its way.
+  // The marks may have been those of another robot in motion.
   planner_.space().forget();
   return wait(now);
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A round of goals as a state machine: what to do next, from what the motion reports.
+// A round of goals as a state machine: the next order, from the reports of the motion.
 //
-//            start            blocked: mark what is seen, plan anew -> drive
-//              |              no way round it: forget the marks ----> wait, then plan anew
+//            start            blocked: mark the echoes, plan again -> drive
+//              |              no detour: delete the marks --------> wait, then plan again
 //   [goal] -> plan -> drive --arrived--> next goal
-//              |                tries used up --> give the goal up, next goal
+//              |                tries used up --> abandon the goal, next goal
 //              no route: note the reason, next goal
 //
-// It knows no task and no clock: the executive hands in dates, positions and echoes, and carries the orders out. Waits
-// are drawn from the robot's own random stream, so that robots that block each other do not try again in step.
+// It is independent of tasks and clocks: the executive provides dates, positions and echoes, and executes the orders.
+// Waits are drawn from the robot's own random stream, so that robots that block each other do not retry in step.
 #pragma once
 
 #include "core/random.hpp"
@@ -17,10 +17,10 @@
 namespace waitpoint::executive {
 
 struct MissionParameters {
-  std::uint32_t tries_max = 8;  ///< per goal, after which it is given up
+  std::uint32_t tries_max = 8;  ///< per goal, before it is abandoned
   double wait_s_min = 2, wait_s_max = 8;
-  double detour_max = 3;     ///< a way round that is this many times longer is not worth it at first: wait instead
-  double detour_m_min = 15;  ///< but one that is no longer than this is
+  double detour_max = 3;     ///< a detour longer by this factor is not taken at first: wait instead
+  double detour_m_min = 15;  ///< unless it is no longer than this
 
   static constexpr auto fields() {
     return std::tuple(
@@ -33,7 +33,7 @@ struct MissionParameters {
 enum class GoalState : std::uint8_t {
   ahead,
   reached,
-  no_route,  ///< the plan's outcome says why
+  no_route,  ///< reason in the plan's outcome
   given_up,  ///< blocked too often
 };
 
@@ -41,15 +41,15 @@ struct GoalRecord {
   Point goal;
   GoalState state = GoalState::ahead;
   PlanOutcome outcome = PlanOutcome::found;  ///< of the last plan
-  std::uint32_t tries = 0;                   ///< plans that were driven
-  Time date;                                 ///< when it was reached or left
+  std::uint32_t tries = 0;                   ///< plans executed
+  Time date;                                 ///< of reaching or abandoning it
 };
 
 struct Order {
   enum class Kind : std::uint8_t {
     drive,     ///< along `via_points`, then report arrived or blocked
     wait,      ///< until `until`, then report waited
-    finished,  ///< all goals are dealt with
+    finished,  ///< no goals are left
   };
   Kind kind = Kind::finished;
   std::vector<Point> via_points;
@@ -58,20 +58,19 @@ struct Order {
 
 class Mission {
  public:
-  /// `planner` is borrowed and must outlive the mission; its marks are the mission's to set.
+  /// `planner` is borrowed and must outlive the mission, which alone sets its marks.
   Mission(RoutePlanner& planner, const MissionParameters& parameters, const std::vector<Point>& goals,
           const RandomStream& random);
 
-  /// What to do first, or after the motion arrived at the last via point, or after the wait is over. The order is valid
-  /// until the next call.
+  /// The next order: at the start, after arrival at the last via point, or after a wait. Valid until the next call.
   const Order& start(Time now, Point robot);
   const Order& arrived(Time now, Point robot);
   const Order& waited(Time now, Point robot);
-  /// After the motion gave up: `echoes` are the obstacle points that it sees, in the map frame.
+  /// The order after blocked motion; `echoes` are the visible obstacle points in the map frame.
   const Order& blocked(Time now, Point robot, std::span<const Point> echoes);
 
   const std::vector<GoalRecord>& goals() const { return goals_; }
-  /// The goal being driven to; equal to the number of goals when finished.
+  /// Index of the current goal; the number of goals when finished.
   std::size_t current() const { return current_; }
 
  private:

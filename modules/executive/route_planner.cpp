@@ -56,8 +56,8 @@ void RoutePlanner::plan(Point start, Point goal, Plan& plan) {
   for (const Point p : plan.via_points) plan.length_m += length(p - last), last = p;
 }
 
-// The nearest passable cell that no mapped obstacle hides. The start itself may lie in what was marked (an echo
-// misplaced by an error of the position), so only the map's own cells count as hiding.
+// The nearest passable cell in sight. The start itself may lie in a mark (an echo displaced by a position error), so
+// only mapped cells block the view.
 bool RoutePlanner::escape(CellIndex start, CellIndex& free) const {
   const auto reach = static_cast<std::int32_t>(space_.parameters().escape_m_max / space_.map().resolution_m());
   const auto in_sight = [&](CellIndex c) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a search knows of the cells of a grid, in square tiles that are made when the search first comes there.
+// The nodes of a grid search, in square tiles allocated on first access.
 //
-// A way from room to room touches a small part of a building's map: clearing every cell's node took most of the time of
-// a plan, and most of a robot's memory. The memory of the tiles is kept for the next search.
+// A path between rooms touches a small part of a building's map: initialising every cell's node took most of a plan's
+// time and most of a robot's memory. The memory of the tiles is kept for the next search.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace waitpoint::executive {
 template <typename Node>
 class SearchGrid {
  public:
-  /// Begins anew on a grid of `width` x `height` cells, each with this node.
+  /// Resets to a grid of `width` x `height` cells whose nodes are all `fresh`.
   void begin(std::int32_t width, std::int32_t height, const Node& fresh) {
     fresh_ = fresh;
     tiles_across_ = (static_cast<std::uint32_t>(width) + side - 1) / side;
@@ -24,7 +24,7 @@ class SearchGrid {
     made_ = 0;
   }
 
-  /// The node of a cell of the grid; stays where it is until another tile is come to.
+  /// The node of a cell; the reference is valid until a new tile is allocated.
   Node& operator()(std::int32_t x, std::int32_t y) {
     const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
     std::uint32_t& tile = tile_of_[std::size_t{row / side} * tiles_across_ + column / side];
@@ -44,8 +44,8 @@ class SearchGrid {
 
   Node fresh_{};
   std::uint32_t tiles_across_ = 0, made_ = 0;
-  std::vector<std::uint32_t> tile_of_;  // where the grid's tiles are among those made, row by row
-  std::vector<Tile> tiles_;             // the first made_ are of this search
+  std::vector<std::uint32_t> tile_of_;  // index into tiles_ by tile of the grid, row by row
+  std::vector<Tile> tiles_;             // the first made_ belong to this search
 };
 
 }  // namespace waitpoint::executive

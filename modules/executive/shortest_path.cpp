@@ -21,7 +21,7 @@ constexpr std::array<Step, 8> steps = {{{1, 0, ShortestPath::straight_step},
                                         {-1, -1, ShortestPath::diagonal_step},
                                         {1, -1, ShortestPath::diagonal_step}}};
 
-// A lower bound of the cost between two cells that a step cannot lower by more than it costs.
+// A consistent lower bound of the cost between two cells: a step lowers it by at most its own cost.
 std::uint32_t least_cost(CellIndex a, CellIndex b) {
   const auto dx = static_cast<std::uint32_t>(std::abs(a.x - b.x));
   const auto dy = static_cast<std::uint32_t>(std::abs(a.y - b.y));
@@ -33,7 +33,7 @@ std::uint32_t least_cost(CellIndex a, CellIndex b) {
 
 std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIndex goal,
                                  std::vector<CellIndex>& path) {
-  // A step raises the priority by its cost plus what the lower bound loses by stepping away.
+  // A step raises the priority by its cost plus the increase of the lower bound.
   static_assert(std::size_t{diagonal_step} * (FreeSpace::greatest_cell_cost + FreeSpace::least_cell_cost) <
                 bucket_count);
   WAITPOINT_CHECK(space.passable(start) && space.passable(goal), "a way from or to a cell that is not passable");

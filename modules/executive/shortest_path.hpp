@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cheapest way over passable cells: A* on the 8-connected grid, in integers.
+// The cheapest path over passable cells: A* on the 8-connected grid, in integers.
 //
-// A straight step costs 5, a diagonal one 7 times the cost of the cell entered. Events of equal priority are taken in a
-// fixed order, so the way is a function of the map alone. The open list is a ring of buckets (Dial 1969): the priority
-// never falls, and rises by less than the ring's size at a step. Its memory is kept for the next search.
+// A straight step costs 5, a diagonal one 7 times the cost of the cell entered. Entries of equal priority are taken in
+// a fixed order, so the path is a function of the map alone. The open list is a ring of buckets (Dial 1969): priorities
+// never decrease, and a step increases them by less than the ring's size. Its memory is kept for the next search.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ class ShortestPath {
   static constexpr std::uint32_t straight_step = 5, diagonal_step = 7;
   static constexpr std::uint32_t unreachable = 0xFFFFFFFF;
 
-  /// Searches from one passable cell to another; the cells of the way, both included, replace `path`. Returns the cost;
-  /// `unreachable` (and an empty path) if there is no way.
+  /// Searches between two passable cells; `path` receives the cells, both ends included. Returns the cost;
+  /// `unreachable` and an empty path if there is no way.
   std::uint32_t find(const FreeSpace& space, CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
 
  private:

@@ -8,7 +8,7 @@ namespace waitpoint::executive {
 namespace {
 
 constexpr std::size_t no_cell = static_cast<std::size_t>(-1);
-constexpr std::size_t blind_cells_max = 20;  // a line may be hidden by a corner and clear again behind it
+constexpr std::size_t blind_cells_max = 20;  // a line may be blocked by a corner and clear again beyond it
 
 double distance_cells(CellIndex a, CellIndex b) {
   const double dx = a.x - b.x, dy = a.y - b.y;
@@ -28,7 +28,7 @@ void find_anchors(const FreeSpace& space, const std::vector<CellIndex>& path, st
   };
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (space.clearance_square(path[i]) >= narrow) continue;
-    // Passages closer together than two approaches are one.
+    // Passages closer together than two approaches count as one.
     if (last_narrow != no_cell && i - last_narrow > 2 * approach) leave_passage();
     if (last_narrow == no_cell && i > approach) anchors.push_back(i - approach);
     last_narrow = i;
@@ -38,7 +38,7 @@ void find_anchors(const FreeSpace& space, const std::vector<CellIndex>& path, st
   anchors.erase(std::unique(anchors.begin(), anchors.end()), anchors.end());
 }
 
-// The farthest index up to `end` that a straight leg from `begin` can take.
+// The greatest index up to `end` that a straight leg from `begin` can reach.
 std::size_t farthest_leg(const FreeSpace& space, const std::vector<CellIndex>& path, std::size_t begin,
                          std::size_t end) {
   const PlanningParameters& p = space.parameters();
@@ -49,7 +49,7 @@ std::size_t farthest_leg(const FreeSpace& space, const std::vector<CellIndex>& p
     least = std::min(least, space.clearance_square(path[i]));
     if (i > farthest && space.clear_line(path[begin], path[i], std::max(full, least))) farthest = i;
   }
-  // Cells in one line are a straight leg whatever their clearance.
+  // Collinear cells are a straight leg at any clearance.
   std::size_t run = begin + 1;
   const auto step = [&](std::size_t i) { return CellIndex{path[i + 1].x - path[i].x, path[i + 1].y - path[i].y}; };
   while (run < end && step(run) == step(begin)) ++run;

@@ -39,7 +39,7 @@ void Bypass::forbid(const Diagram& diagram, double distance_m, double clearance_
   for (int i = 0; i < sector_count; ++i) {
     const Sector& sector = diagram[i];
     if (sector.distance_m >= distance_m) continue;
-    // What is beside the robot already must not forbid driving past it.
+    // An obstacle already beside the robot must not forbid driving past it.
     const double own = std::min(clearance_m, std::max(clearance_m_min, 0.5 * (sector.distance_m - radius)));
     const double d = std::max(sector.distance_m, radius + own);
     const double half_width = exact::atan2(radius + own, std::sqrt(d * d - (radius + own) * (radius + own)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nearness diagram: the nearest obstacle point in each of 180 sectors of 2 degrees about the robot's centre.
+// The nearness diagram: the nearest obstacle point in each of 180 sectors of 2 degrees around the robot's centre.
 //
 //            90 (ahead)          bisector of sector i: -180 + 2 i degrees, counter-clockwise;
 //       135      |      45       indices wrap: sector 180 is sector 0.
@@ -23,7 +23,7 @@ inline constexpr double sector_width_rad = 2 * exact::pi / sector_count;
 struct Sector {
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  double distance_m = none;  ///< of the nearest point from the robot's centre
+  double distance_m = none;  ///< from the robot's centre to the nearest point
   double angle_rad = 0;      ///< of that point
   Point nearest;
 
@@ -32,13 +32,13 @@ struct Sector {
 
 class Diagram {
  public:
-  /// Replaces the content by `points`, in the robot's frame; those at `range_m` or farther are left out.
+  /// Replaces the content by `points`, in the robot's frame; points at `range_m` or farther are ignored.
   void build(std::span<const Point> points, double range_m);
 
   /// Any integer is an index: sectors wrap.
   const Sector& operator[](int sector) const { return sectors_[wrap(sector)]; }
 
-  /// The sector that holds an angle in radians.
+  /// The sector that contains an angle in radians.
   static int sector_at(double angle_rad);
   static double bisector_rad(int sector);
   static constexpr std::size_t wrap(int sector) {

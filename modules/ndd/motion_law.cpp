@@ -7,17 +7,17 @@
 namespace waitpoint::ndd {
 namespace {
 
-constexpr double least_slowing = 0.3;  // by closeness alone; what must be slower the limiter slows
+constexpr double least_slowing = 0.3;  // by proximity alone; SpeedLimiter slows further if necessary
 constexpr int speed_steps = 12;
 constexpr int path_samples = 3;
 constexpr int turn_steps = 4;
-constexpr double decision_s = 0.1;  // what speed can be lost until the next decision
+constexpr double decision_s = 0.1;  // time until the next decision, for the possible loss of speed
 
 double stopping_distance_m(const Parameters& p, double v_m_s) {
   return v_m_s * p.reaction_s + v_m_s * v_m_s / (2 * p.braking_m_s2);
 }
 
-// The point after `s_m` along the arc of the given curvature that starts at the origin, ahead.
+// The point after `s_m` on the arc of the given curvature that starts at the origin, ahead.
 Point along_arc(double s_m, double curvature_per_m) {
   const double turn = s_m * curvature_per_m;
   if (std::fabs(turn) < 1e-6) return {s_m, 0.5 * s_m * turn};
@@ -75,7 +75,7 @@ bool SpeedLimiter::can_stop(double v_m_s, double w_rad_s) const {
 bool SpeedLimiter::can_creep(double v_m_s, double w_rad_s) const {
   if (v_m_s <= 0) return true;
   const double hull = parameters_.robot_radius_m + 0.5 * parameters_.emergency_distance_m;
-  // Twice the stopping path: the other half is for an obstacle that creeps too.
+  // Twice the stopping path: the other half is for an obstacle that creeps, too.
   const Point q = along_arc(2 * stopping_distance_m(parameters_, v_m_s), w_rad_s / v_m_s);
   for (const Point p : near_) {
     const Point rest = p - q;

@@ -13,17 +13,17 @@ constexpr double give_way_rad = 0.3, give_way_share = 0.4;
 constexpr double security_m_min = 0.04;
 constexpr int pushes_max = 4;
 constexpr double push_m_max = 0.15;
-constexpr double security_per_m = 0.5;  // how fast the full security distance is regained away from the target
+constexpr double security_per_m = 0.5;  // growth of the security distance with distance from the target
 
-// Where speeds held for `seconds` take the robot, in its frame.
+// The displacement after `seconds` at constant speeds, in the robot's frame.
 Pose displacement(const Speeds& speeds, double seconds) {
   const double turn = speeds.w_rad_s * seconds, way = speeds.v_m_s * seconds;
   const auto [s, c] = exact::sincos(0.5 * turn);
   return {way * c, way * s, turn};
 }
 
-// Two robots that cross would push each other along side by side. The one that has the other between itself and its
-// target, on its right, falls back.
+// Two crossing robots would push each other along, side by side. The robot that has the other one between itself and
+// its target, on its right, gives way.
 bool gives_way(const Assessment& assessment, Point target) {
   return assessment.safety < 1 && assessment.nearest_rad < 0 && target.y < 0 &&
          exact::atan2(target.y, target.x) < -give_way_rad;
@@ -104,8 +104,8 @@ void Navigator::steer(Point target, Decision& decision) {
   decision.speeds = limiter_.limit(wanted, measured_, obstacles_);
 }
 
-// A small error of the position can put a via point into a door's jamb, or the goal into a wall: the robot makes for
-// the nearest place where it fits. If that is far, the point itself stands.
+// A small position error can put a via point into a door's jamb, or the goal into a wall: the robot drives to the
+// nearest position where it fits. If that is far, the point itself is kept.
 Point Navigator::clear_of_obstacles(Point via) const {
   const double least = parameters_.robot_radius_m + parameters_.emergency_distance_m;
   Point target = via;
@@ -140,7 +140,7 @@ Assessment Navigator::assess(Point target, double target_distance_m) {
   return with_obstacles(diagram_, free_way, parameters_.robot_radius_m, security);
 }
 
-// A target close to a wall could not be reached if the wall deflected the motion with its full security distance.
+// With its full security distance, a wall close to the target would deflect the motion from it.
 double Navigator::security_distance_m(Point target, double target_distance_m) const {
   double nearest = parameters_.robot_radius_m + parameters_.security_distance_m;
   for (const Point p : obstacles_) {
@@ -151,7 +151,7 @@ double Navigator::security_distance_m(Point target, double target_distance_m) co
   return std::min(parameters_.security_distance_m, at_target + security_per_m * target_distance_m);
 }
 
-// Straight behind, noise would change the side to turn to with every scan.
+// With the target straight behind, noise would change the turning direction with every scan.
 double Navigator::keep_turning(double direction_rad) {
   if (std::fabs(direction_rad) > about_turn_rad && direction_rad * last_turn_ < 0) {
     direction_rad += direction_rad > 0 ? -2 * exact::pi : 2 * exact::pi;

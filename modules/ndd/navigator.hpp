@@ -4,8 +4,8 @@
 //   scan, odometry -> ObstacleMemory -> Diagram -> Regions -> Choice -> Situation -> motion law -> SpeedLimiter
 //   via points, position -> Route ---------------------------^
 //
-// Obstacles live in the odometry frame, via points in the map's. A decision is made for where the robot will be when
-// the command takes effect. The robot never drives backwards; towards a goal behind it turns in place.
+// Obstacles are in the odometry frame, via points in the map frame. A decision is made for the predicted pose at which
+// the command takes effect. The robot never drives backwards; it turns on the spot towards a goal behind it.
 #pragma once
 
 #include "modules/ndd/bypass.hpp"
@@ -21,17 +21,17 @@ namespace waitpoint::ndd {
 
 enum class Outcome : std::uint8_t {
   idle,     ///< no route
-  driving,  ///< on the way
-  arrived,  ///< standing within the tolerance of the last via point, or as near as it can be got
-  blocked,  ///< no progress for too long: the robot stands, the route is given up
+  driving,  ///< following the route
+  arrived,  ///< at rest within the tolerance of the last via point, or as close as possible
+  blocked,  ///< no progress within the patience: the robot is at rest, the route abandoned
 };
 
 struct Decision {
   Outcome outcome = Outcome::idle;
   Situation situation = Situation::no_region;
-  Speeds speeds;             ///< to command until the next decision
-  double direction_rad = 0;  ///< wanted, in the robot's frame
-  double remaining_m = 0;    ///< of the way
+  Speeds speeds;             ///< command until the next decision
+  double direction_rad = 0;  ///< desired direction, in the robot's frame
+  double remaining_m = 0;    ///< length of the remaining route
 };
 
 class Navigator {
@@ -39,18 +39,18 @@ class Navigator {
   explicit Navigator(const Parameters& parameters);
 
   void add_odometry(const posters::Odometry& odometry);
-  /// Takes in a scan; one with a date already seen, or before any odometry, is ignored.
+  /// Adds a scan; ignored if its date is already known, or before any odometry.
   void add_echoes(const posters::Echoes& echoes);
 
-  /// Starts on a route of via points in the map frame.
+  /// Starts a route of via points in the map frame.
   void go(Time now, const posters::PositionEstimate& position, std::span<const Point> via_points);
   void stop() { route_.clear(); }
 
-  /// The command for the next control period. `position` is in the map frame, of any date that the odometry still
-  /// knows. After `arrived` or `blocked` the route is over and the next decision is `idle`.
+  /// The command for the next control period. `position` is in the map frame, of any date within the odometry trail.
+  /// After `arrived` or `blocked` the route has ended and the next decision is `idle`.
   Decision decide(Time now, const posters::PositionEstimate& position);
 
-  /// The newest scan's obstacle points in the map frame, for whoever plans anew.
+  /// The obstacle points of the newest scan in the map frame, for replanning.
   void echoes_in_map(const posters::PositionEstimate& position, std::vector<Point>& points) const;
   const Parameters& parameters() const { return parameters_; }
 

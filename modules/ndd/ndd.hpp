@@ -3,8 +3,8 @@
 //
 //   reads    sick.echoes, rflex.odometry, pom.position
 //   writes   ndd.speed (the reference that rflex tracks)
-//   requests GoTo: along via points, the last is the goal; ends with `ok` standing there, or with the report `blocked`.
-//            A new GoTo takes the place of the one before; Stop ends it.
+//   requests GoTo: follow via points; the last is the goal. Ends with `ok` at rest there, or with the report `blocked`.
+//            A new GoTo replaces the previous one; Stop ends it.
 #pragma once
 
 #include "modules/genom/module.hpp"

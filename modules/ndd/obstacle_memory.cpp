@@ -8,8 +8,8 @@ namespace waitpoint::ndd {
 namespace {
 
 constexpr std::size_t remembered_max = 1024;
-constexpr double spacing_m = 0.03;    // of remembered points along a surface
-constexpr double occlusion_m = 0.15;  // a beam that ends this much before a point says nothing about it
+constexpr double spacing_m = 0.03;    // between remembered points along a surface
+constexpr double occlusion_m = 0.15;  // a beam that ends this much before a point does not test it
 
 }  // namespace
 

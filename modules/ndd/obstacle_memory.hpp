@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The obstacle points known about the robot: the echoes of the newest scan, and those of earlier scans that it cannot
-// see now.
+// Known obstacle points around the robot: the echoes of the newest scan, and those of earlier scans outside its view.
 //
-// The laser sees only half the plane, from a place that is not the robot's centre; what has just left its view still
-// stands beside the robot. Points are kept in the odometry frame, which is smooth, and are forgotten when the laser
-// looks through where they were, when they are far, or when they are old.
+// The laser sees only half the plane, from a place other than the robot's centre; an obstacle that has just left the
+// view may be right beside the robot. Points are kept in the odometry frame, which is smooth, and are deleted when a
+// beam passes through them, when they are far, or when they are old.
 #pragma once
 
 #include <span>
@@ -19,11 +18,11 @@ class ObstacleMemory {
  public:
   explicit ObstacleMemory(const Parameters& parameters);
 
-  /// Takes in a scan made with the robot at `robot` in the odometry frame.
+  /// Adds a scan made with the robot at `robot` in the odometry frame.
   void see(const Pose& robot, const posters::Echoes& echoes);
   void forget() { scan_.clear(), past_.clear(); }
 
-  /// Replaces `points` by all that is known, in the frame of `robot` (a pose in the odometry frame).
+  /// Replaces `points` by all known points, in the frame of `robot` (a pose in the odometry frame).
   void points_from(const Pose& robot, std::vector<Point>& points) const;
 
   /// The newest scan's points in the odometry frame.

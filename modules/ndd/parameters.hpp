@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can be set of the nearness-diagram navigation of a round robot with one planar laser.
+// Parameters of nearness-diagram navigation for a round robot with one planar laser.
 //
-// The defaults are those of a B21r-like base in an office: it drives 0.9 m/s in the open and passes doors of 0.9 m.
+// The defaults suit a B21r-like base in an office: 0.9 m/s in the open, through doors of 0.9 m.
 #pragma once
 
 #include "core/fields.hpp"
@@ -11,24 +11,24 @@ namespace waitpoint::ndd {
 struct Parameters {
   double robot_radius_m = 0.26;
   double v_m_s_max = 0.9, w_rad_s_max = 1.5;
-  double braking_m_s2 = 0.9;  ///< deceleration to count on, a little less than the base's limit
-  double reaction_s = 0.25;   ///< from an obstacle's motion to the brakes: scan, decision and command periods
-  double prediction_s = 0.1;  ///< from a decision to its effect; the decision is made for where the robot will be
+  double braking_m_s2 = 0.9;           ///< assumed deceleration, slightly less than the base's limit
+  double reaction_s = 0.25;            ///< from an obstacle's motion to braking: scan, decision and command periods
+  double prediction_s = 0.1;           ///< from a decision to its effect; decisions are for the predicted pose
   double security_distance_m = 0.4;    ///< obstacles nearer than this (from the hull) deflect the motion
   double emergency_distance_m = 0.03;  ///< the hull is never driven nearer to an obstacle than this
   double creep_m_s = 0.05;             ///< speed at which half the free distance need not be kept
-  double bypass_distance_m = 2.0;      ///< obstacles nearer than this on the way are passed by, not driven at
-  double bypass_clearance_m = 0.12;    ///< between the hull and what is passed by, where there is room
-  double diagram_range_m = 8.0;        ///< echoes farther away are not looked at
+  double bypass_distance_m = 2.0;      ///< obstacles ahead nearer than this are avoided early
+  double bypass_clearance_m = 0.12;    ///< between the hull and avoided obstacles, if there is room
+  double diagram_range_m = 8.0;        ///< echoes farther away are ignored
   double memory_range_m = 3.0;         ///< remembered echoes farther away are forgotten
-  double memory_age_s = 10.0;          ///< older ones too
+  double memory_age_s = 10.0;          ///< older remembered echoes are forgotten
   double turning_gain_per_s = 1.5;     ///< turning speed per radian of direction
-  double via_tolerance_m = 0.4;        ///< an intermediate via point counts as passed from here
-  double goal_tolerance_m = 0.1;       ///< the last one as reached
-  double goal_near_m = 0.2;            ///< if it can be got no nearer than this, that is near enough
-  double goal_braking_m_s2 = 0.4;      ///< deceleration towards the last one
-  double progress_m = 0.2;             ///< the remaining way must shrink by this
-  double patience_s = 8.0;             ///< in this time, or the way is reported as blocked
+  double via_tolerance_m = 0.4;        ///< within this, an intermediate via point counts as passed
+  double goal_tolerance_m = 0.1;       ///< within this, the goal counts as reached
+  double goal_near_m = 0.2;            ///< the same if the robot cannot get closer
+  double goal_braking_m_s2 = 0.4;      ///< deceleration towards the goal
+  double progress_m = 0.2;             ///< the remaining route must shrink by this
+  double patience_s = 8.0;             ///< within this time, or it is reported as blocked
 
   static constexpr auto fields() {
     return std::tuple(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the robot gets anywhere: the remaining way must shrink by a step within a span of time.
+// Watches the robot's progress: the remaining way must shrink by a step within a period.
 #pragma once
 
 #include <limits>
@@ -10,14 +10,14 @@ namespace waitpoint::ndd {
 
 class ProgressWatch {
  public:
-  /// `step_m` of progress are expected every `patience`.
+  /// Progress of `step_m` is expected every `patience`.
   ProgressWatch(double step_m, Duration patience) : step_m_(step_m), patience_(patience) {}
 
   void start(Time now) {
     best_m_ = std::numeric_limits<double>::infinity();
     since_ = now;
   }
-  /// Tells the remaining way; false once there has been no progress for too long.
+  /// Updates the remaining way; false once there has been no progress for longer than `patience`.
   bool progressing(Time now, double remaining_m) {
     if (remaining_m <= best_m_ - step_m_ || best_m_ == std::numeric_limits<double>::infinity()) {
       best_m_ = remaining_m;

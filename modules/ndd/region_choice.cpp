@@ -11,13 +11,13 @@ namespace {
 constexpr int left_handicap_sectors = 5;
 constexpr int kept_bonus_sectors = 10;
 constexpr double kept_distance_m = 0.6;
-constexpr double behind_edge_m_max = 1.0;  // a sub-goal farther behind an edge tells nothing more about the opening
+constexpr double behind_edge_m_max = 1.0;  // a sub-goal farther behind the edge is not more informative
 
 struct Opening {
   Region region;
   bool at_right_edge;
   Point sub_goal;
-  int detour_sectors;  // from the goal's direction, with handicap and bonus
+  int detour_sectors;  // from the goal's direction, with penalty and bonus
 };
 
 using Openings = Bounded<Opening, std::size_t{2} * sector_count>;
@@ -34,7 +34,7 @@ void favour_nearest(Openings& openings, Point previous) {
   if (nearest != nullptr) nearest->detour_sectors -= kept_bonus_sectors;
 }
 
-// The midpoint of the gap, on the ray beside the edge.
+// The midpoint of the gap, on the ray next to the edge.
 Point sub_goal_of(const Diagram& diagram, const Region& region, bool at_right_edge, double robot_width_m) {
   const int inner = at_right_edge ? region.first : region.last();
   const Sector& edge = diagram[at_right_edge ? inner - 1 : inner + 1];

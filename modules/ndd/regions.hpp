@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gaps and regions of a nearness diagram.
 //
-// A gap lies between two neighbouring sectors whose distances differ by the robot's width or more, or of which only one
-// holds an obstacle. A region is a run of sectors between two gaps, next to each other, at least one of which ascends
-// into the region: a way that opens behind an obstacle's edge. A diagram without gaps and obstacles is one region; one
-// without gaps but with obstacles (a room without a door) has none.
+// A gap is between two neighbouring sectors whose distances differ by the robot's width or more, or of which only one
+// has an obstacle. A region is a run of sectors between two consecutive gaps, at least one of which ascends into the
+// region: an opening behind an obstacle's edge. A diagram without gaps and obstacles is one region; one without gaps
+// but with obstacles (a room without a door) has none.
 #pragma once
 
 #include "core/fields.hpp"
@@ -14,7 +14,7 @@ namespace waitpoint::ndd {
 
 struct Region {
   int first = 0;                ///< its rightmost sector
-  int sectors = 0;              ///< how many, counter-clockwise from the first
+  int sectors = 0;              ///< number of sectors, counter-clockwise from the first
   bool opens_at_right = false;  ///< the gap at its right edge ascends into it
   bool opens_at_left = false;
 
@@ -27,7 +27,7 @@ struct Region {
 
 using Regions = Bounded<Region, sector_count>;
 
-/// Finds the regions, in the order of their first sectors. `robot_width_m` is the gap threshold.
+/// Finds the regions, ordered by their first sectors. `robot_width_m` is the gap threshold.
 void find_regions(const Diagram& diagram, double robot_width_m, Regions& regions);
 
 }  // namespace waitpoint::ndd

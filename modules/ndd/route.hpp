@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The via points being followed: which one is next, how far it still is to the last.
+// The via points of the present route: the next one, and the remaining length.
 //
-// An intermediate via point is passed within a tolerance, or when the robot is beyond it (past the line through it at a
-// right angle to the leg) and not far: who had to give way need not turn back for it. The last one is never passed.
+// An intermediate via point is passed within a tolerance, or when the robot is beyond it (past the line through it
+// perpendicular to the leg) and close: a robot that had to give way need not turn back for it. The last one is never
+// passed.
 #pragma once
 
 #include <span>
@@ -14,15 +15,15 @@ namespace waitpoint::ndd {
 
 class Route {
  public:
-  /// Replaces the route; it starts at `from`. No via points: no route.
+  /// Replaces the route; it starts at `from`. Without via points there is no route.
   void start(Point from, std::span<const Point> via_points);
   void clear() { points_.clear(); }
   bool empty() const { return points_.empty(); }
 
-  /// Passes the via points that a robot at `robot` has reached.
+  /// Removes the via points that a robot at `robot` has reached.
   void advance(Point robot, double via_tolerance_m);
 
-  /// The via point to make for; an empty route is a bug.
+  /// The next via point; an empty route is a bug.
   Point target() const;
   bool target_is_last() const { return next_ + 1 == points_.size(); }
   /// The length from `robot` over the via points to the last.

@@ -65,14 +65,14 @@ Assessment with_obstacles(const Diagram& diagram, const Assessment& free_way, do
   Assessment result = {free_way.situation, ahead, std::min(left.closeness, right.closeness),
                        left.closeness < right.closeness ? left.angle_rad : right.angle_rad};
   if (left.present() && right.present()) {
-    // With equal closeness the way is kept; with an obstacle touching one side it is a right angle to the other.
+    // With equal closeness the direction is kept; an obstacle touching one side turns it perpendicular to that side.
     const double k = (left.closeness - right.closeness) / std::max(left.closeness + right.closeness, 1e-9);
     result.situation = Situation::low_safety_two_sides;
     const double front = clamp_to_front(ahead);
     result.direction_rad = k <= 0 ? front + k * (front + right_angle) : front + k * (right_angle - front);
   } else if (left.present() || right.present()) {
     const Threat& threat = left.present() ? left : right;
-    // The opposite of the obstacle, on the side away from it: an obstacle on the left is left of `ahead` by 0 to pi.
+    // The direction opposite to the obstacle, on its far side: an obstacle on the left is left of `ahead` by 0 to pi.
     const double offset = exact::wrap_angle(threat.angle_rad - ahead);
     const double away = left.present() ? offset - exact::pi : offset + exact::pi;
     result.situation = free_way.situation == Situation::high_safety_goal_region ? Situation::low_safety_goal_region

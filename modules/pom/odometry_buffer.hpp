@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The recent past of dead reckoning: a ring of dated poses with cumulative covariances, in the order of their dates.
+// Recent dead reckoning: a ring of dated poses with cumulative covariances, ordered by date.
 #pragma once
 
 #include <vector>
@@ -11,26 +11,26 @@ namespace waitpoint::pom {
 
 class OdometryBuffer {
  public:
-  /// Holds up to `capacity` poses, at least 2.
+  /// Capacity in poses, at least 2.
   explicit OdometryBuffer(std::size_t capacity);
 
-  /// Inserts a pose at its date, dropping the oldest one if full. One that is older than all of a full buffer, or of a
-  /// date already there, is ignored.
+  /// Inserts a pose at its date, removing the oldest one if full. Ignored if its date is present already, or if the
+  /// buffer is full and the pose is older than all others.
   void add(Time date, const UncertainPose& pose);
 
   bool empty() const { return count_ == 0; }
   std::size_t size() const { return count_; }
   bool full() const { return count_ == ring_.size(); }
-  /// Dates of the ends, and of the second-oldest; an empty buffer (or one of one pose) is a bug.
+  /// The dates at the ends, and the second-oldest date; an empty buffer (or one with a single pose) is a bug.
   Time oldest() const { return at_index(0).date; }
   Time second_oldest() const { return at_index(1).date; }
   Time newest() const { return at_index(count_ - 1).date; }
 
-  /// Dead reckoning at a date within the buffer, interpolated along the motion. Up to `horizon` beyond the newest pose
-  /// the last motion goes on; farther out, and before the oldest pose, the end stands.
+  /// Dead reckoning at a date within the buffer, interpolated along the motion. Up to `horizon` after the newest pose
+  /// the last motion is extrapolated; beyond that, and before the oldest pose, the end pose applies.
   UncertainPose at(Time date, Duration horizon = Duration()) const;
 
-  /// The motion from one date to a later one, in the frame of the first.
+  /// The motion between two dates in order, in the frame of the first pose.
   UncertainPose motion(Time from, Time to, Duration horizon = Duration()) const;
 
  private:

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module of position management: one reference position out of several of different rates and delays.
+// The module of position management: one reference position from several sources of different rates and delays.
 //
-//   reads    rflex.odometry; segloc.localisation, which may be absent; rflex.gps, if its settings say that there is a
-//            receiver
+//   reads    rflex.odometry; optionally segloc.localisation; rflex.gps, if its settings declare a receiver
 //   writes   pom.position
-//   requests SetPos: the robot is known to be somewhere, now. SourceOn, SourceOff: a source joins or leaves the fusion
+//   requests SetPos: the robot's known pose at present. SourceOn, SourceOff: a source joins or leaves the fusion
 #pragma once
 
 #include <optional>
@@ -17,7 +16,7 @@
 
 namespace waitpoint::pom {
 
-/// Input of SourceOn and SourceOff: 0 is `segloc`, 1 the receiver.
+/// Input of SourceOn and SourceOff: 0 is `segloc`, 1 the position receiver.
 struct SourceInput {
   std::uint32_t source = 0;
 
@@ -43,9 +42,9 @@ class Pom : public genom::Module {
   genom::PosterLink<posters::Localisation>& localisation_;
   genom::PosterLink<posters::PositionFix>* gps_;  // null without a receiver
   genom::OutputPoster<posters::FusedPosition>& position_;
-  std::optional<PositionFusion> fusion_;  // from the first SetPos on
-  Time localised_;                        // date of the last localisation taken in
-  std::uint64_t fix_number_ = 0;          // of the last fix taken in
+  std::optional<PositionFusion> fusion_;  // since the first SetPos
+  Time localised_;                        // date of the last localisation used
+  std::uint64_t fix_number_ = 0;          // number of the last fix used
 };
 
 }  // namespace waitpoint::pom

@@ -8,7 +8,7 @@
 namespace waitpoint::pom {
 namespace {
 
-/// Where a pose has the antenna, and what is missing from there to the fix: h = p + R(heading) a,
+/// The difference between a fix and the antenna of a pose: h = p + R(heading) a,
 ///
 ///       [ 1  0  -ay' ]
 ///   H = [ 0  1   ax' ]    with a' = R(heading) a      S = H P H' + R
@@ -91,7 +91,7 @@ UncertainPose fuse(const UncertainPose& prior, const PositionFix& fix) {
 
 UncertainPose moved_to(const UncertainPose& prior, const PositionFix& fix) {
   const Innovation i = innovation(prior, fix);
-  const double heading = prior.covariance[8], x = -i.turned.y, y = i.turned.x;  // of the third column of H
+  const double heading = prior.covariance[8], x = -i.turned.y, y = i.turned.x;  // from the third column of H
   UncertainPose moved = prior;
   moved.pose.x = fix.position.x - i.turned.x;
   moved.pose.y = fix.position.y - i.turned.y;

@@ -18,7 +18,7 @@ void PositionFusion::add_odometry(const posters::PositionEstimate& odometry) {
   if (odometry_.full() && odometry.date > odometry_.newest()) forget_before(odometry_.second_oldest());
   const bool in_order = odometry_.empty() || odometry.date > odometry_.newest();
   odometry_.add(odometry.date, {odometry.pose, odometry.covariance});
-  // In order, it lets waiting corrections go in; late, it changes the motion between those that were.
+  // In order, it admits waiting corrections; late, it changes the motion between earlier corrections.
   const auto first = std::find_if(corrections_.begin(), corrections_.end(),
                                   [&](const Correction& c) { return !in_order || !c.applied; });
   if (first != corrections_.end()) apply_from(static_cast<std::size_t>(first - corrections_.begin()));
@@ -76,7 +76,7 @@ void PositionFusion::apply_from(std::size_t first) {
   }
 }
 
-// Everything dated up to `date` becomes part of the base, which moves there.
+// Merges everything dated up to `date` into the base, which moves to that date.
 void PositionFusion::forget_before(Time date) {
   std::size_t gone = 0;
   while (gone < corrections_.size() && corrections_[gone].applied && corrections_[gone].date <= date) {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The robot's reference position, from dead reckoning and absolute positions that come late.
+// The robot's reference position, from dead reckoning and delayed absolute positions.
 //
 //   T(now) = T(t) (+) (odo(t)^-1 (+) odo(now))
 //
-//       odometry   .  .  .  .  .  .  .  .  .  .  .  .  now      every 20 ms or so, cumulative covariance
-//       base       B                                            the oldest state that can still be gone back to
-//       corrections     c1       c2      c3                     absolute positions in the order of their dates
+//       odometry   .  .  .  .  .  .  .  .  .  .  .  .  now      about every 20 ms, cumulative covariance
+//       base       B                                            the oldest state still available
+//       corrections     c1       c2      c3                     absolute positions ordered by date
 //
-// A correction is applied at its own date, whenever it arrives: those dated after it are applied again. So the answer
-// depends on what has arrived, not on the order in which it did, bit for bit. Each one is fused by a Kalman update with
-// the state carried there by odometry, unless it contradicts that state (chi square, 3 degrees of freedom): then it is
-// left out, and the fusion says `disagree` until its source agrees again. What falls out of the odometry buffer moves
-// into the base. A receiver's fix, which is a position without a heading, is a correction like the others
+// A correction is applied at its own date, whenever it arrives: later-dated ones are applied again. So the result
+// depends on the set of inputs, not on their order of arrival, bit for bit. Each correction is fused by a Kalman update
+// with the state carried to its date by odometry, unless it contradicts that state (chi square, 3 degrees of freedom):
+// then it is excluded, and the state is `disagree` until its source agrees again. Corrections older than the odometry
+// buffer are merged into the base. A receiver's fix, a position without heading, is a correction like the others
 // (position_fix.hpp).
 //
-// The design is that of LAAS's `pom`: sources come and go while it runs, readers see one position.
+// The design is that of LAAS's `pom`: sources can be added and removed at run time; readers see one position.
 #pragma once
 
 #include <optional>
@@ -29,13 +29,13 @@
 namespace waitpoint::pom {
 
 struct FusionParameters {
-  bool kalman = true;                  ///< fuse; false: the more certain of state and correction stands alone
-  bool shared_errors = true;           ///< sources may share errors with odometry, as one that went through it does
+  bool kalman = true;                  ///< Kalman fusion; false: the more certain of state and correction is used alone
+  bool shared_errors = true;           ///< sources may share errors with odometry, as those that use it do
   double gate = 16.27;                 ///< chi square of 3 degrees of freedom at 99.9 %
   double uncertain_m = 0.3;            ///< the state is `uncertain` above this standard deviation
   double uncertain_rad = 0.2;          ///< or above this one
-  double motion_covariance_scale = 1;  ///< how much less odometry is trusted than it says
-  double extrapolation_s_max = 0.1;    ///< beyond the newest odometry the last motion is assumed to go on
+  double motion_covariance_scale = 1;  ///< factor on the odometry's covariance
+  double extrapolation_s_max = 0.1;    ///< extrapolation of the last motion beyond the newest odometry
 
   static constexpr auto fields() {
     return std::tuple(field("kalman", &FusionParameters::kalman),
@@ -53,30 +53,30 @@ class PositionFusion {
   static constexpr std::size_t odometry_count_max = 1024;  ///< 20 s at 50 Hz
   static constexpr std::size_t correction_count_max = 256;
 
-  /// The robot stands at `start` in the reference frame when the first odometry is dated.
+  /// The robot is at `start` in the reference frame at the date of the first odometry.
   PositionFusion(const FusionParameters& parameters, const UncertainPose& start);
 
-  /// Takes in a dead-reckoned position; its frame is its own, its covariance cumulative.
+  /// Adds a dead-reckoned position in a frame of its own, with cumulative covariance.
   void add_odometry(const posters::PositionEstimate& odometry);
 
-  /// Takes in an absolute position from source 0 .. source_count_max - 1; from one that is switched off, it is ignored.
-  /// One newer than the odometry is kept until odometry has caught up; one older than the base is too late to count.
+  /// Adds an absolute position from source 0 .. source_count_max - 1; ignored if the source is off. One newer than the
+  /// odometry waits until odometry has caught up; one older than the base is too late.
   void add_absolute(std::uint32_t source, const posters::PositionEstimate& position);
 
-  /// The same of a position without a heading, which errs independently of odometry; `gate` is that of 2 degrees of
+  /// The same for a position without a heading and with errors independent of odometry; `gate` is for 2 degrees of
   /// freedom.
   void add_fix(std::uint32_t source, Time date, const PositionFix& fix, double gate);
 
-  /// Sources are on at first. One switched off is out of the fusion from its next correction on, and disagrees no more.
+  /// Sources are initially on. A source switched off leaves the fusion at its next correction, and never disagrees.
   void set_source(std::uint32_t source, bool on);
 
-  /// Starts over from a known position at a date; corrections dated up to it are forgotten.
+  /// Restarts from a known position at a date; corrections dated up to it are discarded.
   void reset(Time date, const UncertainPose& position);
 
   /// The position at a date not before the newest correction, usually the present. Without odometry, the start.
   posters::FusedPosition at(Time now) const;
 
-  /// Corrections that came too late to count, since the start.
+  /// Number of corrections that came too late, since the start.
   std::uint32_t late() const { return late_; }
 
  private:
@@ -103,8 +103,8 @@ class PositionFusion {
   FusionParameters parameters_;
   OdometryBuffer odometry_;
   State base_;
-  std::optional<Time> base_correction_;  // the newest accepted correction that moved into the base
-  std::vector<Correction> corrections_;  // by (date, source)
+  std::optional<Time> base_correction_;  // date of the newest accepted correction in the base
+  std::vector<Correction> corrections_;  // ordered by (date, source)
   std::array<bool, source_count_max> on_{}, disagrees_in_base_{};
   std::uint32_t late_ = 0;
 };

@@ -82,7 +82,7 @@ UncertainPose compose(const UncertainPose& a, const UncertainPose& b) {
 UncertainPose increment(const UncertainPose& a, const UncertainPose& c) {
   const Matrix3 gained = c.covariance - congruent(moved_frame(a.pose, c.pose), a.covariance);
   Matrix3 own = congruent(turned_frame(-a.pose.heading), gained);
-  // The difference of two large numbers may come out slightly below 0 where there was hardly any motion.
+  // The difference of two large numbers may be slightly below 0 for a small motion.
   for (const std::size_t i : {0u, 4u, 8u}) own[i] = std::max(own[i], 0.0);
   return {between(a.pose, c.pose), own};
 }
@@ -104,7 +104,7 @@ UncertainPose fuse(const UncertainPose& prior, const UncertainPose& measured) {
   if (!invert(prior.covariance + measured.covariance, inverse)) return prior;
   const Matrix3 gain = prior.covariance * inverse;
   const std::array<double, 3> shift = transformed(gain, difference(prior.pose, measured.pose));
-  // Joseph's form: stays positive whatever the rounding.
+  // Joseph's form: stays positive despite rounding.
   const Matrix3 kept = identity - gain;
   return {{prior.pose.x + shift[0], prior.pose.y + shift[1], exact::wrap_angle(prior.pose.heading + shift[2])},
           congruent(kept, prior.covariance) + congruent(gain, measured.covariance)};

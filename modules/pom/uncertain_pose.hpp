@@ -26,7 +26,7 @@ Matrix3 transpose(const Matrix3& a);
 Matrix3 congruent(const Matrix3& a, const Matrix3& c);
 /// The mean of a matrix and its transpose.
 Matrix3 symmetric(const Matrix3& a);
-/// Of a symmetric positive definite matrix; a matrix with determinant 0 or less has none and gives false.
+/// Inverts a symmetric positive definite matrix; false if the determinant is 0 or less.
 bool invert(const Matrix3& a, Matrix3& inverse);
 
 struct UncertainPose {
@@ -34,26 +34,25 @@ struct UncertainPose {
   Matrix3 covariance{};
 };
 
-/// b, given in the frame of a, independent of a.
+/// b, given in the frame of a and independent of a, in the frame of a's parent.
 UncertainPose compose(const UncertainPose& a, const UncertainPose& b);
 
-/// The b with compose(a, b) = c, where c is a moved on by a motion independent of a: dead reckoning at two dates. The
-/// covariance is the motion's, in the frame of a.
+/// The b with compose(a, b) = c, where c results from a by a motion independent of a: dead reckoning at two dates. The
+/// covariance is that of the motion, in the frame of a.
 UncertainPose increment(const UncertainPose& a, const UncertainPose& c);
 
-/// The part of an increment that a motion at constant speeds has done after `fraction` of its time.
+/// The part of an increment after `fraction` of its time, at constant speeds.
 UncertainPose part_of(const UncertainPose& increment, double fraction);
 
 /// Squared Mahalanobis distance of two independent estimates of one pose (3 degrees of freedom). Infinite if neither
 /// has any uncertainty.
 double disagreement(const UncertainPose& a, const UncertainPose& b);
 
-/// The Kalman fusion of two independent estimates of one pose. `prior` if neither has any uncertainty.
+/// Kalman fusion of two independent estimates of one pose. Returns `prior` if neither has any uncertainty.
 UncertainPose fuse(const UncertainPose& prior, const UncertainPose& measured);
 
-/// The fusion of two estimates that may share any part of their errors, as positions do that went through the same
-/// odometry: covariance intersection with equal weights (Julier, Uhlmann 1997). Never surer than the surer of the two
-/// warrants, however often it is repeated.
+/// Fusion of two estimates that may share part of their errors, such as positions based on the same odometry:
+/// covariance intersection with equal weights (Julier, Uhlmann 1997). Never overconfident, even if repeated.
 UncertainPose fuse_correlated(const UncertainPose& prior, const UncertainPose& measured);
 
 /// The standard deviation along the longest axis of the position's error ellipse.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mobile base: what its controller is told and tells (the hardware's side of `rflex`), and what `rflex` makes of
-// it.
+// The mobile base: commands and readings of its controller (the hardware side of `rflex`), and the outputs of `rflex`.
 #pragma once
 
 #include "core/fields.hpp"
@@ -12,8 +11,8 @@ inline constexpr std::size_t sonar_count_max = 48;
 inline constexpr std::size_t infrared_count_max = 48;
 inline constexpr std::size_t bumper_count_max = 32;
 
-/// To the controller: the speeds to hold until the next command. A base that cannot go sideways (to the left), or
-/// climb, does not.
+/// To the controller: speeds to hold until the next command. Bases without sideways motion (to the left) or climbing
+/// ignore these.
 struct BaseCommand {
   double v_m_s = 0, w_rad_s = 0;
   bool sonars_on = false;
@@ -26,18 +25,18 @@ struct BaseCommand {
   }
 };
 
-/// From the controller: its report at `date`. Travel and turn are accumulated in the controller's own units (RFLEX:
-/// about 103 000 a metre and 35 000 a radian on a B21r), quantised there.
+/// From the controller: its report at `date`. Travel and turn are accumulated and quantised in the controller's own
+/// units (RFLEX: about 103 000 per metre and 35 000 per radian on a B21r).
 struct BaseReading {
   Time date;
   std::int64_t travel_units = 0, turn_units = 0;
   double v_m_s = 0, w_rad_s = 0;
   double battery_volts = 0;
   bool stalled = false;
-  Bounded<double, sonar_count_max> sonar_m;  ///< ring by ring; no echo: the greatest range; empty while they are off
-  std::int64_t side_units = 0;               ///< as travel, to the left: of a base that goes sideways
-  double height_m = 0;                       ///< of one that flies
-  double battery_charge = 0, battery_a = 0;  ///< left, of the capacity; drawn: where the battery is one that counts
+  Bounded<double, sonar_count_max> sonar_m;  ///< ring by ring; no echo: the greatest range; empty while off
+  std::int64_t side_units = 0;               ///< as travel, to the left; bases with sideways motion
+  double height_m = 0;                       ///< flying bases
+  double battery_charge = 0, battery_a = 0;  ///< remaining fraction; current; if the battery is simulated
 
   static constexpr auto fields() {
     return std::tuple(
@@ -50,7 +49,7 @@ struct BaseReading {
   }
 };
 
-/// From the controller, and so by `rflex`: which panels of the bumper are pressed, panel i by bit i.
+/// From the controller, and published by `rflex`: the pressed panels of the bumper, panel i in bit i.
 struct Bumpers {
   Time date;
   std::uint32_t pressed = 0;
@@ -70,12 +69,12 @@ struct InfraredReading {
   }
 };
 
-/// The speed that a motion module wants, tracked by `rflex` (the LAAS name of this poster is GENPOS_CART_SPEED, that of
-/// the sideways speed there vt).
+/// The speed requested by a motion module, tracked by `rflex` (the LAAS name of this poster is GENPOS_CART_SPEED, that
+/// of the sideways speed there vt).
 struct SpeedReference {
   Time date;
   double v_m_s = 0, w_rad_s = 0;
-  std::uint32_t number = 0;  ///< counts the references: a number that stands still is a writer that stopped
+  std::uint32_t number = 0;  ///< counts the references: if it does not change, the writer has stopped
   double side_m_s = 0, climb_m_s = 0;
 
   static constexpr auto fields() {
@@ -90,7 +89,7 @@ struct Battery {
   Time date;
   double volts = 0;
   bool low = false;
-  double charge = 0, current_a = 0;  ///< left, of the capacity; drawn: where the battery is one that counts
+  double charge = 0, current_a = 0;  ///< remaining fraction; current; if the battery is simulated
 
   static constexpr auto fields() {
     return std::tuple(field("date", &Battery::date), field("volts", &Battery::volts), field("low", &Battery::low),
@@ -98,7 +97,7 @@ struct Battery {
   }
 };
 
-/// The last range of a sonar, or of an infrared range finder, with where it looks from in the robot's frame.
+/// The last range of a sonar or infrared range finder, with the device's pose in the robot's frame.
 struct SonarEcho {
   Pose mount;
   double range_m = 0;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a robot senses of its own motion beside its wheels: an inertial measurement unit, a receiver of positions.
+// Sensors of a robot's own motion other than its wheels: an inertial measurement unit, a position receiver.
 #pragma once
 
 #include "core/fields.hpp"
 
 namespace waitpoint::posters {
 
-/// From the device, and so by `rflex`: means over the time since the sample before, in the robot's frame.
+/// From the device, and published by `rflex`: means since the previous sample, in the robot's frame.
 struct Inertial {
   Time date;
   std::uint64_t number = 0;  ///< counts the samples
   double turn_rad_s = 0;
-  double ahead_m_s2 = 0, left_m_s2 = 0, up_m_s2 = 0;  ///< at rest the last is gravity's
-  double turned_rad = 0;                              ///< what the turn adds up to since the start
+  double ahead_m_s2 = 0, left_m_s2 = 0, up_m_s2 = 0;  ///< at rest: 0, 0, gravity
+  double turned_rad = 0;                              ///< integral of the turn rate since the start
 
   static constexpr auto fields() {
     return std::tuple(field("date", &Inertial::date), field("number", &Inertial::number),
@@ -22,7 +22,7 @@ struct Inertial {
   }
 };
 
-/// From the device, and so by `rflex`: where its antenna is, in the world's frame.
+/// From the device, and published by `rflex`: the position of its antenna in the world's frame.
 struct PositionFix {
   Time date;
   std::uint64_t number = 0;  ///< counts the fixes

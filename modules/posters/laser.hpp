@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planar laser: what the device is told and tells (the hardware's side of `sick`), and what `sick` makes of it.
+// The planar laser: commands and readings of the device (the hardware side of `sick`), and the outputs of `sick`.
 #pragma once
 
 #include "core/fields.hpp"
@@ -21,8 +21,8 @@ struct LaserReading {
   Time date;                 ///< of the scan's last beam
   std::uint32_t number = 0;  ///< counts the scans, from 1
   double first_angle_rad = 0, angle_step_rad = 0;
-  double range_max_m = 0;                  ///< a beam without echo reads this
-  Bounded<float, beam_count_max> range_m;  ///< quantised as the device does
+  double range_max_m = 0;                  ///< the reading of a beam without echo
+  Bounded<float, beam_count_max> range_m;  ///< quantised by the device
 
   static constexpr auto fields() {
     return std::tuple(field("date", &LaserReading::date), field("number", &LaserReading::number),
@@ -32,7 +32,7 @@ struct LaserReading {
   }
 };
 
-/// `sick`: the last scan and where the device sits on the robot.
+/// From `sick`: the last scan and the device's pose on the robot.
 struct Echoes {
   LaserReading scan;
   Pose mount;
@@ -40,7 +40,7 @@ struct Echoes {
   static constexpr auto fields() { return std::tuple(field("scan", &Echoes::scan), field("mount", &Echoes::mount)); }
 };
 
-/// A straight run of echoes in the robot's frame, from `start` to `end` counter-clockwise as seen from the device. Its
+/// A straight run of echoes in the robot's frame, from `start` to `end`, counter-clockwise as seen from the device. Its
 /// line is x cos(normal) + y sin(normal) = distance >= 0, with the covariance of (normal, distance).
 struct Segment {
   Point start, end;
@@ -56,7 +56,7 @@ struct Segment {
   }
 };
 
-/// `sick`: the segments of the scan taken at `date`, longest first where there are more than the poster holds.
+/// From `sick`: the segments of the scan taken at `date`; the longest first if there are more than the poster holds.
 struct Segments {
   Time date;
   std::uint32_t number = 0;  ///< of the scan
@@ -68,7 +68,7 @@ struct Segments {
   }
 };
 
-/// `segloc`: its map, as segments in the map frame.
+/// From `segloc`: its map, as segments in the map frame.
 struct MapSegment {
   Point start, end;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an executive asks of the modules, and what they report: the vocabulary that both sides share.
+// Requests of an executive to the modules, and their reports: the types that both sides share.
 #pragma once
 
 #include "core/fields.hpp"
@@ -8,7 +8,7 @@ namespace waitpoint::posters {
 
 inline constexpr std::size_t via_point_count_max = 48;
 
-/// Where a robot is known to be: input of `rflex` SetPos, `pom` SetPos and `segloc` Localise.
+/// The robot's known pose: input of `rflex` SetPos, `pom` SetPos and `segloc` Localise.
 struct KnownPose {
   Pose pose;
   double position_deviation_m = 0.01, heading_deviation_rad = 0.005;
@@ -19,17 +19,17 @@ struct KnownPose {
   }
 };
 
-/// Input of GoTo: points of the map frame, in order; the last is where to stop.
+/// Input of GoTo: points of the map frame in order; the last is the goal.
 struct GoToInput {
   Bounded<Point, via_point_count_max> via;
 
   static constexpr auto fields() { return std::tuple(field("via", &GoToInput::via)); }
 };
 
-/// Codes of the reports of GoTo beside GenoM's own.
+/// Reports of GoTo in addition to GenoM's standard ones.
 enum class NavigationReport : std::uint16_t {
   blocked = 100,      ///< no progress for too long
-  no_position = 101,  ///< nobody says where the robot is
+  no_position = 101,  ///< the robot's position is unknown
 };
 
 }  // namespace waitpoint::posters

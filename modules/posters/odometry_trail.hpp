@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where odometry had the robot lately: a ring of dated poses, to place a scan that is dated in the past.
+// Recent odometry: a ring of dated poses, to locate a scan dated in the past.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@ namespace waitpoint::posters {
 
 class OdometryTrail {
  public:
-  /// Appends a pose; one that is not newer than the newest is ignored.
+  /// Appends a pose; ignored unless newer than the newest.
   void add(Time date, const Pose& pose);
 
   bool empty() const { return count_ == 0; }
   /// The newest pose; an empty trail is a bug.
   const Pose& newest() const;
-  /// The pose at a date, interpolated; the oldest or the newest one beyond the ends. An empty trail is a bug.
+  /// The pose at a date, interpolated; clamped to the oldest and newest one. An empty trail is a bug.
   Pose at(Time date) const;
 
  private:
@@ -31,7 +31,7 @@ class OdometryTrail {
   /// The i-th newest.
   const Dated& back(std::size_t i) const { return ring_[(next_ + capacity - 1 - i) % capacity]; }
 
-  std::vector<Dated> ring_;  // none before the first pose
+  std::vector<Dated> ring_;  // empty before the first pose
   std::size_t next_ = 0, count_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Positions that modules tell each other. Frames: a pose is that of the robot's centre in the frame the module names.
+// Positions exchanged between modules: poses of the robot's centre, each in the frame named with its type.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace waitpoint::posters {
 
 /// A pose with its uncertainty: a 3 x 3 covariance of (x, y, heading) in row order; m^2, m rad, rad^2.
 struct PositionEstimate {
-  Time date;  ///< when the robot was there, not when this was computed
+  Time date;  ///< of the pose, not of its computation
   Pose pose;
   std::array<double, 9> covariance{};
 
@@ -20,12 +20,12 @@ struct PositionEstimate {
   }
 };
 
-/// `rflex`: dead reckoning since the start, in the frame where it was set. The covariance grows without bound.
+/// From `rflex`: dead reckoning since the start, in the frame of the last SetPos. The covariance grows without bound.
 struct Odometry {
   PositionEstimate position;
   double v_m_s = 0, w_rad_s = 0;  ///< measured speeds
   bool stalled = false;           ///< the base reports that it cannot move as commanded
-  double height_m = 0;            ///< of a base that flies, as it measures it
+  double height_m = 0;            ///< flying bases: measured height
 
   static constexpr auto fields() {
     return std::tuple(field("position", &Odometry::position), field("v_m_s", &Odometry::v_m_s),
@@ -34,11 +34,11 @@ struct Odometry {
   }
 };
 
-/// `segloc`: the pose in the map frame as matched against the segment map, at the date of the scan used.
+/// From `segloc`: the pose in the map frame, matched against the segment map, at the date of the scan used.
 struct Localisation {
   PositionEstimate position;
-  std::uint32_t matched = 0;   ///< segments of the scan that were matched to the map
-  std::uint32_t observed = 0;  ///< segments that the scan had
+  std::uint32_t matched = 0;   ///< segments of the scan matched to the map
+  std::uint32_t observed = 0;  ///< segments of the scan
 
   static constexpr auto fields() {
     return std::tuple(field("position", &Localisation::position), field("matched", &Localisation::matched),
@@ -46,18 +46,18 @@ struct Localisation {
   }
 };
 
-/// What `pom` thinks of its own answer.
+/// The self-assessment of `pom`.
 enum class FusionState : std::uint8_t {
   good,       ///< all sources agree
-  uncertain,  ///< the uncertainty is above the bound that was set
-  disagree,   ///< a source contradicts the others and is left out
+  uncertain,  ///< the uncertainty exceeds the bound
+  disagree,   ///< a source contradicts the others and is excluded
 };
 
-/// `pom`: the robot's reference position, predicted to `date` (the present).
+/// From `pom`: the robot's reference position, predicted to `date` (the present).
 struct FusedPosition {
   PositionEstimate position;
   FusionState state = FusionState::good;
-  Duration correction_age;  ///< how old the newest absolute position is that went in; Duration::max() if none did
+  Duration correction_age;  ///< age of the newest absolute position used; Duration::max(): none
 
   static constexpr auto fields() {
     return std::tuple(field("position", &FusedPosition::position), field("state", &FusedPosition::state),

@@ -36,7 +36,7 @@ void DeadReckoning::advance(Time date, std::int64_t travel_units, std::int64_t t
   pose.y += dy;
   pose.heading = exact::wrap_angle(pose.heading + a);
 
-  // F is the identity but for (x, heading) = -dy and (y, heading) = dx.
+  // F is the identity except for (x, heading) = -dy and (y, heading) = dx.
   auto& p = position_.covariance;
   const double xx = p[0], xy = p[1], xh = p[2], yy = p[4], yh = p[5], hh = p[8];
   const double q_d = noise_.travel_variance_m2_per_m * std::fabs(d);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the range finders of a base say, as echoes with the places of their devices: rings of sonars and of infrared
-// range finders, at equal angles about the robot's centre, the first straight ahead.
+// Readings of a base's range finders as echoes with the devices' poses: rings of sonars and of infrared range finders,
+// at equal angles around the robot's centre, the first straight ahead.
 #pragma once
 
 #include <span>
@@ -18,10 +18,10 @@ struct SonarRing {
   }
 };
 
-/// (gain_per_v V)^exponent is the range of an infrared range finder, in metres.
+/// The range of an infrared range finder is (gain_per_v V)^exponent, in metres.
 struct InfraredCalibration {
   double gain_per_v = 3.7, exponent = -1;
-  double range_max_m = 0.8;  ///< what is farther counts as no echo
+  double range_max_m = 0.8;  ///< greater ranges count as no echo
   double ring_radius_m = 0.25;
 
   static constexpr auto fields() {
@@ -31,7 +31,7 @@ struct InfraredCalibration {
   }
 };
 
-/// Of sonars ring by ring; those beyond the rings' count are left out.
+/// Echoes of sonars, ring by ring; readings beyond the rings' count are ignored.
 posters::Sonars sonar_echoes(const posters::BaseReading& report, std::span<const SonarRing> rings);
 posters::Infrareds infrared_echoes(const posters::InfraredReading& reading, const InfraredCalibration& calibration);
 

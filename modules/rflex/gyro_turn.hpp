@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a robot has turned by its gyro, less what the gyro is known to drift.
+// The angle turned by a robot's gyro, corrected for bias.
 //
-// The bias is what the gyro reads while the robot stands: calibrating takes its mean over some seconds. In a time T of
-// it a gyro of noise density N tells the bias to N / sqrt(T).
+// The bias is the gyro's reading at rest: calibration averages it over some seconds. In a time T a gyro of noise
+// density N determines the bias to N / sqrt(T).
 #pragma once
 
 #include "modules/posters/inertial.hpp"
@@ -11,15 +11,15 @@ namespace waitpoint::rflex {
 
 class GyroTurn {
  public:
-  /// Takes in a sample; the first only sets where the gyro stands.
+  /// Adds a sample; the first only initialises the gyro's angle.
   void add(const posters::Inertial& sample);
-  /// The last sample, less the bias; `number` 0 before the first.
+  /// The last sample with the bias removed; `number` 0 before the first.
   const posters::Inertial& corrected() const { return corrected_; }
 
-  /// From here on the robot stands, until end_calibration().
+  /// The robot is at rest from now on, until end_calibration().
   void begin_calibration() { begun_ = corrected_; }
-  /// Corrects the bias by the mean since then, and takes that out of the turn; the new bias in rad/s. Without a sample
-  /// since then nothing changes.
+  /// Adds the mean reading since then to the bias and removes it from the angle; returns the new bias in rad/s. No
+  /// effect without a sample since then.
   double end_calibration();
 
  private:

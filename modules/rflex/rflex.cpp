@@ -12,7 +12,7 @@ using genom::State;
 using namespace std::chrono_literals;
 
 namespace {
-constexpr double height_time_s = 0.5;  // in which a small error of height is to a third of it
+constexpr double height_time_s = 0.5;  // time constant of the height control
 
 void check(const InfraredCalibration& of) {
   if (!(of.gain_per_v > 0)) throw BadInput("infrared.gain_per_v", "expected more than 0");
@@ -145,7 +145,7 @@ void Rflex::add_calibration() {
       {"CalibrateGyro"});
 }
 
-// Who is told next where the robot is must not find odometry of the frame before.
+// Readers of the new position must not find odometry in the previous frame.
 void Rflex::set_position(const Pose& pose) {
   dead_reckoning_.set(pose);
   if (!shown_) return;

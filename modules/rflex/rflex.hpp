@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module of the mobile base: speaks to its RFLEX controller, by two posters.
+// The module of the mobile base: the driver of its RFLEX controller, through two posters.
 //
 //   reads    rflex.reading (the controller's reports), and the speed reference's poster (GENPOS_CART_SPEED);
 //            rflex.bumper_reading, rflex.infrared_reading, rflex.imu_reading, rflex.gps_reading (other ports of the
@@ -10,8 +10,8 @@
 //            InfraredOff; MonitorBattery, MonitorBumpers (end when it is low, when one is pressed); CalibrateGyro
 //            (fails if the robot moves, or has no gyro)
 //
-// While tracking, a reference that stops being renewed stops the robot: its writer may have died. A base that flies is
-// kept at cruise_height_m meanwhile, whatever the reference says of climbing.
+// While tracking, the robot stops if the reference is not renewed: its writer may have failed. A flying base is kept at
+// cruise_height_m meanwhile, and the reference's climb speed is ignored.
 #pragma once
 
 #include <optional>
@@ -26,19 +26,19 @@
 
 namespace waitpoint::rflex {
 
-/// What can be set of the module.
+/// Parameters of the module.
 struct Parameters {
   OdometryNoise noise;
   double units_per_m = 103000, units_per_rad = 35000;  ///< of a B21r's controller
-  std::string speed_poster = "ndd.speed";              ///< what TrackSpeedStart tracks
+  std::string speed_poster = "ndd.speed";              ///< the reference of TrackSpeedStart
   Duration reference_timeout_ms = std::chrono::milliseconds(500);
-  double battery_low_v = 22.5, battery_low_charge = 0;  ///< what is below one of these is low
-  double sonar_ring_radius_m = 0.25;                    ///< of the only ring of sonars
-  double cruise_height_m = 0;         ///< that tracking climbs to and holds; 0: it climbs as the reference says
-  double climb_m_s_max = 0.5;         ///< towards it
-  Bounded<SonarRing, 4> sonar_rings;  ///< if there are several; sonars beyond their count are not shown
+  double battery_low_v = 22.5, battery_low_charge = 0;  ///< the battery is low below either of these
+  double sonar_ring_radius_m = 0.25;                    ///< of a single ring of sonars
+  double cruise_height_m = 0;                           ///< held while tracking; 0: climb speed of the reference
+  double climb_m_s_max = 0.5;                           ///< towards cruise_height_m
+  Bounded<SonarRing, 4> sonar_rings;                    ///< for several rings; sonars beyond their count are ignored
   InfraredCalibration infrared;
-  bool gyro_turns = false;  ///< whether odometry takes its turns from the gyro, which then must be there
+  bool gyro_turns = false;  ///< odometry uses the gyro's turns; requires a gyro
   Duration gyro_calibration_ms = std::chrono::seconds(5);
 
   static constexpr auto fields() {
@@ -65,7 +65,7 @@ struct SpeedInput {
   }
 };
 
-/// How CalibrateGyro can fail, beside being interrupted.
+/// Failures of CalibrateGyro, other than interruption.
 enum class CalibrationReport : std::uint16_t { no_gyro = genom::first_own_report, moved };
 
 /// Output of CalibrateGyro.
@@ -111,7 +111,7 @@ class Rflex : public genom::Module {
   genom::OutputPoster<posters::Infrareds>& infrareds_poster_;
   genom::OutputPoster<posters::Inertial>& imu_poster_;
   genom::OutputPoster<posters::PositionFix>& gps_poster_;
-  std::optional<posters::Odometry> shown_;  // by the odometry poster
+  std::optional<posters::Odometry> shown_;  // value of the odometry poster
   posters::Battery battery_;
   posters::Bumpers bumpers_;
   bool infrared_on_ = false;

@@ -19,11 +19,11 @@ bool Candidates::sight(const Pose& robot, const LineObservation& observation, st
   for (std::size_t i = 0; i < items_.size(); ++i) {
     Candidate& candidate = items_[i];
     const Landmark& before = candidate.landmark;
-    if (before.last_update == update) continue;  // two segments of one scan are two lines
+    if (before.last_update == update) continue;  // two segments of one scan are different lines
     if (std::fabs(exact::wrap_angle(now.line.angle_rad - before.line.angle_rad)) > parameters_.angle_rad_max) continue;
     if (std::fabs(before.line.beyond(now.line.anchor)) > parameters_.offset_m_max) continue;
     if (before.seen.gap_m(stretch_between(before.line, start, end)) > 0) continue;
-    // The newest sighting says where the line is; what earlier ones saw of it stays.
+    // The newest sighting defines the line; the stretches of earlier ones are kept.
     for (const auto& s : before.seen.stretches()) {
       now.seen.add(stretch_between(now.line, before.line.at(s.low_m), before.line.at(s.high_m)), 0);
     }

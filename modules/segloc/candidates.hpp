@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines that may become landmarks: those seen again and again from different places, and no others. A robot passing by
-// or a door that swings is not a wall.
+// Candidate landmarks: lines are accepted only after repeated sightings from different poses, unlike those of a passing
+// robot or a swinging door.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 namespace waitpoint::segloc {
 
 struct CandidateParameters {
-  double angle_rad_max = 0.06, offset_m_max = 0.08;  ///< between sightings of one line
-  std::uint32_t sightings_min = 4;                   ///< before a line is trusted
-  double travel_m_min = 0.15, turn_rad_min = 0.15;   ///< the robot must have moved so far, or turned, in between
-  std::uint32_t sightings_enough = 8;                ///< trusted even if the robot stood still
-  std::uint32_t patience_updates = 15;               ///< forgotten when not seen for so long
+  double angle_rad_max = 0.06, offset_m_max = 0.08;  ///< greatest difference between sightings of one line
+  std::uint32_t sightings_min = 4;                   ///< before a line is accepted
+  double travel_m_min = 0.15, turn_rad_min = 0.15;   ///< required motion in between: either of the two
+  std::uint32_t sightings_enough = 8;                ///< accepted even without motion
+  std::uint32_t patience_updates = 15;               ///< forgotten after so many updates without a sighting
 
   static constexpr auto fields() {
     using P = CandidateParameters;
@@ -30,11 +30,11 @@ class Candidates {
  public:
   explicit Candidates(const CandidateParameters& parameters) : parameters_(parameters) {}
 
-  /// Notes a sighting from `robot` that no landmark explains, in update `update`. True if the line is confirmed by it;
-  /// it is then no candidate any more, and `seen` is all that was seen of it.
+  /// Records a sighting from `robot` that no landmark explains, in update `update`. True if it confirms a line, which
+  /// is then removed from the candidates; `confirmed` has all sightings of it.
   bool sight(const Pose& robot, const LineObservation& observation, std::uint64_t update, Landmark& confirmed);
 
-  /// Forgets what was not seen for too long.
+  /// Deletes candidates not seen for too long.
   void forget_old(std::uint64_t update);
 
   std::size_t size() const { return items_.size(); }

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t block = 4;
 
-// Two doubles worked on at once. Every element is computed by the same operations in the same order as it would be
-// alone, so the bits do not depend on whether the processor does it in one instruction.
+// Two doubles processed at once. The operations on each element and their order are those of scalar code, so the result
+// is bit-identical with and without vector instructions.
 using Pair = double __attribute__((vector_size(16)));
 
 inline Pair load(const double* from) {
@@ -25,7 +25,7 @@ inline void subtract(double* from, Pair p) {
   std::memcpy(from, &rest, sizeof rest);
 }
 
-// One block of four by four: its sums stay in registers.
+// A block of four by four, whose sums stay in registers.
 void subtract_block(double* values, std::size_t stride, const double* left, const double* right, std::size_t count) {
   Pair a0{}, a1{}, b0{}, b1{}, c0{}, c1{}, d0{}, d1{};
   for (std::size_t r = 0; r < count; ++r, left += stride, right += stride) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One Kalman update from many observations, built up one pair of rows at a time.
+// One Kalman update from many observations, accumulated one pair of rows at a time.
 //
 // With H the rows accepted so far, R their noise, L L' = H P H' + R and W = P H' L'^-1, the update is
 //
 //   x += W y,  L y = innovation        P -= W W'
 //
-// A further pair of rows h needs of L only h W, and its innovation given all those accepted is
+// A further pair of rows h needs of L only h W, and its innovation given all accepted ones is
 //
 //   v - (h W) y       with covariance       h P h' + r - (h W)(h W)'
 //
-// So each candidate match can be tested jointly with those accepted (the test of joint compatibility of Neira and
-// Tardos, 2001, taken greedily), and P, the costly part, is touched once, when all is decided. h has at most five
-// columns: the pose and one line, or two lines.
+// So each candidate match is tested jointly with the accepted ones (the joint compatibility test of Neira and Tardos,
+// 2001, applied greedily), and P, the costly part, is updated once, at the end. h has at most five columns: the pose
+// and one line, or two lines.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 
 namespace waitpoint::segloc {
 
-/// Two rows of a measurement: observed minus predicted, the derivatives of the prediction, the noise.
+/// Two rows of a measurement: observed minus predicted, derivatives of the prediction, and noise.
 struct RowPair {
   std::size_t columns = 0;
   std::array<std::size_t, 5> column{};
@@ -40,26 +40,26 @@ struct RowPair {
 
 class JointUpdate {
  public:
-  /// Takes up to `pairs` row pairs on a covariance with rows of `stride` elements.
+  /// Holds up to `pairs` row pairs for a covariance with rows of `stride` elements.
   JointUpdate(std::size_t pairs, std::size_t stride);
 
   void clear() { rows_ = 0; }
   bool full() const { return rows_ == rows_max_; }
   bool empty() const { return rows_ == 0; }
 
-  /// How a pair of rows compares with what the pairs accepted so far predict.
+  /// A pair of rows compared with the prediction from the pairs accepted so far.
   struct Trial {
-    double squared_distance = 0;  ///< chi2 with two degrees of freedom if the match is right
-    double information = 0;       ///< trace of noise^-1 times the prediction's covariance: what there is to learn
+    double squared_distance = 0;  ///< chi2-distributed with two degrees of freedom for a correct match
+    double information = 0;       ///< trace of noise^-1 times the prediction's covariance
   };
-  /// Evaluates a pair; `accept` may follow, for this pair only.
+  /// Evaluates a pair; may be followed by `accept` of the same pair.
   Trial test(const Covariance& covariance, const RowPair& pair);
-  /// Adds the pair tested last. A full update is a bug.
+  /// Adds the pair tested last. Exceeding the number of pairs is a bug.
   void accept(const Covariance& covariance, const RowPair& pair);
 
-  /// What the accepted pairs add to variable i of the state.
+  /// The correction of state variable i by the accepted pairs.
   double correction(std::size_t i) const;
-  /// Takes the accepted pairs' information into the covariance.
+  /// Updates the covariance by the accepted pairs.
   void apply(Covariance& covariance) const { covariance.subtract_products(weights_.data(), rows_); }
 
  private:
@@ -69,7 +69,7 @@ class JointUpdate {
   std::size_t rows_ = 0, rows_max_, stride_;
   std::vector<double> weights_;   // W', row by row
   std::vector<double> whitened_;  // y
-  // Of the pair tested last: h W, and the innovation and its covariance given the pairs accepted.
+  // Of the pair tested last: h W, and the innovation and its covariance given the accepted pairs.
   std::array<std::vector<double>, 2> mixed_;
   std::array<double, 2> innovation_{};
   std::array<double, 3> spread_{};

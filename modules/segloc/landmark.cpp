@@ -7,7 +7,7 @@
 namespace waitpoint::segloc {
 
 void Coverage::add(Stretch stretch, double join_m) {
-  // What the new one touches becomes part of it; the others keep their order.
+  // Stretches within reach of the new one are joined to it; the others keep their order.
   std::size_t kept = 0;
   for (const Stretch& other : stretches_) {
     if (other.low_m - stretch.high_m <= join_m && stretch.low_m - other.high_m <= join_m) {

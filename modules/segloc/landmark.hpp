@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A line of the map with what is known of it besides its place: which stretches were seen, how often, when last.
+// A line of the map with the history of its sightings: the stretches seen, their number, the last update.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace waitpoint::segloc {
 
-/// Stretches along a line, in order, apart from each other: a wall with its doors left open.
+/// Disjoint stretches along a line, in order: a wall without its doors.
 class Coverage {
  public:
   struct Stretch {
     double low_m = 0, high_m = 0;
   };
 
-  /// Adds a stretch; those nearer than `join_m` become one, and the two nearest ones where there are too many.
+  /// Adds a stretch; joins stretches nearer than `join_m`, and the two nearest ones if there are too many.
   void add(Stretch stretch, double join_m);
-  /// Distance of a stretch to the nearest one covered; 0 where they overlap. Infinite without any.
+  /// Distance of a stretch to the nearest covered one; 0 if they overlap. Infinite without stretches.
   double gap_m(Stretch stretch) const;
   double length_m() const;
   const auto& stretches() const { return stretches_; }
@@ -33,13 +33,13 @@ struct Landmark {
   Line line;
   Coverage seen;
   std::uint32_t sightings = 0;
-  std::uint64_t last_update = 0;  ///< number of the filter's update that saw it last
+  std::uint64_t last_update = 0;  ///< number of the filter's last update that saw it
 
-  /// Of two landmarks, the one to forget when there is no room: the shorter and less often seen.
+  /// Priority for keeping it: when there is no room, the landmark of least worth is removed.
   double worth() const { return seen.length_m() * (sightings < 100 ? sightings : 100); }
 };
 
-/// The stretch of `line` between two points' feet.
+/// The stretch of `line` between the projections of two points.
 Coverage::Stretch stretch_between(const Line& line, Point a, Point b);
 
 }  // namespace waitpoint::segloc

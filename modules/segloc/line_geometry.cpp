@@ -20,12 +20,13 @@ LineObservation line_observation(const posters::Segment& segment) {
   o.length_m = length(along);
   const auto [sine, cosine] = exact::sincos(segment.normal_rad);
   const Point normal{cosine, sine};
-  // The poster's normal points away from the robot's centre, which the line may pass on the other side than the device.
+  // The poster's normal points away from the robot's centre, which may be on the other side of the line than the
+  // device.
   const bool same = dot(normal, {along.y, -along.x}) >= 0;
   const double side = same ? 1.0 : -1.0;
   o.angle_rad = same ? segment.normal_rad : exact::wrap_angle(segment.normal_rad + exact::pi);
   const auto [angle, mixed, distance] = segment.covariance;
-  const double lever = cosine * o.middle.y - sine * o.middle.x;  // place of the middle along the line
+  const double lever = cosine * o.middle.y - sine * o.middle.x;  // coordinate of the middle along the line
   o.covariance = {angle, side * (mixed - lever * angle), distance - 2.0 * lever * mixed + lever * lever * angle};
   return o;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How the filter's map grows and shrinks: new lines, room for them, lines that prove to be one.
+// Growth of the filter's map: new landmarks, removal without room, and merging.
 #include <cmath>
 
 #include "core/exact_math.hpp"
@@ -13,7 +13,7 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
-// Whether a line matched in this scan keeps the pose from drifting across the observed one while that waits.
+// True if a line matched in this scan constrains the pose across the observed line, which can then wait.
 bool SegmentMapFilter::held_by_matches(const LineObservation& observation) const {
   for (const std::size_t i : matched_) {
     if (std::fabs(exact::cos(observations_[i].angle_rad - observation.angle_rad)) > 0.7) return true;
@@ -21,10 +21,9 @@ bool SegmentMapFilter::held_by_matches(const LineObservation& observation) const
   return false;
 }
 
-// A line that is new must be confirmed before it becomes a landmark. Meanwhile the pose is held by the others that are
-// matched; where none holds it across this line (the first scan, a room entered at a turn), waiting would let the
-// odometry's drift into the map for good: there a long line becomes a landmark at once, and is dropped if it proves
-// unsteady.
+// A new line must be confirmed before it becomes a landmark. Meanwhile other matched lines constrain the pose; if none
+// constrains it across this line (the first scan, a room entered at a turn), waiting would put the odometry's drift
+// into the map permanently: there a long line becomes a landmark at once, and is removed if it proves unsteady.
 void SegmentMapFilter::consider_new(const LineObservation& observation, Observed& result) {
   Landmark landmark;
   if (observation.length_m >= parameters_.length_at_once_m && !held_by_matches(observation)) {
@@ -54,8 +53,8 @@ void SegmentMapFilter::forget_unconfirmed(Observed& result) {
   }
 }
 
-// Forgets the least worthy landmark out of sight if the map is full. The newcomer need not be worth more: what is
-// around the robot holds its pose now.
+// Removes the landmark of least worth out of sight if the map is full. The new one may be of less worth: the lines
+// around the robot constrain its present pose.
 bool SegmentMapFilter::make_room(Observed& result) {
   if (landmarks_.size() < parameters_.landmarks_max) return true;
   std::size_t least = none;
@@ -69,8 +68,8 @@ bool SegmentMapFilter::make_room(Observed& result) {
   return true;
 }
 
-// A new line hangs on the pose: angle = heading + what was seen, offset = how the pose's error moves the anchor across
-// the line, plus the observation's own error.
+// A new line depends on the pose: angle = heading + observed angle; offset = the displacement of the anchor across the
+// line by the pose's error; plus the observation's own error.
 void SegmentMapFilter::add(const LineObservation& observation, const Landmark& landmark) {
   const std::size_t angle = column_of(landmarks_.size()), offset = angle + 1;
   landmarks_.push_back(landmark);
@@ -103,7 +102,7 @@ std::uint32_t SegmentMapFilter::merge_seen() {
         ++j;
         continue;
       }
-      // The last landmark has moved into j's place: it is looked at next, unless it is i itself.
+      // The last landmark has moved into j's place: it is examined next, unless it is i itself.
       ++merged;
       if (i == landmarks_.size()) i = j;
     }
@@ -111,7 +110,7 @@ std::uint32_t SegmentMapFilter::merge_seen() {
   return merged;
 }
 
-// Two landmarks that overlap and agree are one line: the filter is told that they are equal, then one is dropped.
+// Two landmarks that overlap and agree are one line: an update with their equality, then one is removed.
 bool SegmentMapFilter::try_merge(std::size_t kept, std::size_t other) {
   const Line &a = landmarks_[kept].line, &b = landmarks_[other].line;
   const double turn = exact::wrap_angle(b.angle_rad - a.angle_rad);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What may be set of the segment map's filter. The defaults suit a SICK LMS and raw wheel odometry in a building.
+// Parameters of the segment map's filter. The defaults suit a SICK LMS and raw wheel odometry in a building.
 #pragma once
 
 #include <cstdint>
@@ -12,43 +12,43 @@ namespace waitpoint::segloc {
 
 struct Parameters {
   std::uint32_t landmarks_max = 200;
-  std::uint32_t matches_max = 24;  ///< lines that one update takes in
+  std::uint32_t matches_max = 24;  ///< matches used by one update
 
-  // Added to the covariance of the odometry, whatever that says.
+  // Added to the covariance given by the odometry.
   double travel_noise_m_per_sqrt_m = 0.015;
   double drift_noise_rad_per_sqrt_m = 0.01;
   double turn_noise_rad_per_sqrt_rad = 0.015;
 
-  // How far its systematic errors may be off at first (standard deviations); 0: taken to have none.
+  // Initial standard deviations of the odometry's systematic errors; 0: no such error.
   double travel_scale_deviation = 0.02;
   double turn_scale_deviation = 0.03;
   double drift_deviation_rad_per_m = 0.012;
 
-  // Floor of an observation's standard deviation.
+  // Least standard deviation of an observation.
   double angle_floor_rad = 0.005;
   double offset_floor_m = 0.012;
 
-  // The map is corrected when the robot has moved so far, or turned, or stood still for so many scans.
+  // The map is updated after so much travel, or turn, or so many scans at rest.
   double update_travel_m = 0.1;
   double update_turn_rad = 0.06;
   std::uint32_t update_scans = 10;
 
-  double chi2_match = 9.21;     ///< of a match; 99 % of the right ones at two degrees of freedom
-  double angle_rad_max = 0.15;  ///< matches and duplicates are looked for within
+  double chi2_match = 9.21;     ///< bound for a match: 99 % of the correct ones, two degrees of freedom
+  double angle_rad_max = 0.15;  ///< search range for matches and duplicates
   double offset_m_max = 0.5;
-  double gap_m_max = 1.5;           ///< between what is seen and what was seen of a landmark before
-  double information_min = 0.1;     ///< matches that teach less, relative to their noise, are left out of the update
-  double disputed_offset_m = 0.15;  ///< a segment so near a landmark that it does not match is no new line
-  // Of a segment that is used. On a building's raster map, shorter ones made the heading, and with it the position, err
-  // more in most tours: their angles seem surer than they are.
+  double gap_m_max = 1.5;        ///< between an observation and the landmark's known stretches
+  double information_min = 0.1;  ///< matches with less information, relative to their noise, are not used in the update
+  double disputed_offset_m = 0.15;  ///< a segment this close to a landmark that does not match it is not a new line
+  // Least length of a segment. On a building's raster map, shorter ones increased the errors of heading and position in
+  // most tours: their angles seem more certain than they are.
   double length_m_min = 1.0;
-  double length_at_once_m = 1.0;  ///< of a new line that becomes a landmark unconfirmed, see consider_new()
-  double join_m = 0.3;            ///< gap between two stretches of a wall that is closed
-  double chi2_merge = 5.99;       ///< between two landmarks that are one line
+  double length_at_once_m = 1.0;  ///< least length of an unconfirmed landmark, see consider_new()
+  double join_m = 0.3;            ///< gaps between stretches up to this are closed
+  double chi2_merge = 5.99;       ///< bound for two landmarks that are one line
 
-  // The robot slipped, if so many updates in a row have more segments near a landmark that do not match than matches
-  // (by two at least: a single one may be something new). The pose is then less sure than thought, and nothing new is
-  // learnt until the matches are back or it takes too long.
+  // The robot has slipped if in so many consecutive updates the segments near a landmark that do not match outnumber
+  // the matches (by at least two: a single one may be a new line). The pose is then less certain than estimated, and
+  // nothing is added until matches return or lost_updates_max is reached.
   std::uint32_t lost_updates = 2, lost_updates_max = 20;
   double lost_noise_m = 0.1, lost_noise_rad = 0.05;
   CandidateParameters candidates;
@@ -75,7 +75,7 @@ struct Parameters {
   }
 };
 
-/// Throws BadInput for values that no filter works with.
+/// Throws BadInput for invalid values.
 inline void check(const Parameters& p) {
   if (p.landmarks_max < 1 || p.landmarks_max > 1000) throw BadInput("landmarks_max", "expected 1 to 1000");
   if (p.matches_max < 1) throw BadInput("matches_max", "expected 1 or more");

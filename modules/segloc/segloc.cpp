@@ -8,7 +8,7 @@ using genom::State;
 using namespace std::chrono_literals;
 
 namespace {
-// Readers of the map look at it now and then; a scan's period is too often for so large a poster.
+// Readers of the map poll it rarely; exporting so large a poster with every scan would be too often.
 constexpr std::uint32_t scans_per_map = 20;
 }  // namespace
 
@@ -59,7 +59,7 @@ void Segloc::localise() {
   trail_.add(odometry.position.date, odometry.position.pose);
   if (!odometry_at_filter_) odometry_at_filter_ = odometry.position.pose;
   if (segments_.read(scan_) == genom::PosterStatus::empty || scan_.number == number_) return;
-  // A scan is used once odometry has come past its date.
+  // A scan is used once the odometry has passed its date.
   if (scan_.date > odometry.position.date) return;
   number_ = scan_.number;
 

@@ -3,7 +3,7 @@
 //
 //   reads    sick.segments, rflex.odometry
 //   writes   segloc.localisation (the pose at the date of the scan used), segloc.map
-//   requests Localise: from a known pose on, until interrupted; the map begins empty. Stop ends it.
+//   requests Localise: from a known pose, until interrupted; the map starts empty. Stop ends it.
 #pragma once
 
 #include <optional>
@@ -34,11 +34,11 @@ class Segloc : public genom::Module {
   genom::OutputPoster<posters::SegmentMap>& map_poster_;
   std::optional<SegmentMapFilter> filter_;
   posters::OdometryTrail trail_;
-  std::optional<Pose> odometry_at_filter_;  // what odometry said when the filter was last predicted
+  std::optional<Pose> odometry_at_filter_;  // odometry at the filter's last prediction
   posters::Segments scan_;
   posters::SegmentMap map_;
-  std::uint32_t number_ = 0;  // of the last scan taken in
-  std::uint32_t scans_ = 0;   // taken in
+  std::uint32_t number_ = 0;  // number of the last scan used
+  std::uint32_t scans_ = 0;   // number of scans used
 };
 
 }  // namespace waitpoint::segloc

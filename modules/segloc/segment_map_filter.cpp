@@ -30,7 +30,7 @@ SegmentMapFilter::SegmentMapFilter(const Parameters& parameters, const PoseEstim
   covariance_(3, 3) = square(parameters.travel_scale_deviation);
   covariance_(4, 4) = square(parameters.turn_scale_deviation);
   covariance_(5, 5) = square(parameters.drift_deviation_rad_per_m);
-  scans_ = parameters.update_scans;  // the first scan is taken in
+  scans_ = parameters.update_scans;  // so that the first scan is used
 }
 
 PoseEstimate SegmentMapFilter::position() const {
@@ -41,8 +41,8 @@ PoseEstimate SegmentMapFilter::position() const {
   return estimate;
 }
 
-// pose' = pose (+) corrected motion. With R the turn by the heading, d pose' = F (d pose, d calibration) + diag(R, 1)
-// d motion; F takes in at most the heading and one or two of the calibration's variables a row.
+// pose' = pose (+) corrected motion. With R the rotation by the heading, d pose' = F (d pose, d calibration) + diag(R,
+// 1) d motion; per row, F involves at most the heading and one or two of the calibration's variables.
 void SegmentMapFilter::predict(const PoseEstimate& motion) {
   const auto [sine, cosine] = exact::sincos(pose_.heading);
   const Pose& measured = motion.pose;
@@ -61,7 +61,7 @@ void SegmentMapFilter::predict(const PoseEstimate& motion) {
     const auto c = carry({p(j, 0), p(j, 1), p(j, 2), p(j, 3), p(j, 4), p(j, 5)});
     for (std::size_t i = 0; i < 3; ++i) p(j, i) = c[i];
   }
-  // F P F' of the first six: the rows, then the columns of what that gives.
+  // F P F' of the first six variables: the rows, then the columns of the result.
   std::array<std::array<double, own_columns>, 3> rows;
   for (std::size_t j = 0; j < own_columns; ++j) {
     const auto c = carry({p(0, j), p(1, j), p(2, j), p(3, j), p(4, j), p(5, j)});
@@ -139,7 +139,7 @@ Observed SegmentMapFilter::observe(const posters::Segments& segments) {
   return result;
 }
 
-// Longest first: the surest matches come first and the others are tested jointly with them.
+// Longest first: the most certain matches come first, and later ones are tested jointly with them.
 void SegmentMapFilter::sort_observations(const posters::Segments& segments) {
   observations_.clear();
   for (const posters::Segment& segment : segments.items) {
@@ -215,8 +215,8 @@ void SegmentMapFilter::correct() {
   joint_.apply(covariance_);
 }
 
-// Whether what does not match is the pose's fault, so that nothing should be learnt. When it goes on, the pose is made
-// less sure until the segments match again; when that does not help, they are taken for what they look like: new.
+// True if mismatches are due to the pose, so that nothing should be added. If they persist, the uncertainty of the pose
+// is increased until segments match again; if that does not help, they are accepted as new lines.
 bool SegmentMapFilter::lost(const Observed& result) {
   lost_ = result.strayed > result.matched + 1 ? lost_ + 1 : 0;
   if (lost_ == 0 || lost_ > parameters_.lost_updates_max) return false;

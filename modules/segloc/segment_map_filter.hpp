@@ -2,20 +2,20 @@
 // Simultaneous localisation and mapping on line segments by an extended Kalman filter.
 //
 //   state       x  y  heading | travel turn drift | angle offset | angle offset | ...
-//               the pose        the odometry's      two variables a landmark
+//               the pose        the odometry's      two variables per landmark
 //                               systematic errors
-//   covariance  one matrix over all of it (covariance.hpp)
+//   covariance  one matrix over the whole state (covariance.hpp)
 //
-// The odometry's systematic errors are learnt where there are lines, so that less of them is left where there are none.
+// The odometry's systematic errors are estimated where there are lines, which reduces drift where there are none.
 //
-// The map starts empty and comes from the segments of the scans alone; its frame is that of the first pose. A scan's
-// segments are matched, longest first, each tested jointly with the matches before it; what no landmark explains and
-// keeps being seen becomes a landmark; landmarks that prove to be one line become one. The number of landmarks is
-// bounded: where there is no room the least worthy one that is out of sight is forgotten.
+// The map starts empty and is built from the segments of the scans alone; its frame is that of the first pose. A scan's
+// segments are matched, longest first, each tested jointly with the matches before it; a line that no landmark explains
+// becomes a landmark after repeated sightings; landmarks found to be one line are merged. The number of landmarks is
+// bounded: without room, the landmark of least worth out of sight is removed.
 //
-// Scans taken from one place share their systematic errors (a wall's raster cells, the laser's bias), which a Kalman
-// filter would average away as if they were noise. So the map is corrected once every bit of way only, and the noise of
-// an observation has a floor.
+// Scans from one place share their systematic errors (a wall's raster cells, the laser's bias), which a Kalman filter
+// would average away like noise. So the map is updated only after some travel, and an observation's noise has a lower
+// bound.
 //
 // Sources: Smith, Self, Cheeseman 1990; Castellanos, Tardos, "Mobile robot localization and map building" 1999.
 #pragma once
@@ -39,32 +39,32 @@ struct PoseEstimate {
   std::array<double, 9> covariance{};
 };
 
-/// How the odometry errs: what it measures is to be stretched by 1 + travel, its turns by 1 + turn, and turned by drift
-/// for every metre ahead.
+/// Systematic errors of the odometry: measured distances are scaled by 1 + travel, turns by 1 + turn, and the heading
+/// turned by drift per metre ahead.
 struct OdometryCalibration {
   double travel = 0, turn = 0, drift_rad_per_m = 0;
 };
 
-/// What became of one scan.
+/// The result of one scan.
 struct Observed {
-  std::uint32_t segments = 0;  ///< long enough to be used
-  std::uint32_t matched = 0;   ///< to landmarks
-  std::uint32_t used = 0;      ///< of the matched ones, taken into the state; 0 where the scan was passed over
-  std::uint32_t strayed = 0;   ///< not matched, though a landmark is within the bounds where one is looked for
+  std::uint32_t segments = 0;                          ///< segments of sufficient length
+  std::uint32_t matched = 0;                           ///< matched to landmarks
+  std::uint32_t used = 0;                              ///< matches used in the update; 0 if the scan was skipped
+  std::uint32_t strayed = 0;                           ///< not matched, although a landmark is within the search range
   std::uint32_t added = 0, merged = 0, forgotten = 0;  ///< landmarks
 };
 
 class SegmentMapFilter {
  public:
-  /// Starts with an empty map and a known pose.
+  /// Starts with an empty map at a known pose.
   SegmentMapFilter(const Parameters& parameters, const PoseEstimate& start);
 
-  /// Moves the robot by what the odometry measured: the new pose in the frame of the old one, with the covariance of
+  /// Moves the robot by the odometry's measurement: the new pose in the frame of the old one, with the covariance of
   /// its random errors; the filter adds its own, see the parameters.
   void predict(const PoseEstimate& motion);
 
-  /// Takes in the segments of a scan made at the present pose. Where the robot has hardly moved since the last scan
-  /// taken in, this does nothing and returns what became of that one, with `used` 0.
+  /// Updates with the segments of a scan made at the present pose. If the robot has hardly moved since the last scan
+  /// used, does nothing and returns the result of that one, with `used` 0.
   Observed observe(const posters::Segments& segments);
 
   PoseEstimate position() const;
@@ -73,17 +73,17 @@ class SegmentMapFilter {
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   const Covariance& covariance() const { return covariance_; }
 
-  /// Writes the map's stretches, as many as the poster holds, each counter-clockwise as seen from where it was seen.
+  /// Writes the map's stretches, as many as the poster holds, each counter-clockwise as seen from the observed side.
   void export_map(posters::SegmentMap& map) const;
 
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   struct Match {
-    std::size_t landmark = none;  ///< the one that fits best among those that fit
+    std::size_t landmark = none;  ///< best of the compatible landmarks
     RowPair rows;
     double information = 0;
-    bool strayed = false;   ///< a landmark is near that does not fit
-    bool disputed = false;  ///< so near that the segment is no new line
+    bool strayed = false;   ///< an incompatible landmark is near
+    bool disputed = false;  ///< so near that the segment is not a new line
   };
   static constexpr std::size_t own_columns = 6;  ///< pose and calibration
   static std::size_t column_of(std::size_t landmark) { return own_columns + 2 * landmark; }
@@ -115,11 +115,11 @@ class SegmentMapFilter {
   std::uint64_t update_ = 0;
   double travel_m_ = 0, turn_rad_ = 0;  ///< since the last update
   std::uint32_t scans_ = 0;             ///< since the last update
-  std::uint32_t lost_ = 0;              ///< updates in a row that speak of a slip
+  std::uint32_t lost_ = 0;              ///< consecutive updates that indicate a slip
   Observed last_;
 
   std::vector<LineObservation> observations_;
-  std::vector<std::size_t> matched_, unexplained_;  ///< of them
+  std::vector<std::size_t> matched_, unexplained_;  ///< indices into the observations
 };
 
 }  // namespace waitpoint::segloc

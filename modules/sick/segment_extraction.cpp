@@ -13,7 +13,7 @@ double square(double x) { return x * x; }
 
 double length_m(const posters::Segment& segment) { return length(segment.end - segment.start); }
 
-// From the device's frame to the robot's. The angle's error moves the line about the device, not about the robot.
+// From the device's frame to the robot's. The angle's error rotates the line about the device, not about the robot.
 void move_to_robot(const Pose& mount, posters::Segment& segment) {
   segment.start = transform(mount, segment.start);
   segment.end = transform(mount, segment.end);
@@ -32,7 +32,7 @@ void move_to_robot(const Pose& mount, posters::Segment& segment) {
   segment.normal_rad = exact::wrap_angle(segment.normal_rad);
 }
 
-// Keeps the longest where there are more than fit.
+// Keeps the longest segments if there are too many.
 void keep(const posters::Segment& segment, posters::Segments& segments) {
   if (!segments.items.full()) return segments.items.push_back(segment);
   std::size_t shortest = 0;
@@ -91,7 +91,7 @@ void SegmentExtraction::prepare_beams(const posters::LaserReading& scan) {
 
 void SegmentExtraction::take_echoes(const posters::LaserReading& scan) {
   const double quantisation = square(parameters_.range_resolution_m) / 12.0;
-  // A range that was rounded to the device's resolution may fall short of the greatest by half a step.
+  // A range rounded to the device's resolution may be half a step below the maximum.
   const double range_m_max = scan.range_max_m - 0.5 * parameters_.range_resolution_m;
   echoes_ = 0;
   for (std::uint32_t beam = 0; beam < beams_; ++beam) {
@@ -112,7 +112,7 @@ void SegmentExtraction::take_echoes(const posters::LaserReading& scan) {
   }
 }
 
-// Along a wall that the beams meet at the grazing angle g, the next beam at angle a is longer by r sin(a) / sin(g - a).
+// On a wall met at the grazing angle g, the next beam at angle a is longer by r sin(a) / sin(g - a).
 bool SegmentExtraction::breaks_after(std::uint32_t i) const {
   const double angle = (beam_[i + 1] - beam_[i]) * angle_step_rad_;
   if (beam_[i + 1] - beam_[i] > 1 && angle > parameters_.beam_gap_rad_max) return true;
@@ -122,7 +122,7 @@ bool SegmentExtraction::breaks_after(std::uint32_t i) const {
   return std::fabs(range_m_[i + 1] - range_m_[i]) > parameters_.jump_m_min + nearer * angle / rest;
 }
 
-// The variance of echo i across a line whose normal is `projection_m` long when the echo's ray is projected on it.
+// The variance of echo i across a line; `projection_m` is the length of the line's normal projected on the echo's ray.
 double SegmentExtraction::variance_across(std::uint32_t i, double projection_m) const {
   const double along = projection_m * projection_m;
   const double square_range = range_m_[i] * range_m_[i];
@@ -131,7 +131,7 @@ double SegmentExtraction::variance_across(std::uint32_t i, double projection_m) 
          parameters_.roughness_m * parameters_.roughness_m;
 }
 
-// Splits at the farthest echo until the runs are straight, the first run first, so that runs_ stay counter-clockwise.
+// Splits at the farthest echo until the runs are straight; the first run first, so that runs_ stays counter-clockwise.
 void SegmentExtraction::split(Run region) {
   std::uint32_t waiting = 0;
   stack_[waiting++] = region;
@@ -156,7 +156,7 @@ void SegmentExtraction::split(Run region) {
     if (at == run.first) {
       run_[runs_++] = run;
     } else {
-      // The corner's echo goes to both: it lies on both walls.
+      // The echo at the corner belongs to both runs.
       stack_[waiting++] = {at, run.last};
       stack_[waiting++] = {run.first, at};
     }
@@ -214,9 +214,8 @@ SegmentExtraction::Line SegmentExtraction::fit(Run run) const {
   return {centre, normal, distance};
 }
 
-// The line's angle and its offset at the centre are linear in the echoes' errors across the line: the slope and the
-// mean of a straight-line regression over t, the place along the line. Their covariance is moved to the line's foot
-// afterwards.
+// The line's angle and its offset at the centre are linear in the echoes' errors across the line: slope and mean of a
+// straight-line regression over t, the coordinate along the line. Their covariance is then moved to the line's foot.
 bool SegmentExtraction::finish(Run run, posters::Segment& segment) const {
   if (run.points() < parameters_.points_min) return false;
   const Line line = fit(run);
@@ -240,7 +239,7 @@ bool SegmentExtraction::finish(Run run, posters::Segment& segment) const {
   const double from = dot(along, point_[run.first] - line.centre), to = dot(along, point_[run.last] - line.centre);
   if (to - from < parameters_.length_m_min) return false;
 
-  // The bow: a parabola in t with its mean and slope taken out.
+  // The bow: a parabola in t without its mean and slope.
   double fit2 = 0, bow = 0;
   for (std::uint32_t i = run.first; i <= run.last; ++i) {
     const double t = dot(along, point_[i] - line.centre);
@@ -256,8 +255,8 @@ bool SegmentExtraction::finish(Run run, posters::Segment& segment) const {
   const double angle = scale * v2 / (t2 * t2) + bias * slope * slope;
   const double mixed = scale * v1 / (n * t2) + bias * mean * slope;
   const double offset = scale * v0 / (n * n) + bias * mean * mean;
-  // A turn by d moves the foot's distance by lever d, the lever being the centre's place along the line, and turning
-  // the line counter-clockwise tilts the regression line by -d.
+  // A rotation by d moves the foot's distance by lever d, with the lever the centre's coordinate along the line; a
+  // counter-clockwise rotation of the line tilts the regression line by -d.
   const double lever = dot(along, line.centre);
   segment.covariance = {angle, lever * angle - mixed, offset - 2.0 * lever * mixed + lever * lever * angle};
   segment.start = line.centre + from * along;

@@ -3,11 +3,11 @@
 //
 //   echoes ──break──> regions ──split──> runs ──merge──> runs ──fit──> segments
 //
-//   break   where beams are missing or the range jumps further than a wall seen at a grazing angle explains
-//   split   a run at the echo farthest (Mahalanobis) from its chord, recursively, until none is beyond the chi2 bound
-//   merge   neighbouring runs that one line explains
-//   fit     total least squares; the covariance follows from each echo's range and bearing noise, scaled up where the
-//           echoes scatter more than that, plus what one range bias common to all echoes would do to the line
+//   break   at missing beams, or at a jump in range that a wall at the flattest grazing angle does not explain
+//   split   a run at the echo farthest (Mahalanobis) from its chord, recursively, until none exceeds the chi2 bound
+//   merge   neighbouring runs explained by one line
+//   fit     total least squares; the covariance follows from each echo's range and bearing noise, scaled up if the
+//           echoes scatter more, plus the effect of a range bias common to all echoes
 //
 // Sources: Nguyen, Martinelli, Tomatis, Siegwart, "A comparison of line extraction algorithms using 2D laser
 // rangefinder for indoor mobile robotics", IROS 2005; Borges, Aldon, "Line extraction in 2D range images", 2004
@@ -25,19 +25,19 @@ namespace waitpoint::sick {
 /// Defaults for a SICK LMS indoors.
 struct SegmentExtractionParameters {
   double range_noise_m = 0.005;                ///< standard deviation up to range_noise_near_m, then growing linearly
-  double range_noise_near_m = 8;               ///< up to where the noise is constant
-  double range_noise_growth_m_per_m = 0.0004;  ///< beyond
+  double range_noise_near_m = 8;               ///< range up to which the noise is constant
+  double range_noise_growth_m_per_m = 0.0004;  ///< growth beyond range_noise_near_m
   double range_resolution_m = 0.01;            ///< quantisation, a uniform error
-  double range_bias_m = 0.004;                 ///< standard deviation of the error that all echoes of a scan share
+  double range_bias_m = 0.004;                 ///< standard deviation of the error shared by all echoes of a scan
   double bearing_noise_rad = 0.001;
   double roughness_m = 0.013;       ///< standard deviation of a wall about its line: plaster, cells of a raster map
-  double range_min_m = 0.05;        ///< nearer echoes are the robot itself
+  double range_min_m = 0.05;        ///< nearer echoes are of the robot itself
   double beam_gap_rad_max = 0.035;  ///< between the beams of neighbouring echoes
-  double grazing_angle_rad = 0.12;  ///< flattest angle between beam and wall that is followed
+  double grazing_angle_rad = 0.12;  ///< flattest angle between beam and wall
   double jump_m_min = 0.1;          ///< a smaller range jump never breaks
   double chi2_split = 9.0;          ///< squared Mahalanobis distance of the farthest echo of a straight run
   double merge_gap_m_max = 0.4;     ///< between runs that are merged
-  double bow_m_max = 0.012;         ///< height of the arc through the echoes: more is a round thing, no wall
+  double bow_m_max = 0.012;         ///< height of the arc through the echoes; greater: a round object, not a wall
   std::uint32_t points_min = 6;
   double length_m_min = 0.4;
 
@@ -55,7 +55,7 @@ struct SegmentExtractionParameters {
   }
 };
 
-/// Throws BadInput for values that no extraction works with.
+/// Throws BadInput for invalid values.
 inline void check(const SegmentExtractionParameters& p) {
   if (p.points_min < 3) throw BadInput("points_min", "expected 3 or more");
   if (!(p.length_m_min > 0)) throw BadInput("length_m_min", "expected more than 0");
@@ -66,12 +66,12 @@ class SegmentExtraction {
  public:
   explicit SegmentExtraction(const SegmentExtractionParameters& parameters) : parameters_(parameters) {}
 
-  /// Finds the segments of a scan, in the robot's frame, counter-clockwise, or longest first where there are more than
+  /// Finds the segments of a scan, in the robot's frame, counter-clockwise; the longest first if there are more than
   /// the poster holds. Allocates nothing; a scan without echoes gives none.
   void extract(const posters::Echoes& echoes, posters::Segments& segments);
 
  private:
-  /// Echoes first..last, both included, that may lie on one line.
+  /// Echoes first..last, inclusive, that may lie on one line.
   struct Run {
     std::uint32_t first = 0, last = 0;
     std::uint32_t points() const { return last - first + 1; }
@@ -94,17 +94,17 @@ class SegmentExtraction {
 
   SegmentExtractionParameters parameters_;
 
-  // Directions of the beams, kept while the device's settings stay.
+  // Directions of the beams, kept while the device's settings do not change.
   std::uint32_t beams_ = 0;
   double first_angle_rad_ = 0, angle_step_rad_ = 0;
   std::array<Point, posters::beam_count_max> direction_{};
 
-  // The echoes of the scan at hand, in the device's frame.
+  // The echoes of the present scan, in the device's frame.
   std::uint32_t echoes_ = 0;
   std::array<Point, posters::beam_count_max> point_{};
   std::array<double, posters::beam_count_max> range_m_{}, range_variance_{}, per_square_range_{};
   std::array<std::uint32_t, posters::beam_count_max> beam_{};
-  /// Sums over the first i echoes, so that the line through any run costs the same.
+  /// Sums over the first i echoes: the line through any run has constant cost.
   struct Moments {
     double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module of the laser range finder: speaks to the device by two posters.
+// The module of the laser range finder: the driver of the device, through two posters.
 //
 //   reads    sick.reading (the device's scans)
 //   writes   sick.command (to the device), sick.echoes, sick.segments
-//   requests ContinuousShot: switches the device on and exports every scan until it is interrupted; Stop ends it.
-//            SegmentsOn, SegmentsOff: whether segments of aligned echoes are exported too (on at first)
+//   requests ContinuousShot: switches the device on and exports every scan until interrupted; Stop ends it.
+//            SegmentsOn, SegmentsOff: enable and disable the export of segments (initially on)
 #pragma once
 
 #include "modules/genom/module.hpp"
@@ -13,11 +13,10 @@
 
 namespace waitpoint::sick {
 
-/// What can be set of the module.
+/// Parameters of the module.
 struct Parameters {
-  double mount_x_m = 0.1, mount_y_m = 0, mount_heading_deg = 0;  ///< where the device sits on the robot
-  /// How much earlier than its date, which is that of its last beam, a scan counts as measured: half the time that the
-  /// mirror takes for it.
+  double mount_x_m = 0.1, mount_y_m = 0, mount_heading_deg = 0;  ///< pose of the device on the robot
+  /// Age of a scan at its date, which is that of its last beam: half the mirror's time for a scan.
   Duration scan_age_ms;
   SegmentExtractionParameters segments;
 
@@ -46,7 +45,7 @@ class Sick : public genom::Module {
   genom::OutputPoster<posters::Segments>& segments_poster_;
   posters::Echoes echoes_;
   posters::Segments segments_;
-  std::uint32_t number_ = 0;  // of the last scan exported
+  std::uint32_t number_ = 0;  // number of the last scan exported
   bool with_segments_ = true;
 };
 

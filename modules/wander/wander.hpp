@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module of who has no goal: drives about and turns away from what its range finder sees. It speaks to the devices
-// itself, so it is a robot's whole software, for crowds and for worlds that come without any.
+// The module of robots without goals: drives about and turns away from obstacles seen by its range finder. It
+// accesses the devices directly, so it is a robot's complete software, for crowds and for worlds without any.
 //
-//   reads    wander.scan (the range finder's scans); wander.base_reading (the base's reports), if there is one: a
-//            robot that stalls backs off
+//   reads    wander.scan (the range finder's scans); optionally wander.base_reading (the base's reports): a stalled
+//            robot backs off
 //   writes   wander.laser (to the range finder: on), wander.base (to the base)
 //   requests Go, Stop
 #pragma once

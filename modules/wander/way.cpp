@@ -37,7 +37,7 @@ void Way::decide(const posters::LaserReading& scan, bool stalled, Time now, post
   const Room there = room(scan);
   command = {};
   if (stalled && now >= back_until_) {
-    // Backwards, or if it was that which stalled it, ahead.
+    // Backs off; then turns to the side with more room unless the lane is clear.
     back_until_ = now + parameters_.back_off_ms;
     turning_ = there.left_m >= there.right_m ? 1 : -1;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where to, for who has nowhere to go: ahead where there is room, and slower the less there is; else about on the spot,
-// to the side that had more room when the way ended, until it is clear again; and backwards from what it stalls at.
+// Steering without a goal: ahead if the lane is clear, slower with less room; otherwise turning on the spot, to the
+// side that had more room at the start of the turn, until the lane is clear; backwards after a stall.
 //
 //           |<-- clear_m -->|<--- slow_m --->|
 //     +---+ . . . . . . . . . . . . . . . . .      2 half_width_m: the lane ahead
@@ -16,11 +16,11 @@ namespace waitpoint::wander {
 
 struct Parameters {
   double v_m_s = 0.4, w_rad_s = 0.8;
-  double clear_m = 0.6;  ///< turns about when something in the lane is nearer than this to the range finder
-  double slow_m = 0.6;   ///< full speed where the lane is clear so far beyond that
+  double clear_m = 0.6;  ///< turns if an obstacle in the lane is closer than this to the range finder
+  double slow_m = 0.6;   ///< full speed if the lane is clear this far beyond clear_m
   double half_width_m = 0.35;
-  Duration back_off_ms = std::chrono::seconds(1);  ///< backwards, after it has stalled
-  bool on = true;                                  ///< from the start; otherwise from the request Go
+  Duration back_off_ms = std::chrono::seconds(1);  ///< duration of driving backwards after a stall
+  bool on = true;                                  ///< drives from the start; false: from the request Go
 
   static constexpr auto fields() {
     return std::tuple(field("v_m_s", &Parameters::v_m_s), field("w_rad_s", &Parameters::w_rad_s),
@@ -34,7 +34,7 @@ class Way {
  public:
   explicit Way(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// What to tell the base at `now`, by the last scan of a range finder that looks ahead with its middle.
+  /// The command to the base at `now`, by the last scan of a range finder whose middle beam points ahead.
   void decide(const posters::LaserReading& scan, bool stalled, Time now, posters::BaseCommand& command);
 
  private:
@@ -48,7 +48,7 @@ class Way {
   // The angles of the last scan, and their sines and cosines: a range finder's stay.
   double first_angle_rad_ = 0, angle_step_rad_ = 0;
   exact::SinCos first_ = {0, 1}, step_ = {0, 1};
-  double turning_ = 0;  // to the left 1, to the right -1; 0: not
+  double turning_ = 0;  // left 1, right -1, 0 not turning
   Time back_until_;
 };
 
