@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// filter IN OUT: hands on every second line from one key to another, in capital letters, and the empty one at the end.
+// filter IN OUT: copies every second line from one key to another, in capital letters, and the final empty line.
 #include <ctype.h>
 #include <stdlib.h>
 

@@ -21,7 +21,7 @@ static void fail(const char* what) {
   exit(1);
 }
 
-// Who makes the semaphores gives the place free; the others wait until that is done.
+// The creator of the semaphores initialises them; the others wait until this is done.
 static int open_semaphores(int key) {
   int id = semget(key, 2, IPC_CREAT | IPC_EXCL | 0600);
   if (id >= 0) {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Lines handed from one program to the next, as robots' modules do it: a System V shared memory that holds one, and two
-// semaphores, of which one counts free places and the other lines to be read.
+// A channel of lines between programs, as in robots' software: System V shared memory for one line, and two semaphores,
+// which count free places and unread lines.
 #include <stddef.h>
 
 enum { line_size = 80 };
 
 struct lines;
 
-// The memory of this key, made by whoever comes first.
+// Opens the channel of this key; the first call creates it.
 struct lines* lines_open(int key);
-// Waits until the line before was taken.
+// Writes a line; blocks until the previous one has been taken.
 void lines_put(struct lines* lines, const char* line);
-// Waits for a line.
+// Reads a line; blocks until there is one.
 void lines_take(struct lines* lines, char line[line_size]);
-// The last to use it takes it away.
+// Removes the channel; call from its last user.
 void lines_remove(struct lines* lines);

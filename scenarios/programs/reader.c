@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// reader KEY: prints the lines that come, to the empty one, and at its exit how many they were. That is its exit
-// status.
+// reader KEY: prints lines up to the empty one, and their number at exit, which is also its exit status.
 #include <stdio.h>
 #include <stdlib.h>
 

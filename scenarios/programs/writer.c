@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// writer KEY COUNT: hands on COUNT numbered lines, one every tenth of a second, from a second thread; then an empty
-// one.
+// writer KEY COUNT: writes COUNT numbered lines, one every 0.1 s, from a second thread; then an empty line.
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
