@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Activities: executions of requests, as the small state machine that GenoM runs for each.
+// Activities: requests under execution, each with the state machine that GenoM gives it.
 //
 //            +--------+     +-------+     +------+
 //   INIT --> | START  | --> | EXEC  | --> | END  | --> ETHER (ended: final reply, slot free)
@@ -13,9 +13,9 @@
 //                                                  ACTIVITY_FAILED; keeps its slot, and blocks further execution
 //                                                  requests, until an Abort frees it)
 //
-// One codel is called per wake-up of the activity's execution task; the state it returns comes next. A codel that is
-// not given counts as one that returns the default at once: START->EXEC, EXEC->END, END->ETHER, FAIL->ZOMBIE,
-// INTER->ETHER. The allowed results are those of GenoM's execTask.c.
+// Each wake-up of the activity's execution task calls one codel, which returns the next state. A missing codel passes
+// at once to the default: START->EXEC, EXEC->END, END->ETHER, FAIL->ZOMBIE, INTER->ETHER. The allowed transitions are
+// those of GenoM's execTask.c.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ constexpr const char* name(State state) {
   return names[static_cast<int>(state)];
 }
 
-/// Whether the codel of state `from` may return `to`.
+/// True if the codel of state `from` may return `to`.
 constexpr bool allowed(State from, State to) {
   const auto one_of = [to](auto... states) { return ((to == states) || ...); };
   switch (from) {
@@ -45,7 +45,7 @@ constexpr bool allowed(State from, State to) {
   }
 }
 
-/// What follows a state whose codel is not given.
+/// The next state after one without a codel.
 constexpr State default_after(State state) {
   switch (state) {
     case State::start: return State::exec;
@@ -57,14 +57,14 @@ constexpr State default_after(State state) {
 
 struct RequestType;
 
-inline constexpr std::size_t activities_max = 19;  // SERV_NMAX_RQST_ID - 1
+inline constexpr std::size_t activities_max = 19;  // GenoM's SERV_NMAX_RQST_ID - 1
 
-/// Guarded by the lock on the control data.
+/// One slot of the table. Guarded by the lock on the control data.
 struct Activity {
-  State state = State::ether;  ///< ETHER: ended, its final reply still to be sent
-  bool replied = false;        ///< its final reply is sent: of a ZOMBIE
-  bool interrupt = false;      ///< told to go to INTER
-  bool interrupted = false;    ///< went there: whatever its codels say, it ends with report ACTIVITY_INTERRUPTED
+  State state = State::ether;  ///< ETHER: ended, final reply not sent yet
+  bool replied = false;        ///< of a ZOMBIE: final reply sent
+  bool interrupt = false;      ///< goes to INTER at the next wake-up
+  bool interrupted = false;    ///< has been in INTER: ends with report ACTIVITY_INTERRUPTED, whatever its codels set
   const RequestType* type = nullptr;
   std::int32_t number = -1;
   std::uint32_t send_id = 0;

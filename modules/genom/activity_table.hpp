@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A module's table of activities. Guarded by the lock on the control data.
 //
-// Slots are given out in turn, so that the number of an activity that ended is not soon another's. Which are in use is
-// kept beside them: a slot is two kilobytes, and every wake-up of every task goes through those in use.
+// Slots are allocated in turn, so that the number of an ended activity is not soon reused. A bit mask of the slots in
+// use is kept apart: a slot has two kilobytes, and every wake-up of every task iterates over those in use.
 #pragma once
 
 #include <bit>
@@ -40,13 +40,13 @@ class ActivityTable {
   };
 
  public:
-  /// The activities, by number; the one that a loop is at may be freed.
+  /// The activities, by number; the current element of an iteration may be freed.
   Used<Activity> used() { return {slots_.data(), used_}; }
   Used<const Activity> used() const { return {slots_.data(), used_}; }
   bool empty() const { return used_ == 0; }
 
   bool full() const { return used_ == all; }
-  /// A fresh activity with its number; not while the table is full.
+  /// Allocates an activity and gives it a number. Not while the table is full.
   Activity& add() {
     while ((used_ >> next_ & 1) != 0) next_ = (next_ + 1) % activities_max;
     Activity& added = slots_[next_];
@@ -63,7 +63,7 @@ class ActivityTable {
   static constexpr bool is_number(std::int32_t number) {
     return number >= 0 && number < static_cast<std::int32_t>(activities_max);
   }
-  /// The activity of this number; null if it has ended.
+  /// Null if no activity has this number.
   Activity* find(std::int32_t number) {
     return (used_ >> number & 1) != 0 ? &slots_[static_cast<std::size_t>(number)] : nullptr;
   }
@@ -71,9 +71,9 @@ class ActivityTable {
  private:
   static constexpr std::uint32_t all = (1U << activities_max) - 1;
 
-  std::uint32_t used_ = 0;  // a bit for each slot
+  std::uint32_t used_ = 0;  // one bit per slot
   std::size_t next_ = 0;
-  // Apart from what else a module has, which many tasks touch at every wake-up: together that lies on few pages.
+  // On the heap: the module's other members, which many tasks touch at every wake-up, then share few pages.
   std::vector<Activity> slots_ = std::vector<Activity>(activities_max);
 };
 

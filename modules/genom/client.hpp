@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A client of modules: sends requests and gets the replies, as csLib does. Belongs to one task.
+// A client of modules: sends requests and receives replies, as csLib does. Belongs to one task.
 #pragma once
 
 #include <optional>
@@ -23,30 +23,29 @@ class Client {
  public:
   Client(NameSpace& names, std::string owner) : names_(names), mailbox_(std::move(owner)) {}
 
-  /// Sends a request; the number that its replies will bear, or nothing if the module's mailbox is full. A module or a
-  /// request that does not exist is a bug.
+  /// Sends a request. Returns the number that its replies carry, or nothing if the module's mailbox is full. An unknown
+  /// module or request is a bug.
   template <HasFields In = Nothing>
   std::optional<std::uint32_t> send(const std::string& module, const std::string& request, const In& input = {}) {
     return send(module, request, Payload(input));
   }
 
-  /// The next reply to any request; nothing if none comes within `timeout` (Duration::max(): for ever, zero: does not
-  /// wait).
+  /// The next reply to any request; nothing after `timeout` (Duration::max(): no timeout; zero: does not block).
   std::optional<Reply> receive(Duration timeout = Duration::max());
 
-  /// Sends a request and waits for its final reply, which comes however many others are unread; those are dropped. To
-  /// wait for a limited time, send() and receive().
+  /// Sends a request and waits without limit for its final reply, which arrives even if the mailbox is full; other
+  /// replies are dropped. For a limited wait, use send() and receive().
   template <HasFields In = Nothing>
   Reply call(const std::string& module, const std::string& request, const In& input = {}) {
     return call(module, request, Payload(input));
   }
 
-  /// Ends a module, whatever it does: aborts its activities, resumes its tasks where they are suspended, and ends it as
-  /// soon as it can be; Module::join() then waits for its tasks. False if an activity goes on for longer than
-  /// `patience`: the module then runs on.
+  /// Ends a module in any state: aborts its activities, resumes suspended tasks, and ends it as soon as possible;
+  /// Module::join() then waits for its tasks. False if an activity lasts longer than `patience`: the module then
+  /// continues to run.
   bool end_module(const std::string& module, Duration patience = std::chrono::seconds(10));
 
-  /// The same with an input made before.
+  /// The same with the input already packed.
   std::optional<std::uint32_t> send(const std::string& module, const std::string& request, const Payload& input);
   Reply call(const std::string& module, const std::string& request, const Payload& input);
 

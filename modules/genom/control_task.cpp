@@ -61,7 +61,7 @@ void ControlTask::handle(const Letter& letter) {
   if (report != ok) reply(LetterKind::final_reply, letter, report, output);
 }
 
-// Allocates an activity; its START comes when those that it interrupts are gone.
+// Allocates an activity; it starts when the activities that it interrupts have ended.
 Report ControlTask::execute(const RequestType& type, const Letter& letter) {
   if (data_.ending || type.task->ended()) return data_.report(StandardReport::system_error);
   for (const ExecutionTask& task : tasks_)
@@ -124,7 +124,7 @@ Report ControlTask::abort(std::int32_t activity) {
   return ok;
 }
 
-// Whether an activity that `candidate` has to wait for is still there: a ZOMBIE does nothing any more.
+// True if an activity that `candidate` must wait for is active; a ZOMBIE executes nothing.
 bool ControlTask::blocked(const Activity& candidate) const {
   for (const Activity& a : data_.activities.used()) {
     if (&a == &candidate || a.state == State::init || a.state == State::zombie) continue;
@@ -160,7 +160,7 @@ void ControlTask::reply(LetterKind kind, const Letter& request, Report report, c
   letter.report = report;
   letter.payload = output;
   if (request.request < data_.requests.size()) tell(kind, data_.requests[request.request], -1, report);
-  // A client whose mailbox is full loses the reply, as in GenoM: the module does not wait for it.
+  // A reply to a full mailbox is lost, as in GenoM: the module never waits for a client.
   if (request.reply_to != nullptr) (void)request.reply_to->post(letter);
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The control task of a module: takes requests, starts and ends activities, replies.
+// The control task of a module: receives requests, starts and ends activities, and sends replies.
 //
 // At each event (a letter, or a change of an activity's state), in GenoM's order:
 //
-//   take both locks -> ended activities: final reply, slot free -> one letter, if there is any; then signal every
-//   aperiodic task -> activities whose incompatible ones are all gone: START, intermediate reply -> control poster ->
-//   give the locks
+//   take both locks -> ended activities: final reply, slot free -> one letter, if any; then signal every aperiodic
+//   task -> activities whose incompatible activities have ended: START, intermediate reply -> control poster ->
+//   release the locks
 //
-// The last request wins: a new activity interrupts those of the request types that its own type names, and waits for
-// them.
+// The last request wins: a new activity interrupts the activities of the request types that its own type names, and
+// starts when they have ended.
 #pragma once
 
 #include <deque>
@@ -33,11 +33,11 @@ struct ActivityStatus {
   }
 };
 
-/// The control poster.
+/// The value of the control poster, "<module>.control".
 struct ModuleStatus {
   Bounded<ActivityStatus, activities_max> activities;
   std::uint64_t missed_periods = 0;  ///< of all execution tasks
-  bool suspended = false;            ///< a task is, after a forbidden transition
+  bool suspended = false;            ///< an execution task is suspended, after a forbidden transition
 
   static constexpr auto fields() {
     return std::tuple(field("activities", &ModuleStatus::activities),
@@ -57,16 +57,16 @@ struct AbortInput {
 
 class ControlTask {
  public:
-  /// `tasks` are those of the module, which is passed on to the watch.
+  /// `tasks` are the module's execution tasks; `module` is passed to the watch.
   ControlTask(const Module& module, ModuleData& data, std::deque<ExecutionTask>& tasks, Poster<ModuleStatus>& poster)
       : module_(module), data_(data), tasks_(tasks), poster_(poster) {}
 
-  /// The task's own code; returns when the module is ended.
+  /// The body of the control task; returns when the module has ended.
   void run();
 
   void expect_init() { init_done_ = false; }
   void set_interrupt_end(bool value) { interrupt_end_ = value; }
-  /// Null: nobody. Before the module is started.
+  /// Call before the module is started. Null: no watch.
   void set_watch(ModuleWatch* watch) { watch_ = watch; }
   /// The request "Abort".
   Report abort(std::int32_t activity);

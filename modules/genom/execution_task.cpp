@@ -14,7 +14,7 @@ void ExecutionTask::signal() {
   event_.release();
 }
 
-// Its own, what it gives, and of the module what all its tasks touch.
+// The task's own members, its posters, and the module's shared data.
 void ExecutionTask::find_working_set(const AddModule& add_module) {
   constexpr std::size_t of_stack = 192;
   if (periodic())
@@ -44,7 +44,7 @@ void ExecutionTask::run(const AddModule& add_module) {
   module_.mailbox.event().release();
 }
 
-// The number of periods that passed meanwhile.
+// Waits for the next wake-up. Returns the number of periods since the last one.
 std::int64_t ExecutionTask::wait() {
   if (!periodic()) {
     event_.acquire();
@@ -52,7 +52,7 @@ std::int64_t ExecutionTask::wait() {
   }
   const Time done = threads::now();
   const std::int64_t periods = timer_->wait();
-  // The deadline of one wake-up's work is the next tick, the first of those that came meanwhile.
+  // The deadline is the tick after the wake-up: the earliest of the `periods` ticks since.
   const Time deadline = timer_->due() - (periods - 1) * options_.period_ms;
   if (periods > 0 && deadline < done) {
     ++missed_deadlines_;
@@ -61,7 +61,7 @@ std::int64_t ExecutionTask::wait() {
   return periods;
 }
 
-// False when the module is being ended.
+// False when the module is ending.
 bool ExecutionTask::wake_up(std::int64_t periods) {
   const BothLocks locks(module_);
   signalled_ = false;
@@ -92,7 +92,7 @@ void ExecutionTask::after_codel(Duration cost) {
   for (OutputPosterBase* poster : posters_) poster->give();
 }
 
-// One wake-up's worth of an activity; true if its state changed.
+// Advances an activity by one codel; true if its state changed.
 bool ExecutionTask::step(Activity& a) {
   if (a.state == State::init || a.state == State::ether || a.state == State::zombie) return false;
   const State before = a.state;
@@ -104,7 +104,7 @@ bool ExecutionTask::step(Activity& a) {
     a.state = State::exec;
   }
   std::optional<State> next;
-  // States without a codel pass at once.
+  // States without a codel are passed at once.
   while (!(next = a.type->codel(a.state, a))) {
     a.state = default_after(a.state);
     if (a.state == State::ether || a.state == State::zombie) return true;

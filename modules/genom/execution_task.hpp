@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An execution task of a module: runs the codels of its activities, and permanent ones of its own.
+// An execution task of a module: runs the codels (short pieces of the module's code) of its activities, and permanent
+// codels of its own.
 //
 // One wake-up (a tick of its period, or an event), in GenoM's order:
 //
 //   take both locks -> permanent codel -> one codel of each own activity, in table order -> second permanent codel
-//   -> automatic posters -> signal the control task if an activity's state changed -> give the locks -> give way
+//   -> automatic posters -> signal the control task if an activity's state changed -> release the locks -> yield
 //
-// Both locks are held during all codels: codels of one module never overlap, and none can be interrupted. A codel's
-// cost is added to the local time at its end, before the posters that it wrote are given.
+// Both locks are held during all codels: codels of one module never overlap and are never interrupted. A codel's cost
+// is added to the local time at its end, before the posters that it wrote are published.
 #pragma once
 
 #include <functional>
@@ -24,8 +25,8 @@
 
 namespace waitpoint::genom {
 
-/// How a task is woken and what it costs; a scenario may overwrite these under `tasks.<task>`, the cost only of a task
-/// that has permanent codels.
+/// Activation and cost of a task. A scenario may override these under `tasks.<task>`; the cost only if the task has
+/// permanent codels.
 struct TaskOptions {
   Duration period_ms = {};  ///< 0: aperiodic, woken by events
   Duration delay_ms = {};   ///< phase of a periodic task's ticks
@@ -48,31 +49,31 @@ class ExecutionTask {
   /// Called at every wake-up, before and after the activities' codels.
   void set_permanent(std::function<void()> codel) { permanent_ = std::move(codel); }
   void set_second_permanent(std::function<void()> codel) { second_permanent_ = std::move(codel); }
-  /// Whether there is anything that `cost_us` is the cost of.
+  /// True if the task has a codel that `cost_us` applies to.
   bool has_permanent() const { return permanent_ || second_permanent_ || start_ || end_; }
   /// Called once when the task starts and when it ends.
   void set_start(std::function<void()> codel) { start_ = std::move(codel); }
   void set_end(std::function<void()> codel) { end_ = std::move(codel); }
 
-  /// Wakes the task once at the next opportunity, however often it is told before; a periodic task needs no waking.
-  /// Under the lock on the control data.
+  /// Wakes an aperiodic task once, however often it is called before the task runs. No effect on a periodic task. Call
+  /// with the lock on the control data.
   void signal();
   void add(OutputPosterBase& poster) { posters_.push_back(&poster); }
 
   bool periodic() const { return options_.period_ms > Duration(); }
   bool suspended() const { return suspended_; }
   void resume() { suspended_ = false; }
-  /// Periods that passed while the task was still busy.
+  /// Periods missed because the task was still busy.
   std::int64_t missed_periods() const { return missed_periods_; }
-  /// Wake-ups whose work was not done when the task was to wake again, and by how much the worst of them was late.
+  /// Wake-ups whose work ended after the next wake-up was due, and the greatest lateness of these.
   std::int64_t missed_deadlines() const { return missed_deadlines_; }
   Duration greatest_lateness() const { return greatest_lateness_; }
   bool ended() const { return ended_; }
 
-  /// Adds to a working set what all tasks of the module touch.
+  /// Adds to a working set the memory that all tasks of the module touch.
   using AddModule = std::function<void(WorkingSet& set)>;
 
-  /// The task's own code; returns when the module is ended.
+  /// The body of the task; returns when the module has ended.
   void run(const AddModule& add_module);
 
  private:
@@ -83,10 +84,10 @@ class ExecutionTask {
   bool step(Activity& activity);
   void after_codel(Duration cost);
 
-  // What every wake-up of a periodic task touches comes first.
+  // Members touched by every wake-up of a periodic task come first.
   ModuleData& module_;
   TaskOptions options_;
-  bool signalled_ = false;  // and not yet awake
+  bool signalled_ = false;  // since the last wake-up
   bool suspended_ = false;
   bool ended_ = false;
   std::int64_t missed_periods_ = 0;

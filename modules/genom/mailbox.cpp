@@ -4,7 +4,7 @@
 namespace waitpoint::genom {
 namespace {
 
-// All that a letter says is part of the digest.
+// All fields of a letter enter the digest.
 std::uint64_t hash(const Letter& letter) {
   Digest digest;
   digest.add(static_cast<std::uint64_t>(letter.kind));

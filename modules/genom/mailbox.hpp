@@ -23,7 +23,7 @@ enum class LetterKind : std::uint8_t { request, intermediate_reply, final_reply 
 struct Letter {
   LetterKind kind = LetterKind::request;
   std::uint32_t request = 0;   ///< the number of the request type within its module
-  std::uint32_t send_id = 0;   ///< the sender's own number for this request; replies bear it
+  std::uint32_t send_id = 0;   ///< the sender's own number for this request, repeated in its replies
   std::int32_t activity = -1;  ///< in replies: the activity's number, -1 if there is none
   Report report = ok;
   Mailbox* reply_to = nullptr;
@@ -39,13 +39,13 @@ class Mailbox {
 
   /// Puts a letter in and signals the owner; false if the mailbox is full.
   bool post(const Letter& letter);
-  /// From now on replies to the owner's request `send_id`, and to no other one, find room beyond the bound: the owner
-  /// waits for them, and would for ever.
+  /// From now on replies to the owner's request `send_id` alone are accepted beyond the bound: the owner waits for
+  /// them, and a lost reply would block it forever.
   void keep_room_for(std::uint32_t send_id) { awaited_ = send_id; }
   /// Takes the oldest letter; false if there is none. Does not wait.
   bool take(Letter& letter);
 
-  /// The owner's event: released once a letter, and by whoever else has something for the owner.
+  /// The owner's event: released once per letter, and by other sources of work for the owner.
   threads::counting_semaphore<>& event() { return event_; }
   const std::string& owner() const { return owner_; }
 
@@ -55,7 +55,7 @@ class Mailbox {
   threads::mutex mutex_{"mailbox"};
   threads::counting_semaphore<> event_{0, "mailbox event"};
   std::deque<Letter> letters_;
-  std::atomic<std::uint32_t> awaited_ = 0;  // by numbers from 1 on
+  std::atomic<std::uint32_t> awaited_ = 0;  // send_id; 0: none
 };
 
 }  // namespace waitpoint::genom

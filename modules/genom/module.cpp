@@ -24,7 +24,7 @@ ExecutionTask& Module::add_task(const std::string& name, TaskOptions options) {
   return tasks_.emplace_back(data_, name, options, computing);
 }
 
-// The locks, the links, and what a class of its own adds, of which little is touched if it is large.
+// The locks, the links, and the derived class's members, up to a bound: a wake-up touches little of a large class.
 void Module::add_to(WorkingSet& set) const {
   constexpr std::size_t of_own_max = 512;
   set.add_between(&data_.control_lock, &data_.functional_lock);
@@ -37,8 +37,7 @@ void Module::add_to(WorkingSet& set) const {
 void Module::check_costs(const Settings& settings) const {
   for (const ExecutionTask& task : tasks_) {
     const std::string key = "tasks." + task.name() + ".cost_us";
-    if (!task.has_permanent() && settings.has(key))
-      settings.reject(key, "left out: the task has no permanent codel that it could be the cost of");
+    if (!task.has_permanent() && settings.has(key)) settings.reject(key, "left out (the task has no permanent codel)");
   }
 }
 

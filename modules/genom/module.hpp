@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A module: one control task, execution tasks, requests, activities and posters, to the semantics of GenoM.
+// A module: a component of a robot's software, to the semantics of GenoM. It has one control task, execution tasks,
+// requests (calls to it), activities (requests under execution), whose code is split into codels, and posters (values
+// that it publishes).
 //
-// A module of one's own derives from Module, declares everything in its constructor and keeps its state in members:
-// they are the functional data, guarded by the frame's locks while any of its codels runs.
+// A user's module derives from Module, declares everything in its constructor and keeps its state in members: they are
+// the functional data, guarded by the frame's locks while any of its codels runs.
 //
 //   class Blinker : public waitpoint::genom::Module {
 //    public:
@@ -12,7 +14,7 @@
 //     }
 //   };
 //
-// See control_task.hpp and execution_task.hpp for what the tasks do with it.
+// control_task.hpp and execution_task.hpp describe the two kinds of tasks.
 #pragma once
 
 #include <deque>
@@ -35,12 +37,12 @@ namespace waitpoint::genom {
 
 struct ModuleType;
 
-/// What a module is made from.
+/// Constructor arguments of a module.
 struct ModuleSetup {
   NameSpace& names;   ///< of its robot
   std::string name;   ///< of the module on this robot
-  Settings settings;  ///< what the scenario says of it
-  /// For sockets to other robots, and mailboxes with names (fibers/io); null outside any scenario.
+  Settings settings;  ///< from the scenario
+  /// For sockets to other robots and named mailboxes (fibers/io); null without a network.
   io::Network* network = nullptr;
 };
 
@@ -53,59 +55,61 @@ class Module {
   const std::string& name() const { return name_; }
   Mailbox& mailbox() { return data_.mailbox; }
   const std::deque<RequestType>& requests() const { return data_.requests; }
-  /// Null if the module has no request of that name.
+  /// Null if the module has no request with that name.
   const RequestType* find_request(const std::string& name) const;
   Report report(StandardReport code) const { return data_.report(code); }
   const std::deque<ExecutionTask>& tasks() const { return tasks_; }
 
-  /// Throws BadInput for a cost in `settings`, those it was made from, that no codel of the module has.
+  /// Throws BadInput if `settings`, from which the module was made, has a cost for a task without permanent codels.
   void check_costs(const Settings& settings) const;
-  /// Tells `watch` what the module does from its start on; it must outlive the module's tasks. Null: nobody.
+  /// Reports the module's activity to `watch`, which must outlive the module's tasks. Call before start(). Null: no
+  /// watch.
   void set_watch(ModuleWatch* watch) { control_.set_watch(watch); }
-  /// Finds the posters that the module reads. One that nobody writes, or of another type, is BadInput.
+  /// Connects the posters that the module reads. A missing required poster, or one of another type, is BadInput.
   void connect();
   /// Starts the tasks; from a task of the module's robot, once all its modules are connected.
   void start();
-  /// Waits until the tasks have ended, after an Abort with end_module.
+  /// Waits for the end of the tasks, after an Abort with end_module.
   void join();
 
  protected:
-  /// `number` distinguishes the module's reports from others'. The frame and its modules must be compiled for the same
-  /// kind of threads.
+  /// `number` identifies the module in its reports. The frame and its modules must be compiled for the same kind of
+  /// threads.
   Module(ModuleSetup& setup, std::uint16_t number, threads::kind = {});
 
-  /// The scenario may overwrite `options` under `tasks.<name>`, and say there how the task computes.
+  /// The scenario may override `options` under `tasks.<name>`, and set the task's clock, processor and priority there.
   ExecutionTask& add_task(const std::string& name, TaskOptions options);
 
-  /// A control request: `codel` does it at once, from the control task.
+  /// A control request: the control task runs `codel` at once.
   template <HasFields In, HasFields Out = Nothing>
   RequestType& add_control(const std::string& name,
                            std::type_identity_t<std::function<Report(const In& input, Out& output)>> codel,
                            std::vector<std::string> interrupts = {});
 
-  /// An execution request of `task`.
+  /// An execution request, executed by `task`.
   template <HasFields In, HasFields Out = Nothing>
   RequestType& add_activity(const std::string& name, ExecutionTask& task, std::type_identity_t<Codels<In, Out>> codels,
                             std::vector<std::string> interrupts = {});
 
-  /// As add_activity, for a request that must have succeeded before execution requests are taken.
+  /// As add_activity, for an initialisation request: execution requests are rejected until it has succeeded.
   template <HasFields In, HasFields Out = Nothing>
   RequestType& add_init(const std::string& name, ExecutionTask& task, std::type_identity_t<Codels<In, Out>> codels);
 
-  /// A poster named "<module>.<name>", given by the codels of `task`; `automatic` is copied to it at every wake-up.
+  /// A poster named "<module>.<name>", written by the codels of `task`; `automatic`, if given, is copied to it at the
+  /// end of every wake-up.
   template <HasFields T>
   OutputPoster<T>& add_poster(const std::string& name, ExecutionTask& task, const T* automatic = nullptr);
 
-  /// The poster "<module>.<name>" or, with a dot in it, "<other module>.<name>". With `required` false it may be
-  /// absent.
+  /// Links the poster "<module>.<name>" or, if `name` has a dot, "<other module>.<name>". With `required` false it may
+  /// be absent.
   template <HasFields T>
   PosterLink<T>& read_poster(const std::string& name, bool required = true);
 
-  /// A report of the module's own, by its code from first_own_report on.
+  /// A report of the module's own; `code` is at least first_own_report.
   Report own_report(std::uint16_t code) const { return make_report(data_.number, code); }
 
-  /// Whether an activity whose END codel runs can be interrupted: GenoM's code says so, its guide says not. Default:
-  /// yes.
+  /// True (the default): an activity can be interrupted in its END state, as in GenoM's code; false: not, as in its
+  /// guide.
   void set_interrupt_end(bool value) { control_.set_interrupt_end(value); }
 
  private:
@@ -122,7 +126,7 @@ class Module {
 
   NameSpace& names_;
   std::string name_;
-  Settings& settings_;  // of the setup: only while the module is being made
+  Settings& settings_;  // of the setup: valid only during construction
   TaskComputing of_all_tasks_, of_control_task_;
   ModuleData data_;
   std::deque<ExecutionTask> tasks_;
@@ -130,7 +134,7 @@ class Module {
   std::vector<Link> links_;
   ControlTask control_;
   std::vector<threads::thread> threads_;
-  std::size_t size_ = sizeof(Module);  // with what a class of its own adds
+  std::size_t size_ = sizeof(Module);  // of the derived class
 };
 
 // --- templates ---

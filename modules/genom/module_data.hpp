@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data that all tasks of one module share, and the two locks that guard it.
+// The data shared by all tasks of one module, and the two locks that guard it.
 //
-//   control data      requests, activities, mailbox: the frame's own
-//   functional data   the members of the module's class: its codels' own
+//   control data      requests, activities, mailbox: used by the frame
+//   functional data   the members of the module's class: used by its codels
 //
 // Each wake-up of a task takes both locks.
 #pragma once
@@ -24,7 +24,7 @@ struct ModuleData {
   /// A standard report of this module.
   Report report(StandardReport code) const { return make_report(number, code); }
 
-  const std::uint16_t number;  ///< distinguishes the module's reports from others'
+  const std::uint16_t number;  ///< identifies the module in its reports
   Mailbox mailbox;
   // On as few cache lines as possible: every wake-up of every task touches them.
   alignas(64) threads::mutex control_lock{"control data"};
@@ -34,7 +34,7 @@ struct ModuleData {
   ActivityTable activities;
 };
 
-/// Holds both locks of a module: control data before functional data, in this order everywhere.
+/// Holds both locks of a module, always taken in the order control data, functional data.
 class BothLocks {
  public:
   explicit BothLocks(ModuleData& data) : control_(data.control_lock), functional_(data.functional_lock) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which modules a program knows, by the type names that scenarios use.
+// The module classes known to a program, by the type names that scenarios use.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ struct ModuleType {
   std::unique_ptr<Module> (*make)(ModuleSetup& setup);
 };
 
-/// Registers a module class, whose constructor takes a ModuleSetup&, under a name.
+/// Registers a module class, constructible from ModuleSetup&, under a name.
 template <class M>
 ModuleType module_type(std::string name) {
   return {std::move(name), [](ModuleSetup& setup) -> std::unique_ptr<Module> {

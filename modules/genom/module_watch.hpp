@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the control task of a module does, told to who looks on: recordings, tests. Looking on is no event of the run.
+// An observer of a module's control task, for recordings and tests. Observation makes no event of the run.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ struct ModuleEvent {
   Time date;        ///< of the control task's clock
   LetterKind kind;  ///< a request was taken; its activity starts (intermediate reply); it ended (final reply)
   const RequestType& request;  ///< lives as long as its module
-  std::int32_t activity = -1;  ///< its number; -1: of a control request, or of one that was refused
+  std::int32_t activity = -1;  ///< its number; -1 for a control request or a rejected one
   Report report = ok;          ///< of a final reply
 };
 
 class ModuleWatch {
  public:
   virtual ~ModuleWatch() = default;
-  /// Called by the module's control task, with its locks: must only look, and must neither wait nor throw.
+  /// Called by the module's control task with its locks held: must not modify, block or throw.
   virtual void on(const Module& module, const ModuleEvent& event) = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The names of one robot: its posters and modules. Nothing of another robot can be reached through it.
+// The names of one robot: its posters, modules and processors. Gives no access to another robot.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ class Module;
 
 class NameSpace {
  public:
-  /// Creates a poster; a second one of the same name is BadInput.
+  /// Creates a poster; a duplicate name is BadInput.
   template <HasFields T>
   Poster<T>& create_poster(const std::string& name, const std::string& writer) {
     auto poster = std::make_unique<Poster<T>>(name, writer);
@@ -26,10 +26,10 @@ class NameSpace {
   /// Null if there is none.
   PosterBase* find_poster(const std::string& name) const;
   Module* find_module(const std::string& name) const;
-  /// A processor that tasks of this robot can share; its name must be new.
+  /// Adds a processor that tasks of this robot can share; a duplicate name is a bug.
   threads::processor& add_processor(const std::string& name);
   threads::processor* find_processor(const std::string& name) const;
-  /// A second module of the same name is BadInput.
+  /// A duplicate name is BadInput.
   void add(const std::string& name, Module& module);
 
   const std::map<std::string, std::unique_ptr<PosterBase>>& posters() const { return posters_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The writing side of a module's poster: a codel's write is held back until the codel's cost has been counted.
+// The writing side of a module's poster: a codel's write is published after the codel's cost has been added.
 #pragma once
 
 #include "modules/genom/poster.hpp"
@@ -9,13 +9,13 @@ namespace waitpoint::genom {
 class OutputPosterBase {
  public:
   virtual ~OutputPosterBase() = default;
-  /// Takes over the automatic source, if there is one: at the end of every wake-up.
+  /// Copies the automatic source, if there is one. Called at the end of every wake-up.
   virtual void update() = 0;
-  /// What of it and of the poster every giving touches.
+  /// Adds the memory that give() touches.
   virtual void add_to(WorkingSet& set) const = 0;
-  /// Gives what was written since the last time.
+  /// Publishes the last value written, if there is a new one.
   void give() {
-    if (!written_) return;  // mostly: this is asked after every codel
+    if (!written_) return;  // the common case: called after every codel
     written_ = false;
     give_staged();
   }
@@ -32,10 +32,10 @@ class OutputPosterBase {
 template <HasFields T>
 class OutputPoster : public OutputPosterBase {
  public:
-  /// `automatic`, if given, is copied to the poster at the end of every wake-up of its task.
+  /// `automatic`, if not null, is copied to the poster at the end of every wake-up of its task.
   OutputPoster(Poster<T>& poster, const T* automatic) : poster_(poster), automatic_(automatic) {}
 
-  /// From codels of the poster's task.
+  /// Only from codels of the poster's task.
   void write(const T& value) {
     staged_ = value;
     has_written();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The input of a request or the output of a reply: a plain value of some type with declared fields, carried by letters.
+// The input of a request or the output of a reply: a small plain struct with declared fields, carried by letters.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ class Payload {
   bool holds() const {
     return type_ == type_of<T>();
   }
-  /// The value; asking for another type than was put in is a bug.
+  /// The value; a type other than the stored one is a bug.
   template <HasFields T>
   T as() const {
     WAITPOINT_CHECK(holds<T>(), "a request's input or output is taken for another type");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A poster: a value that one writer shows to many readers.
+// A poster: a named value with one writer and many readers, through which modules and bridge publish data.
 //
-// The date is set when a write is given, and is the writer's local virtual time then: a value that took c to compute
-// from s on is dated, and seen by others, at s + c. A read before the first write finds the poster empty.
+// A write is dated with the writer's local virtual time: a value whose computation starts at s and costs c is dated,
+// and seen by others, at s + c. Before the first write a poster reads as empty.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace waitpoint::genom {
 
-/// What posters of all types have in common.
+/// The part of a poster that does not depend on its type.
 class PosterBase {
  public:
   virtual ~PosterBase() = default;
@@ -23,16 +23,16 @@ class PosterBase {
   PosterBase& operator=(const PosterBase&) = delete;
 
   const std::string& name() const { return name_; }
-  /// The module (or the bridge) that alone may write.
+  /// The only writer: a module or the bridge.
   const std::string& writer() const { return writer_; }
   virtual const std::type_info& type() const = 0;
 
-  /// How long a module's access to it takes, as one to hardware: the local time of the task that reads or writes it
-  /// moves on by so much. What it reads is so old then, what it writes comes so late.
+  /// Duration of a module's access to it, as to hardware: added to the local time of the task that reads or writes. A
+  /// value read is older, and a value written is published later, by it.
   Duration latency() const { return latency_; }
   void set_latency(Duration latency) { latency_ = latency; }
 
-  /// What of it every access touches; of a large value only the beginning.
+  /// Adds the memory that every access touches; for a large value only its beginning.
   virtual void add_to(WorkingSet& set) const = 0;
 
  protected:
@@ -40,7 +40,7 @@ class PosterBase {
 
   std::string name_;
   std::string writer_;
-  // What every access touches: from the beginning of a cache line on.
+  // Touched by every access; starts a cache line.
   alignas(64) mutable threads::mutex mutex_{"poster"};
   std::uint64_t name_hash_;
   std::uint64_t writes_ = 0;
@@ -57,7 +57,7 @@ class Poster : public PosterBase {
   const std::type_info& type() const override { return typeid(T); }
   void add_to(WorkingSet& set) const override;
 
-  /// Gives a new value; for the poster's writer only.
+  /// Publishes a new value. Only for the poster's writer.
   void write(const T& value) {
     const std::lock_guard guard(mutex_);
     value_ = value;
@@ -66,7 +66,7 @@ class Poster : public PosterBase {
     threads::record(name_hash_, value);
   }
 
-  /// Copies the value out; `date`, if given, gets the date of its write.
+  /// Copies the value out, and the date of its write to `date` unless null.
   PosterStatus read(T& value, Time* date = nullptr) const {
     const std::lock_guard guard(mutex_);
     if (writes_ == 0) return PosterStatus::empty;
@@ -75,8 +75,7 @@ class Poster : public PosterBase {
     return PosterStatus::ok;
   }
 
-  /// The value for an observer who is no part of the robot's software, nothing if there is none yet: in simulation no
-  /// event.
+  /// The value for an observer outside the robot's software; nothing if empty. No event in simulation.
   std::optional<T> look() const {
     const threads::observer_lock guard(mutex_);
     return writes_ > 0 ? std::optional(value_) : std::nullopt;
@@ -92,15 +91,15 @@ void Poster<T>::add_to(WorkingSet& set) const {
   set.add_between(&mutex_, reinterpret_cast<const char*>(&value_) + std::min(sizeof value_, of_value_max));
 }
 
-/// A module's wish to read a poster of another, found by its name when the robot is put together.
+/// A module's declaration that it reads a poster; connected by name when the robot is assembled.
 class PosterLinkBase {
  public:
   virtual ~PosterLinkBase() = default;
   const std::string& name() const { return name_; }
   virtual const std::type_info& type() const = 0;
-  /// Connects; false if `poster` is of another type.
+  /// False if `poster` has another type.
   virtual bool connect(PosterBase& poster) = 0;
-  /// What of it and of the poster every reading touches.
+  /// Adds the memory that every read touches.
   virtual void add_to(WorkingSet& set) const = 0;
 
  protected:
@@ -123,7 +122,7 @@ class PosterLink : public PosterLinkBase {
     if (poster_ != nullptr) poster_->add_to(set);
   }
 
-  /// As Poster::read; a link that may be absent and is not connected reads as empty.
+  /// As Poster::read; an unconnected optional link reads as empty.
   PosterStatus read(T& value, Time* date = nullptr) const {
     if (poster_ == nullptr) return PosterStatus::empty;
     const PosterStatus status = poster_->read(value, date);

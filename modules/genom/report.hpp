@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports: how a request ended. 32 bits: the module's number << 16 | a code; 0 is success.
+// Reports: the outcome of a request. 32 bits: module number << 16 | code; 0 is success.
 //
-// Codes 1 to 99 are GenoM's standard ones, the same for every module; a module's own begin at first_own_report.
+// Codes 1 to 99 are GenoM's standard codes, the same for every module; a module's own start at first_own_report.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ constexpr std::uint16_t module_of(Report report) { return static_cast<std::uint1
 constexpr std::uint16_t code_of(Report report) { return static_cast<std::uint16_t>(report & 0xFFFF); }
 constexpr bool is(Report report, StandardReport code) { return code_of(report) == static_cast<std::uint16_t>(code); }
 
-/// The name of a standard report, "own report" for a module's, "ok" for success.
+/// The name of a standard report; "own report" for a module's own, "ok" for success.
 constexpr const char* name(Report report) {
   constexpr const char* names[] = {"ok",
                                    "ACTIVITY_INTERRUPTED",

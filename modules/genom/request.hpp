@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Request types: what a module can be asked, with the functions (codels) that do it.
+// Request types: the calls that a module accepts, with the functions (codels) that carry them out.
 //
-// A control request takes no time and has one reply. An execution request becomes an activity of an execution task: an
-// intermediate reply when it starts, a final one when it ends. Codels see their input and write their output by type.
+// A control request is executed at once and has one reply. An execution request becomes an activity of an execution
+// task, with an intermediate reply at its start and a final one at its end. Codels have typed input and output.
 #pragma once
 
 #include <functional>
@@ -20,36 +20,37 @@ class ExecutionTask;
 
 enum class RequestKind : std::uint8_t { control, execution, init };
 
-/// A request type as the frame handles it, whatever the types of its input and output.
+/// A request type as the frame handles it, without the types of its input and output.
 struct RequestType {
   std::string name;
   RequestKind kind = RequestKind::control;
   std::uint32_t number = 0;
-  ExecutionTask* task = nullptr;        ///< of execution requests
-  std::vector<std::string> interrupts;  ///< request types whose activities a new one of this type ends
-  Duration cost;                        ///< of one call of a codel of this request
+  ExecutionTask* task = nullptr;        ///< of execution requests; null for control requests
+  std::vector<std::string> interrupts;  ///< request types whose activities a new activity of this type interrupts
+  Duration cost;                        ///< of each codel call
   bool (*accepts)(const Payload& input) = nullptr;
-  /// The input from text, by its declared fields; what is not set keeps its default. BadInput for what does not fit.
+  /// Parses the input by its declared fields; unset fields keep their defaults. BadInput for unknown keys or bad
+  /// values.
   Payload (*read_input)(Settings& arguments) = nullptr;
   std::function<Report(const Payload& input, Payload& output)> control;
-  /// Calls the codel of that state; nothing if none is given.
+  /// Calls the codel of that state; nothing if there is none.
   std::function<std::optional<State>(State state, Activity& activity)> codel;
 };
 
-/// An activity as its codels see it.
+/// An activity as seen by its codels.
 template <HasFields In, HasFields Out>
 struct Running {
   const In input;
   Out output{};
-  Report report = ok;        ///< what the final reply says; of the module's own reports
+  Report report = ok;        ///< for the final reply: ok or one of the module's own reports
   std::int32_t number = -1;  ///< of the activity
 };
 
-/// The codels of an execution request; any but `exec` is often left out.
+/// The codels of an execution request; all but `exec` are usually omitted.
 template <HasFields In, HasFields Out = Nothing>
 struct Codels {
   using Codel = std::function<State(Running<In, Out>& activity)>;
-  std::function<Report(const In& input)> control = nullptr;  ///< may refuse the request before anything happens
+  std::function<Report(const In& input)> control = nullptr;  ///< checks the input; not ok: the request is rejected
   Codel start = nullptr, exec = nullptr, end = nullptr, fail = nullptr, inter = nullptr;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 [[noreturn]] void refuse(const Setting& setting, const std::string& expected) {
   throw BadInput(setting.file, setting.line,
-                 "'" + setting.key + "' should be " + expected + ", but is '" + setting.text + "'");
+                 "expected '" + setting.key + "' to be " + expected + ", found '" + setting.text + "'");
 }
 
 double parse_double(const Setting& setting, const char* expected) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The settings that a scenario gives to one module, read into structs with declared fields.
 //
-// A field's name is its key and bears its unit: "gain", "v_max_m_s"; a Duration's ends in _s, _ms or _us. Elements of
-// arrays, points and poses are keys of their own: "gains.0", "via.2.x", "pose.heading" (in radians). Keys that nobody
-// asked for are bad input, with the nearest known one.
+// A field's name is its key and ends in its unit: "gain", "v_max_m_s"; a Duration's ends in _s, _ms or _us. Elements of
+// arrays, points and poses have keys of their own: "gains.0", "via.2.x", "pose.heading" (radians). Unknown keys are
+// BadInput, with the nearest known key as a hint.
 #pragma once
 
 #include <string>
@@ -19,17 +19,18 @@ class Settings {
   Settings() = default;
   explicit Settings(std::vector<Setting> settings) : settings_(std::move(settings)), used_(settings_.size()) {}
 
-  /// Overwrites the declared fields of `values` that are set; a field's key is `prefix` + its name.
+  /// Overwrites the fields of `values` that are set; a field's key is `prefix` + its name. A value that does not fit is
+  /// BadInput.
   template <HasFields T>
   void read(T& values, const std::string& prefix = "") {
     for_each_field(values, [&](std::string_view name, auto& member) { read_one(prefix + std::string(name), member); });
   }
 
   bool has(const std::string& key) const;
-  /// Throws BadInput, which names the place of a setting that is there: it should be `expected`.
+  /// Throws BadInput "expected KEY to be `expected`, found ..." at a setting, which must be set.
   [[noreturn]] void reject(const std::string& key, const std::string& expected) const;
 
-  /// Throws BadInput for the first setting that nothing has read.
+  /// Throws BadInput for the first unread setting.
   void check_all_used() const;
 
   template <HasFields T>
@@ -47,7 +48,7 @@ class Settings {
   void read_one(const std::string& key, std::array<T, N>& values) {
     for (std::size_t i = 0; i < N; ++i) read_one(element(key, i), values[i]);
   }
-  /// As many elements as are set without a gap, if any is; else as many as there were.
+  /// If element 0 is set: the elements up to the first that is not; otherwise unchanged.
   template <class T, std::size_t N>
   void read_one(const std::string& key, Bounded<T, N>& values) {
     if (has_any(element(key, 0))) values.clear();
@@ -75,7 +76,7 @@ class Settings {
 
  private:
   static std::string element(const std::string& key, std::size_t i) { return key + "." + std::to_string(i); }
-  /// Whether the key, or one below it, is set.
+  /// True if the key or one below it is set.
   bool has_any(const std::string& key) const;
   const Setting* take(const std::string& key);
   void read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most);

@@ -52,10 +52,10 @@ threads::ClockOptions read_clock(Settings& settings, const std::string& key) {
   if (clock.kind == ClockKind::interval) {
     const std::string least = key + ".cost_us.0", greatest = key + ".cost_us.1";
     if (!settings.has(least) || !settings.has(greatest))
-      settings.reject(settings.has(least) ? least : key + ".kind", "with cost_us: [least, greatest]");
+      settings.reject(settings.has(least) ? least : key + ".kind", "accompanied by cost_us: [least, greatest]");
     clock.least = read_cost(settings, least, 1e-6);
     clock.greatest = read_cost(settings, greatest, 1e-6);
-    if (clock.least > clock.greatest) settings.reject(least, "the least of the two costs, which comes first");
+    if (clock.least > clock.greatest) settings.reject(least, "the least cost, not above the greatest");
     if (clock.greatest == Duration()) settings.reject(greatest, "a positive cost");
   }
   if (clock.kind == ClockKind::counted && settings.has(key + ".block_cost_ns"))

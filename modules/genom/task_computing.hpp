@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a module's task computes: its local clock, and the processor that it shares. Both are the scenario's to say, for
-// a task under `tasks.<task>`, processor and priority for all tasks of a module beside its other parameters:
+// Computing of a module's tasks: the local clock of each, and the processor that it shares. A scenario sets them for a
+// task under `tasks.<task>`; processor and priority also for all tasks of a module, beside its parameters:
 //
-//   processor: cpu                    # declared by the robot; without it, each task has one of its own
-//   priority: 10                      # the greater the more urgent
+//   processor: cpu                    # declared by the robot; default: a processor per task
+//   priority: 10                      # greater is more urgent
 //   tasks:
 //     motion: {clock: {kind: interval, cost_us: [100, 300], scale: x0.5}, priority: 20}
 //     control: {clock: cpu}           # the module's control task
@@ -20,12 +20,12 @@ struct TaskComputing {
   int priority = 0;
 };
 
-/// Reads `processor` and `priority` after `prefix`, which overwrite `defaults`. BadInput for a processor that the robot
-/// does not declare.
+/// Reads `processor` and `priority` behind `prefix`, which override `defaults`. A processor that the robot does not
+/// declare is BadInput.
 TaskComputing read_processor(Settings& settings, const std::string& prefix, const NameSpace& names,
                              TaskComputing defaults = {});
 
-/// Reads all that there is after `prefix`: "tasks.motion.".
+/// Reads processor, priority and clock behind `prefix`, such as "tasks.motion.".
 TaskComputing read_computing(Settings& settings, const std::string& prefix, const NameSpace& names,
                              const TaskComputing& defaults);
 

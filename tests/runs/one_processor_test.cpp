@@ -106,8 +106,8 @@ TEST(OneProcessor, TheExecutivesPlanningDelaysItsDrivingAndItsPriorityTheOthers)
     ADD_FAILURE() << "the robot has no such processor";
   } catch (const BadInput& error) {
     EXPECT_STREQ(error.what(),
-                 "--set robots.rackham.executive.processor=gpu: 'processor' should be one of this robot's "
-                 "processors, but is 'gpu'");
+                 "--set robots.rackham.executive.processor=gpu: expected 'processor' to be one of this robot's "
+                 "processors, found 'gpu'");
   }
 }
 

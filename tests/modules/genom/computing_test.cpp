@@ -121,31 +121,32 @@ TEST(TaskComputing, WhatCannotBeIsNamedWithItsLine) {
   };
   EXPECT_EQ(
       complaint({{"clock", "quartz"}}),
-      "robot.yaml:1: 'tasks.main.clock' should be fixed, proportional, cpu, interval or counted, but is 'quartz'");
+      "robot.yaml:1: expected 'tasks.main.clock' to be fixed, proportional, cpu, interval or counted, found 'quartz'");
   EXPECT_EQ(complaint({{"clock.kind", "Fixed"}}),
-            "robot.yaml:1: 'tasks.main.clock.kind' should be fixed, proportional, cpu, interval or counted, but is "
+            "robot.yaml:1: expected 'tasks.main.clock.kind' to be fixed, proportional, cpu, interval or counted, found "
             "'Fixed'");
-  EXPECT_EQ(
-      complaint({{"clock.kind", "interval"}, {"clock.cost_us.0", "300"}, {"clock.cost_us.1", "100"}}),
-      "robot.yaml:2: 'tasks.main.clock.cost_us.0' should be the least of the two costs, which comes first, but is "
-      "'300'");
+  EXPECT_EQ(complaint({{"clock.kind", "interval"}, {"clock.cost_us.0", "300"}, {"clock.cost_us.1", "100"}}),
+            "robot.yaml:2: expected 'tasks.main.clock.cost_us.0' to be the least cost, not above the greatest, found "
+            "'300'");
   EXPECT_EQ(
       complaint({{"clock.kind", "interval"}, {"clock.cost_us.0", "-1"}, {"clock.cost_us.1", "100"}}),
-      "robot.yaml:2: 'tasks.main.clock.cost_us.0' should be a duration that is not negative, at most 1e9 s, but is "
+      "robot.yaml:2: expected 'tasks.main.clock.cost_us.0' to be a duration that is not negative, at most 1e9 s, found "
       "'-1'");
   EXPECT_EQ(complaint({{"clock.kind", "interval"}}),
-            "robot.yaml:1: 'tasks.main.clock.kind' should be with cost_us: [least, greatest], but is 'interval'");
+            "robot.yaml:1: expected 'tasks.main.clock.kind' to be accompanied by cost_us: [least, greatest], found "
+            "'interval'");
   EXPECT_NE(complaint({{"clock", "interval"}}), "none");
   EXPECT_NE(complaint({{"clock.kind", "interval"}, {"clock.cost_us.0", "5"}}), "none");
   EXPECT_NE(complaint({{"clock.kind", "interval"}, {"clock.cost_us.0", "0"}, {"clock.cost_us.1", "0"}}), "none");
   EXPECT_NE(complaint({{"clock.kind", "fixed"}, {"clock.cost_us.0", "1"}, {"clock.cost_us.1", "2"}}), "none");
   EXPECT_NE(complaint({{"clock.kind", "cpu"}, {"clock.block_cost_ns", "1"}}), "none");
   for (const char* scale : {"x-1", "xx1", "fast", "", "x", "1e7", "nan"})
-    EXPECT_NE(complaint({{"clock.scale", scale}}).find("robot.yaml:1: 'tasks.main.clock.scale' should be a factor"),
-              std::string::npos)
+    EXPECT_NE(
+        complaint({{"clock.scale", scale}}).find("robot.yaml:1: expected 'tasks.main.clock.scale' to be a factor"),
+        std::string::npos)
         << scale;
   EXPECT_EQ(complaint({{"processor", "gpu"}}),
-            "robot.yaml:1: 'tasks.main.processor' should be one of this robot's processors, but is 'gpu'");
+            "robot.yaml:1: expected 'tasks.main.processor' to be one of this robot's processors, found 'gpu'");
   EXPECT_NE(complaint({{"priority", "high"}}), "none");
 }
 

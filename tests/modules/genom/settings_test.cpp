@@ -77,11 +77,12 @@ TEST(Settings, WhatIsNotSetKeepsItsValue) {
 }
 
 TEST(Settings, BadValuesAreBadInputWithPlaceKeyAndExpectation) {
-  EXPECT_EQ(complaint("gain", "much"), "robot.yaml:12: 'gain' should be a number, but is 'much'");
-  EXPECT_EQ(complaint("on", "yes"), "robot.yaml:12: 'on' should be true or false, but is 'yes'");
-  EXPECT_EQ(complaint("small", "256"), "robot.yaml:12: 'small' should be an integer between 0 and 255, but is '256'");
+  EXPECT_EQ(complaint("gain", "much"), "robot.yaml:12: expected 'gain' to be a number, found 'much'");
+  EXPECT_EQ(complaint("on", "yes"), "robot.yaml:12: expected 'on' to be true or false, found 'yes'");
+  EXPECT_EQ(complaint("small", "256"),
+            "robot.yaml:12: expected 'small' to be an integer between 0 and 255, found '256'");
   EXPECT_EQ(complaint("pause_s", "-1"),
-            "robot.yaml:12: 'pause_s' should be a duration that is not negative, at most 1e9 s, but is '-1'");
+            "robot.yaml:12: expected 'pause_s' to be a duration that is not negative, at most 1e9 s, found '-1'");
   for (const char* text : {"", " ", "1.5x", "nan", "inf", "1e999", "0x10", "1,5"}) {
     EXPECT_NE(complaint("gain", text), "none") << text;
     EXPECT_NE(complaint("period_ms", text), "none") << text;

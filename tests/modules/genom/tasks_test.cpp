@@ -150,8 +150,7 @@ TEST(Module, ACostThatNoCodelHasIsRefused) {
   }
   EXPECT_EQ(
       complaint,
-      "robot.yaml:7: 'tasks.main.cost_us' should be left out: the task has no permanent codel that it could be the "
-      "cost of, but is '300'");
+      "robot.yaml:7: expected 'tasks.main.cost_us' to be left out (the task has no permanent codel), found '300'");
   task.set_second_permanent([] {});
   EXPECT_NO_THROW(robot.module.check_costs(robot.setup.settings));
 }
