@@ -20,7 +20,7 @@ constexpr Kind kinds[] = {Kind::differential, Kind::synchro,    Kind::omni,
 
 bool has_two_sides(Kind kind) { return kind == Kind::differential || kind == Kind::skid_steer; }
 
-/// Refuses keys of another kind of base, which would do nothing.
+/// Rejects keys for other kinds of bases, which would have no effect.
 void only_for(const YamlMap& map, bool is_such, std::string_view such, std::initializer_list<std::string_view> keys) {
   if (is_such) return;
   for (const std::string_view key : keys)
@@ -114,7 +114,7 @@ world::BaseDescription read_base(const YamlNode& node, world::BaseDescription ba
   return base;
 }
 
-/// The base's own figures of a battery are for a robot without this.
+/// Rejects the base's own battery keys beside the key `battery`.
 void refuse_battery_of_base(const YamlMap& robot) {
   const YamlNode* base = robot.find("base");
   if (base == nullptr) return;
@@ -170,7 +170,7 @@ BodyReading read_body(const YamlMap& robot, const BodyReading* given) {
     for (const YamlNode& item : read_list(*lasers, "lasers")) {
       LaserReading laser = read_laser(item);
       if (std::count(reading.laser_names.begin(), reading.laser_names.end(), laser.name) > 0) {
-        throw item.written.bad("expected lasers of different names, '" + laser.name + "' is there already");
+        throw item.written.bad("there are two lasers called '" + laser.name + "'");
       }
       mount_at_frame(item, model, laser.laser);
       reading.laser_names.push_back(std::move(laser.name));

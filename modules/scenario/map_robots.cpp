@@ -46,19 +46,21 @@ Row* row_for(std::vector<Row>& rows, const std::string& name, const world::Robot
 void check_used(const std::vector<Row>& rows, const MapFile& map) {
   for (const Row& row : rows) {
     if (row.used) continue;
-    if (row.model.empty()) throw row.node.written.bad("the rows before this one have all robots of the map");
+    if (row.model.empty())
+      throw row.node.written.bad("the row matches no robot: earlier rows match all robots of the map");
     std::vector<std::string_view> known;
     for (const world::BodyDescription& body : map.contents->bodies) known.push_back(body.name);
     for (const world::RobotOrigin& origin : map.contents->origins)
       known.insert(known.end(), origin.types.begin(), origin.types.end());
     if (std::find(known.begin(), known.end(), row.model) != known.end())
-      throw row.node.written.bad("the rows before this one have all robots '" + row.model + "' of the map");
+      throw row.node.written.bad("the row matches no robot: earlier rows match all robots '" + row.model +
+                                 "' of the map");
     throw row.node.written.bad("there is no robot '" + row.model + "', and none of that type, in '" +
                                map.file.string() + "'" + did_you_mean(row.model, known));
   }
 }
 
-/// Lasers as the scenario's devices can be.
+/// Limits lasers to the number of beams that the posters hold.
 BodyReading as_devices(world::BodyDescription body, const world::RobotOrigin& origin, world::LeftOut& left_out) {
   for (world::LaserDescription& laser : body.lasers) {
     if (laser.beams <= posters::beam_count_max) continue;
@@ -69,7 +71,7 @@ BodyReading as_devices(world::BodyDescription body, const world::RobotOrigin& or
   return {std::move(body), origin.laser_names, {}};
 }
 
-/// The first `own_robots` are the scenario's own.
+/// The first `own_robots` robots are the scenario's own.
 void check_names(const Scenario& scenario, std::size_t own_robots) {
   const auto behind_own = scenario.robots.begin() + static_cast<std::ptrdiff_t>(own_robots);
   for (auto own = scenario.robots.begin(); own != behind_own; ++own) {
@@ -83,7 +85,7 @@ void check_names(const Scenario& scenario, std::size_t own_robots) {
 }  // namespace
 
 void read_robots_from_map(const YamlNode& node, const YamlNode* types, Scenario& scenario) {
-  if (!scenario.map) throw node.written.bad("expected world.map, whose robots these are");
+  if (!scenario.map) throw node.written.bad("expected a world.map for robots_from_map");
   MapFile& map = *scenario.map;
   map.read();
   const world::WorldFile& file = *map.contents;

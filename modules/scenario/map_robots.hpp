@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The robots that stand in the map's file, as robots of the scenario: `robots_from_map`.
+// The robots of a map file as robots of the scenario: `robots_from_map`.
 //
-//   robots_from_map: scout                              all of them, of that type
-//   robots_from_map: [{model: red, type: scout}, ...]   the first row counts that has no `model`, or the robot's name
-//   or
-//                                                       one of the types that it is made from in the file
+//   robots_from_map: scout                              all of them, with type `scout`
+//   robots_from_map: [{model: red, type: scout}, ...]   the first matching row applies: one without `model`, or with
+//                                                       the robot's name, or with one of its types in the file
 //
-// A row has what a robot has beside name and start, laid over its type; of `shape`, `base` and `lasers` a robot has
-// what the file says where neither says it. What no row is for is left out.
+// A row may have all keys of a robot but name and start; they override those of its type. For `shape`, `base` and
+// `lasers` the file has the defaults. Robots without a matching row are left out.
 #pragma once
 
 #include "modules/scenario/scenario.hpp"
@@ -15,8 +14,8 @@
 
 namespace waitpoint::scenario {
 
-/// Reads the scenario's map, which must be known, and adds its robots to those of the scenario. BadInput where a row is
-/// for no robot, and where two robots have one name.
+/// Reads the map file and appends its robots to those of the scenario. BadInput for a row without a robot, a duplicate
+/// name, or a scenario without a map.
 void read_robots_from_map(const YamlNode& node, const YamlNode* types, Scenario& scenario);
 
 }  // namespace waitpoint::scenario

@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A nanosecond to an hour. None is not allowed: what one robot does must not reach another at the same instant.
+// A nanosecond to an hour. Zero is not allowed: a robot must not affect another at the same instant.
 constexpr NumberRange latency_range{1e-6, 3.6e6, "a positive number of at most 3600000"};
 
 Duration milliseconds(double number) { return Duration::from_seconds(number * 1e-3); }
@@ -20,7 +20,7 @@ void read_latency(const YamlNode& node, io::Medium& medium) {
     return;
   }
   const std::vector<double> ends = read_numbers(node, "latency_ms", 2, 2, latency_range);
-  if (ends[0] > ends[1]) throw node.written.bad("expected latency_ms to be the least latency and then the greatest");
+  if (ends[0] > ends[1]) throw node.written.bad("expected latency_ms to be [least, greatest]");
   medium.latency_least = milliseconds(ends[0]);
   medium.latency_most = milliseconds(ends[1]);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the medium of a scenario: what lies between robots that send to each other.
+// Reads the medium of a scenario: the model of communication between robots.
 #pragma once
 
 #include "fibers/io/medium.hpp"
@@ -7,7 +7,7 @@
 
 namespace waitpoint::scenario {
 
-/// What makes no sense is BadInput, naming the line.
+/// Throws BadInput with the line for values out of range.
 io::Medium read_medium(const YamlNode& node);
 
 }  // namespace waitpoint::scenario

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's shape and the places of its sensors from a URDF that a scenario names:
+// A robot's shape and sensor positions from a URDF file:
 //
-//   urdf: rover.urdf                       in place of `shape`
-//   lasers: [{frame: laser_link}]          in place of `mount` and `height_m`
+//   urdf: rover.urdf                       instead of `shape`
+//   lasers: [{frame: laser_link}]          instead of `mount` and `height_m`
 #pragma once
 
 #include <optional>
@@ -16,13 +16,13 @@ namespace waitpoint::scenario {
 
 struct RobotModel {
   world::UrdfRobot robot;
-  std::vector<std::string> warnings;  ///< what of the file is left out or taken otherwise, a line each
+  std::vector<std::string> warnings;  ///< parts of the file that are omitted or approximated, one line each
 };
 
-/// The model that the key `urdf` names, by a path relative to the scenario; none without the key.
+/// The model of the key `urdf`, a path relative to the scenario; nothing without the key.
 std::optional<RobotModel> read_robot_model(const YamlMap& robot);
 
-/// Puts a laser where a link of the model is, if the scenario's `laser` says so by `frame`. The link must be upright.
+/// Mounts a laser at the link named by its `frame`, if it has one. The link must be upright.
 void mount_at_frame(const YamlNode& laser, const std::optional<RobotModel>& model, world::LaserDescription& device);
 
 }  // namespace waitpoint::scenario

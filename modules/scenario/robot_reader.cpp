@@ -11,7 +11,7 @@
 namespace waitpoint::scenario {
 namespace {
 
-constexpr std::size_t letters_max = 40;  // the kernel keeps names in place
+constexpr std::size_t letters_max = 40;  // the kernel stores names in fixed arrays
 
 bool is_reserved(const std::string& name) { return name == "environment" || name == "base"; }
 
@@ -19,7 +19,7 @@ bool fits_names(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
-/// Names go into paths of --set, names of posters and names of files.
+/// Names are part of --set paths, poster names and file names, hence the restrictions.
 std::string read_name(const YamlNode& node, std::string_view what) {
   std::string name = read_text(node, what);
   if (!std::all_of(name.begin(), name.end(), fits_names)) {
@@ -139,7 +139,7 @@ std::vector<Goal> read_goals(const YamlNode& node) {
   return goals;
 }
 
-/// What a type has: everything but name, start and goals.
+/// The keys of a robot type: all but name, start and goals.
 RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = nullptr) {
   RobotScenario robot;
   BodyReading reading = read_body(map, given);
@@ -219,7 +219,7 @@ RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, con
 }
 
 std::string fitting_name(const std::string& name) {
-  constexpr std::size_t number_letters = 8;  // that tell it from others of the name
+  constexpr std::size_t number_letters = 8;  // of the suffix that makes it unique
   std::string fitting = name.substr(0, letters_max - number_letters);
   for (char& c : fitting)
     if (!fits_names(c)) c = '_';

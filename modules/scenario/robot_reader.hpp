@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One robot of a scenario: its type with its own keys laid over it (modules and lasers by their names, other lists as a
-// whole), its start and its goals.
+// One robot of a scenario: its type, overridden by its own keys (modules and lasers are merged by name, other lists
+// replaced), its start and its goals.
 #pragma once
 
 #include "modules/scenario/body_reader.hpp"
@@ -9,23 +9,22 @@
 
 namespace waitpoint::scenario {
 
-/// Reads an element of `robots`. `types` is the map `robot_types`, or null; the robot needs none of them if it has all
-/// that a type has.
+/// Reads an element of `robots`. `types` is the map `robot_types`, or null; a robot with all keys of a type needs none.
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types);
 
-/// Reads an element of `robots_from_map` for the robot of that name, which has what `given` says where its type and the
-/// element do not; it starts where `given` does.
+/// Reads an element of `robots_from_map` for the robot `name`. `given` has its start, and the defaults for keys that
+/// neither the type nor the element has.
 RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, const std::string& name,
                                 const BodyReading& given);
 
-/// The name with whatever a name must not have replaced by '_', and not too long.
+/// `name` with invalid characters replaced by '_', and shortened to the maximum length.
 std::string fitting_name(const std::string& name);
 
-/// Reads a robot type, so that one that no robot uses is checked too. It must have a shape unless `for_map`: then a
-/// map may give it.
+/// Validates a robot type, whether or not a robot uses it. It must have a shape unless `for_map`: a map may then give
+/// the shape.
 void check_robot_type(const YamlEntry& type, bool for_map);
 
-/// The values under `node`, nested keys and list positions joined by dots behind `prefix`; nulls are left out.
+/// The values below `node`, keyed by `prefix` and the keys and list positions, joined by dots; nulls are omitted.
 std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix = "");
 
 }  // namespace waitpoint::scenario

@@ -4,7 +4,7 @@
 namespace waitpoint::scenario {
 namespace {
 
-/// Where the obstacle was written; the map's obstacles are all at the map's line.
+/// The place of an obstacle in the input; obstacles of the map are at the map's line.
 std::string place_of_obstacle(const Scenario& scenario, const std::string& name) {
   for (std::size_t i = 0; i < scenario.shapes.size(); ++i) {
     if (scenario.shapes[i].name == name) return " (" + scenario.shapes_written[i].text() + ")";
@@ -68,8 +68,8 @@ void check_dynamic(const Scenario& scenario, const std::vector<world::LooseOverl
   }
   for (const RobotScenario& robot : scenario.robots) {
     if (robot.body.base.w_max_rad_s * scenario.step.seconds() < exact::pi) continue;
-    throw robot.written.bad("robot '" + robot.name + "' may turn by half a turn in a step of the world of " +
-                            to_string(scenario.step) + " s, expected a shorter one for engine bullet");
+    throw robot.written.bad("expected a shorter step_ms for engine bullet: robot '" + robot.name +
+                            "' can turn by half a turn in a step of " + to_string(scenario.step) + " s");
   }
 }
 

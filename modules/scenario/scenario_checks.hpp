@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of a scenario that need its world: they name the line of the scenario that is wrong.
+// Checks of a scenario against its world. Errors name the line of the scenario.
 #pragma once
 
 #include <functional>
@@ -11,22 +11,21 @@
 
 namespace waitpoint::scenario {
 
-/// What is at a point where a robot is to go.
+/// The state of a goal's position.
 enum class GoalPlace {
-  free,             ///< whether it can be reached is another question
-  inside_obstacle,  ///< something known is there
-  outside_map,      ///< the map ends before
+  free,             ///< not necessarily reachable
+  inside_obstacle,  ///< occupied by a known obstacle
+  outside_map,      ///< unknown or beyond the map's edge
 };
 
-/// Throws BadInput at the first goal that is not free.
+/// Throws BadInput for the first goal that is not free.
 void check_goals(const Scenario& scenario, const std::function<GoalPlace(const RobotScenario&, Point)>& place);
 
-/// Throws BadInput at the start of the robot that the first overlap names, telling also where the other one was
-/// written.
+/// Throws BadInput for the first overlap, at the robot's start, with the place of the other body or obstacle.
 void check_starts(const Scenario& scenario, const std::vector<world::StartOverlap>& overlaps);
 
-/// Throws BadInput for what a dynamic world cannot begin with: the first overlap of what is loose, a robot that could
-/// turn by half a turn in a step.
+/// Throws BadInput for an invalid initial state of a dynamic world: an overlap of a loose obstacle, or a robot whose
+/// maximum turn rate is half a turn or more per step.
 void check_dynamic(const Scenario& scenario, const std::vector<world::LooseOverlap>& overlaps);
 
 }  // namespace waitpoint::scenario

@@ -16,7 +16,7 @@ void check_format(const YamlNode& document) {
   read_count(*format, "format", scenario_format, scenario_format);
 }
 
-/// The floor of a file as the part of a world. Its default height is written into its shapes: the world's is its own.
+/// The floor of a file, as the base of a world. Its default height is copied to its shapes: the world has its own.
 YamlNode load_floor(const std::filesystem::path& file) {
   YamlNode floor = load_yaml(file);
   check_format(floor);
@@ -38,14 +38,14 @@ YamlNode load_floor(const std::filesystem::path& file) {
   return world;
 }
 
-/// The path written at `include`, checked.
+/// The path of an `include`; BadInput if the file does not exist.
 std::filesystem::path included_file(const YamlNode& include) {
   std::filesystem::path file = include.written.resolve(read_text(include, "include"));
   if (!std::filesystem::exists(file)) throw include.written.bad("there is no file '" + file.string() + "' to include");
   return file;
 }
 
-/// The floor's shapes, changed by those of the same name, then the others.
+/// The floor's shapes, overridden by own shapes of the same name, then the other own shapes.
 YamlNode joined_shapes(const YamlNode& floor, const YamlNode& own) {
   if (floor.kind != YamlNode::Kind::list || own.kind != YamlNode::Kind::list) return own;
   YamlNode shapes = floor;
@@ -63,7 +63,7 @@ YamlNode joined_shapes(const YamlNode& floor, const YamlNode& own) {
   return shapes;
 }
 
-/// Puts the included floor, if any, in the place of `world.include`.
+/// Replaces `world.include` by the included floor, if any.
 void include_floor(YamlNode& document) {
   YamlEntry* world = document.entry("world");
   const YamlNode* include = world == nullptr ? nullptr : world->value.find("include");
@@ -82,7 +82,7 @@ void include_floor(YamlNode& document) {
   world->value = std::move(result);
 }
 
-/// Puts the included robot types, if any, under the scenario's own.
+/// Overlays the scenario's robot types on the included ones, if any.
 void include_robot_types(YamlNode& document) {
   YamlEntry* types = document.entry("robot_types");
   const YamlNode* include = types == nullptr ? nullptr : types->value.find("include");

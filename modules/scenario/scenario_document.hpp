@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one document that a scenario's files and the --set options make together, before its values are read.
+// Combines a scenario's files and the --set options into one document, before its values are read.
 //
 //   world: {include: floor.yaml, shapes: [...]}
 //   robot_types: {include: types.yaml, ...}
 //
-// The included floor lies under the world: its keys count where the world does not have them, its shapes come first,
-// and a shape of the world that bears the name of a floor's shape changes that one. Included robot types lie under the
-// scenario's own. Options are applied in their order and see what is included: `world.shapes=[]` empties the floor,
-// `world.shapes.pillar.known=false` reaches into it. Only `world`, `robot_types` and their `include` are set before.
+// The included floor is the base of the world: the world's keys override it; the floor's shapes come first, and a shape
+// of the world with the name of one of the floor's overrides that one. Included robot types are the base of the
+// scenario's own. Options are applied in order, after the includes: `world.shapes=[]` empties the floor,
+// `world.shapes.pillar.known=false` changes one of its shapes. Only options that set `world`, `robot_types` or an
+// `include` are applied before the includes.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +19,10 @@
 
 namespace waitpoint::scenario {
 
-/// The format number that this program reads.
+/// The supported version of the format.
 inline constexpr int scenario_format = 1;
 
-/// Throws BadInput where a file cannot be read, has another format, or an option has no place.
+/// Throws BadInput for an unreadable file, another format version, or an option whose path does not exist.
 YamlNode scenario_document(const std::filesystem::path& file, const std::vector<std::string>& assignments);
 
 }  // namespace waitpoint::scenario

@@ -18,8 +18,8 @@
 
 namespace waitpoint::scenario {
 
-/// Reads the file with the options `--set key=value` (given without "--set ") applied. Throws BadInput(file, line, what
-/// was expected); for a value that an option set, the option is named instead.
+/// Reads the file with the options `--set key=value` (given without "--set ") applied. Throws BadInput with file and
+/// line, or with the option if the value comes from one.
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments = {});
 
 }  // namespace waitpoint::scenario

@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr NumberRange probability{0, 1, "a probability from 0 to 1"};
 
-/// The errors of a laser that stand alone.
+/// Error parameters of a laser that do not depend on others.
 void read_laser_errors(const YamlMap& map, world::LaserDescription& laser) {
   map.read("range_noise_m", laser.range_noise_m, number_from_zero);
   constexpr NumberRange growth{1, 1e9, "a number from 1 on"};
@@ -37,7 +37,7 @@ void read_laser_errors(const YamlMap& map, world::LaserDescription& laser) {
   map.read_degrees("incidence_max_deg", laser.incidence_max_rad, incidence);
 }
 
-/// What mirror and line can do, and what an LMS can.
+/// Timing of mirror and serial line, within the limits of an LMS if `lms`.
 void read_laser_timing(const YamlMap& map, bool lms, world::LaserDescription& laser) {
   constexpr std::uint64_t line_max_bit_s = 1'000'000'000;
   map.read("line_bit_s", laser.line_bit_s, 300, line_max_bit_s);
@@ -53,11 +53,11 @@ void read_laser_timing(const YamlMap& map, bool lms, world::LaserDescription& la
   map.read("period_ms", laser.period, 1ms);
   if (laser.period < least) {
     throw map.node().written.bad("expected period_ms to be at least " + to_string(least * 1000) +
-                                 ": mirror and line take that for a scan");
+                                 ": the time of a scan at the mirror or on the line");
   }
 }
 
-/// Of one sort of axes, in the unit that the key of `node` names.
+/// Errors of one kind of axes, in the unit of the key of `node`.
 world::InertialErrors read_inertial_errors(const YamlNode& node, std::string_view what) {
   const YamlMap map(node, std::string(what),
                     {"noise_per_sqrt_hz", "bias", "walk_per_sqrt_s", "drift", "drift_s", "scale", "resolution", "max"});
@@ -73,7 +73,7 @@ world::InertialErrors read_inertial_errors(const YamlNode& node, std::string_vie
   return errors;
 }
 
-/// What rings of sonars and of infrared range finders have alike; the nearest that one tells is a number of `nearest`.
+/// Common keys of rings of sonars and infrared range finders; `nearest` is the range of range_min_m.
 template <class Ring>
 void read_ring(const YamlMap& map, std::uint32_t count_max, const NumberRange& nearest, Ring& ring) {
   map.read("count", ring.count, 1, count_max);
@@ -86,16 +86,17 @@ void read_ring(const YamlMap& map, std::uint32_t count_max, const NumberRange& n
   map.read("period_ms", ring.period, 1ms);
 }
 
-/// Each member of a bank once, and time for the echo of each slot to come back before the next.
+/// A permutation of a bank's members; the period must let the echo of each slot return before the next slot.
 void read_firing_order(const YamlNode& node, world::SonarRingDescription& ring) {
   const std::vector<YamlNode>& members = read_list(node, "firing_order");
   if (members.empty() || members.size() > ring.count)
-    throw node.written.bad("expected firing_order to have from 1 to as many members as the ring");
+    throw node.written.bad("expected firing_order to have from 1 to " + std::to_string(ring.count) +
+                           " members, found " + std::to_string(members.size()));
   for (const YamlNode& member : members) {
     const std::uint64_t number = read_count(member, "a member of firing_order", 0, members.size() - 1);
     if (std::count(ring.firing_order.begin(), ring.firing_order.end(), number) > 0)
-      throw member.written.bad("expected each member of a bank once in firing_order, '" + member.text +
-                               "' is there already");
+      throw member.written.bad("expected each member of a bank once in firing_order, found '" + member.text +
+                               "' twice");
     ring.firing_order.push_back(static_cast<std::uint32_t>(number));
   }
   const double echo_s = 2 * ring.range_max_m / world::sound_m_s(ring.air_celsius);
@@ -180,7 +181,7 @@ world::BumperDescription read_bumpers(const YamlNode& node) {
   const YamlMap map(node, "the bumpers", {"count", "travel_m"});
   world::BumperDescription bumpers;
   map.read("count", bumpers.count, 1, posters::bumper_count_max);
-  constexpr NumberRange travel{1e-5, 0.1, "a distance from 0.00001 to 0.1 m"};  // bodies stop a little before contact
+  constexpr NumberRange travel{1e-5, 0.1, "a distance from 0.00001 to 0.1 m"};  // bodies stop short of contact
   map.read("travel_m", bumpers.travel_m, travel);
   return bumpers;
 }

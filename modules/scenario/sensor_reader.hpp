@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's sensors as a scenario writes them. The keys are the names of the fields in world/sensor_description.hpp,
-// angles in degrees where the key says so; what is left out has the value given there, or that of the `model`.
+// A robot's sensors in a scenario. Keys are the field names of world/sensor_description.hpp, in degrees if the key says
+// so; defaults are those of the fields or of the `model`.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace waitpoint::scenario {
 
 struct LaserReading {
   world::LaserDescription laser;
-  std::string name;  ///< "laser" where the scenario gives none
+  std::string name;  ///< default "laser"
 };
 
 LaserReading read_laser(const YamlNode& node);

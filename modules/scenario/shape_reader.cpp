@@ -14,7 +14,7 @@ using world::Shape;
 constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
 constexpr NumberRange turn{-3600, 3600, "degrees within ten turns"};
 
-/// From -pi to pi; 0 where it is left out.
+/// From -pi to pi; default 0.
 double read_heading(const YamlMap& map) {
   double heading_rad = 0;
   map.read_degrees("heading_deg", heading_rad, turn);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes as a scenario writes them: a box by two opposite corners, a turned box by centre and size, an upright cylinder
-// by centre and radius, each from `low_m` (default 0) up to `height_m` above the floor.
+// Shapes in a scenario: a box by two opposite corners, a rotated box by centre and size, a vertical cylinder by centre
+// and radius, each from `low_m` (default 0) to `height_m` above the floor.
 //
 //   {corners_m: [x0, y0, x1, y1]}      {centre_m: [x, y], size_m: [length, width], heading_deg: 30}
 //   {centre_m: [x, y], radius_m: 0.3}
@@ -16,13 +16,13 @@ namespace waitpoint::scenario {
 
 inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
 
-/// A robot's body, about its own origin: `centre_m` may be left out, `height_m` may not.
+/// A robot's body in its own frame: `centre_m` is optional, `height_m` is not.
 world::Shape read_body_shape(const YamlNode& node);
 
-/// What a shape is called: as it says, or "shape N", N its place in the list, from 1: `number`.
+/// The shape's name, or "shape N" without one; N is `number`, its position in the list, from 1.
 std::string shape_name(const YamlNode& node, std::size_t number);
 
-/// A shape of the world; a cylinder or turned box needs its centre. `height_m` is what it has if it does not say.
+/// A shape of the world; a cylinder or rotated box needs `centre_m`. `height_m` is the default height.
 world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number);
 
 /// `[x, y]` or `{x_m: x, y_m: y}`.

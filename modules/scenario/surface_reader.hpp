@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes that a scenario takes from files: a mesh, or the occupied cells of an octree.
+// Shapes of a scenario from files: a mesh, or the occupied cells of an octree.
 //
 //   {mesh: hall.stl, at_m: [2, 3, 0], heading_deg: 90, scale: 0.001}      scale: a number, or one for each axis
 //   {octomap: yard.bt, at_m: [2, 3], heading_deg: 90}
@@ -14,10 +14,10 @@
 
 namespace waitpoint::scenario {
 
-/// What is left out of the file is told. BadInput as of world::read_mesh_file().
+/// Omitted parts of the file are added to `left_out`. BadInput as from world::read_mesh_file().
 world::MeshObstacle read_mesh(const YamlNode& node, const std::string& name, world::LeftOut& left_out);
 
-/// Boxes called "NAME 0", "NAME 1", .... BadInput as of world::read_octree().
+/// Boxes named "NAME 0", "NAME 1", .... BadInput as from world::read_octree().
 std::vector<world::Obstacle> read_octomap(const YamlNode& node, const std::string& name, world::LeftOut& left_out);
 
 }  // namespace waitpoint::scenario

@@ -25,14 +25,15 @@ std::string take_word(std::string_view& text, const Location& written) {
     return word;
   }
   const std::size_t end = text.find('"', 1);
-  if (end == std::string_view::npos) throw written.bad("a quote is not closed");
+  if (end == std::string_view::npos) throw written.bad("expected a closing quote");
   word = text.substr(1, end - 1);
   text.remove_prefix(end + 1);
   return word;
 }
 
 void require_end(std::string_view text, const Location& written) {
-  if (!trimmed(text).empty()) throw written.bad("unexpected '" + std::string(trimmed(text)) + "'");
+  if (!trimmed(text).empty())
+    throw written.bad("expected the end of the line, found '" + std::string(trimmed(text)) + "'");
 }
 
 }  // namespace waitpoint::scenario

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A line that a person wrote, word by word: blanks between words, double quotes around one that has blanks itself.
+// Splits a command line into words: separated by blanks; double quotes enclose a word with blanks.
 #pragma once
 
 #include <string>
@@ -9,13 +9,14 @@
 
 namespace waitpoint::scenario {
 
-/// Without the blanks at both ends.
+/// `text` without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
 
-/// Takes the first word off `text`, without its quotes; empty at the end. A quote that is not closed is BadInput.
+/// Removes the first word from `text` and returns it without quotes; empty at the end. A missing closing quote is
+/// BadInput.
 std::string take_word(std::string_view& text, const Location& written);
 
-/// Throws BadInput at `written` if there is one more word.
+/// Throws BadInput at `written` if `text` has another word.
 void require_end(std::string_view text, const Location& written);
 
 }  // namespace waitpoint::scenario

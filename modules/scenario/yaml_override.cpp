@@ -53,7 +53,7 @@ YamlNode& step_into(YamlNode& node, const std::string& step, const Location& opt
     node.written = option;
   }
   if (node.kind != YamlNode::Kind::map) {
-    throw option.bad("'" + step + "' is looked for in " + described(node) + ", which is no map of keys and no list");
+    throw option.bad("expected a map or list with '" + step + "', found " + described(node));
   }
   if (YamlEntry* entry = node.entry(step)) return entry->value;
   node.entries.push_back({step, option, YamlNode{}});

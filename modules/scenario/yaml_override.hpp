@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Documents put together: one laid over another, and single values set by their path.
+// Combination of documents: overlays, and single values set by path.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace waitpoint::scenario {
 
-/// `over` laid over `base`. Maps are merged key by key; so are lists whose elements all have names, element by element
-/// (new names at the end); anything else in `over` takes the place of what `base` has.
+/// `base` overridden by `over`. Maps are merged by key, and lists by element name if all their elements have names (new
+/// names at the end); any other value of `over` replaces that of `base`.
 YamlNode laid_over(const YamlNode& base, const YamlNode& over);
 
-/// An option `--set path=value`, taken apart. `path` has keys, and for elements of lists their index or name, joined by
-/// dots; `value` is YAML and is written at the option. Throws BadInput for text that is not of this form.
+/// A parsed option `--set path=value`. `path` has keys, and indices or names of list elements, joined by dots; `value`
+/// is YAML located at the option. Throws BadInput for other text.
 struct Assignment {
   std::string path;
   YamlNode value;
@@ -22,9 +22,8 @@ struct Assignment {
   explicit Assignment(const std::string& text);
 };
 
-/// Replaces the value at the assignment's path. Keys of maps that are missing are made: who reads the document tells
-/// unknown ones. Throws BadInput naming the option for an element that a list does not have, and for a path through a
-/// plain value.
+/// Replaces the value at the assignment's path. Missing keys of maps are added; unknown ones are found when the
+/// document is read. Throws BadInput naming the option for a missing list element or a path through a scalar.
 void assign(YamlNode& document, const Assignment& assignment);
 
 }  // namespace waitpoint::scenario

@@ -32,7 +32,7 @@ std::string joined(std::span<const std::string_view> words) {
 
 double read_number(const YamlNode& node, std::string_view what, const NumberRange& range) {
   double number = 0;
-  // Negated, so that "nan" is refused too.
+  // Negated to reject "nan", too.
   if (!parse(node, number) || !(number >= range.low && number <= range.high)) {
     refuse(node, what, std::string(range.phrase));
   }

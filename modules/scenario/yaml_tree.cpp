@@ -20,7 +20,7 @@ constexpr int depth_max = 32;
 constexpr std::size_t node_count_max = 200'000;
 constexpr std::size_t bytes_max = std::size_t{1} << 22;
 
-/// Copies a document of yaml-cpp, where anchors are shared nodes, into values.
+/// Converts a document of yaml-cpp, where aliases share nodes, into values.
 class Copier {
  public:
   Copier(const std::string& file, bool file_has_lines) : file_(file), file_has_lines_(file_has_lines) {}
@@ -60,7 +60,7 @@ class Copier {
         throw written.bad("key '" + key + "' is given twice, first at " + other->written.text());
       }
       node.entries.push_back({key, written, copy(pair.second, depth + 1)});
-      // What has no mark of its own (nothing written) stands where its key does.
+      // An empty value has no mark of its own; it is located at its key.
       if (node.entries.back().value.is_null()) node.entries.back().value.written = written;
     }
   }
@@ -70,7 +70,7 @@ class Copier {
   std::size_t count_ = 0;
 };
 
-/// Where the document that was read last begins, and whether there is anything in it.
+/// Finds the start of the last document, and records whether it has content.
 class Documents : public YAML::EventHandler {
  public:
   YAML::Mark begin;
@@ -100,8 +100,8 @@ class Documents : public YAML::EventHandler {
   }
 };
 
-/// Where the text's second document begins, if it has one; an empty one at its end is none. Not by YAML::LoadAll, which
-/// goes on for ever where the parser does not: it takes what it cannot read, as in ",1", for empty documents.
+/// The start of a second document, if any; an empty one at the end does not count. Not by YAML::LoadAll, which loops
+/// forever where its parser makes no progress: it takes text it cannot parse, such as ",1", for empty documents.
 std::optional<YAML::Mark> second_document(const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
@@ -120,8 +120,7 @@ std::string read_text(const std::filesystem::path& file) {
   std::string text(bytes_max + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > bytes_max)
-    throw BadInput(file.string(), "is longer than 4 MiB, expected a file that a person wrote");
+  if (text.size() > bytes_max) throw BadInput(file.string(), "expected a file of at most 4 MiB");
   return text;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A YAML document as plain values that know where they were written, so that every error can name file and line, and
-// documents can be put together (a robot's type and its overrides, an included floor, --set) before they are read.
+// A YAML document as plain values with their places in the input, so that every error can name file and line, and
+// documents can be combined (a robot type with overrides, an included floor, --set) before they are read.
 //
-// Keys are unique within a map and kept in their order. Anchors are copied where they are used; depth and size are
-// bounded, so that no document of a few lines can expand without end.
+// Keys are unique within a map and keep their order. Aliases are copies of their anchors; depth and size are bounded,
+// so that a short document cannot expand without limit.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct YamlEntry;
 
 struct YamlNode {
   enum class Kind {
-    null,    ///< nothing written, `~` or `null`: the same as a key left out
+    null,    ///< empty, `~` or `null`: equivalent to a missing key
     scalar,  ///< text
     list,
     map,
@@ -29,14 +29,14 @@ struct YamlNode {
   Kind kind = Kind::null;
   Location written;
   std::string text;                ///< scalar
-  bool quoted = false;             ///< scalar: written in quotes, so never a number or a truth value
+  bool quoted = false;             ///< scalar: in quotes, so never a number or boolean
   std::vector<YamlNode> items;     ///< list
   std::vector<YamlEntry> entries;  ///< map
 
   bool is_null() const { return kind == Kind::null; }
-  /// The value of a key of a map; nullptr if there is no such key, if its value is null, or if this is no map.
+  /// The value of a key; nullptr if the key is missing, its value is null, or this is not a map.
   const YamlNode* find(std::string_view key) const;
-  /// The entry of a key of a map, null values included; nullptr if there is none.
+  /// The entry of a key, even with a null value; nullptr if there is none.
   YamlEntry* entry(std::string_view key);
 };
 
@@ -46,20 +46,20 @@ struct YamlEntry {
   YamlNode value;
 };
 
-/// The element's value of `name`, if this is a map that has one in plain text; else "".
+/// The value of the key `name` if this is a map and the value is a scalar; else "".
 std::string_view name_of(const YamlNode& node);
 
-/// A hash of what is written, wherever it is: kinds, texts, keys in their order.
+/// A hash of kinds, texts and keys in order; independent of places.
 std::uint64_t fingerprint(const YamlNode& node);
 
-/// What the node is, for "expected ..., found ...": "a list", "'fast'".
+/// Description of a node for "expected ..., found ...": "a list", "'fast'".
 std::string described(const YamlNode& node);
 
-/// Reads a file that holds one document. Throws BadInput: unreadable, no YAML, a key given twice, too deep or too
-/// large.
+/// Reads a file with one document. Throws BadInput for an unreadable file, invalid YAML, a duplicate key, or excessive
+/// depth or size.
 YamlNode load_yaml(const std::filesystem::path& file);
 
-/// Reads text whose lines count from 1 in `file`; with `file_has_lines` false all of it is written at `file` alone.
+/// Parses text whose lines count from 1 in `file`; with `file_has_lines` false all values are located at `file` itself.
 YamlNode parse_yaml(const std::string& text, const std::string& file, bool file_has_lines = true);
 
 }  // namespace waitpoint::scenario

@@ -120,16 +120,15 @@ TEST_F(RobotsFromMap, ALaserHasAsManyBeamsAsAModuleTakes) {
 }
 
 TEST_F(RobotsFromMap, WhatDoesNotFitIsOneLine) {
-  EXPECT_EQ(complaint("robots_from_map: scout\n", "world: {}"),
-            "s.yaml:12: expected world.map, whose robots these are");
+  EXPECT_EQ(complaint("robots_from_map: scout\n", "world: {}"), "s.yaml:12: expected a world.map for robots_from_map");
   EXPECT_EQ(complaint("robots_from_map: scuot\n"), "s.yaml:12: there is no robot type 'scuot', did you mean 'scout'?");
   EXPECT_EQ(complaint("robots_from_map: []\n"), "s.yaml:12: expected robots_from_map to have a row");
   EXPECT_EQ(complaint("robots_from_map: [{model: rad, type: scout}]\n"),
             "s.yaml:12: there is no robot 'rad', and none of that type, in 'floor.world', did you mean 'red'?");
   EXPECT_EQ(complaint("robots_from_map: [{type: scout}, {model: red, type: tall}]\n"),
-            "s.yaml:12: the rows before this one have all robots 'red' of the map");
+            "s.yaml:12: the row matches no robot: earlier rows match all robots 'red' of the map");
   EXPECT_EQ(complaint("robots_from_map: [{type: scout}, {type: tall}]\n"),
-            "s.yaml:12: the rows before this one have all robots of the map");
+            "s.yaml:12: the row matches no robot: earlier rows match all robots of the map");
   EXPECT_EQ(
       complaint("robots_from_map: [{type: scout, start: [1, 1]}]\n"),
       "s.yaml:12: unknown key 'start' in robot 'first' of the map, expected model, type, goals, shape, urdf, base, "
