@@ -35,7 +35,7 @@ void Evaluation::observe(Time now, const world::BodyState& truth) {
     fused_error_max_m_ = std::max(fused_error_max_m_, error);
     sample(fused_path_, fused_date_, fused->position.pose);
   }
-  // Until the robot knows where it is, its odometry is in no frame.
+  // Without a localised position there is no common frame for the odometry.
   if (const auto odometry = odometry_ != nullptr ? odometry_->look() : std::nullopt;
       odometry && fused_count_ > 0 && odometry->position.date != odometry_date_) {
     odometry_date_ = odometry->position.date;

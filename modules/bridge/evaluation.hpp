@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well a robot knows where it is: its posters against the truth, looked at from outside the run.
+// Localisation errors of a robot: its posters compared with the true state, observed from outside the run.
 //
-// Looking makes no event: a run is the same whether it is evaluated or not. A position is compared with the truth at
+// Observation makes no event: the run is the same with and without it. Each position is compared with the true one at
 // its own date.
 #pragma once
 
@@ -16,25 +16,25 @@ namespace waitpoint::bridge {
 
 class alignas(64) Evaluation {
  public:
-  /// Finds `pom`'s position and `rflex`'s odometry; one that does not exist is not evaluated.
+  /// Finds the posters of `pom`'s position and `rflex`'s odometry; a missing one is not evaluated.
   void connect(const genom::NameSpace& names);
 
-  /// After a step of the world, at `now`.
+  /// Call after each step of the world; `now` is the time of the step.
   void observe(Time now, const world::BodyState& truth);
 
-  /// Ask for the memory that observe() touches: its own and, when that is there, where it will write.
+  /// Prefetch the memory that observe() touches: first the object, then the end of the path.
   void fetch_itself() const { kernel::fetch(this); }
   void fetch_path() const { kernel::fetch(true_path_.data() + true_path_.size()); }
 
-  /// Of the fused position, so far.
+  /// Maximum error of the fused position so far.
   double position_error_max_m() const { return fused_error_max_m_; }
-  /// Writes errors and paths.
+  /// Writes errors and paths to the result.
   void write(RobotResult& result) const;
 
  private:
   void sample(std::vector<DatedPose>& path, Time date, const Pose& pose);
 
-  // What a step touches of a robot that says nothing of where it is comes first.
+  // First the members that a step touches even without a position.
   std::vector<DatedPose> true_path_;
   const genom::Poster<posters::FusedPosition>* fused_ = nullptr;
   const genom::Poster<posters::Odometry>* odometry_ = nullptr;

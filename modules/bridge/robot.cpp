@@ -8,7 +8,7 @@
 namespace waitpoint::bridge {
 namespace {
 
-// Runs what may find bad input, and adds where the scenario asked for it.
+// Adds the scenario's line to BadInput thrown by `function`.
 template <class Function>
 void at(const scenario::Location& written, Function&& function) {
   try {
@@ -56,7 +56,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
     }
     genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), network};
     std::unique_ptr<genom::Module> made;
-    // Errors of settings know their own line; others are about the module as a whole.
+    // Errors of settings have a line of their own; others get the module's.
     try {
       made = type->make(setup);
       setup.settings.check_all_used();
@@ -105,7 +105,7 @@ void Robot::end_modules() {
   genom::Client client(names_, "end of " + scenario_.name);
   for (const auto& module : modules_) {
     const bool ended = client.end_module(module->name());
-    WAITPOINT_CHECK(ended, "an activity of a module does not end although it is interrupted");
+    WAITPOINT_CHECK(ended, "an interrupted activity of a module does not end");
     module->join();
   }
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One robot: its modules, its bridge to the world and its executive, in a name space of its own.
 //
-// Which tasks do its parts is for whoever carries out the run to say: an Experiment, or a
-// ThreadedExperiment.
+// Its tasks are made by the run: an Experiment or a ThreadedExperiment.
 #pragma once
 
 #include <memory>
@@ -25,27 +24,27 @@ namespace waitpoint::bridge {
 
 class Robot {
  public:
-  /// Makes and connects everything. What does not fit together is BadInput, naming the scenario's line. The scenario,
-  /// the world and the network, null where there is none, must outlive the robot.
+  /// Makes and connects all parts. Inconsistencies are BadInput with the scenario's line. The scenario, the world and
+  /// the network (null without one) must outlive the robot.
   Robot(const scenario::RobotScenario& scenario, std::span<const genom::ModuleType> types,
         std::shared_ptr<const executive::KnownSpace> known, world::World& world, world::BodyId body,
         io::Network* network, std::uint64_t seed);
 
-  /// The task of the robot's software: starts the modules, then carries out the round of goals, if there is any.
+  /// The body of the robot's main task: starts the modules, then drives the round of goals, if any.
   void run();
-  /// From another task: the round is left and the robot stopped.
+  /// Called from another task: aborts the round and stops the robot.
   void stop();
-  /// After run(): ends the modules, from a task; a module that does not end is a bug.
+  /// After run(), from a task: ends the modules. A module that does not end is a bug.
   void end_modules();
 
-  /// Tells `watch` what the modules do. Before run(); `watch` must outlive the robot's tasks. Null: nobody.
+  /// Reports the modules' activity to `watch`, which must outlive the robot's tasks. Before run(). Null: no watch.
   void set_watch(genom::ModuleWatch* watch);
 
   RobotBridge& bridge() { return bridge_; }
-  /// Compares what the robot believes with the truth, after a step of the world.
+  /// Compares the robot's estimates with the true state. Call after a step of the world.
   void observe(Time now) { evaluation_.observe(now, world_.body(body_)); }
 
-  /// Asks for the memory that an observation touches, in two steps.
+  /// Prefetch the memory that observe() touches, in two steps.
   void fetch_evaluation() const { evaluation_.fetch_itself(); }
   void fetch_path() const { evaluation_.fetch_path(); }
 
@@ -56,11 +55,11 @@ class Robot {
   const genom::NameSpace& names() const { return names_; }
   std::size_t goals() const { return scenario_.goals.size(); }
   std::size_t goals_reached() const;
-  /// How the task of run() computes, as the scenario says.
+  /// Clock and processor of the task of run(), from the scenario.
   const genom::TaskComputing& computing() const { return computing_; }
-  /// The least period of all execution tasks; nothing if none is periodic.
+  /// The shortest period of all execution tasks; nothing if all are aperiodic.
   std::optional<Duration> least_period() const;
-  /// Without its digest, which is the run's to know.
+  /// The result without the digest, which the run adds.
   RobotResult result() const;
 
  private:
@@ -73,14 +72,14 @@ class Robot {
   world::BodyId body_;
   genom::NameSpace names_;
   std::vector<std::unique_ptr<genom::Module>> modules_;
-  std::vector<const scenario::ModuleScenario*> module_scenarios_;  // of each module
+  std::vector<const scenario::ModuleScenario*> module_scenarios_;  // by module
   RobotBridge bridge_;
   genom::TaskComputing computing_;
   std::optional<executive::Executive> executive_;
   Evaluation evaluation_;
 };
 
-/// Which of `robots` has that name; BadInput at `written` if none has.
+/// The index of the robot named `name`; BadInput at `written` if there is none.
 std::size_t index_of(std::string_view name, const std::vector<std::unique_ptr<Robot>>& robots,
                      const scenario::Location& written);
 

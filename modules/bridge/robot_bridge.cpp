@@ -18,7 +18,7 @@ RobotBridge::Laser::Laser(std::size_t n, const world::LaserDescription& d)
 RobotBridge::RobotBridge(const scenario::RobotScenario& robot, world::World& world, world::BodyId body,
                          genom::NameSpace& names)
     : world_(world), body_(body), has_battery_(robot.body.battery.has_value()), robot_(robot), names_(names) {
-  lasers_.reserve(robot.body.lasers.size());  // rows refer to them
+  lasers_.reserve(robot.body.lasers.size());  // rows hold references
   for (const world::LaserDescription& laser : robot.body.lasers) lasers_.emplace_back(lasers_.size(), laser);
   sonar_rings_.resize(robot.body.sonars.size());
   find_device_values();
@@ -29,7 +29,7 @@ RobotBridge::RobotBridge(const scenario::RobotScenario& robot, world::World& wor
 void RobotBridge::add_row(const scenario::BridgeRow& scenario) {
   for (const Origin& other : origins_)
     if (other.scenario->device == scenario.device)
-      throw scenario.written.bad("device '" + scenario.device + "' is in the table already, at " +
+      throw scenario.written.bad("there are two rows for device '" + scenario.device + "', the first at " +
                                  other.scenario->written.text());
   const auto value = std::find_if(device_values_.begin(), device_values_.end(),
                                   [&](const DeviceValue& known) { return known.name == scenario.device; });
@@ -65,7 +65,8 @@ template <class T, class Take>
 void RobotBridge::read_command(Row& row, Take take) {
   origin(row).connect = [&row, scenario = origin(row).scenario, take](genom::PosterBase& base) {
     if (dynamic_cast<genom::Poster<T>*>(&base) == nullptr)
-      throw scenario->written.bad("poster '" + base.name() + "' is not what device '" + scenario->device + "' takes");
+      throw scenario->written.bad("poster '" + base.name() + "' has the wrong type for device '" + scenario->device +
+                                  "'");
     row.poster = &base;
     row.exchange = [&row, take](Time) {
       T command;
@@ -121,7 +122,7 @@ void RobotBridge::add_base_reading(Row& row) {
   };
 }
 
-// A ring fires first when it is switched on, then in its turns, however the reports come.
+// A ring fires when it is switched on and then at its own period, whatever the period of the reports.
 void RobotBridge::fire_sonars() {
   for (std::size_t i = 0; i < sonar_rings_.size(); ++i) {
     const world::SonarRingDescription& description = robot_.body.sonars[i];
@@ -201,14 +202,14 @@ void RobotBridge::connect() {
     if (poster == nullptr) {
       std::vector<std::string_view> known;
       for (const auto& [name, entry] : names_.posters()) known.push_back(name);
-      throw row.written.bad("poster '" + row.poster + "', which no module writes" + did_you_mean(row.poster, known));
+      throw row.written.bad("no module writes poster '" + row.poster + "'" + did_you_mean(row.poster, known));
     }
     origin.connect(*poster);
     poster->set_latency(row.latency);
   }
 }
 
-// How many multiples of `period` lie in the step just made; at the start, time 0 is one.
+// Number of multiples of `period` in the step just made; time 0 counts at the start.
 std::int64_t RobotBridge::times_due(Duration period) const {
   const Duration step = world_.description().step;
   const Duration now = step * static_cast<std::int64_t>(step_);
@@ -257,7 +258,7 @@ void RobotBridge::wait_for_step() {
   }
 }
 
-// What an exchange touches as a rule, but of what there may be much, only the beginning.
+// The memory that exchanges usually touch; of large parts only the beginning.
 void RobotBridge::find_working_set() {
   constexpr std::size_t beams_known = 32, of_stack = 512;
   working_set_.add_between(this, &robot_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bridge of one robot: maps its hardware posters to values of the world, by the scenario's table.
+// The bridge of one robot: connects its hardware posters to values of the world, by the scenario's table.
 //
 //   device value            poster type       direction
 //   base.command            BaseCommand       poster -> world
@@ -11,16 +11,14 @@
 //   <laser's name>.command  LaserCommand      poster -> world
 //   <laser's name>.reading  LaserReading      world -> poster
 //
-// Another world, or another device, is another row here: no module knows. After each step of the world the bridge
-// records the body's state, gives the readings that are due, and takes the commands for the next step. In simulation it
-// is a task of its robot in the world's phase; on real threads the world's own thread does it. A command counts as one
-// when it has been given anew: a base's watchdog hears a module that goes on saying the same, and not what it said
-// last.
+// A new device is a new row here; modules are not concerned. After each step of the world the bridge records the body's
+// state, publishes the readings that are due, and reads the commands for the next step. In simulation it is a task of
+// its robot in the world's phase; on real threads the world's thread executes it. Each new write of a command counts,
+// also with the same value: a base's watchdog expects commands to be repeated.
 //
-// When a robot's battery is empty its devices are off: they give nothing more and take no command.
+// Devices are off when the robot's battery is empty: no readings, no commands.
 //
-// What comes over a serial line is given when its last byte has come, between steps too; on real threads at the first
-// step after that.
+// Data of a serial line arrive with their last byte, also between steps; on real threads at the first step after it.
 #pragma once
 
 #include <functional>
@@ -39,21 +37,21 @@
 
 namespace waitpoint::bridge {
 
-/// How often a base's controller reports (RFLEX: the period asked for with its system report).
+/// Period of a base controller's reports (the period requested from RFLEX for its system report).
 inline constexpr Duration base_report_period = std::chrono::milliseconds(20);
 
 class RobotBridge {
  public:
-  /// Creates the posters of the readings. A row of an unknown device or a device given twice is BadInput.
+  /// Creates the posters of the readings. An unknown device, or a device or poster in two rows, is BadInput.
   RobotBridge(const scenario::RobotScenario& robot, world::World& world, world::BodyId body, genom::NameSpace& names);
 
-  /// Finds the posters of the commands, once the modules are made. One that no module writes is BadInput.
+  /// Connects the posters of the commands, once the modules exist. A poster without a writer is BadInput.
   void connect();
 
-  /// What is exchanged after a step of the world, and once before the first; the readings bear `date`.
+  /// The exchange after a step of the world, and once before the first; readings are dated `date`.
   void exchange(Time date);
 
-  /// The bridge as a task: an exchange at once and after each stepped(); never returns.
+  /// The body of the bridge's task: one exchange at once and one after each stepped(); never returns.
   void run();
   void stepped() { stepped_.release(); }
 
@@ -78,16 +76,16 @@ class RobotBridge {
   struct Row {
     Exchange exchange;
     genom::PosterBase* poster;
-    std::optional<Time> taken;  // the date of the last command
+    std::optional<Time> taken;  // date of the last command
   };
 
-  /// How a row came about: what no exchange touches.
+  /// The part of a row that exchanges do not touch.
   struct Origin {
     const scenario::BridgeRow* scenario;
-    std::function<void(genom::PosterBase&)> connect;  // of commands
+    std::function<void(genom::PosterBase&)> connect;  // commands only
   };
 
-  /// A value of a device that this robot has, and what makes its row.
+  /// A device value of this robot, and the function that makes its row.
   struct DeviceValue {
     std::string name;
     std::function<void(Row&)> add;
@@ -117,7 +115,7 @@ class RobotBridge {
   void wait_for_step();
   void find_working_set();
 
-  // What every exchange touches comes first.
+  // Members touched by every exchange come first.
   world::World& world_;
   world::BodyId body_;
   bool has_battery_;
@@ -126,12 +124,12 @@ class RobotBridge {
   std::vector<Row> rows_;
   std::vector<SonarRing> sonar_rings_;
   std::vector<double> infrared_v_;
-  std::uint64_t step_ = 0;  // exchanges made
+  std::uint64_t step_ = 0;  // number of exchanges
   threads::counting_semaphore<> stepped_{0, "world step"};
   const scenario::RobotScenario& robot_;
   genom::NameSpace& names_;
   std::vector<DeviceValue> device_values_;
-  std::vector<Origin> origins_;  // of each row
+  std::vector<Origin> origins_;  // by row
   WorkingSet working_set_;
 };
 

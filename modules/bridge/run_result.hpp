@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What came out of a run, as values: what the summary, the picture and the trajectory files are written from.
+// The result of a run as values: the source of summary, picture and trajectory files.
 //
-// Poses, goals and segments are in the world's frame. Errors compare a robot's opinion with the truth at the same
-// instant, position only. Wall-clock figures are in here for display; nothing that is hashed depends on them.
+// Poses, goals and segments are in the world's frame. Errors are distances between estimated and true position at the
+// same instant. Wall-clock figures are for display; nothing that is hashed depends on them.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace waitpoint::bridge {
 
-/// How a run ended.
+/// The reason for the end of a run.
 enum class Outcome : std::uint8_t {
-  finished,     ///< every executive ended its round
-  time_limit,   ///< the virtual time given to the run was used up
-  deadlock,     ///< tasks wait for each other, or nothing can ever run again
+  finished,     ///< every executive has ended its round
+  time_limit,   ///< the limit on virtual time
+  deadlock,     ///< a cycle of waiting tasks, or no task can ever run again
   no_progress,  ///< tasks spin while virtual time stands still
-  interrupted,  ///< a signal, after the step that it came in
-  left,         ///< at the prompt, before anything else ended it
+  interrupted,  ///< a signal, at the end of the step
+  left,         ///< `quit` or end of input at the prompt
 };
 
 constexpr std::string_view to_string(Outcome outcome) {
@@ -38,7 +38,7 @@ struct DatedPose {
   Pose pose;
 };
 
-/// What became of one goal.
+/// The result for one goal.
 struct GoalResult {
   Point position;
   std::string name;  ///< may be empty
@@ -51,20 +51,20 @@ struct Line {
   Point start, end;
 };
 
-/// A periodic task whose work was not always done in time.
+/// A periodic task that missed deadlines.
 struct LateTask {
   std::string name;  ///< "module.task"
   Duration period;
-  std::int64_t missed_deadlines = 0;  ///< wake-ups whose work was not done when the next was due
-  std::int64_t missed_periods = 0;    ///< wake-ups that never came because of that
+  std::int64_t missed_deadlines = 0;  ///< wake-ups whose work ended after the next one was due
+  std::int64_t missed_periods = 0;    ///< wake-ups skipped because of that
   Duration greatest_lateness;         ///< after its deadline
 };
 
-/// What is left of a battery at the end.
+/// The final state of a battery.
 struct BatteryResult {
   double charge = 0;  ///< of its capacity
   double volts = 0;
-  std::optional<Time> empty_at = {};  ///< when it went off
+  std::optional<Time> empty_at = {};  ///< when it was exhausted
 };
 
 /// A program of a robot.
@@ -80,16 +80,16 @@ struct RobotResult {
 
   std::vector<GoalResult> goals;  ///< all of them, in the order of the round
   std::uint64_t collisions = 0;
-  double distance_m = 0;             ///< truly driven
+  double distance_m = 0;             ///< true distance driven
   double position_error_mean_m = 0;  ///< of the fused position
   double position_error_max_m = 0;   ///< of the fused position
   double odometry_error_max_m = 0;   ///< of the odometry alone
   double odometry_error_end_m = 0;   ///< of the odometry alone, at the end
   std::vector<DatedPose> true_path, estimated_path, odometry_path;
   std::vector<LateTask> late_tasks;      ///< in the order of the modules
-  std::optional<BatteryResult> battery;  ///< of a robot that has one which counts
+  std::optional<BatteryResult> battery;  ///< if the robot has one that is simulated
   std::vector<ProgramResult> programs;   ///< in the order of the scenario
-  std::vector<Line> segments;            ///< that localisation built
+  std::vector<Line> segments;            ///< the map built by localisation
 
   std::size_t goals_reached() const {
     std::size_t count = 0;
@@ -98,7 +98,7 @@ struct RobotResult {
   }
 };
 
-/// How far a paced run was behind the wall clock, in seconds of it: each time it was to wait for it.
+/// Delay of a paced run behind the wall clock, in wall-clock seconds, sampled at each synchronisation with it.
 struct Lag {
   double mean_s = 0, max_s = 0;
 };
@@ -109,7 +109,7 @@ struct RunResult {
   Digest digest, environment_digest;
   std::vector<RobotResult> robots;  ///< in the order of the scenario
   Outcome outcome = Outcome::finished;
-  std::string trouble;                ///< the report of a deadlock or of no progress, some lines; empty without
+  std::string trouble;                ///< the report of a deadlock or of no progress, several lines; otherwise empty
   std::vector<std::string> warnings;  ///< one line each
   std::uint64_t events = 0;
   Duration simulated;
@@ -117,7 +117,7 @@ struct RunResult {
   std::optional<Lag> lag;  ///< of a paced run
 };
 
-/// The figures of all robots together: sums, the greatest of the greatest, the mean of the means.
+/// Figures over all robots: sums of counts and distances, maxima of maxima, means of means.
 struct RunTotals {
   std::size_t goals = 0, goals_reached = 0;
   std::uint64_t collisions = 0;

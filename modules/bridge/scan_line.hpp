@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The serial line between a laser and its module: a scan is on it for as long as its bytes take, one after the other.
+// The serial line between a laser and its module: scans occupy it for their transmission time, one after another.
 #pragma once
 
 #include <optional>
@@ -11,16 +11,16 @@ namespace waitpoint::bridge {
 
 class ScanLine {
  public:
-  /// Each scan takes `transmission`, which may be 0.
+  /// `transmission` is the time per scan; may be 0.
   explicit ScanLine(Duration transmission) : transmission_(transmission) {}
 
   bool empty() const { return scans_.empty(); }
   bool takes_time() const { return transmission_ > Duration(); }
-  /// Puts a scan on the line, behind those that are there.
+  /// Appends a scan to the line's queue.
   void send(Time now, const posters::LaserReading& scan);
-  /// When the next one will have come through; nothing if the line is empty.
+  /// Arrival time of the next scan; nothing if the line is empty.
   std::optional<Time> next_arrival() const;
-  /// Takes off the first scan if it has come through by `now`.
+  /// Removes the first scan if it has arrived by `now`; false if it has not.
   bool take(Time now, posters::LaserReading& scan);
 
  private:
@@ -30,7 +30,7 @@ class ScanLine {
   };
 
   Duration transmission_;
-  Time free_;  // from when on
+  Time free_;  // from this time on
   std::vector<OnTheWay> scans_;
 };
 

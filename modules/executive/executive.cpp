@@ -31,7 +31,8 @@ void Executive::connect() {
        {static_cast<genom::PosterLinkBase*>(&position_), static_cast<genom::PosterLinkBase*>(&echoes_)}) {
     genom::PosterBase* poster = names_.find_poster(link->name());
     if (poster == nullptr || !link->connect(*poster))
-      throw BadInput("the executive", "reads poster '" + link->name() + "', which no module of this robot writes so");
+      throw BadInput("the executive",
+                     "reads poster '" + link->name() + "', which no module of this robot writes with that type");
   }
 }
 

@@ -23,7 +23,7 @@ scenario::GoalPlace place_on(const OccupancyGrid& map, Point goal) {
   return map[*cell] == Cell::occupied ? scenario::GoalPlace::inside_obstacle : scenario::GoalPlace::free;
 }
 
-/// Of each robot; those that are as high as another share its map.
+/// The map of each robot, shared by robots with the same range of heights.
 class KnownMaps {
  public:
   KnownMaps(const scenario::Scenario& scenario, const world::WorldFile* file) : scenario_(scenario), file_(file) {}
@@ -64,7 +64,7 @@ Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::Mo
     robots_.push_back(std::make_unique<bridge::Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
                                                       world::BodyId(i), network, seed));
   warnings_.insert(warnings_.end(), scenario.warnings.begin(), scenario.warnings.end());
-  // Robots of one type have one file.
+  // Robots of one type share a file.
   for (const scenario::RobotScenario& robot : scenario.robots)
     for (const std::string& warning : robot.warnings)
       if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
@@ -75,7 +75,7 @@ std::shared_ptr<const world::WorldFile> Assembly::load(scenario::MapFile map) {
   map.read();
   const world::WorldFile& file = *map.contents;
   if (map.height_m && file.has_heights)
-    throw map.written.bad("expected no height_m: '" + map.file.string() + "' says how high things are");
+    throw map.written.bad("expected no height_m: '" + map.file.string() + "' has heights of its own");
   warnings_ = file.warnings;
   if (const std::size_t left_out = file.bodies.size() - map.robots_taken; left_out > 0)
     warnings_.push_back(
@@ -98,11 +98,11 @@ void Assembly::make_world(const world::WorldDescription& description, std::uint6
                                    [](const world::Obstacle& obstacle) { return obstacle.loose(); });
   if (loose > 0)
     warnings_.push_back(counted(static_cast<std::size_t>(loose), "shape") +
-                        " with mass_kg taken to stand fast: only engine bullet lets things be pushed");
+                        " with mass_kg treated as fixed: only engine bullet moves shapes");
   world_ = world::make_kinematic_world(description, seed);
 }
 
-// A coarse step is a legitimate choice, but rarely meant.
+// A coarse step is legitimate, but rarely intended.
 void Assembly::check_step() {
   const bridge::Robot* quickest = nullptr;
   std::size_t quicker = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scenario describes, put together and checked: a world, and the robots in it with their software. Nothing runs
-// yet; an Experiment carries it out in virtual time, a ThreadedExperiment by threads, real ones or not.
+// A scenario assembled and checked: a world, and its robots with their software. An Experiment runs it in virtual time,
+// a ThreadedExperiment on threads, real or simulated.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ namespace waitpoint::run {
 
 class Assembly {
  public:
-  /// Everything that can be wrong with the input is found here, as BadInput. The scenario and the network, null where
-  /// there is none, must outlive the assembly.
+  /// Bad input of any kind is found here, as BadInput. The scenario and the network (null without one) must outlive the
+  /// assembly.
   Assembly(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
            std::uint64_t seed);
 
@@ -29,11 +29,11 @@ class Assembly {
   const world::World& world() const { return *world_; }
   /// In the order of the scenario.
   const std::vector<std::unique_ptr<bridge::Robot>>& robots() const { return robots_; }
-  /// Goals reached so far, and all there are.
+  /// Goals reached so far, and the number of goals, over all robots.
   std::size_t goals_reached() const;
   std::size_t goals() const;
 
-  /// What has come out so far: of the robots, and the warnings. What is the run's to know is left out.
+  /// The result so far of the robots, and the warnings; the run's own figures are left out.
   bridge::RunResult result() const;
 
  private:

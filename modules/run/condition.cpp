@@ -35,7 +35,7 @@ struct NamedComparison {
   Compare holds;
 };
 
-// The longer before those that they begin with.
+// A name before its own prefixes.
 constexpr NamedComparison comparisons[] = {
     {">=", [](double a, double b) { return a >= b; }}, {"<=", [](double a, double b) { return a <= b; }},
     {"==", [](double a, double b) { return a == b; }}, {">", [](double a, double b) { return a > b; }},

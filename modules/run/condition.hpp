@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run can be stopped at: a comparison of a robot's figure with a number.
+// Breakpoints of a run: comparisons of a robot's figure with a number.
 //
 //   rackham.goals >= 2      figures: goals (reached), collisions, travelled_m, x_m, y_m, stalled (0 or 1)
 //   rackham.x_m < 12.5      comparisons: < <= == >= >
@@ -13,10 +13,11 @@
 
 namespace waitpoint::run {
 
-/// Whether it holds now. It only looks, and may be asked after every event.
+/// True if the condition holds now. Evaluation changes nothing and may follow every event.
 using Condition = std::function<bool()>;
 
-/// Throws BadInput at `written` for what is no condition on this experiment, which must outlive the condition.
+/// Throws BadInput at `written` for a malformed condition or an unknown robot or figure. The experiment must outlive
+/// the condition.
 Condition parse_condition(std::string_view text, const Experiment& experiment, const scenario::Location& written);
 
 }  // namespace waitpoint::run

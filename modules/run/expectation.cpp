@@ -12,7 +12,7 @@ std::string goals_text(const bridge::RunTotals& sum) {
   return fmt::format("{} of {} goals reached", sum.goals_reached, sum.goals);
 }
 
-// With so many digits, three at least, that it is not the same as `limit`, which it exceeds.
+// `value`, which exceeds `limit`, with at least three digits and enough to differ from it.
 std::string greater_text(double value, double limit) {
   for (int digits = 3; digits < std::numeric_limits<double>::max_digits10; ++digits)
     if (std::string text = fmt::format("{:.{}g}", value, digits); text != fmt::format("{:.{}g}", limit, digits))

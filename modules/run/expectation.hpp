@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a run came to what its scenario expects.
+// Compares the result of a run with the expectations of its scenario.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace waitpoint::run {
 
-/// One line for each expectation that is not met: "5 of 6 goals reached, expected all"; empty if all are. A deadlock is
-/// never expected.
+/// One line per unmet expectation: "5 of 6 goals reached, expected all"; empty if all are met. A deadlock or a run
+/// without progress is always unmet.
 std::vector<std::string> unmet(const scenario::Expectation& expect, const bridge::RunResult& result);
 
-/// The same in mid-run, of those that nothing can meet any more: "1 collisions, expected 0".
+/// The same during a run, for expectations that can no longer be met: "1 collisions, expected 0".
 std::vector<std::string> broken(const scenario::Expectation& expect, const bridge::RunTotals& figures);
 
 }  // namespace waitpoint::run

@@ -11,7 +11,7 @@
 namespace waitpoint::run {
 namespace {
 
-// Of so many robots the processor does not find the memory on small pages.
+// Number of robots from which huge pages pay: the TLB does not hold the small pages of more.
 constexpr std::size_t crowd = 200;
 
 bridge::Outcome outcome_of(RunEnd end) {
@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::uint64_t loose_state = 0x6C6F6F7365;  // "loose"
 
-/// In the explored order, until somebody else decides.
+/// The strategy of the explored order until another one is set.
 class FirstInFirstOut final : public kernel::Decisions {
   std::uint32_t next(kernel::Task* const*, std::uint32_t) override { return 0; }
   std::uint32_t among(kernel::Choice, const kernel::Task&, std::uint32_t) override { return 0; }
@@ -38,11 +38,11 @@ class FirstInFirstOut final : public kernel::Decisions {
 };
 
 void decide_in_the_explored_order(kernel::Scheduler& scheduler) {
-  static FirstInFirstOut usual;  // it has no state
+  static FirstInFirstOut usual;  // stateless
   scheduler.set_decisions(usual);
 }
 
-/// Asks after each event whether it is enough, beside the watch that there is.
+/// Evaluates a pause condition after each event, in addition to the present watch.
 class PauseWatch : private kernel::Watch {
  public:
   PauseWatch(kernel::Scheduler& scheduler, const std::function<bool(const kernel::EventRecord&)>& enough)
@@ -95,14 +95,14 @@ void Experiment::unwind() {
   simulation_.unwind();
 }
 
-// Distances are those of the true positions at the last step of the world.
+// Distances are between true positions at the last step of the world.
 void Experiment::make_network(const scenario::Scenario& scenario) {
   network_.emplace(simulation_);
   if (scenario.medium) network_->declare(*scenario.medium);
   network_->set_distance([this](const std::string& from, const std::string& to) {
     const world::BodyState* const a = body_of(from);
     const world::BodyState* const b = body_of(to);
-    // The environment's tasks are nowhere.
+    // The environment's tasks have no position.
     if (a == nullptr || b == nullptr) return 0.0;
     const double over = length(b->pose.position() - a->pose.position()), higher = b->height_m - a->height_m;
     return higher == 0 ? over : exact::hypot(over, higher);
@@ -115,7 +115,7 @@ const world::BodyState* Experiment::body_of(const std::string& robot) const {
   return nullptr;
 }
 
-// A robot with goals is alive until its executive ends; one without does not keep the run alive.
+// A robot with goals keeps the run alive until its executive ends; one without does not.
 void Experiment::spawn(bridge::Robot& robot) {
   kernel::Robot& lane = simulation_.add_robot(robot.name());
   lanes_.push_back(&lane);
@@ -133,7 +133,7 @@ void Experiment::run_world() {
     operator_->act(now());
     assembly_->world().step();
     for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
-    constexpr std::size_t ahead = 6;  // of crowds little is in the cache
+    constexpr std::size_t ahead = 6;  // a crowd does not fit into the cache
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (i + 2 * ahead < lanes_.size()) robots()[i + 2 * ahead]->fetch_evaluation();
       if (i + ahead < lanes_.size()) robots()[i + ahead]->fetch_path();
@@ -168,8 +168,8 @@ Time Experiment::intervene(Intervention intervention, std::optional<Time> date) 
   const Duration step = assembly_->scenario().step;
   const Time next = Time() + step * static_cast<std::int64_t>(world().steps() + 1);
   if (date && *date < next)
-    throw intervention.written.bad(to_string(*date) + " s is past: the world's next step is at " + to_string(next) +
-                                   " s");
+    throw intervention.written.bad("expected a time from " + to_string(next) + " s on, the world's next step, found " +
+                                   to_string(*date) + " s");
   const std::int64_t steps = date ? (date->since_start() + step - Duration::from_ns(1)) / step : 0;
   const Time at = date ? Time() + step * steps : next;
   operator_->add(at, std::move(intervention));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run of a scenario, put together and carried out: the world, its robots, all their tasks in one simulation.
+// One run of a scenario: its world, its robots and all their tasks in one simulation.
 //
 //   at every multiple of the world's step, in the world's phase:
-//     the world's task: step; evaluation; tells the bridges
+//     the world's task: step; evaluation; release of the bridges
 //     each robot's bridge: readings to posters, commands from posters
-//   then the robots' tasks of that instant
+//   then the robots' tasks at that instant
 #pragma once
 
 #include <functional>
@@ -30,24 +30,25 @@ struct ExperimentOptions {
 
 class Experiment {
  public:
-  /// Everything that can be wrong with the input is found here, as BadInput. The scenario must outlive the experiment.
+  /// Bad input of any kind is found here, as BadInput. The scenario must outlive the experiment.
   Experiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
              const ExperimentOptions& options);
 
-  /// Ends every task that is left, those of programs too. Nothing can be run afterwards.
+  /// Ends all remaining tasks, including those of programs. The run cannot be continued.
   void unwind();
 
-  /// Carries out everything before `until`; may be called again with a later time, in windows of any size.
+  /// Runs all events before `until`. May be called again with a later time; windows have any size.
   RunEnd run_before(Time until);
-  /// The same, but `enough` is asked after each event, and where it says so the run pauses before the next: paused().
-  /// `enough` must only look and not throw.
+  /// The same, but pauses before the next event when `enough`, called after each event, returns true: see paused().
+  /// `enough` must not change anything or throw.
   RunEnd run_before(Time until, const std::function<bool(const kernel::EventRecord&)>& enough);
   bool paused() const { return paused_; }
 
-  /// To be carried out at a step of the world: the next one, or the first not before `date`. Returns when that is. What
-  /// this run does not have, or a date that is past, is BadInput. What came of it: outcomes().
+  /// Schedules an intervention for a step of the world: the next one, or the first at or after `date`. Returns the time
+  /// of that step. An unknown robot, obstacle, module, request or field, or a date in the past, is BadInput. Its result
+  /// appears in outcomes().
   Time intervene(Intervention intervention, std::optional<Time> date = std::nullopt);
-  /// To be called after each step of the world; must only look and not throw.
+  /// Called after each step of the world; must not change anything or throw.
   void set_observer(std::function<void(Time now)> observer) { observer_ = std::move(observer); }
   const std::vector<InterventionOutcome>& outcomes() const { return operator_->outcomes(); }
 
@@ -55,13 +56,13 @@ class Experiment {
   io::Network& network() { return *network_; }
   const world::World& world() const { return assembly_->world(); }
   const std::vector<std::unique_ptr<bridge::Robot>>& robots() const { return assembly_->robots(); }
-  /// Goals reached so far, and all there are.
+  /// Goals reached so far, and the number of goals, over all robots.
   std::size_t goals_reached() const { return assembly_->goals_reached(); }
   std::size_t goals() const { return assembly_->goals(); }
 
-  /// Of what has come out so far, the figures that expectations are about: at no cost.
+  /// The figures so far that expectations refer to; cheap.
   bridge::RunTotals figures() const;
-  /// What has come out so far.
+  /// The result so far.
   bridge::RunResult result() const;
 
  private:
@@ -71,13 +72,13 @@ class Experiment {
   void run_world();
 
   ExperimentOptions options_;
-  std::optional<io::Network> network_;  // before the robots, whose modules have sockets
+  std::optional<io::Network> network_;  // destroyed after the robots, whose modules have sockets
   std::optional<Assembly> assembly_;
-  std::vector<kernel::Robot*> lanes_;  // of each robot
+  std::vector<kernel::Robot*> lanes_;  // by robot
   std::optional<Operator> operator_;
   std::function<void(Time now)> observer_;
-  Simulation simulation_;                            // after what its tasks use: it goes first
-  RobotPrograms programs_{simulation_.scheduler()};  // after that: what is left of them must not be unwound
+  Simulation simulation_;                            // destroyed before the objects that its tasks use
+  RobotPrograms programs_{simulation_.scheduler()};  // destroyed first: its tasks must not be unwound
   RunEnd end_ = RunEnd::time_reached;
   bool paused_ = false;
 };

@@ -12,17 +12,17 @@
 namespace waitpoint::run {
 namespace {
 
-// MADV_COLLAPSE, which the C library's headers have since 2.37.
+// MADV_COLLAPSE: in the C library's headers since 2.37.
 constexpr int collapse = 25;
 
-// It would not ask whether they are wanted.
+// MADV_COLLAPSE itself ignores the system's setting.
 bool are_large_pages_wanted() {
   std::string words;
   std::getline(std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"), words);
   return words.find("[madvise]") != std::string::npos || words.find("[always]") != std::string::npos;
 }
 
-// The heap comes before the stacks, of which there may be a million. Null without one.
+// The heap precedes the stacks, of which there may be a million: the search ends early. Null without a heap.
 char* begin_of_heap() {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);)

@@ -21,7 +21,7 @@ std::string require(std::string_view& text, const char* expected, const scenario
   return word;
 }
 
-// As the poses of a scenario.
+// In metres and degrees, as in a scenario.
 Pose require_pose(std::string_view& text, const scenario::Location& written) {
   std::string list = "[";
   for (int i = 0; i < 3; ++i) {
@@ -75,7 +75,7 @@ What parse_removal(std::string_view text, const scenario::Location& written) {
   return removal;
 }
 
-// At most a day: a force is something that a person does.
+// At most a day: pushes are exerted by hand.
 constexpr double force_n_max = 1e6, time_s_max = 86400;
 
 What parse_push(std::string_view text, const scenario::Location& written) {
@@ -112,7 +112,7 @@ std::vector<std::string_view> intervention_verbs() {
 }
 
 Intervention parse_intervention(std::string_view text, const scenario::Location& written) {
-  // It is a line of a journal.
+  // An intervention is one line of a journal.
   if (scenario::trimmed(text).find('\n') != std::string_view::npos) throw written.bad("expected one line");
   std::string_view rest = text;
   const std::string word = scenario::take_word(rest, written);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person does to a run while it goes on: asks a module something, moves a robot or an obstacle.
+// Interventions: a person's actions on a running experiment, such as a request to a module or a move of a robot.
 //
-//   request ROBOT MODULE REQUEST [FIELD=VALUE ...]    fields by their names: v_m_s=0.2, via.0.x=3, pose.heading=1.5
-//   move ROBOT X Y [HEADING_DEG]                      lifted and put down there, at rest
-//   obstacle {name: ..., ...}                         as a shape of a scenario; one of that name is replaced
+//   request ROBOT MODULE REQUEST [FIELD=VALUE ...]    fields by name: v_m_s=0.2, via.0.x=3, pose.heading=1.5
+//   move ROBOT X Y [HEADING_DEG]                      placed there at rest
+//   obstacle {name: ..., ...}                         a shape as in a scenario; replaces one of the same name
 //   move-obstacle NAME X Y [HEADING_DEG]
 //   remove-obstacle NAME
-//   push NAME FX_N FY_N SECONDS                       a force on a robot or a loose obstacle; in a dynamic world
+//   push NAME FX_N FY_N SECONDS                       a force on a robot or a loose obstacle; dynamic worlds only
 //
-// One line of text each, the same at the prompt, in a journal and in the programming interface: it is also what the
-// digest hashes. A word with spaces stands in double quotes. See operator.hpp for when and how it is carried out.
+// One line of text each, the same at the prompt, in a journal and in the programming interface; the digest hashes it.
+// Words with spaces are in double quotes. operator.hpp describes when and how interventions are executed.
 #pragma once
 
 #include <string>
@@ -60,11 +60,11 @@ struct Intervention {
   std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push> what;
 };
 
-/// The first words of interventions: "request", "move", ...
+/// The first words of all kinds of interventions: "request", "move", ...
 std::vector<std::string_view> intervention_verbs();
 
-/// Reads one line. Throws BadInput at `written` for what is no intervention; whether the run has such a robot is asked
-/// when it is given to the run.
+/// Parses one line. Throws BadInput at `written` for a malformed one. Names of robots, modules and requests are checked
+/// by Operator::add().
 Intervention parse_intervention(std::string_view text, const scenario::Location& written);
 
 }  // namespace waitpoint::run

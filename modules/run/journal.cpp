@@ -17,7 +17,7 @@ constexpr std::size_t seconds_digits_max = 9;
 
 const char* name(kernel::Order order) { return order == kernel::Order::seeded ? "seeded" : "fifo"; }
 
-/// A line of what may be any file at all, fit to be shown.
+/// A line of an arbitrary file, made printable and short.
 std::string shown(std::string_view line) {
   constexpr std::size_t letters_max = 60;
   std::string text(line.substr(0, letters_max));
@@ -26,7 +26,7 @@ std::string shown(std::string_view line) {
   return line.size() > letters_max ? text + "..." : text;
 }
 
-/// The lines of a file, each with its number.
+/// The lines of a file, with line numbers.
 class Lines {
  public:
   explicit Lines(const std::filesystem::path& file) : at_{file.string(), 0} {
@@ -36,12 +36,12 @@ class Lines {
     rest_ = text_;
   }
 
-  /// False at the end. A last line without its newline was cut off.
+  /// False at the end of the file. A last line without newline is truncated: BadInput.
   bool next(std::string_view& line) {
     if (rest_.empty()) return false;
     ++at_.line;
     const std::size_t end = rest_.find('\n');
-    if (end == std::string_view::npos) throw at_.bad("the journal ends within this line");
+    if (end == std::string_view::npos) throw at_.bad("expected a newline: the line is cut off");
     line = rest_.substr(0, end);
     rest_.remove_prefix(end + 1);
     if (line.ends_with('\r')) line.remove_suffix(1);
@@ -116,7 +116,7 @@ Journal read_journal(const std::filesystem::path& file, const JournalHead& head)
   Journal journal;
   std::string_view line;
   while (lines.next(line)) {
-    if (journal.end) throw lines.at().bad("nothing may follow the end");
+    if (journal.end) throw lines.at().bad("expected nothing after 'end'");
     const std::string word = scenario::take_word(line, lines.at());
     if (word == "end") {
       journal.end = read_end(line, lines.at());

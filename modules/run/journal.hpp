@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The journal of a run: what a person did, each at its virtual time. With it the run repeats, to the same digest.
+// The journal of a run: the interventions with their virtual times. With it the run repeats, with the same digest.
 //
 //   waitpoint journal 1
-//   scenario office wp1:0123456789abcdef            its name, and a fingerprint of all that its files and --set say
+//   scenario office wp1:0123456789abcdef            its name, and the fingerprint of its files and --set options
 //   seed 1
 //   order fifo
 //   at 12.340000000 move rackham 20 5 90            see intervention.hpp
-//   end 30.000000000 after 123456 events wp1:...    where the run was left, and its digest there
+//   end 30.000000000 after 123456 events wp1:...    time, number of events and digest at the end of the run
 //
-// Lines are written as things happen, so that the journal of a run that stops at a bug is there up to it: it has no
-// end.
+// Lines are written at once: the journal of a run that crashes is complete up to the crash, but has no end.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +26,7 @@
 
 namespace waitpoint::run {
 
-/// Which run it is.
+/// Identifies a run.
 struct JournalHead {
   std::string scenario;
   Digest fingerprint;
@@ -49,19 +48,19 @@ struct DatedIntervention {
 
 struct Journal {
   std::vector<DatedIntervention> interventions;  ///< in the order of the file
-  std::optional<JournalEnd> end;                 ///< none: the run that wrote it did not come to an end
+  std::optional<JournalEnd> end;                 ///< none: the run was cut off
 };
 
-/// Lines of a journal, with their newlines.
+/// Lines of a journal, including newlines.
 std::string to_text(const JournalHead& head);
 std::string to_text(Time date, const Intervention& intervention);
 std::string to_text(const JournalEnd& end);
 
-/// Reads the journal of the run that `head` says. Throws BadInput with file and line: no journal, a line that cannot be
-/// read or is cut off, the journal of another scenario, seed or order.
+/// Reads the journal of the run identified by `head`. Throws BadInput with file and line for a file that is no journal,
+/// a malformed or truncated line, or the journal of another scenario, seed or order.
 Journal read_journal(const std::filesystem::path& file, const JournalHead& head);
 
-/// Seconds in decimals, exactly: "12", "12.34", at most nine decimals, at most 1e9 s; nothing if it is no such number.
+/// Parses seconds exactly: "12", "12.34"; at most nine decimals, at most 1e9 s. Nothing for other text.
 std::optional<Time> parse_time(std::string_view text);
 
 }  // namespace waitpoint::run

@@ -10,7 +10,7 @@
 namespace waitpoint::run {
 namespace {
 
-/// What a floor must hold.
+/// The extent of a floor.
 class Extent {
  public:
   void hold(const world::Bounds& bounds) {
@@ -48,7 +48,7 @@ OccupancyGrid grid_around(const scenario::Scenario& scenario, const world::World
     }
   }
   const auto [low, high] = extent.bounds();
-  // The map is drawn in cells: the floor that shapes span must be one that can be.
+  // The map is a grid: the extent of the shapes must fit into one.
   const double floor_m2_max = static_cast<double>(OccupancyGrid::cells_max) * drawn_resolution_m * drawn_resolution_m;
   if (!((high.x - low.x + 1) * (high.y - low.y + 1) < floor_m2_max))
     throw BadInput(map != nullptr ? scenario.map->file.string() : scenario.file,

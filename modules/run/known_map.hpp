@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map that a robot's planner is given: what a scenario's world shows of itself, as a grid of cells.
+// The a-priori map of a robot's planner: the known part of the scenario's world, as a grid of cells.
 #pragma once
 
 #include "core/occupancy_grid.hpp"
@@ -8,16 +8,15 @@
 
 namespace waitpoint::run {
 
-/// Edge of a cell where the world is drawn by shapes alone.
+/// Cell size of a map made from shapes alone.
 inline constexpr double drawn_resolution_m = 0.05;
 
-/// Room around starts and goals where a map file has no cells that say where its floor ends.
+/// Margin around starts and goals if no map file with cells bounds the floor.
 inline constexpr double drawn_margin_m = 2;
 
-/// The cells of the map file, if it is one of cells, with what is known drawn onto them; else a free grid that just
-/// holds all shapes, and with a map file of shapes also every start and goal, with a margin. `map` is what the map file
-/// says, null if there is none. What ends below the robot, where it starts, or begins above it is not in its way and
-/// not drawn.
+/// With a map file of cells: these cells, with the known shapes drawn onto them. Otherwise a free grid that encloses
+/// all shapes and, with a map file of shapes, every start and goal with a margin. `map` is the content of the map file,
+/// null without one. Shapes entirely below the robot's start height or above its top are not drawn.
 OccupancyGrid known_map(const scenario::Scenario& scenario, const world::WorldFile* map,
                         const scenario::RobotScenario& robot);
 

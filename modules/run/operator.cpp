@@ -52,7 +52,7 @@ void Operator::act(Time now) {
   }
 }
 
-// --- what can be told before it happens ---
+// --- checks at submission ---
 
 void Operator::check(const Intervention& intervention) const {
   if (const auto* request = std::get_if<ModuleRequest>(&intervention.what)) check(*request, intervention.written);
@@ -78,7 +78,7 @@ void Operator::check(const ModuleRequest& request, const scenario::Location& wri
   (void)type->read_input(arguments);
 }
 
-// --- when it happens ---
+// --- execution ---
 
 std::string Operator::carry_out(const Intervention& intervention) {
   return std::visit([&](const auto& what) { return carry_out(what, intervention); }, intervention.what);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The person at the controls of a run: carries out interventions, each at a step of the world.
+// The operator of a run: executes interventions at steps of the world.
 //
-// What is to happen at step k happens in the world's task, just before that step, in the order in which it was asked
-// for, and is part of the environment's digest. Nothing is put into the event list before: so it makes no difference
-// whether an intervention is known long before its time (from a journal) or since a moment ago (from a prompt). A
-// request is sent by a task of the robot's own, a service called "operator", which starts at that instant and waits for
-// the final reply.
+// Interventions for step k are executed in the world's task just before that step, in the order of their submission,
+// and are part of the environment's digest. They make no earlier event: an intervention known long before its time
+// (from a journal) and one typed a moment ago (at a prompt) give the same run. A request is sent by a task of the
+// robot, a service called "operator", which starts at that instant and waits for the final reply.
 #pragma once
 
 #include <deque>
@@ -21,10 +20,10 @@
 
 namespace waitpoint::run {
 
-/// Interventions of one run.
+/// Bound on the interventions of one run.
 inline constexpr std::size_t interventions_max = 100'000;
 
-/// What came of an intervention, or the reply to a request.
+/// The result of an intervention, or a reply to a request.
 struct InterventionOutcome {
   Time date;
   std::string text;  ///< "move rackham 1 2: done"
@@ -32,16 +31,16 @@ struct InterventionOutcome {
 
 class Operator {
  public:
-  /// All must outlive the operator; lanes in the order of the robots.
+  /// All arguments must outlive the operator; lanes in the order of the robots.
   Operator(world::World& world, const std::vector<std::unique_ptr<bridge::Robot>>& robots,
            const std::vector<kernel::Robot*>& lanes)
       : world_(world), robots_(robots), lanes_(lanes) {}
 
-  /// To be carried out at `date`, a step of the world that has not been made. A robot, module, request or field that
-  /// does not exist, or one intervention too many, is BadInput.
+  /// Schedules an intervention for `date`, a future step of the world. An unknown robot, obstacle, module, request or
+  /// field, or exceeding interventions_max, is BadInput.
   void add(Time date, Intervention intervention);
 
-  /// In the world's task, before the step at `now`.
+  /// Executes what is scheduled; called in the world's task before the step at `now`.
   void act(Time now);
 
   /// So far, in the order of their dates.

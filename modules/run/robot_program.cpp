@@ -42,7 +42,8 @@ void RobotPrograms::set_network(io::Network& network) {
 }
 
 void RobotPrograms::add(const scenario::ProgramScenario& program, kernel::Robot& robot) {
-  if (!can_load_programs()) throw program.written.bad("programs can be loaded by the program `waitpoint` alone");
+  if (!can_load_programs())
+    throw program.written.bad("expected no programs: only the program `waitpoint` can load them");
   std::vector<const char*> words{program.file.c_str()};
   for (const std::string& argument : program.arguments) words.push_back(argument.c_str());
   posix::Guests::Error error;
@@ -51,7 +52,7 @@ void RobotPrograms::add(const scenario::ProgramScenario& program, kernel::Robot&
   programs_.push_back({guest, &robot});
   scheduler_.hooks().deliver_signals = deliver_signals;
   if (!guests()->start(*guest, scheduler_, robot))
-    throw program.written.bad("there is no memory for the thread of program '" + program.name + "'");
+    throw program.written.bad("not enough memory for the thread of program '" + program.name + "'");
 }
 
 void RobotPrograms::take_away() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program of a robot: a shared object with a main(), from sources that know nothing of waitpoint, whose threads are
-// tasks of the robot. What makes them so is a library in front of the C library, which the process has where programs
-// can be loaded (fibers/posix/guests/guests.hpp).
+// Programs of robots: shared objects with a main(), built from unmodified sources, whose threads are tasks of the
+// robot. They need the layer in front of the C library, which is present in processes that can load programs
+// (fibers/posix/guests/guests.hpp).
 #pragma once
 
 #include <optional>
@@ -14,27 +14,27 @@
 
 namespace waitpoint::run {
 
-/// Whether any robot has one.
+/// True if any robot has a program.
 bool has_programs(const scenario::Scenario& scenario);
-/// Whether this process can load them.
+/// True if this process can load programs.
 bool can_load_programs();
 
 /// The programs of a run.
 class RobotPrograms {
  public:
   explicit RobotPrograms(kernel::Scheduler& scheduler) : scheduler_(scheduler) {}
-  /// By which what programs of different robots send to each other arrives, in place of at once. It stays until they
-  /// are taken away.
+  /// The network that carries data between programs of different robots; without it, data arrive at once. Valid until
+  /// take_away().
   void set_network(io::Network& network);
   ~RobotPrograms() { take_away(); }
   RobotPrograms(const RobotPrograms&) = delete;
   RobotPrograms& operator=(const RobotPrograms&) = delete;
 
-  /// Loads one that begins at the start of the run. BadInput where it cannot be.
+  /// Loads a program, which begins at the start of the run. A file that cannot be loaded is BadInput.
   void add(const scenario::ProgramScenario& program, kernel::Robot& robot);
-  /// To be called before the run is unwound: they end where they are.
+  /// Abandons the programs where they are. Call before the run is unwound.
   void take_away();
-  /// The exit statuses of the robot's, in the order in which they were added; none of those that have not ended.
+  /// Exit statuses of the robot's programs, in the order of add(); none for a program that has not ended.
   std::vector<std::optional<int>> exit_statuses(const kernel::Robot& robot) const;
 
  private:

@@ -6,7 +6,7 @@
 namespace waitpoint::run {
 namespace {
 
-constexpr Duration look_period = std::chrono::milliseconds(100);  // for interruptions
+constexpr Duration look_period = std::chrono::milliseconds(100);  // of polling `interrupted`
 
 }  // namespace
 
@@ -15,7 +15,8 @@ ThreadedExperiment::ThreadedExperiment(const scenario::Scenario& scenario, std::
     : assembly_(scenario, types, nullptr, seed), seed_(seed) {
   for (const scenario::RobotScenario& robot : scenario.robots)
     if (!robot.programs.empty())
-      throw robot.programs.front().written.bad("programs of robots run in virtual time alone: by `waitpoint run`");
+      throw robot.programs.front().written.bad(
+          "expected no programs: they run only in virtual time, by `waitpoint run`");
 }
 
 void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& interrupted) {
@@ -40,7 +41,7 @@ void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& in
   took_ = threads::now() - start;
 }
 
-// Robots without goals never come to an end of their own.
+// Robots without goals never end by themselves.
 bridge::Outcome ThreadedExperiment::wait_for_rounds(Time end, const std::function<bool()>& interrupted) {
   const auto with_goals =
       std::count_if(robots().begin(), robots().end(), [](auto& robot) { return robot->goals() > 0; });

@@ -108,8 +108,8 @@ TEST_F(DynamicWorlds, APushFromTheOutsideActsAndAKinematicWorldRefusesIt) {
   EXPECT_TRUE(pushed.result().warnings.empty());
   run::Experiment refused(kinematic, tools::papers_modules(), {1, kernel::Order::fifo, ""});
   EXPECT_EQ(outcome(refused), "push box 0 60 0.5: refused, there are no forces in a kinematic world");
-  EXPECT_EQ(refused.result().warnings, std::vector<std::string>{"1 shape with mass_kg taken to stand fast: only engine "
-                                                                "bullet lets things be pushed"});
+  EXPECT_EQ(refused.result().warnings, std::vector<std::string>{"1 shape with mass_kg treated as fixed: only engine "
+                                                                "bullet moves shapes"});
 }
 
 TEST_F(DynamicWorlds, RefuseWhatTheyCannotBeginWith) {
@@ -119,7 +119,7 @@ TEST_F(DynamicWorlds, RefuseWhatTheyCannotBeginWith) {
             std::string::npos);
   EXPECT_EQ(complaint(scenario_with(wall + "{name: box, corners_m: [2.2, -1, 3, 1], mass_kg: 4}")), "") << "touching";
   EXPECT_NE(complaint(scenario_with(wall, {on_bullet, "world.step_ms=1000", "robots.0.base.w_max_rad_s=3.2"}))
-                .find("s.yaml:4: robot 'robot' may turn by half a turn in a step"),
+                .find("s.yaml:4: expected a shorter step_ms for engine bullet: robot 'robot' can turn by half a turn"),
             std::string::npos);
 }
 

@@ -132,7 +132,7 @@ TEST_F(WorldFiles, AHeightIsForWhatHasNone) {
     ADD_FAILURE() << "no BadInput";
   } catch (const BadInput& bad) {
     EXPECT_EQ(bad.what(), "--set world.map={file: " + map + ", height_m: 2}: expected no height_m: '" + map +
-                              "' says how high things are");
+                              "' has heights of its own");
   }
 }
 

@@ -48,7 +48,7 @@ TEST(Intervention, APushIsAForceForATime) {
   EXPECT_EQ(complaint("push box 1"), "run.journal:7: expected a force, FX_N FY_N, within 1000000 N, found ''");
   EXPECT_EQ(complaint("push box 1 2 -1"), "run.journal:7: expected a time in seconds, at most 86400, found '-1'");
   EXPECT_EQ(complaint("push box 1e7 2 1"), "run.journal:7: expected a force, FX_N FY_N, within 1000000 N, found '1e7'");
-  EXPECT_EQ(complaint("push box 1 2 1 1"), "run.journal:7: unexpected '1'");
+  EXPECT_EQ(complaint("push box 1 2 1 1"), "run.journal:7: expected the end of the line, found '1'");
 }
 
 TEST(Intervention, WhatIsNoneIsOneLineAtItsPlace) {
@@ -58,8 +58,8 @@ TEST(Intervention, WhatIsNoneIsOneLineAtItsPlace) {
   EXPECT_EQ(complaint("dance"),
             "run.journal:7: unknown intervention 'dance', expected request, move, obstacle, move-obstacle, "
             "remove-obstacle or push");
-  EXPECT_EQ(complaint("move rackham 1 2 3 4"), "run.journal:7: unexpected '4'");
-  EXPECT_EQ(complaint("move \"rackham 1 2"), "run.journal:7: a quote is not closed");
+  EXPECT_EQ(complaint("move rackham 1 2 3 4"), "run.journal:7: expected the end of the line, found '4'");
+  EXPECT_EQ(complaint("move \"rackham 1 2"), "run.journal:7: expected a closing quote");
   EXPECT_EQ(complaint("request rackham ndd GoTo 3"), "run.journal:7: expected FIELD=VALUE, found '3'");
   EXPECT_EQ(complaint("request rackham ndd GoTo a=3 a=3"), "run.journal:7: 'a' is given twice");
   EXPECT_EQ(complaint("obstacle {centre_m: [1, 2], radius_m: 1}"),

@@ -68,12 +68,12 @@ TEST_F(JournalTest, WhatCannotBeReadIsNamedWithItsLine) {
             ":1: this is no journal: expected 'waitpoint journal 1', found '?ELF?" + std::string(55, 'x') + "...'");
   EXPECT_EQ(complaint(""), ":1: the journal ends early, expected 'waitpoint journal 1'");
   EXPECT_EQ(complaint(head.substr(0, head.find("order"))), ":4: the journal ends early, expected 'order seeded'");
-  EXPECT_EQ(complaint(head + "at 1 move rackham 1 2"), ":5: the journal ends within this line");
+  EXPECT_EQ(complaint(head + "at 1 move rackham 1 2"), ":5: expected a newline: the line is cut off");
   EXPECT_EQ(complaint(head + "at once move rackham 1 2\n"), ":5: expected a time in seconds, found 'once'");
   EXPECT_EQ(complaint(head + "at 1 move rackham 1\n"), ":5: expected a place, X Y [HEADING_DEG], found ''");
   EXPECT_EQ(complaint(head + "move rackham 1 2\n"), ":5: expected 'at' or 'end', found 'move'");
   EXPECT_EQ(complaint(head + "end 1\n"), ":5: expected 'end TIME after N events DIGEST'");
-  EXPECT_EQ(complaint(head + "end 1 after 2 events wp1:0\nat 1 move a 1 2\n"), ":6: nothing may follow the end");
+  EXPECT_EQ(complaint(head + "end 1 after 2 events wp1:0\nat 1 move a 1 2\n"), ":6: expected nothing after 'end'");
 }
 
 TEST_F(JournalTest, ScenariosThatSayTheSameHaveOneFingerprint) {
