@@ -52,7 +52,7 @@ class Prompt {
   LineReader lines_;
   bool terminal_;
   scenario::Location written_;  // the line being executed
-  bool pause_ = false;        // requested during the run
+  bool pause_ = false;          // requested during the run
   bool quit_ = false;
   bool interrupted_ = false;
 };
