@@ -36,18 +36,18 @@ std::string what(const std::exception_ptr& failure) {
   }
 }
 
-bool are_fast_paths_off() {
-  const char* const asked = std::getenv("WAITPOINT_FAST_PATHS");
-  return asked != nullptr && std::string_view(asked) == "0";
-}
-
 }  // namespace
+
+bool are_fast_paths_enabled() {
+  const char* const value = std::getenv("WAITPOINT_FAST_PATHS");
+  return value == nullptr || std::string_view(value) != "0";
+}
 
 Simulation::Simulation(SimulationOptions options)
     : options_(checked(std::move(options))), scheduler_(options_.order, options_.seed) {
   scheduler_.hooks().client = static_cast<sync::RunContext*>(this);
   scheduler_.set_most_tasks(options_.most_tasks);
-  if (!options_.fast_paths || are_fast_paths_off()) scheduler_.use_fast_paths(false);
+  if (!options_.fast_paths || !are_fast_paths_enabled()) scheduler_.use_fast_paths(false);
   scheduler_.hooks().replay = options_.replay.c_str();
   scheduler_.hooks().deliver_signals = sync::deliver_signals;
   add(environment_, "environment");

@@ -41,6 +41,9 @@ struct SimulationOptions {
   bool fast_paths = true;
 };
 
+/// False if WAITPOINT_FAST_PATHS=0 is in the environment.
+bool are_fast_paths_enabled();
+
 /// The reason why run_before() returned.
 enum class RunEnd : std::uint8_t {
   time_reached,  ///< or stopped from outside

@@ -139,6 +139,19 @@ class Loopback(ExecCase):
         self.assertEqual((len(set(digests[:3])), len(set(digests))), (1, 2))
 
 
+class PlainPath(ExecCase):
+    """The kernel without its fast paths."""
+
+    def test_is_the_same_run(self):
+        digests = []
+        for value in ("1", "0"):
+            words = ["env", f"WAITPOINT_FAST_PATHS={value}", str(WAITPOINT), "exec", "--", str(self.compile("loopback.c"))]
+            done = subprocess.run(words, capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            digests.append(Summary(done.stderr).digest)
+        self.assertEqual(digests[0], digests[1])
+
+
 class Seeds(ExecCase):
     """A campaign ends at the first failing seed, and prints its replay line."""
 

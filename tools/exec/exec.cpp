@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "fibers/posix/exec/exploration.hpp"
+#include "fibers/sync/simulation.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/program_run.hpp"
@@ -113,6 +114,7 @@ posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed) {
   settings.order = options.order;
   settings.seed = seed;
   settings.traced = options.trace.has_value();
+  settings.fast_paths = are_fast_paths_enabled();
   options.conditions.apply_to(settings);
   return settings;
 }

@@ -133,6 +133,7 @@ kernel::Scheduler& begin_run() {
     refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
   kernel::Scheduler& scheduler =
       *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
+  if (!record->settings.fast_paths) scheduler.use_fast_paths(false);
   scheduler.hooks().deliver_signals = deliver_signals;
   scheduler.hooks().continues_after_cycle = goes_on_in_cycle;
   if (asked != nullptr) record->explored = new Explored(scheduler, *asked);

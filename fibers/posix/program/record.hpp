@@ -42,6 +42,7 @@ struct Settings {
   bool isolate = false;             ///< traffic beyond this machine is rejected
   bool trap_rdtsc = false;          ///< reading the processor's counter shows virtual time
   bool traced = false;              ///< all events are recorded
+  bool fast_paths = true;           ///< see SimulationOptions::fast_paths
   const Asked* asked = nullptr;     ///< the exploration's request, in Order::explored
   std::uint32_t looks_at_once = 1;  ///< uses of clocks and of sched_yield() that are charged together
   bool instrumented = false;        ///< the program is compiled with -fsanitize=thread
@@ -66,7 +67,7 @@ struct ProgramRecord {
 };
 
 struct Record {
-  static constexpr std::uint64_t mark_of_version = 0x7770657865633034;  // "wpexec04"
+  static constexpr std::uint64_t mark_of_version = 0x7770657865633035;  // "wpexec05"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
