@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/run/journal.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -95,8 +97,7 @@ JournalHead journal_head(const scenario::Scenario& scenario, std::uint64_t seed,
 }
 
 std::string to_text(const JournalHead& head) {
-  return std::string(first_line) + "\n" + scenario_line(head) + "\nseed " + std::to_string(head.seed) + "\norder " +
-         name(head.order) + "\n";
+  return fmt::format("{}\n{}\nseed {}\norder {}\n", first_line, scenario_line(head), head.seed, name(head.order));
 }
 
 std::string to_text(Time date, const Intervention& intervention) {

@@ -40,8 +40,8 @@ std::optional<std::vector<Deviation>> DepthFirst::after(const std::vector<Decisi
     left_out_costs_ = left_out_costs_ || (decision.choice == Choice::computing && decision.count > 2);
     left_out_spurious_ = left_out_spurious_ || decision.choice == Choice::spurious;
     const std::uint32_t next = next_alternative(decision);
-    if (next < decision.count && (!decision.may_go_on || preempted < preemptions_)) last = {at, next};
-    if (decision.may_go_on && decision.is_switch()) ++preempted;
+    if (next < decision.count && (!decision.can_continue || preempted < preemptions_)) last = {at, next};
+    if (decision.can_continue && decision.is_switch()) ++preempted;
   }
   if (!last) return std::nullopt;
   std::vector<Deviation> deviations;

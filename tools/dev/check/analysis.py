@@ -9,6 +9,7 @@ A file without findings gets a stamp; its includes come from the compiler's depe
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -26,6 +27,10 @@ rule analyse
   deps = gcc
   description = $in
 """
+
+
+# GCC's precompiled headers: clang-tidy cannot read them, and reads each source by its own includes instead.
+PRECOMPILED = re.compile(r" -fpch-preprocess -include \w+\.hpp\b")
 
 
 def flags(entry):
@@ -61,7 +66,7 @@ def main():
     for source, entry in commands(build):
         if wanted is not None and str(source.with_suffix("")) not in wanted:
             continue
-        first.setdefault(source, entry)
+        first.setdefault(source, {**entry, "command": PRECOMPILED.sub("", entry["command"])})
     folder, settings = build / "analysis", os.path.relpath(ROOT / ".clang-tidy", build)
     folder.mkdir(exist_ok=True)
     (folder / "compile_commands.json").write_text(json.dumps(list(first.values())))
