@@ -11,7 +11,7 @@
 namespace waitpoint::kernel {
 
 // The run goes on in its usual order: nothing wants it to stop, or a task to do anything else than its own.
-void Scheduler::allow_fast_paths() { fast_allowed_ = fast_path_.may_stay() && !interrupted_; }
+void Scheduler::allow_fast_paths() { fast_allowed_ = fast_path_.keeps_turn() && !interrupted_; }
 
 void Scheduler::use_fast_paths(bool used) {
   WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "the fast paths are chosen while tasks run");
@@ -74,7 +74,7 @@ Departure Scheduler::start_sleep(Time time) {
 // Whether `task`, were it blocked, could be left for the first of the present queue without more ado: no watch looks
 // on, and neither needs attention.
 inline bool Scheduler::can_dispatch_present() const {
-  if (!fast_allowed_ || !turn.is_fast() || agenda_.present.size() - 1 >= many_ready) return false;
+  if (!fast_allowed_ || !turn.is_fast() || agenda_.present.size() - 1 >= crowd_min) return false;
   const Task& next = *agenda_.present.first();
   return __builtin_expect(!agenda_.events.is_due(agenda_.now), 1) &&
          __builtin_expect(can_switch_in_parts(running->fiber, next.fiber), 1) && StackArena::intact(next.fiber.stack);

@@ -20,19 +20,19 @@ class FastPath {
   // write to the scheduler for races.
   void allow(Order order) {
     const bool allowed = enabled_ && !sanitizer::present;
-    may_stay_ = allowed && order == Order::fifo;
-    may_stay_alone_ = allowed && order == Order::seeded;
+    keeps_turn_ = allowed && order == Order::fifo;
+    keeps_turn_alone_ = allowed && order == Order::seeded;
   }
   /// Whether allow() allows any.
   void enable(bool enabled) { enabled_ = enabled; }
   bool is_enabled() const { return enabled_; }
   /// From now on nobody has one.
-  void forbid() { may_stay_ = may_stay_alone_ = false; }
+  void forbid() { keeps_turn_ = keeps_turn_alone_ = false; }
 
   /// Whether a task goes on although others tie with it.
-  bool may_stay() const { return may_stay_; }
+  bool keeps_turn() const { return keeps_turn_; }
   /// The same where others are of its instant or not, as said.
-  bool may_stay(bool alone) const { return may_stay_ || (may_stay_alone_ && alone); }
+  bool keeps_turn(bool alone) const { return keeps_turn_ || (keeps_turn_alone_ && alone); }
 
   bool holds_for(const Task& task) const { return task.local_time == turn.at && task.turns < turns_max; }
 
@@ -46,13 +46,13 @@ class FastPath {
 
   /// An event of this phase was put in for the present instant.
   void note_present_event(Phase phase) {
-    if (running != nullptr && (!may_stay_ || phase < running->phase)) close();
+    if (running != nullptr && (!keeps_turn_ || phase < running->phase)) close();
   }
 
  private:
   bool enabled_ = true;
-  bool may_stay_ = false;
-  bool may_stay_alone_ = false;
+  bool keeps_turn_ = false;
+  bool keeps_turn_alone_ = false;
 };
 
 /// A waitpoint of the running task where nothing can come between, and nobody watches; else false, with nothing done.

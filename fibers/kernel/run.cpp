@@ -48,7 +48,7 @@ void Scheduler::restart(std::uint64_t seed) {
   state_ = RunState::idle;
   cause_ = StopCause::none;
   turn.lane = lane_ = nullptr;
-  unheard_ = PairDigest();
+  ended_robots_digest_ = PairDigest();
   fast_path_.allow(agenda_.chooser.order());
   unwinding_ = interrupted_ = false;
   if (sanitizer::present) {
@@ -82,7 +82,7 @@ RunState Scheduler::run_before(Time until) {
 }
 
 std::uint64_t Scheduler::events() const {
-  std::uint64_t hashed = unheard_.pairs();
+  std::uint64_t hashed = ended_robots_digest_.pairs();
   for (const Robot* robot = first_robot_; robot != nullptr; robot = robot->next) hashed += robot->digest.pairs();
   return hashed - outputs_;
 }

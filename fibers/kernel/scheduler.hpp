@@ -299,7 +299,7 @@ class Scheduler {
   Task* wake_waiter(Object& object);
 
   // So many that are ready may be out of the cache.
-  static constexpr std::uint32_t many_ready = 32;
+  static constexpr std::uint32_t crowd_min = 32;
 
   Agenda agenda_;
   FastPath fast_path_;
@@ -329,9 +329,9 @@ class Scheduler {
   Time turns_given_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  PairDigest* lane_ = nullptr;  // as the turn has it, for who reads the scheduler from another process
-  PairDigest unheard_;          // of robots that ended
-  bool fast_allowed_ = false;   // tasks may take the calls of fast_calls.cpp
+  PairDigest* lane_ = nullptr;      // as the turn has it, for who reads the scheduler from another process
+  PairDigest ended_robots_digest_;  // of robots that ended
+  bool fast_allowed_ = false;       // tasks may take the calls of fast_calls.cpp
   bool unwinding_ = false;
   bool interrupted_ =
       false;                 // tasks that get control are not to go on: they are unwound, or asked for their call stack

@@ -64,7 +64,7 @@ inline Fiber& Scheduler::resume(Task& task) {
   task.state = TaskState::running;
   running = &task;
   hash_events_of(*task.robot);
-  if (fast_path_.may_stay()) fast_path_.open(task, agenda_.now, fast_epoch());
+  if (fast_path_.keeps_turn()) fast_path_.open(task, agenda_.now, fast_epoch());
   return task.fiber;
 }
 

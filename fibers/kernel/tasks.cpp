@@ -94,7 +94,7 @@ void Scheduler::unlink(Task& task) {
 bool Scheduler::count_end(const Task& task) {
   if (--task.robot->live_tasks == 0) {
     task.robot->ended = true;
-    task.robot->lane = &unheard_;
+    task.robot->lane = &ended_robots_digest_;
     task.robot->end_time = agenda_.now;
   }
   return --live_tasks_ == 0;

@@ -54,7 +54,7 @@ inline bool Scheduler::announce(Task& task, Operation operation, Object* object)
     if (interrupted_ && !answer_interrupt()) return false;
   }
   agenda_.advance(task.local_time);
-  if (fast_path_.may_stay(agenda_.now < agenda_.events.least().key.time))
+  if (fast_path_.keeps_turn(agenda_.now < agenda_.events.least().key.time))
     fast_path_.open(task, agenda_.now, fast_epoch());
   return true;
 }
@@ -114,7 +114,7 @@ Fiber& Scheduler::dispatch() {
   for (;;) {
     if (agenda_.is_present_next()) {
       Task& task = agenda_.present.take();
-      if (agenda_.present.size() >= many_ready) fetch_coming(agenda_.present);
+      if (agenda_.present.size() >= crowd_min) fetch_coming(agenda_.present);
       return resume(task);
     }
     EventNode* node = agenda_.events.pop_before(agenda_.until);

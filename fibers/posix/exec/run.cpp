@@ -135,7 +135,7 @@ kernel::Scheduler& begin_run() {
       *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   if (!record->settings.fast_paths) scheduler.use_fast_paths(false);
   scheduler.hooks().deliver_signals = deliver_signals;
-  scheduler.hooks().continues_after_cycle = goes_on_in_cycle;
+  scheduler.hooks().continues_after_cycle = continues_after_cycle;
   if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
   names_waitables =
       record->settings.traced ||

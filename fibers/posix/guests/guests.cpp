@@ -64,7 +64,7 @@ Guest* load_guest(const char* name, int argc, const char* const* argv, Guests::E
 bool start_guest(Guest& guest, kernel::Scheduler& scheduler, kernel::Robot& robot) {
   WAITPOINT_CHECK(kernel::running == nullptr, "a guest starts from within a task");
   guest.member.robot = &robot;
-  scheduler.hooks().continues_after_cycle = goes_on_in_cycle;
+  scheduler.hooks().continues_after_cycle = continues_after_cycle;
   return start(guest.member, scheduler);
 }
 

@@ -80,7 +80,7 @@ void report_deadlock(const kernel::Scheduler& scheduler) {
   }
 }
 
-bool goes_on_in_cycle(kernel::Task& task) {
+bool continues_after_cycle(kernel::Task& task) {
   if (!is_thread(task)) return false;
   if (SignalTimer::any_is_set()) return true;
   const kernel::Scheduler& scheduler = *task.scheduler;

@@ -13,6 +13,6 @@ void report_deadlock(const kernel::Scheduler& scheduler);
 /// `task` has just closed a cycle of waiting threads. True if the run continues with the others, as with threads of the
 /// system; the cycle is reported at once. False where schedules are explored, and without other threads. If a timer of
 /// the program is set, whose signal handler may end the wait, the run continues without a report.
-bool goes_on_in_cycle(kernel::Task& task);
+bool continues_after_cycle(kernel::Task& task);
 
 }  // namespace waitpoint::posix
