@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is due, and in which order: the event list, and in front of it what is due at the present instant.
+// All pending events in their order: the event list, and at its head the events of the present instant.
 //
-//   fifo      present | events       those put in at this instant need no search for their place: they are the last
+//   fifo      present | events       an event placed at the present instant is the last of it: no search for its place
 //   seeded              events       each tie is a hash
-//   explored  ready   | events       of those that are ready somebody else chooses
+//   explored  ready   | events       a strategy chooses among the ready tasks
 //
-// A task of an earlier phase comes first in all of them.
+// In all orders, events of one instant are sorted by phase first.
 #pragma once
 
 #include <cstdint>
@@ -25,17 +25,17 @@ struct Agenda {
   ReadySet ready;
   Chooser chooser;
   Time now;    ///< the time of the event now executing
-  Time until;  ///< where the window ends: no event from there on is executed
+  Time until;  ///< the end of the window: only events before it are executed
 
   Agenda(Order order, std::uint64_t seed) : chooser(order, seed) {}
 
-  /// As new, of this seed; it must be empty.
+  /// Reinitialises with this seed; must be empty.
   void restart(std::uint64_t seed) {
     events.restart();
     chooser.restart(seed);
     now = until = Time();
   }
-  /// Whatever was due is not any more.
+  /// Removes all events.
   void clear() {
     while (!events.empty()) events.pop();
     clear_present();
@@ -50,7 +50,7 @@ struct Agenda {
 
   EventKey key(const Task& task, Time time) { return {time, make_order(task.phase, chooser.tie(task))}; }
 
-  /// The task's event at `time`.
+  /// Places the task's event at `time`.
   void place(Task& task, Time time) {
     if (time <= now) {
       if (chooser.order() == Order::fifo && PresentQueue::is_for(task.phase))
@@ -59,12 +59,12 @@ struct Agenda {
     }
     events.insert(task.event, key(task, time));
   }
-  /// The same, of a task that waits until then at the longest, and may be taken out again.
+  /// Places the timeout of a blocked task, which is mostly removed before it is due.
   void place_timeout(Task& task, Time time) {
     if (__builtin_expect(is_explored(), 0)) return place(task, time);
     events.insert(task.event, key(task, time));
   }
-  /// The task's event, wherever it is; it may have none.
+  /// Removes the task's event, if it has one.
   void remove(Task& task) {
     if (task.event.place == EventNode::ready)
       is_explored() ? ready.remove(task) : present.remove(task);
@@ -72,7 +72,7 @@ struct Agenda {
       events.remove(task.event);
   }
 
-  /// Of the least event; never due if there is none.
+  /// The key of the least event; EventKey::never() if there is none.
   EventKey next_key() const {
     const EventKey& least = events.least().key;
     if (present.empty()) return least;
@@ -80,27 +80,27 @@ struct Agenda {
     return first < least ? first : least;
   }
   Time next_time() const { return ready.empty() ? next_key().time : now; }
-  /// Whether an event of the list is due in this window.
+  /// True if an event of the list is in this window.
   bool is_due_later() const { return !events.empty() && events.least().key.time < until; }
 
-  /// Whether the present queue's first event is the least, and in this window.
+  /// True if the present queue's first event is the least one, and in this window.
   bool is_present_next() const {
     return !present.empty() && now < until && !(events.least().key < EventKey{now, present.order()});
   }
-  /// Whether the event of a task at its own waitpoint is the least: it goes on then. In the explored order that is
-  /// chosen.
+  /// True if `task`, at a waitpoint, continues without a switch: its event is the least. Never in the explored order,
+  /// where the strategy chooses.
   bool is_next(const Task& task) { return __builtin_expect(!is_explored(), 1) && precedes(task, next_key()); }
-  /// Time comes to `time` without an event out of the list; none in it is due before.
+  /// Advances the global time to `time` without taking an event; no event may be due before.
   void advance(Time time) {
     now = time;
     events.advance(time);
   }
 
-  /// Whether the task's event, were it in the list, would come before `other`.
+  /// True if the task's event, which is not in the list, sorts before `other`.
   bool precedes(const Task& task, const EventKey& other) {
     if (task.local_time != other.time) return task.local_time < other.time;
-    // First-in-first-out: at the present instant a task goes on although others tie with it. One whose time has moved
-    // on comes behind them, as through the list: else it would depend on unrelated events in between.
+    // First-in-first-out: at the present instant a task continues although others tie with it. At a later time it sorts
+    // behind its ties, as an inserted event would: otherwise the order would depend on unrelated events in between.
     const std::uint64_t tie = chooser.order() == Order::seeded ? chooser.tie(task)
                               : task.local_time == now         ? 0
                                                                : tie_mask;

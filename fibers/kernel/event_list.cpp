@@ -19,18 +19,19 @@ EventEntry* reserve(std::size_t entries) {
   return static_cast<EventEntry*>(memory);
 }
 
-// The heap's entries, then the run's: room for two runs, so that a bucket fits behind what is left of the one before.
+// The heap's entries, then the run's, with room for two full runs: a bucket must fit behind the remainder of the
+// previous one.
 std::size_t entries(std::uint32_t capacity) { return std::size_t{capacity} * 4 + EventHeap::margin + 1; }
 
-// About the square root, a power of two.
+// A power of two near the square root.
 std::uint32_t root(std::uint32_t size) { return 1u << std::bit_width(size) / 2; }
 
-// As many events in a bucket as buckets for all that are near: see calendar.hpp.
+// The span for which a bucket has as many events as there are buckets of near events: see calendar.hpp.
 unsigned ideal_width_log2(std::uint64_t gap_ns, std::uint32_t near) {
   constexpr std::uint64_t longest_gap_ns = std::uint64_t{1} << 40;
   return static_cast<unsigned>(std::bit_width(std::min(gap_ns, longest_gap_ns) * root(near)));
 }
-// And so many that those which are far are seldom gone through.
+// More buckets than that, so that the far events are seldom scanned.
 std::uint32_t ideal_buckets(std::uint32_t size) { return 8 * root(size); }
 
 }  // namespace
@@ -79,7 +80,7 @@ void EventList::remove_from_run(std::uint32_t index) {
   if (run_ + index == head_) pass_gaps();
 }
 
-// A node knows where it was put; since then it may have been moved up, once by each that came before it near the end.
+// `index` is the position at insertion: later insertions before the node may have moved it towards the end.
 std::uint32_t EventList::find_from(std::uint32_t index, const EventNode& node) const {
   while (run_[index].node != &node) ++index;
   return index;
@@ -97,7 +98,7 @@ void EventList::put_elsewhere(EventNode& node, EventKey key) {
   }
 }
 
-// Entries that were passed, and gaps, are to be fewer than those that stay, so that this costs each of them little.
+// The bound makes the taken and removed entries at least as many as the remaining ones: amortised constant cost.
 void EventList::tidy_run() {
   move_run_down();
   set_bound();
@@ -121,7 +122,7 @@ void EventList::move_run_down() {
 
 void EventList::refill() {
   if (size_ < few) return close_calendar();
-  // What is left is little, and would wander through the memory.
+  // The remainder is short; without the move the run would travel through memory.
   if (head_ >= run_ + run_length_min) move_run_down();
   EventEntry* const known = end_;
   do {
@@ -131,8 +132,8 @@ void EventList::refill() {
   } while (end_ < head_ + lookahead_ + batch);
   passed_ += static_cast<std::uint32_t>(end_ - known);
   end_->key = EventKey::never();
-  // Each node is in a page of its own, which the processor has not seen for long. The looks for where the pages are
-  // take the time of one only where they follow each other closely.
+  // Each node is in a page of its own that is not in the TLB; page walks overlap only if the accesses are close
+  // together.
   for (const EventEntry* entry = known; entry < end_; ++entry) fetch(entry->node);
   for (const EventEntry* entry = known; entry < end_; ++entry) note_place_in_run(*entry);
 }
@@ -142,13 +143,13 @@ void EventList::keep_up() {
   if (until_upkeep_ == 0) calibrate();
 }
 
-// Now and then: does the calendar fit the events?
+// Periodically fits the calendar to the number and the distance of the events.
 void EventList::calibrate() {
   if (!calendar_.is_open()) passed_ += calibration_period_;
   calibration_period_ = size_ < calibration_period_min ? calibration_period_min : size_;
   until_upkeep_ = calibration_period_;
   if (present_ns_ <= calibrated_at_ns_) return;
-  // Where nearly all are timeouts that do not come about, too little passes to measure by.
+  // If nearly all events are cancelled timeouts, too few are taken for a measurement.
   if (size_ >= many && passed_ >= size_ / 8) open_calendar((present_ns_ - calibrated_at_ns_) / passed_);
   calibrated_at_ns_ = present_ns_;
   passed_ = 0;
@@ -161,7 +162,7 @@ void EventList::open_calendar(std::uint64_t gap_ns) {
     const int wider = static_cast<int>(calendar_.width_log2()) - static_cast<int>(width);
     if (wider >= -1 && wider <= 1 && calendar_.buckets() >= buckets / 2 && calendar_.buckets() <= buckets * 2) return;
   }
-  // The run may reach far. The horizon does not, or most events would be before it, in the heap.
+  // The run may reach beyond the new horizon; a horizon behind it would leave most events in the heap.
   for (const EventEntry* entry = head_; entry < end_; ++entry)
     if (entry->node != nullptr) heap_.insert(*entry);
   empty_run();

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event list: every task that can run has exactly one event in it, and the least one is next (the paper's Algorithm
-// 1).
+// The event list: every ready task has exactly one event in it, and the least event is next (the paper's Algorithm 1).
 //
-// The order is exact and total: by time, then by order = phase:4 | tie:60. Nodes live in their tasks and timers and
-// know their place, so that a timeout that did not happen is removed truly.
+// The order is exact and total: by time, then by order = phase:4 | tie:60. Nodes are members of their tasks and timers
+// and store their positions, so that a cancelled timeout is removed at once, not marked.
 //
-// An event that comes near the end of those that are in their order, the run, is put there, as most are where events
-// are few or of one instant; one that comes far before it, into a heap. When events become many, those that are not due
-// soon go to a calendar, whose buckets come back sorted, one after the other, into the run:
+// The run is a sorted array of the next events. An event whose place is near the end of the run is inserted there: the
+// usual case if events are few or of one instant. An event whose place is far before the end goes to a heap. When
+// events become many, later ones go to a calendar, whose buckets are sorted into the run one after the other:
 //
 //      least of run and heap | ......... | horizon | ................ calendar ................
 //
-// How long a bucket's span is follows from how fast virtual time goes over the events, measured now and then.
+// The buckets' span follows from the mean distance of events in virtual time, measured periodically.
 #pragma once
 
 #include <cstdint>
@@ -25,26 +24,26 @@ namespace waitpoint::kernel {
 
 class EventList {
  public:
-  /// Room for `capacity` events, at most 2^29, is reserved, and committed only as it is used.
+  /// Reserves address space for `capacity` events, at most 2^29; memory is committed as it is used.
   explicit EventList(std::uint32_t capacity);
   ~EventList();
-  /// Whether there is the address space for a list of this capacity, whatever is put into it.
+  /// True if there is enough address space for a full list of this capacity.
   static bool has_address_space(std::uint32_t capacity);
   EventList(const EventList&) = delete;
   EventList& operator=(const EventList&) = delete;
 
-  /// As new; it must be empty.
+  /// Reinitialises the list, which must be empty.
   void restart();
 
   bool empty() const { return size_ == 0; }
   std::uint32_t size() const { return size_; }
-  /// The least entry; its key reads as never due if the list is empty.
+  /// The least entry; its key is EventKey::never() if the list is empty.
   const EventEntry& least() const { return heap_.least().key < head_->key ? heap_.least() : *head_; }
-  /// Whether the least event is due at `time` or before.
+  /// True if the least event is due at `time` or before.
   bool is_due(Time time) const { return head_->key.time <= time || heap_.least().key.time <= time; }
-  /// Whether the events are so many that they are in a calendar.
+  /// True if events are so many that the calendar is in use.
   bool is_large() const { return lookahead_ != 0; }
-  /// The node that is `ahead` events behind the least one of the run, if it is known already: to make it ready early.
+  /// The node that is `ahead` events after the first of the run, for prefetching; null if the run is shorter.
   const EventNode* coming(std::uint32_t ahead) const { return head_ + ahead < end_ ? head_[ahead].node : nullptr; }
 
   /// `node` must not be in the list.
@@ -57,7 +56,7 @@ class EventList {
   }
   /// `node` must be in the list.
   void remove(EventNode& node);
-  /// The same where nothing else is to be done for it, as mostly with few events; else false, with nothing done.
+  /// remove() where no other work is needed, the usual case with few events; otherwise false, with nothing changed.
   bool try_remove_fast(EventNode& node) {
     EventEntry& entry = run_[node.index()];
     if (is_large() || node.part() != EventNode::Part::run || entry.node != &node) return false;
@@ -70,19 +69,19 @@ class EventList {
     }
     return true;
   }
-  /// As insert(), where its place is near the end of the run; else false, with nothing done.
+  /// insert() if the place is near the end of the run; otherwise false, with nothing changed.
   bool try_insert_fast(EventNode& node, EventKey key) {
     if (size_ >= capacity_ || node.in_list() || !belongs_near_end(key)) return false;
     ++size_;
     put_near_end(node, key);
     return true;
   }
-  /// The list must not be empty.
+  /// Takes out the least event; the list must not be empty.
   EventNode& pop() {
     WAITPOINT_CHECK(size_ > 0, "the event list is empty");
     return take(least());
   }
-  /// As pop() and insert(node, key), where `least` is least().
+  /// pop() and insert(node, key) in one step; `least` must be least().
   [[gnu::always_inline]] EventNode& exchange(const EventEntry& least, EventNode& node, EventKey key) {
     check_insertion(node);
     EventNode& taken = take(least);
@@ -90,30 +89,30 @@ class EventList {
     put(node, key);
     return taken;
   }
-  /// As pop(), unless the least event is due at `until` or later, or there is none: null then.
+  /// pop() if the least event is due before `until`; otherwise null.
   EventNode* pop_before(Time until) {
     const EventEntry& first = least();
     return first.key.time < until ? &take(first) : nullptr;
   }
-  /// The present instant: that of the event that was taken last, or to which advance() came.
+  /// The present instant: the time of the event taken last, or of a later advance().
   Time present() const { return Time::from_ns(static_cast<std::int64_t>(present_ns_)); }
-  /// Time has come to `time` without an event out of the list; none in it is due before.
+  /// Advances the present instant to `time` without taking an event; no event may be due before.
   void advance(Time time) { present_ns_ = static_cast<std::uint64_t>(time.ns()); }
 
  private:
-  static constexpr std::uint32_t few = 12;            // events below which a calendar is given up
-  static constexpr std::uint32_t many = 32;           // from which on one is taken
-  static constexpr std::uint32_t lookahead = 8;       // where there is a calendar, events that are known ahead at least
-  static constexpr std::uint32_t batch = 8;           // and how many more are made known at once then
-  static constexpr std::uint32_t heap_share_max = 4;  // a quarter of the events: there the horizon is too far away
-  static constexpr std::uint32_t reach = 12;          // entries of the run that an event may come before
-  static constexpr std::uint32_t run_length_min = 64;  // the run begins anew when so much was passed
+  static constexpr std::uint32_t few = 12;            // below this number of events the calendar is closed
+  static constexpr std::uint32_t many = 32;           // from this number on it is opened
+  static constexpr std::uint32_t lookahead = 8;       // minimum length of the run while the calendar is open
+  static constexpr std::uint32_t batch = 8;           // number of events beyond that which a refill adds
+  static constexpr std::uint32_t heap_share_max = 4;  // with more than a quarter in the heap, the horizon is too far
+  static constexpr std::uint32_t reach = 12;          // greatest number of entries that an insertion into the run moves
+  static constexpr std::uint32_t run_length_min = 64;  // the run is moved down after so many entries were taken
   static constexpr std::uint32_t calibration_period_min = 512;
 
   static void check_insertion(const EventNode& node) {
     WAITPOINT_CHECK(!node.in_list(), "an event is put into the list twice");
   }
-  // Into its place in the run, if that is near its end; else to the others.
+  // Inserts the event into the run if its place is near the end; otherwise into the heap or the calendar.
   [[gnu::always_inline]] void put(EventNode& node, EventKey key) {
     if (__builtin_expect(!belongs_near_end(key), 0)) return put_elsewhere(node, key);
     put_near_end(node, key);
@@ -125,7 +124,7 @@ class EventList {
   [[gnu::always_inline]] void put_near_end(EventNode& node, EventKey key) {
     EventEntry* at = end_;
     at[1].key = EventKey::never();
-    // Those that are moved up are not told: see find_from().
+    // The positions of moved entries are not updated: see find_from().
     for (; at != head_ && key < at[-1].key; --at) *at = at[-1];
     *at = {key, &node};
     note_place_in_run(*at);
@@ -150,11 +149,11 @@ class EventList {
     if (--until_upkeep_ == 0) keep_up();
     return node;
   }
-  // What is left to do when the run's head was taken.
+  // Completes the removal of the run's head.
   [[gnu::always_inline]] EventNode& taken(EventNode& node) {
     --size_;
     node.place = EventNode::absent;
-    if (__builtin_expect(head_->node == nullptr, 0)) pass_gaps();  // behind the end it may be anything
+    if (__builtin_expect(head_->node == nullptr, 0)) pass_gaps();  // at the end of the run the node is arbitrary
     if (__builtin_expect(--until_upkeep_ == 0 || end_ < head_ + lookahead_, 0)) keep_up();
     return node;
   }
@@ -162,7 +161,7 @@ class EventList {
     head_ = end_ = run_;
     end_->key = EventKey::never();
   }
-  // The head of the run is an event that was not removed; an empty run begins at the beginning.
+  // Restores the invariant that the head of the run is not a removed entry.
   void skip_gaps() {
     while (head_ < end_ && head_->node == nullptr) ++head_;
   }
@@ -182,16 +181,16 @@ class EventList {
   std::uint32_t size_ = 0;
   EventEntry* memory_;
   EventHeap heap_;
-  EventEntry* run_;  // from head to end in ascending order, and behind it an entry that is never due
+  EventEntry* run_;  // ascending from head to end; the entry at the end has the key never()
   EventEntry* head_;
   EventEntry* end_;
-  EventEntry* bound_;                                          // the run is tidied up before it ends beyond
-  std::uint32_t lookahead_ = 0;                                // the run is kept so long, while there is a calendar
+  EventEntry* bound_;                                          // the run is compacted before its end exceeds this
+  std::uint32_t lookahead_ = 0;                                // minimum length of the run; 0 without a calendar
   std::uint32_t calibration_period_ = calibration_period_min;  // in events taken
   std::uint32_t until_upkeep_ = calibration_period_min;
   std::uint64_t present_ns_ = 0;
   std::uint64_t calibrated_at_ns_ = 0;
-  std::uint32_t passed_ = 0;  // events since then: all, or while there is a calendar, those that came from there
+  std::uint32_t passed_ = 0;  // events since then: all, or while the calendar is open, those taken from it
   Calendar calendar_;
 };
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Short cuts through the plain path of waitpoint.cpp and waiting.cpp, for the common case of the first-in-first-out
-// order: each comes to the same events, or leaves it to its slow twin with nothing done. A run without them
+// Short cuts for the common cases of waitpoint.cpp and waiting.cpp in the first-in-first-out order. Each executes the
+// same events as the plain path, or calls its ..._slow counterpart with nothing changed. A run without them
 // (SimulationOptions::fast_paths) has the same digest.
 //
-// What is rare is left to functions that are called last: each register that is kept over a call is saved first.
+// Rare cases are calls in tail position: each register kept over a call would be saved first.
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
 
 namespace waitpoint::kernel {
 
-// The run goes on in its usual order: nothing wants it to stop, or a task to do anything else than its own.
+// For the coming window: short cuts are taken unless the run is interrupted.
 void Scheduler::allow_fast_paths() { fast_allowed_ = fast_path_.keeps_turn() && !interrupted_; }
 
 void Scheduler::use_fast_paths(bool used) {
@@ -21,7 +21,7 @@ void Scheduler::use_fast_paths(bool used) {
 
 // --- waitpoints ---
 
-// While the fast path holds but a watch wants to see each event: it is the least without a look at the list.
+// The fast path is open but each event is shown to a watch: the event is the least without a search of the list.
 bool Scheduler::waitpoint_at_present(Task& task, Operation operation, Object* object) {
   ++task.turns;
   task.operation = operation;
@@ -32,7 +32,8 @@ bool Scheduler::waitpoint_at_present(Task& task, Operation operation, Object* ob
   return true;
 }
 
-// The list's least event is before the task's, and none waits in the present queue: one step in and out of the list.
+// The list's least event precedes the task's, and the present queue is empty: inserts one and takes the other in one
+// step.
 Fiber& Scheduler::exchange_with_least(Task& task) {
   const EventEntry& least = agenda_.events.least();
   const EventKey own = agenda_.key(task, task.local_time);
@@ -71,8 +72,8 @@ Departure Scheduler::start_sleep(Time time) {
 
 // --- blocking and waking ---
 
-// Whether `task`, were it blocked, could be left for the first of the present queue without more ado: no watch looks
-// on, and neither needs attention.
+// True if the running task, once blocked, can be left for the first task of the present queue at once: that event is
+// the least, events are not watched, and the switch needs no other work.
 inline bool Scheduler::can_dispatch_present() const {
   if (!fast_allowed_ || !turn.is_fast() || agenda_.present.size() - 1 >= crowd_min) return false;
   const Task& next = *agenda_.present.first();
@@ -80,15 +81,15 @@ inline bool Scheduler::can_dispatch_present() const {
          __builtin_expect(can_switch_in_parts(running->fiber, next.fiber), 1) && StackArena::intact(next.fiber.stack);
 }
 
-// Puts `task` among the waiters; false, with nothing done, where that may be a deadlock or its timeout has no place
-// near the end of the list.
+// Blocks `task` on `object`; false, with nothing changed, if that may close a cycle or the timeout's place is not near
+// the end of the run.
 template <bool is_finite>
 [[gnu::always_inline]] inline bool Scheduler::try_fast_wait(Task& task, Object& object, Time deadline) {
   if constexpr (is_finite) {
     const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next())};
     if (__builtin_expect(deadline <= agenda_.now || !agenda_.events.try_insert_fast(task.event, key), 0)) return false;
   } else if (__builtin_expect(object.holder_count != 0, 0) ||
-             // A task that waits for one which is ready closes no cycle.
+             // A wait for a ready owner closes no cycle.
              (object.owner != nullptr && __builtin_expect(object.owner->state != TaskState::ready, 0))) {
     return false;
   }
@@ -98,7 +99,7 @@ template <bool is_finite>
   return true;
 }
 
-// The blocked task's fast path, which is for the present instant, goes over to the next one.
+// The fast path, open for the present instant, passes from the blocked task to the next one.
 template <bool is_finite>
 Departure Scheduler::start_block(Object& object, Time deadline) {
   Task& task = *running;
@@ -115,7 +116,7 @@ Departure Scheduler::start_block(Object& object, Time deadline) {
 template Departure Scheduler::start_block<true>(Object&, Time);
 template Departure Scheduler::start_block<false>(Object&, Time);
 
-// As wake() of the first waiter, where that is all.
+// wake() of the first waiter, in the common case.
 Task* Scheduler::wake_waiter(Object& object) {
   Task& first = *object.first_waiter;
   const bool is_usual = __builtin_expect(fast_allowed_, 1) && object.epoch == epoch_ && first.phase == Phase::tasks;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fast path: the running task passes its waitpoints at the present instant without a look at the event list, inline
-// in its own frame. Open for one task at a time, in the turn (turn.hpp).
+// The fast path: the running task passes its waitpoints at the present instant inline in its own frame, without a
+// search of the event list. It is open for one task at a time; its state is in the turn (turn.hpp).
 //
-// In the first-in-first-out order it does so as long as no event of an earlier phase was put in for this instant; in
-// the seeded order while there is no other of this instant; where somebody else decides, never.
+// In the first-in-first-out order it is open until an event of an earlier phase is inserted at this instant; in the
+// seeded order while the task is alone at this instant; in the explored order never.
 #pragma once
 
 #include "fibers/kernel/chooser.hpp"
@@ -16,27 +16,28 @@ namespace waitpoint::kernel {
 
 class FastPath {
  public:
-  // The short way through a waitpoint is inline, in code that ThreadSanitizer may look at: it would take what tasks
-  // write to the scheduler for races.
+  // Never with a sanitizer: the fast path is inlined into code that ThreadSanitizer may instrument, and the tasks'
+  // writes to the scheduler would be reported as races.
   void allow(Order order) {
     const bool allowed = enabled_ && !sanitizer::present;
     keeps_turn_ = allowed && order == Order::fifo;
     keeps_turn_alone_ = allowed && order == Order::seeded;
   }
-  /// Whether allow() allows any.
+  /// Enables or disables later calls of allow().
   void enable(bool enabled) { enabled_ = enabled; }
   bool is_enabled() const { return enabled_; }
-  /// From now on nobody has one.
+  /// No path is opened from now on.
   void forbid() { keeps_turn_ = keeps_turn_alone_ = false; }
 
-  /// Whether a task goes on although others tie with it.
+  /// True if a task at a waitpoint continues although others tie with it.
   bool keeps_turn() const { return keeps_turn_; }
-  /// The same where others are of its instant or not, as said.
+  /// True if it continues; `alone`: no other event is due at its instant.
   bool keeps_turn(bool alone) const { return keeps_turn_ || (keeps_turn_alone_ && alone); }
 
   bool holds_for(const Task& task) const { return task.local_time == turn.at && task.turns < turns_max; }
 
-  /// To the running task, for the instant `now`; `fast_epoch`: the epoch of the run if nobody watches, else no_epoch.
+  /// Opens the path to the running task for the instant `now`. `fast_epoch`: the epoch of the run, or no_epoch if
+  /// events are watched.
   void open(const Task& task, Time now, std::uint64_t fast_epoch) {
     if (task.attention != 0) return close();
     turn.at = now;
@@ -44,7 +45,7 @@ class FastPath {
   }
   void close() { turn.close(); }
 
-  /// An event of this phase was put in for the present instant.
+  /// An event of this phase was inserted at the present instant.
   void note_present_event(Phase phase) {
     if (running != nullptr && (!keeps_turn_ || phase < running->phase)) close();
   }
@@ -55,7 +56,8 @@ class FastPath {
   bool keeps_turn_alone_ = false;
 };
 
-/// A waitpoint of the running task where nothing can come between, and nobody watches; else false, with nothing done.
+/// The running task's waitpoint, if the path is open for `object` and events are not watched; otherwise false, with
+/// nothing changed.
 [[gnu::always_inline]] inline bool try_fast_waitpoint(Operation operation, Object& object) {
   if (__builtin_expect(object.epoch != turn.fast_epoch, 0)) return false;
   Task& task = *running;

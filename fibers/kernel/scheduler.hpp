@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scheduler is the event list (the paper's Algorithms 1 and 2).
 //
-// Every primitive begins with waitpoint(): the task's event stands in the list at its local virtual time, and the task
-// goes on when that event is the least. The global time is the time of the event now executing; it never goes back. So
-// all uses of primitives happen in time order, whatever computing the tasks do between them.
+// Every primitive begins with waitpoint(): the task's event is in the list at its local virtual time, and the task
+// continues when that event is the least. The global time is the time of the event now executing; it never decreases.
+// So all uses of primitives happen in the order of virtual time, regardless of the computation in between.
 //
-// Hand-over is direct, from the fiber that cannot go on to the one whose event is next. A task whose own event is the
-// least already does not switch at all. The context that called run_before() is re-entered only when the run stops.
+// Hand-over is direct, from the fiber that cannot continue to the fiber of the least event. A task whose own event is
+// the least does not switch. The context that called run_before(), the main fiber, is re-entered only when the run
+// stops.
 //
-// The plain path is waitpoint.cpp and waiting.cpp; fast_path.hpp and fast_calls.cpp come to the same events in fewer
-// steps.
+// The plain path is waitpoint.cpp and waiting.cpp; fast_path.hpp and fast_calls.cpp are short cuts to the same events.
 //
-// Nothing here throws, allocates while running, or prints.
+// The scheduler throws nothing, prints nothing, and allocates nothing while running.
 #pragma once
 
 #include <cstddef>
@@ -39,24 +39,24 @@ class Scheduler {
   Scheduler(const Scheduler&) = delete;
   Scheduler& operator=(const Scheduler&) = delete;
 
-  /// Whether a scheduler can be made: the process may have little address space (ulimit -v).
+  /// True if there is enough address space to construct a scheduler (ulimit -v).
   static bool has_address_space() { return EventList::has_address_space(events_max); }
 
-  /// In the explored order, before the first run_before(): who decides. It must outlive the run.
+  /// Sets the strategy of the explored order, before the first run_before(). It must outlive the run.
   void set_decisions(Decisions& decisions);
 
-  /// Before the first task: whether events may take the fast paths (they do by default). The run is the same without.
+  /// Before the first task: enables or disables the short cuts (default: enabled). The run is the same without them.
   void use_fast_paths(bool used);
 
-  /// After unwind(): all is as in a new scheduler of this seed, which has no robot yet; but its memory is in place.
-  /// Takes a microsecond.
+  /// After unwind(): the state of a new scheduler of this seed, without robots; its memory is kept. Takes a
+  /// microsecond.
   void restart(std::uint64_t seed);
 
   /// Adds a robot; the record must outlive the run.
   void add(Robot& robot, const char* name);
 
-  /// A new task of `robot`, starting at the local time of the caller (at the start of the run from outside). Null when
-  /// there are most_tasks() already, or no stack is left.
+  /// Makes a task of `robot` that starts at the caller's local time (outside of tasks: at the global time). Null if
+  /// there are most_tasks() already or no stack is free.
   Task* spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument);
 
   /// Executes all events before `until`.
@@ -64,41 +64,41 @@ class Scheduler {
   StopCause stop_cause() const { return cause_; }
   /// Stops the run from within a task; run_before() returns at once.
   void stop(StopCause cause);
-  /// As stop(), for what acts between tasks: no other event is executed.
+  /// The same from a timer or a watch: no further event is executed.
   void stop_between_events(StopCause cause, Task& culprit);
   /// From a task or a watch: run_before() returns before another event is executed, as if its window ended here. The
-  /// next call goes on as if there had been no pause.
+  /// next call continues the run as if there had been no pause.
   void pause();
 
-  /// Takes every task that is left off its stack: blocking calls report Wake::unwinding. The run is over then. The
-  /// youngest task goes first: what a task borrows from its maker's frames is still there.
+  /// Ends the run: unwinds every remaining task, whose blocking calls return Wake::unwinding. The youngest task goes
+  /// first, since a task may refer to the frames of its maker.
   void unwind();
-  /// In a process that was forked from within a task: the others are not there any more, whatever they held or waited
-  /// for. Their stacks stay as they are.
+  /// In a process forked from within a task: ends all other tasks in place, including their waits and ownerships. Their
+  /// stacks are kept as they are.
   void keep_running_task_only();
-  /// Another task than the running one is not there any more: nothing is unwound, what it owns is nobody's. Its stack
-  /// stays as it is, for free_stack().
+  /// Ends `task`, which must not be the running one, without unwinding it; its objects become unowned. Its stack is
+  /// kept for free_stack().
   void end_in_place(Task& task);
-  /// Gives back the stack of a task ended so, and its record with it.
+  /// Frees the stack of a task that was ended in place, and its record with it.
   void free_stack(const Task& task) { arena_.give_back(Stack(task.fiber.stack)); }
-  /// The running task ends where it is, after the waitpoint of its end: nothing is unwound.
+  /// Ends the running task, which has passed the waitpoint of its end, without unwinding it.
   [[noreturn]] void end_running_task();
-  /// Gives up the running task, which cannot or does not leave its frames while it is unwound: what they own leaks.
+  /// Abandons the running task, which cannot or does not leave its frames while it is unwound: their resources leak.
   [[noreturn]] void abandon();
-  /// The tasks given up so, linked by `next`.
+  /// The abandoned tasks, linked by `next`.
   const Task* first_abandoned() const { return first_abandoned_; }
 
-  // --- what primitives are made of; only within a task ---
+  // --- the parts of primitives; only within a task ---
 
-  /// The task's event stands at its local time; returns when it is the least. False while unwinding.
+  /// The running task's event is at its local time; returns when it is the least. False if the run is over.
   bool waitpoint(Operation operation, Object* object) {
     if (object != nullptr && try_fast_waitpoint(operation, *object)) return true;
     return waitpoint_slow(operation, object);
   }
-  /// The same for a caller that has tried the fast path already.
+  /// The plain path, for callers that have tried the fast path.
   bool waitpoint_slow(Operation operation, Object* object);
-  /// The running task reads its clock: no event, but a task that reads it again and again gives others a turn after as
-  /// many reads as waitpoints at one instant. False when the run is over.
+  /// Reads the running task's clock. Not an event; but a read counts as a waitpoint towards turns_max, so that a task
+  /// that polls its clock yields to its ties. False if the run is over.
   bool read_clock(Time& local) {
     Task& task = *running;
     if (__builtin_expect(!fast_path_.holds_for(task), 0)) return read_clock_slow(task, local);
@@ -106,105 +106,104 @@ class Scheduler {
     local = task.local_time;
     return true;
   }
-  /// The running task's local time moves on: it is not of the present instant any more.
+  /// To be called when the running task's local time leaves the present instant.
   void close_fast_path() { fast_path_.close(); }
-  /// As waitpoint, but behind all tasks of this instant; in the seeded order anywhere among them.
+  /// A waitpoint behind all tasks of this instant; in the seeded order, at a hashed place among them.
   bool yield();
-  /// Moves the task to `time` (not before its local time) and waits there.
+  /// A waitpoint at `time`, or at the local time if that is later. False if the run is over.
   [[gnu::always_inline]] bool sleep_until(Time time) {
     const Departure away = start_sleep(time);
     return away.leads_away() ? end_sleep(depart(away)) : wake_of(away) != Wake::unwinding;
   }
-  /// Blocks the running task on `object` until it is woken or `deadline` comes; Time::max() is for ever.
+  /// Blocks the running task on `object` until it is woken or until `deadline`; Time::max(): no timeout.
   [[gnu::always_inline]] Wake block(Object& object, Time deadline) {
-    // Two instances, since the deadline is mostly a constant: the compiler then chooses, and no test is left.
+    // Two instances, since the deadline is mostly a constant: the compiler chooses one, and no test is left.
     const bool is_finite = deadline != Time::max();
     const Departure away = is_finite ? start_block<true>(object, deadline) : start_block<false>(object, deadline);
     return away.leads_away() ? end_block(depart(away), object, is_finite) : wake_of(away);
   }
-  /// Wakes one waiter of `object`, of the chooser's choice; null if there is none. The waiter's local time becomes the
-  /// global.
+  /// Wakes one waiter of `object`, selected by the chooser; null if there is none. The waiter's local time becomes the
+  /// global time.
   Task* wake_one(Object& object) { return object.first_waiter == nullptr ? nullptr : wake_waiter(object); }
   void wake_all(Object& object);
-  /// Wakes `task`, which must be blocked: for primitives that choose among their waiters themselves.
+  /// Wakes `task`, which must be blocked: for primitives that select the waiter themselves.
   void wake(Task& task);
-  /// `task`, which must be blocked, waits for `to` from now on, as long as before; nobody may hold either object.
+  /// Moves `task`, which must be blocked, to the waiters of `to`; its timeout is kept. Neither object may be held.
   void move_waiter(Task& task, Object& to);
-  /// As wake_one, but the first: for timers, which are no tasks and leave no choice.
+  /// Wakes the first waiter, without a choice: for timers, which are not tasks.
   Task* wake_first(Object& object);
-  /// Makes `object` belong to this run; true if it was not yet, so that a primitive can take its initial state.
+  /// Makes `object` belong to this run. True if it did not yet: the primitive must then take its initial state.
   bool enter(Object& object) {
     if (object.epoch == epoch_) return false;
     adopt(object);
     return true;
   }
-  /// Whether what `object` says of owners and waiters is of this run.
+  /// True if the owners and waiters in `object` belong to this run.
   bool has_entered(const Object& object) const { return object.epoch == epoch_; }
   /// Adds words to the digest of the running task's robot.
   void record_output(std::uint64_t name, std::uint64_t value);
 
-  // --- what local clocks are made of ---
+  // --- the parts of local clocks ---
 
-  /// A cost from `least` to `greatest` of the running task's computation, by the chooser, or the one recorded.
+  /// The cost of the running task's computation, within [`least`, `greatest`]: chosen, or replaced by the recorded one.
   Duration choose(Task& task, Duration least, Duration greatest);
-  /// What is to count of a cost that does not follow from the run itself.
+  /// Records `cost`, which does not follow from the run itself, or returns the recorded one: see Durations.
   Duration pass(const Task& task, Duration cost);
-  /// The running task waits among those of `object` until it is woken, without an event of its own; false when the run
-  /// is over.
+  /// Blocks the running task on `object` until it is woken, without executing an event. False if the run is over.
   bool suspend(Object& object);
 
   // --- timers ---
 
-  /// Puts a timer's event into the list, by default ahead of the tasks of that instant; `timer` has entered the run.
+  /// Inserts a timer's event, by default ahead of the tasks of that instant. `timer` must have entered the run.
   void schedule(EventNode& node, Time time, const Object& timer, Phase phase = Phase::deliveries);
   void cancel(EventNode& node) { agenda_.events.remove(node); }
 
   // --- messages between robots ---
 
-  /// Puts the arrival of a message of `sender` into the list, ahead of the tasks of that instant and behind its timers.
-  /// Arrivals of one instant come in the order of (sender, how many messages it had sent), whenever they were put in.
+  /// Inserts the arrival of a message of `sender`, ahead of the tasks of that instant and behind its timers. Arrivals
+  /// at one instant are ordered by {sender, its count of messages}, regardless of the order of insertion.
   void deliver(EventNode& node, Time time, Robot& sender);
-  /// Declares a link between robots on which nothing arrives sooner than `least` after it was sent; positive.
+  /// Declares a link between robots with a latency of at least `least`, which must be positive.
   void declare_latency(Duration least);
-  /// The least latency of all links: what a robot does is noticed by no other sooner. Duration::max() without links.
+  /// The least latency of all links: no robot can affect another within it. Duration::max() without links.
   Duration lookahead() const { return lookahead_; }
 
-  /// Events in the list: those of tasks that can go on or wait with a finite timeout, and those of timers.
+  /// The number of pending events: of ready tasks, finite timeouts, timers and messages.
   std::uint32_t pending_events() const { return agenda_.size(); }
 
-  /// In the explored order, where tasks are ready: whether an event is due behind this instant, and in this window.
+  /// In the explored order, while tasks are ready: true if an event is due after this instant and within this window.
   bool is_due_later() const { return agenda_.is_due_later(); }
-  /// When the next event is due; Time::max() if there is none.
+  /// The time of the next event; Time::max() if there is none.
   Time next_event_time() const;
 
   Time global_time() const { return agenda_.now; }
   Chooser& chooser() { return agenda_.chooser; }
   Task* first_task() const { return first_task_; }
   Robot* first_robot() const { return first_robot_; }
-  /// Events executed so far, by tasks of all robots: a sum over these. Who wants it at each event counts them himself.
+  /// The number of events executed so far: a sum over all robots, too slow to be called at each event.
   std::uint64_t events() const;
-  /// Times that a fiber was left for another.
+  /// The number of switches between fibers.
   std::uint64_t switches() const { return switches_; }
   bool unwinding() const { return unwinding_; }
-  /// Tasks that are left, and how many there may be at once: at most tasks_max.
+  /// The number of tasks that have not ended, and its bound: at most tasks_max.
   std::uint32_t tasks() const { return tasks_; }
   std::uint32_t most_tasks() const { return most_tasks_; }
   void set_most_tasks(std::uint32_t most) { most_tasks_ = most; }
-  /// Tasks that are left and are no services.
+  /// The same without services.
   std::uint32_t live_tasks() const { return live_tasks_; }
-  /// A task of the cycle in a deadlock, whose `search.to` leads around it, or one that spins; null without any.
+  /// In a deadlock, a task of the cycle (`search.to` links its members); without progress, a spinning task; else null.
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch);
-  /// Where the events of the task that ran last are hashed: its robot's digest.
+  /// The digest that takes in the events of the task that ran last: its robot's.
   const PairDigest* lane_in_use() const { return lane_; }
   Watch* watch() const { return watch_; }
-  /// What the layers above attach to the run.
+  /// The attachments of the layers above.
   Hooks& hooks() { return hooks_; }
   const Hooks& hooks() const { return hooks_; }
   /// Sets or clears a bit of a task's attention.
   void attend(Task& task, std::uint8_t reason, bool needed);
-  /// Writes the call stack of `task` (not running, started) to `frames`, at most `room`, innermost first; returns how
-  /// many.
+  /// Writes the call stack of `task` (started, not running) to `frames`, at most `room` addresses, innermost first;
+  /// returns their number.
   std::size_t call_stack(Task& task, void** frames, std::size_t room);
 
  private:
@@ -217,8 +216,8 @@ class Scheduler {
   void reclaim_ended();
   static Task& task_of(EventNode& node) { return reinterpret_cast<Task&>(node); }  // the node is its first member
 
-  // Algorithm 1, the plain path: waitpoint.cpp. What returns a fiber made its task the running one: it is to be entered
-  // at once.
+  // Algorithm 1, the plain path: waitpoint.cpp. A function that returns a fiber has made its task the running one: the
+  // caller must switch to it at once.
   bool announce(Task& task, Operation operation, Object* object);
   bool await_turn(Task& task);
   bool end_waitpoint(Task& task);
@@ -237,7 +236,6 @@ class Scheduler {
   bool read_clock_slow(Task& task, Time& local);
   bool timer_waitpoint(Task& task, Operation operation, Object* object);
   void execute_start(Task& task);
-  // The task's event is executed, and shown to the watch.
   [[gnu::always_inline]] void execute(Task& task, Operation operation, const Object* object) {
     count_event(task, operation, object, agenda_.now);
     if (__builtin_expect(watched_, 0)) show(operation, object);
@@ -268,7 +266,8 @@ class Scheduler {
   static Wake wake_of(const Departure& none) { return static_cast<Wake>(none.outcome()); }
   static Departure stay(Wake wake) { return Departure::none(static_cast<std::uintptr_t>(wake)); }
   void allow_fast_paths();
-  // In which run's objects the running task may take the fast path: no watch looks on, and nothing is to be done first.
+  // The epoch of the objects that the running task may use by the fast path: none while a watch or other work is
+  // pending.
   std::uint64_t fast_epoch() const { return watched_ || interrupted_ || ended_ != nullptr ? Turn::no_epoch : epoch_; }
   bool can_exchange() const { return agenda_.present.empty() && fast_path_.is_enabled() && !agenda_.is_explored(); }
   Fiber& exchange_with_least(Task& task);
@@ -298,7 +297,7 @@ class Scheduler {
   bool departs(Fiber& from, Fiber& to);
   Task* wake_waiter(Object& object);
 
-  // So many that are ready may be out of the cache.
+  // From this number of ready tasks on, their memory may be out of the cache.
   static constexpr std::uint32_t crowd_min = 32;
 
   Agenda agenda_;
@@ -310,32 +309,31 @@ class Scheduler {
   Task* last_task_ = nullptr;
   Robot* first_robot_ = nullptr;
   Robot* last_robot_ = nullptr;
-  Task* paused_ = nullptr;  // its event is the least, but not in this window
-  Task* ended_ = nullptr;   // its stack is still underfoot until the next switch is done
+  Task* paused_ = nullptr;  // its event is the least, but beyond this window
+  Task* ended_ = nullptr;   // its stack is in use until the next switch is done
   Task* culprit_ = nullptr;
   Task* first_abandoned_ = nullptr;
   Watch* watch_ = nullptr;
-  bool watched_ = false;  // by a watch or a sanitizer
+  bool watched_ = false;  // by a watch, a debugger or a sanitizer
   Hooks hooks_;
   WaitGraph wait_graph_;
   std::uint64_t epoch_;
-  std::uint64_t outputs_ = 0;  // hashed among the events
+  std::uint64_t outputs_ = 0;  // hashed into the digests beside the events
   std::uint64_t switches_ = 0;
   std::uint32_t live_tasks_ = 0;
   std::uint32_t tasks_ = 0;
-  std::uint32_t made_ = 0;  // tasks so far
+  std::uint32_t made_ = 0;  // tasks made so far
   std::uint32_t most_tasks_ = tasks_max;
   std::uint64_t turns_given_ = 0;  // since virtual time last moved
   Time turns_given_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  PairDigest* lane_ = nullptr;      // as the turn has it, for who reads the scheduler from another process
-  PairDigest ended_robots_digest_;  // of robots that ended
-  bool fast_allowed_ = false;       // tasks may take the calls of fast_calls.cpp
+  PairDigest* lane_ = nullptr;  // equal to turn.lane, for debuggers that read the scheduler from another process
+  PairDigest ended_robots_digest_;
+  bool fast_allowed_ = false;  // tasks may take the calls of fast_calls.cpp
   bool unwinding_ = false;
-  bool interrupted_ =
-      false;                 // tasks that get control are not to go on: they are unwound, or asked for their call stack
-  void** frames_ = nullptr;  // where call_stack() wants them
+  bool interrupted_ = false;  // resumed tasks do not continue: they unwind, or describe their call stack
+  void** frames_ = nullptr;   // the destination of call_stack()
   std::size_t frames_room_ = 0;
   std::size_t frames_found_ = 0;
 };

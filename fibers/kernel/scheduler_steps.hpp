@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps that the scheduler's files take inline: for them alone.
+// Inline steps shared by the scheduler's source files; included by them only.
 #pragma once
 
 #include "fibers/kernel/fault_reports.hpp"
@@ -22,7 +22,7 @@ inline void Scheduler::hash_events_of(Robot& robot) {
   if (turn.lane != robot.lane) turn.lane = lane_ = robot.lane;
 }
 
-// A new instant for the task: it may pass as many waitpoints again.
+// A new instant resets the task's count of waitpoints.
 inline void Scheduler::set_local_time(Task& task, Time time) {
   if (__builtin_expect(task.local_time == time, 1)) return;
   task.local_time = time;
@@ -34,8 +34,8 @@ inline void Scheduler::put(EventNode& node, const EventKey& key) {
   if (key.time <= agenda_.now) fast_path_.note_present_event(phase_of(key.order));
 }
 
-// The one place where fibers are switched out of line. What is decided before is decided in functions that have
-// returned: a parked stack is to keep few cache lines.
+// The only switch that is not in the caller's frame. `to` was found by functions that have returned, so that a parked
+// stack occupies few cache lines.
 inline void Scheduler::switch_fibers(Fiber& from, Fiber& to) {
   if (&from == &to) return;
   ++switches_;
@@ -43,7 +43,7 @@ inline void Scheduler::switch_fibers(Fiber& from, Fiber& to) {
   if (ended_ != nullptr) reclaim_ended();
 }
 
-// Whether the caller is to depart for `to` from its own frame; else all is done.
+// True if the caller must depart to `to` from its own frame; false if the switch is done.
 [[gnu::always_inline]] inline bool Scheduler::departs(Fiber& from, Fiber& to) {
   if (__builtin_expect(&to == &from || !can_switch_in_parts(from, to) || sanitizer::present, 0)) {
     switch_fibers(from, to);
@@ -58,7 +58,7 @@ inline void Scheduler::enter_run(Fiber& to) {
   switch_fibers(main_, to);
 }
 
-// The task is the running one from now on: its fiber, to be entered at once.
+// Makes `task` the running one; the caller must switch to the returned fiber at once.
 inline Fiber& Scheduler::resume(Task& task) {
   if (__builtin_expect(!StackArena::intact(task.fiber.stack), 0)) report_overflow(task);
   task.state = TaskState::running;
@@ -68,7 +68,7 @@ inline Fiber& Scheduler::resume(Task& task) {
   return task.fiber;
 }
 
-// The task's event is the least. If it is a timeout, the wait is over.
+// Resumes the task of the event taken out; if the event is a timeout, its wait ends.
 inline Fiber& Scheduler::dispatch_task(Task& task) {
   if (task.state == TaskState::blocked) {
     Object& object = *task.blocked_on;
@@ -80,7 +80,8 @@ inline Fiber& Scheduler::dispatch_task(Task& task) {
   return resume(task);
 }
 
-// The event that was just taken out: the fiber of its task; null for others, which are done with.
+// Processes the event just taken out: resumes its task and returns the fiber, or executes a timer or message and
+// returns null.
 inline Fiber* Scheduler::dispatch_event(EventNode& node) {
   agenda_.now = agenda_.events.present();
   if (__builtin_expect(node.fire != nullptr, 0)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The turn of the running task: where its events are hashed, and whether its fast path is open (fast_path.hpp). With
-// `running` the only global: what a task does most often is done in its own frame, and is to need no more than this,
-// its record and the object.
+// The turn of the running task: the digest that its events are hashed into, and the state of its fast path
+// (fast_path.hpp). Besides `running` the only global: the most frequent calls, inline in the task's frame, need only
+// these two, the task's record and the object.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct Turn {
   static constexpr std::uint64_t no_epoch = ~std::uint64_t{0};
   static constexpr Time never = Time::from_ns(-1);
 
-  std::uint64_t fast_epoch = no_epoch;  ///< the fast path is open for the objects of this run; no_epoch: for none
-  Time at = never;                      ///< the instant where it passes at once, be it seen or not
-  PairDigest* lane = nullptr;           ///< of the task that ran last, too
+  std::uint64_t fast_epoch = no_epoch;  ///< the epoch of the objects for which the fast path is open; no_epoch: none
+  Time at = never;                      ///< the instant whose waitpoints pass without a search, watched or not
+  PairDigest* lane = nullptr;           ///< the digest of the task that runs or ran last
 
   [[gnu::always_inline]] bool is_fast() const { return __builtin_expect(fast_epoch != no_epoch, 1); }
   void close() {
@@ -28,7 +28,7 @@ struct Turn {
 };
 extern Turn turn;
 
-/// An event of the running task is executed: hashed and counted.
+/// Hashes and counts an event of the running task.
 [[gnu::always_inline]] inline void count_event(Task& task, Operation operation, const Object* object, Time now) {
   ++task.sequence;
   std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;

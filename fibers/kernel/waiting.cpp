@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Waiting on objects and being woken (the paper's Algorithm 2), and the events of timers and messages.
+// The paper's Algorithm 2 without optimisation: block and wake. Also the events of timers and messages.
 #include "core/error.hpp"
 #include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"
@@ -9,7 +9,7 @@
 namespace waitpoint::kernel {
 namespace {
 
-// Of more waiters one of the first is woken: to wake each of many would else take the square of their number.
+// A choice is among the first waiters only; otherwise waking n waiters one by one would take O(n^2) steps.
 constexpr std::uint32_t choice_of_waiters_max = 256;
 
 }  // namespace
@@ -24,7 +24,7 @@ void Scheduler::adopt(Object& object) {
   object.first_waiter = object.last_waiter = nullptr;
 }
 
-// --- what a task that blocks lends of its processor's urgency ---
+// --- priority inheritance ---
 
 void Scheduler::lend_priority(Task& task, Object& object) {
   if (task.seat == nullptr) return;
@@ -38,8 +38,8 @@ void Scheduler::reclaim_priority(Task& task, Object& object) {
 
 // --- Algorithm 2: block, and wake ---
 
-// The running task stands among the waiters of `object`, without an event or with one at its deadline, until it is
-// woken or that event is the least.
+// The running task is among the waiters of `object` until it is woken, or until its timeout, an event at `deadline`, is
+// the least event.
 [[gnu::noinline]] Departure Scheduler::block_slow(Object& object, Time deadline) {
   if (unwinding_) {
     refuse();
@@ -59,22 +59,22 @@ void Scheduler::reclaim_priority(Task& task, Object& object) {
   return stay(end_block_slow(*running, object));
 }
 
-// The task was woken, or its wait ran out: the next segment begins.
+// The task was woken or its wait timed out: begins the next segment and executes the event.
 [[gnu::noinline]] Wake Scheduler::end_block_slow(Task& task, Object& object) {
   if (ended_ != nullptr) reclaim_ended();
   if (interrupted_ && !answer_interrupt()) return Wake::unwinding;
-  const Wake wake = task.wake;  // it may wait for its processor too, before it goes on
+  const Wake wake = task.wake;  // read first: begin_segment() may block again, for the processor
   const Operation operation = wake == Wake::woken ? Operation::resume : Operation::timeout;
   if (needs_attention(task) && !begin_segment(task, operation, &object)) return Wake::unwinding;
   execute(task, operation, &object);
   return wake;
 }
 
-// The woken task takes the global time as its local one.
+// Removes the waiter and its timeout, and places its event at the global time, its new local time.
 void Scheduler::wake(Task& task) {
   if (__builtin_expect(sanitizer::present, 0)) sanitizer::release(task.blocked_on);
   remove_waiter(task);
-  // One whose wait has just run out stands among those that are ready, and stays there.
+  // In the explored order a task whose timeout is due is in the ready set already; it keeps its place there.
   const bool placed = __builtin_expect(ReadySet::contains(task), 0);
   if (task.finite_wait && !placed) agenda_.events.remove(task.event);
   task.wake = Wake::woken;
@@ -84,7 +84,7 @@ void Scheduler::wake(Task& task) {
   fast_path_.note_present_event(task.phase);
 }
 
-// True if `task` closes a cycle of the wait-for graph, and that ends the run.
+// True if `task` closes a cycle of the wait-for graph and the run ends there.
 bool Scheduler::is_deadlock(Task& task, const Object& object) {
   if (task.finite_wait || (object.owner == nullptr && object.holder_count == 0)) return false;
   Task* const member = wait_graph_.find_cycle(task);
@@ -127,7 +127,7 @@ void Scheduler::wake_all(Object& object) {
   while (object.first_waiter != nullptr) wake(*object.first_waiter);
 }
 
-// Blocks without an event of its own: for processors.
+// Blocks without executing an event: for processors.
 bool Scheduler::suspend(Object& object) {
   if (unwinding_) return false;
   Task& task = *running;

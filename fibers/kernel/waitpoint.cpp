@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The paper's Algorithm 1, and nothing faster: the waitpoint, sleeping, yielding, and the dispatch of the least event.
-// fast_calls.cpp and fast_path.hpp take short cuts to the same events.
+// The paper's Algorithm 1 without optimisation: the waitpoint, sleeping, yielding, and the dispatch of the least event.
+// fast_calls.cpp and fast_path.hpp are short cuts to the same events.
 #include "fibers/kernel/access.hpp"
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/local_clock.hpp"
@@ -23,15 +23,15 @@ bool Scheduler::waitpoint_slow(Operation operation, Object* object) {
     if (!end_segment(task)) return false;
   }
   if (!announce(task, operation, object) || !await_turn(task)) return false;
-  // The task that returns is the running one, and its record has the operation: no register is kept over the switch.
+  // Read again from the running task's record, so that no register is kept over the switch.
   Task& next = *running;
   if (__builtin_expect(next.attention != 0 || watched_, 0)) return end_waitpoint(next);
   count_event(next, next.operation, next.at, agenda_.now);
   return true;
 }
 
-// The segment has ended: what the task does next stands in its record. False when the run is over. Inline in its
-// callers, as await_turn(): each frame of a parked task is a cache line that its next event waits for.
+// Writes the next operation to the task's record; its segment has ended. False if the run is over. Inline in its
+// callers, as is await_turn(): each frame of a parked task is a cache line that its next event misses.
 inline bool Scheduler::announce(Task& task, Operation operation, Object* object) {
   task.operation = operation;
   task.at = object;
@@ -43,7 +43,7 @@ inline bool Scheduler::announce(Task& task, Operation operation, Object* object)
   return true;
 }
 
-// The event stands at the local time; returns when it is the least. False when the run is over.
+// The task's event is at its local time; returns when it is the least. False if the run is over.
 [[gnu::always_inline]] inline bool Scheduler::await_turn(Task& task) {
   if (!agenda_.is_next(task)) {
     switch_fibers(task.fiber, dispatch_instead_of(task));
@@ -59,7 +59,7 @@ inline bool Scheduler::announce(Task& task, Operation operation, Object* object)
   return true;
 }
 
-// The event is the one now executing: the next segment begins. False when the run is over.
+// The task's event is the one now executing: begins the next segment and executes the event. False if the run is over.
 [[gnu::noinline]] bool Scheduler::end_waitpoint(Task& task) {
   if (ended_ != nullptr) reclaim_ended();
   if (interrupted_ && !answer_interrupt()) return false;
@@ -70,17 +70,16 @@ inline bool Scheduler::announce(Task& task, Operation operation, Object* object)
   return true;
 }
 
-// --- segments: what is computed between two waitpoints, see local_clock.hpp ---
+// --- segments: the computation between two waitpoints, see local_clock.hpp ---
 
-// False when the run is over: it may end while the task shares its processor with others, or with a record of
-// durations.
+// False if the run is over: it may end while the task awaits its shared processor or its duration is recorded.
 bool Scheduler::end_segment(Task& task) {
   if (task.clock != nullptr && task.clock->end != nullptr) task.clock->end(*task.clock, task);
   return !unwinding_;
 }
 
-// The task goes on with `operation`, unless a signal comes first: what its handler does takes time, and the operation
-// has its place in the order of time after that.
+// The task continues with `operation`, after the handlers of its pending signals: these take time, so the task awaits
+// its turn again after each. False if the run is over.
 [[gnu::noinline]] bool Scheduler::begin_segment(Task& task, Operation operation, Object* object) {
   if (task.seat != nullptr && !take_processor(task)) return false;
   while ((task.attention & attention::signal) != 0) {
@@ -99,7 +98,7 @@ bool Scheduler::end_segment(Task& task) {
 
 // --- the least event ---
 
-// The task's event goes into the list and the least comes out.
+// Places the task's event and takes the least one out.
 inline Fiber& Scheduler::dispatch_instead_of(Task& task) {
   task.state = TaskState::ready;
   if (can_exchange()) return exchange_with_least(task);
@@ -107,8 +106,8 @@ inline Fiber& Scheduler::dispatch_instead_of(Task& task) {
   return dispatch();
 }
 
-// Takes out the least event, and executes those of timers and messages until one is a task's: its fiber, for which the
-// caller leaves its own. Where the window or the run ends, the fiber of the context outside.
+// Takes out events in order: executes those of timers and messages, and stops at the first one of a task. Returns that
+// task's fiber, which the caller must switch to; at the end of the window or of the run, the main fiber.
 Fiber& Scheduler::dispatch() {
   if (__builtin_expect(agenda_.is_explored(), 0)) return dispatch_explored();
   for (;;) {
@@ -162,7 +161,7 @@ bool Scheduler::yield() {
   return end_waitpoint(*running);
 }
 
-// A task that passes many waitpoints at one instant gives its ties a turn; false when the run is over.
+// Yields to the task's ties, after turns_max waitpoints at one instant. False if the run is over.
 bool Scheduler::give_turn(Task& task) {
   task.turns = 1;
   const Operation operation = task.operation;
@@ -173,7 +172,7 @@ bool Scheduler::give_turn(Task& task) {
   return true;
 }
 
-// If all tasks of an instant only give each other turns, the run is stuck.
+// Stops the run if all tasks of an instant only yield to each other.
 void Scheduler::check_progress(Task& task) {
   if (turns_given_at_ != agenda_.now) {
     turns_given_at_ = agenda_.now;
@@ -184,7 +183,7 @@ void Scheduler::check_progress(Task& task) {
   stop(StopCause::no_progress);
 }
 
-// --- events beside the waitpoint ---
+// --- events without a waitpoint ---
 
 bool Scheduler::read_clock_slow(Task& task, Time& local) {
   const Time before = task.local_time;
@@ -198,7 +197,7 @@ bool Scheduler::read_clock_slow(Task& task, Time& local) {
   return unwinding_ ? refuse() : true;
 }
 
-// A timer acts in its turn: its event is the one now executing.
+// A timer's callback uses a primitive: it has its turn already, since its event is the one now executing.
 bool Scheduler::timer_waitpoint(Task& task, Operation operation, Object* object) {
   task.operation = operation;
   task.at = object;
@@ -220,7 +219,7 @@ void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
 }
 
 void Scheduler::show(Operation operation, const Object* object) {
-  // Every use of an object comes after all earlier ones; not so of memory.
+  // Uses of an object synchronise, in their order; accesses to memory do not.
   if (object != nullptr && object->kind != memory_kind && sanitizer::present) sanitizer::use(object);
   if (watch_ != nullptr) watch_->event(*watch_, {agenda_.now, running, operation, object});
   if (debugger_view.watching) show_debugger(agenda_.now, *running, operation, object);
