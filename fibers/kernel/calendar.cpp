@@ -13,14 +13,14 @@
 namespace waitpoint::kernel {
 namespace {
 
-// So many, and fewer, are sorted without being dealt out before.
+// Up to this number of events, a bucket is sorted without distribution into parts.
 constexpr std::uint32_t few = 6;
-// A part of a bucket with more is sorted by itself.
+// A part of a bucket with more events is sorted separately.
 constexpr std::uint32_t crowd = 16;
 
 bool earlier(const EventEntry& a, const EventEntry& b) { return a.key < b.key; }
 
-// Quick where each entry is near its place.
+// Insertion sort: fast if each entry is near its place.
 void sort_nearly_sorted(EventEntry* first, EventEntry* last) {
   for (EventEntry* next = first + 1; next < last; ++next) {
     if (!(next->key < next[-1].key)) continue;
@@ -31,7 +31,7 @@ void sort_nearly_sorted(EventEntry* first, EventEntry* last) {
   }
 }
 
-// Events put in for one instant came in their order, mostly.
+// Events of one instant are mostly inserted in their order.
 void sort_crowd(EventEntry* first, EventEntry* last) {
   if (!std::is_sorted(first, last, earlier)) std::sort(first, last, earlier);
 }
@@ -70,7 +70,7 @@ void Calendar::remove(const EventNode& node) {
   take_out(is_far ? far_bucket : static_cast<std::uint32_t>(number) & mask_, node.index());
 }
 
-// The last entry takes its place: all chunks but the newest stay full.
+// Moves the last entry to the free place, so that all chunks but the newest stay full.
 void Calendar::take_out(std::uint32_t bucket, std::uint32_t place) {
   Bucket& from = buckets_[bucket];
   EventEntry& gone = entry_at(place);
@@ -130,8 +130,8 @@ void Calendar::move_limit() {
   limit_ = (cursor_ / half + 2) * half;
 }
 
-// Those that stay are not written to, and their nodes not looked at. The last ones come first: whatever takes the place
-// of one that goes has been looked at, and stays.
+// Remaining entries are not written, and their nodes not read. Iterates backwards: the entry that fills a free place
+// has been visited already, and remains.
 void Calendar::take_near_ones_out_of_far() {
   far_least_ = ~std::uint64_t{0};
   std::uint32_t filled = buckets_[far_bucket].filled;
@@ -154,7 +154,7 @@ void Calendar::take_near_ones_out_of_far() {
 
 std::uint32_t Calendar::take_next(EventEntry* to) {
   if (size() == 0) return 0;
-  // Where the ring is empty, the cursor goes on to the far events at once.
+  // If the ring is empty, the cursor jumps to the far events.
   while (in_ring_ == 0) {
     if (far_least_ > cursor_) cursor_ = far_least_;
     move_limit();
@@ -177,7 +177,7 @@ std::uint32_t Calendar::take_next(EventEntry* to) {
   return count;
 }
 
-// Dealt out to as many equal parts of the bucket's span as there are events, about; the rest is little.
+// Distributes the events to about as many equal parts of the bucket's span; the final insertion sort then moves little.
 std::uint32_t Calendar::copy_sorted(std::uint32_t first, EventEntry* to) {
   std::uint32_t count = 0;
   for (std::uint32_t chunk = first; chunk != none; chunk = chunks_[chunk].next) count += chunks_[chunk].filled;

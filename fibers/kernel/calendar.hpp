@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of a large event list that is not due soon: buckets of equal spans of time, unsorted until they are due.
+// The later events of a large event list: buckets of equal spans of time, unsorted until they are due.
 //
 //              horizon                                       limit
 //     time ------|-- bucket --|-- bucket --|-- ... --|-- bucket --|-------- far --------
-//      before: others' business       the ring                     one bucket more
+//      run and heap                  the ring                      one more bucket
 //
-// The horizon moves on bucket by bucket, the limit by half a ring at a time: then the far events are gone through once.
+// The horizon advances by one bucket, the limit by half a ring at a time, with one scan of the far events.
 // Inserting, removing and taking the next bucket cost the same for a thousand events and for a million (R. Brown 1988,
 // the calendar queue; W. T. Tang et al. 2005, the ladder queue, for sorting only what is due).
 //
-// Memory decides what that is. A bucket is a chain of chunks, of which only the newest is not full, and buckets are as
-// many as events in one, about: so an event is written where the processor has just written for the same bucket, and
-// read in a row with the others of its bucket; no step depends on a cache line that was not seen for long. The events
-// are apart from the tasks' records, of which each would cost a page.
+// That cost is cache misses. A bucket is a chain of chunks, all full but the newest, and there are about as many
+// buckets as events in a bucket: so an event is written next to the previous one of its bucket, whose line is in the
+// cache, and a bucket is read sequentially. Entries are separate from the tasks' records, since each record would cost
+// a page.
 #pragma once
 
 #include <cstddef>
@@ -24,17 +24,17 @@ namespace waitpoint::kernel {
 
 class Calendar {
  public:
-  /// The address space that one for `capacity` events takes.
+  /// The address space of a calendar for `capacity` events.
   static constexpr std::size_t bytes(std::uint32_t capacity) {
     return chunks(capacity) * sizeof(Chunk) + heads_bytes + buckets_max / 8 + parts_max * sizeof(std::uint32_t);
   }
-  /// For at most `capacity` events. Its address space is reserved at once, and committed only as it is used.
+  /// For at most `capacity` events. Reserves address space; memory is committed as it is used.
   explicit Calendar(std::uint32_t capacity);
   ~Calendar();
   Calendar(const Calendar&) = delete;
   Calendar& operator=(const Calendar&) = delete;
 
-  /// Only events due at the horizon or later belong here; none while it is closed.
+  /// Accepts only events due at the horizon or later; none while closed.
   std::uint64_t horizon() const { return horizon_; }
   std::uint32_t size() const { return in_ring_ + in_far_; }
   std::uint32_t far_size() const { return in_far_; }
@@ -42,11 +42,11 @@ class Calendar {
   std::uint32_t buckets() const { return mask_ + 1; }
   bool is_open() const { return horizon_ != closed; }
 
-  /// Sets the buckets' span to 2^width_log2 ns and their number, a power of two from 64 on, and the horizon to their
-  /// first boundary after `time`. Events before that are given back: early(entry).
+  /// Sets the buckets' span to 2^width_log2 ns and their number, a power of two of at least 64, and the horizon to
+  /// their first boundary after `time`. Returns the events before the horizon: early(entry).
   template <class Sink>
   void open(std::uint64_t time, unsigned width_log2, std::uint32_t buckets, Sink early);
-  /// Gives back all events.
+  /// Returns all events: to(entry).
   template <class Sink>
   void close(Sink to);
 
@@ -64,8 +64,8 @@ class Calendar {
   }
   void remove(const EventNode& node);
 
-  /// Moves the events of the first bucket that has some to `to`, in their order, and the horizon behind it. Returns how
-  /// many; 0 only if there is none at all. The nodes, which lie in as many pages, do not learn of it.
+  /// Moves the events of the first non-empty bucket to `to`, sorted, and the horizon to the end of that bucket. Returns
+  /// their number; 0 if the calendar is empty. Positions in the nodes, each in a page of its own, are not updated.
   std::uint32_t take_next(EventEntry* to);
 
  private:
@@ -78,15 +78,15 @@ class Calendar {
 
   struct Chunk {
     EventEntry entries[chunk_size];
-    std::uint32_t next;    // the one of its bucket that is older; or of those that are free, or detached
-    std::uint32_t filled;  // entries, where it is not its bucket's newest
+    std::uint32_t next;    // the next older chunk of the bucket; or the next in the free list or a detached chain
+    std::uint32_t filled;  // number of entries; not maintained in a bucket's newest chunk
   };
   struct Bucket {
-    std::uint32_t newest;  // chunk
-    std::uint32_t filled;  // entries of it; 0 only where there is none
+    std::uint32_t newest;  // chunk, or none
+    std::uint32_t filled;  // number of its entries; 0 only without a chunk
   };
   static constexpr std::size_t heads_bytes = (std::size_t{buckets_max} + 1) * sizeof(Bucket) + 56;
-  // Full ones, and one of each bucket that is not; while a calendar is opened anew, of the old buckets and the new.
+  // Full chunks, and a partial one per bucket; while a calendar is reopened, per old and per new bucket.
   static constexpr std::size_t chunks(std::uint32_t capacity) {
     return std::size_t{capacity} / chunk_size + 2 * std::size_t{buckets_max} + 3;
   }
@@ -112,9 +112,9 @@ class Calendar {
     free_ = chunk;
   }
   void take_out(std::uint32_t bucket, std::uint32_t place);
-  // The chunks of a bucket, which has none then, linked with the oldest one first.
+  // Takes the chunks of a bucket and returns them as a chain, oldest first.
   std::uint32_t detach(std::uint32_t bucket);
-  // Those of all buckets.
+  // The same for all buckets.
   std::uint32_t detach_all();
   // The events of detached chunks: to(entry).
   template <class Sink>
@@ -127,7 +127,7 @@ class Calendar {
 
   std::uint64_t horizon_ = closed;
   std::uint64_t cursor_ = 0;     // the bucket that begins at the horizon, counted from the start of the run
-  std::uint64_t limit_ = 0;      // a multiple of half the ring, at least that and at most the ring after the cursor
+  std::uint64_t limit_ = 0;      // a multiple of half the ring, between half a ring and a ring after the cursor
   std::uint64_t far_least_ = 0;  // no far event is in a bucket before this one
   std::uint32_t mask_ = 0;
   unsigned shift_ = 0;
@@ -136,16 +136,16 @@ class Calendar {
   std::uint32_t free_ = none;
   std::uint32_t opened_ = 0;
   Chunk* chunks_;
-  Bucket* buckets_;  // of the ring, then that of the far events
+  Bucket* buckets_;  // the ring's, then the one of the far events
   std::uint64_t* occupied_;
-  std::uint32_t* ends_;  // for sorting: not on the stack, which is a task's
+  std::uint32_t* ends_;  // for sorting; not on the stack, since that is a task's
   std::size_t reserved_;
 };
 
 template <class Sink>
 void Calendar::give(std::uint32_t chunk, Sink to) {
   while (chunk != none) {
-    const Chunk gone = chunks_[chunk];  // what is given may come back, and need one
+    const Chunk gone = chunks_[chunk];  // a copy: to() may insert the entry again, into this chunk
     release(chunk);
     for (std::uint32_t i = 0; i < gone.filled; ++i) to(gone.entries[i]);
     chunk = gone.next;

@@ -18,7 +18,7 @@ struct Capture {
 _Unwind_Reason_Code add_frame(_Unwind_Context* context, void* argument) {
   Capture& capture = *static_cast<Capture*>(argument);
   void* address = reinterpret_cast<void*>(_Unwind_GetIP(context));
-  // Beyond a fiber's first frame there is no caller.
+  // A fiber's first frame has no caller.
   if (address == nullptr || capture.found == capture.room) return _URC_END_OF_STACK;
   capture.frames[capture.found++] = address;
   return _URC_NO_REASON;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Call stacks of tasks as return addresses, and what a bug's report says of the run.
+// Call stacks of tasks as return addresses, and the description of the run in a bug's report.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace waitpoint::kernel {
 
-/// The caller's own call stack: writes at most `room` return addresses to `frames`, innermost first; returns how many.
+/// Writes the caller's call stack to `frames`, at most `room` return addresses, innermost first; returns their number.
 std::size_t capture_call_stack(void** frames, std::size_t room);
 
-/// Writes virtual time, task, seed and replay line to the error stream; signal handlers may call it.
+/// Writes virtual time, task, seed and replay line to the error stream; async-signal-safe.
 void describe_run(const Task& task);
 
 }  // namespace waitpoint::kernel

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one door for choices: everything about a schedule that is not fixed by virtual time is decided here.
+// The single source of choices: every property of a schedule that virtual time does not determine is decided here.
 //
-//   fifo    Events of one instant run in the order in which they were put into the list; the first waiter is served
-//           first. A task that is running goes on at the present instant although others tie with it, so a debugger
-//           stays where it is. A computation of uncertain cost takes the longest.
-//   seeded  The order of ties, who is served and what computations cost are hashes of (seed, task, its sequence
-//           number), never drawn from a shared stream: what one robot does cannot shift another's choices.
-//   explored  Somebody else decides: see decisions.hpp.
+//   fifo      Events of one instant run in the order of insertion; the first waiter is served first. A running task
+//             continues at the present instant although others tie with it, so that a debugger stays in one task.
+//             A computation of uncertain cost takes the greatest.
+//   seeded    Ties, waiters to serve and costs of computations are hashes of {seed, task, its sequence number}, never
+//             drawn from a shared stream: one robot's actions cannot shift another's choices.
+//   explored  A strategy decides: see decisions.hpp.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class Chooser {
  public:
   Chooser(Order order, std::uint64_t seed) : order_(order), seed_(seed) {}
 
-  /// As a new one of this seed, with the same who decides.
+  /// Reinitialises with this seed and the same strategy.
   void restart(std::uint64_t seed) {
     seed_ = seed;
     insertions_ = 0;
@@ -32,46 +32,46 @@ class Chooser {
 
   Order order() const { return order_; }
   std::uint64_t seed() const { return seed_; }
-  /// Who decides in the explored order; null before anybody does.
+  /// The strategy of the explored order; null before it is set.
   Decisions* decisions() const { return decisions_; }
   void set_decisions(Decisions& decisions) { decisions_ = &decisions; }
 
-  /// The tie of an event that `task` puts into the list now.
+  /// The tie of an event of `task` that is inserted now.
   std::uint64_t tie(const Task& task) {
     if (order_ != Order::seeded) return tie_of_next();
     return Digest::mix(seed_ ^ Digest::mix(task.id + task.sequence * 0x9E3779B97F4A7C15u));
   }
-  /// The same where it is known that the order is not the seeded one: behind all that were put in before.
+  /// The same for the other orders than the seeded: behind all earlier insertions.
   std::uint64_t tie_of_next() { return ++insertions_; }
-  /// The tie of a timer's event: timers fire in the order of their numbers within a robot, robots by their names' hash.
+  /// The tie of a timer's event: by the hash of the robot's name, then by the timer's number in the robot.
   static std::uint64_t tie(const Object& timer) {
     return (timer.robot->id & 0x7FFFFFFF) << 28 | (timer.number & 0x0FFFFFFF);
   }
-  /// The tie of the arrival of the `message`-th message that `sender` sent: behind the timers, by sender and number.
+  /// The tie of the arrival of the `message`-th message from `sender`: behind the timers, by sender and number.
   static std::uint64_t tie(const Robot& sender, std::uint64_t message) {
     return std::uint64_t{1} << 59 | (sender.id & 0x07FFFFFF) << 32 | (message & 0xFFFFFFFF);
   }
 
-  /// Which of `count` waiters `waker` serves; `count` is positive.
+  /// The index of the waiter that `waker` serves, of `count`, which is positive.
   std::uint32_t waiter(const Task& waker, std::uint32_t count) const {
     if (order_ == Order::fifo || count == 1) return 0;
     if (order_ == Order::explored) return decisions_->among(Choice::waiter, waker, count);
     const std::uint64_t draw = Digest::mix(~seed_ ^ Digest::mix(waker.id + waker.sequence * 0x9E3779B97F4A7C15u));
     return static_cast<std::uint32_t>((draw >> 32) * count >> 32);
   }
-  /// The same for the `arrivals`-th message that arrived at `object`, which no task brings.
+  /// The same for the `arrivals`-th message that arrived at `object`, without a waking task.
   std::uint32_t waiter(const Object& object, std::uint64_t arrivals, std::uint32_t count) const {
     if (order_ != Order::seeded || count == 1) return 0;
     const std::uint64_t draw = Digest::mix(~seed_ ^ Digest::mix(object.identity + arrivals * 0x9E3779B97F4A7C15u));
     return static_cast<std::uint32_t>((draw >> 32) * count >> 32);
   }
 
-  /// Whether a wait of `task` for a condition ends for nothing.
+  /// True if a wait of `task` for a condition is to wake spuriously.
   bool is_spurious(const Task& task) const {
     return order_ == Order::explored && decisions_->among(Choice::spurious, task, 2) != 0;
   }
 
-  /// What a computation of `task` costs, from `least` to `greatest`; each has a number of its own.
+  /// The cost of a computation of `task`, within [`least`, `greatest`]; each computation has a number of its own.
   Duration computing(Task& task, Duration least, Duration greatest) const {
     if (order_ == Order::fifo) return greatest;
     if (order_ == Order::explored) return decisions_->computing(task, least, greatest);

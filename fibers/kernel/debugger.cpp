@@ -11,7 +11,7 @@ namespace waitpoint::kernel {
 
 DebuggerView debugger_view;
 
-// The places where a debugger has its breakpoints: empty, and called all the same.
+// Empty functions for a debugger's breakpoints; the calls are not optimised away.
 [[gnu::noinline]] void debugger_run() { asm volatile(""); }
 [[gnu::noinline]] void debugger_stop() { asm volatile(""); }
 [[gnu::noinline]] void debugger_checkpoint() { asm volatile(""); }
@@ -34,14 +34,14 @@ void show_debugger(Time now, const Task& task, Operation operation, const Object
   if (view.events >= view.checkpoint_at) {
     view.restarted = false;
     debugger_checkpoint();
-    if (view.restarted) return;  // what was asked then is past
+    if (view.restarted) return;  // `stops` belongs to the time of the checkpoint
   }
   if (stops) debugger_stop();
 }
 
 namespace {
 
-// Beyond what a program has open: the files that it opens meanwhile get the numbers that they had.
+// Beyond a program's descriptors, so that files opened in a replay get the same numbers as before.
 constexpr int kept_from = 1000;
 
 struct Muted {
@@ -57,9 +57,9 @@ bool is_file(int descriptor) {
 
 }  // namespace
 
-/// Called by the debugger: what the process writes to its standard output and error goes nowhere from now on, or where
-/// it went again. For replays, which would show a second time what was seen. Files are left alone: a checkpoint knows
-/// how far they were written, and the replay writes the same into them.
+/// Called by the debugger: redirects the process's standard output and error to /dev/null, or restores them. For
+/// replays, whose output would appear a second time. Regular files are left alone: a checkpoint holds their offsets,
+/// and the replay writes the same content.
 [[gnu::used]] void debugger_mute(int muted) {
   for (Muted& output : outputs) {
     if (muted == 0) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a debugger is told of the runs of this process, and asks of them.
+// The interface between a debugger and the runs of this process.
 //
-// The debugger reads and writes the one record below and sets breakpoints on the empty functions that are called beside
-// it; everything else it reads from the records of task.hpp. Without a debugger `watching` is false and no event comes
-// here. While it is true each one does, by the way of those that a Watch sees: what is asked is compared in the process
-// itself, some nanoseconds an event, instead of by a breakpoint at each, some ten microseconds.
+// The debugger reads and writes the record DebuggerView and sets breakpoints on the empty functions called beside it;
+// everything else it reads from the records of task.hpp. Without a debugger `watching` is false and no event is shown
+// here. With one, each event is shown, as to a Watch, and compared with the debugger's conditions in this process: some
+// nanoseconds an event, in place of some ten microseconds for a breakpoint.
 //
-// Nothing here is part of the run: no digest, choice or time depends on it.
+// No digest, choice or time depends on it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Scheduler;
 struct Object;
 struct Task;
 
-/// An executed event, as it is compared with that of a replay.
+/// An executed event, for comparison with a replay's.
 struct SeenEvent {
   Time time;
   std::uint64_t task = 0;    ///< Task::id
@@ -29,28 +29,28 @@ struct SeenEvent {
 };
 
 struct DebuggerView {
-  Scheduler* scheduler = nullptr;  ///< of the run that was entered last; null when it is gone
+  Scheduler* scheduler = nullptr;  ///< of the run that was entered last; null after its destruction
 
   // Written by the debugger.
-  bool watching = false;                            ///< new runs are; that of `scheduler` if its watched_ is set too
-  std::uint64_t stop_at_event = 0;                  ///< by the count `events`
-  Time stop_at_time = Time::max();                  ///< the first event then or later
-  std::uint64_t stop_at_task = 0;                   ///< the next event of the task with this id
-  std::uint64_t checkpoint_at = ~std::uint64_t{0};  ///< the first event from this one on
-  bool restarted = false;                           ///< the process goes on from a checkpoint
+  bool watching = false;                            ///< for new runs; the run of `scheduler` needs its watched_ set too
+  std::uint64_t stop_at_event = 0;                  ///< stop at this value of `events`
+  Time stop_at_time = Time::max();                  ///< stop at the first event at this time or later
+  std::uint64_t stop_at_task = 0;                   ///< stop at the next event of the task with this id
+  std::uint64_t checkpoint_at = ~std::uint64_t{0};  ///< make a checkpoint when `events` reaches this value
+  bool restarted = false;                           ///< the process was restarted from a checkpoint
 
-  // Read by it.
-  std::uint64_t events = 0;  ///< seen by now, of all runs
-  SeenEvent last, before;    ///< the one now executing, and the one before it
+  // Read by the debugger.
+  std::uint64_t events = 0;  ///< number of events shown so far, of all runs
+  SeenEvent last, before;    ///< the event now executing, and the previous one
 };
 
 extern DebuggerView debugger_view;
 
-/// A run is entered, for the first time or again.
+/// A run is entered, for the first time or after a pause.
 void tell_debugger(Scheduler& scheduler);
-/// A run is taken down.
+/// A run is destroyed.
 void tell_debugger_of_end(const Scheduler& scheduler);
-/// An event is executed, by `task`, while a debugger watches.
+/// `task` executes an event while a debugger is watching.
 void show_debugger(Time now, const Task& task, Operation operation, const Object* object);
 
 }  // namespace waitpoint::kernel

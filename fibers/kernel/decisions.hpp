@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What decides in place of a fixed order: exploration hangs on the chooser by this.
+// The interface of a strategy, which decides in the explored order in place of a fixed rule.
 //
-// At every event the tasks that can go on at the present instant stand side by side, in the order in which they came to
-// be so, and one of them is chosen; a task at its own waitpoint is among them. What each is about to do stands in its
-// record: Task::operation, and the object Task::at. One whose wait has just run out is blocked still, and is among them
-// too: chosen, it times out; woken before, it goes on as woken.
+// At every event the strategy chooses one of the ready tasks of the present instant, which are listed in the order of
+// their becoming ready; a task at its own waitpoint is among them. Each task's next operation is in its record:
+// Task::operation on the object Task::at. A task whose timeout is due is listed too, still blocked: chosen, it times
+// out; woken before, it continues as woken.
 //
-// Events of other phases, and times, are no choice: deliveries, timers and the world come when they are due.
+// Events of other phases, and times, are not choices: deliveries, timers and the world's step happen when they are due.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,26 @@
 
 namespace waitpoint::kernel {
 
-/// What is chosen among alternatives that are equal to virtual time.
+/// The kinds of choices that virtual time leaves open.
 enum class Choice : std::uint8_t {
-  task,       ///< which goes on
-  waiter,     ///< whom a primitive serves
-  spurious,   ///< whether a wait for a condition ends for nothing: 1
-  loss,       ///< whether a datagram is lost: 1
-  computing,  ///< what a computation costs: one of the values offered
+  task,       ///< the next task
+  waiter,     ///< the waiter that a primitive serves
+  spurious,   ///< 1: a wait for a condition wakes spuriously
+  loss,       ///< 1: a datagram is lost
+  computing,  ///< the cost of a computation: one of the values offered
 };
 
 class Decisions {
  public:
-  /// In place of one of those that are ready: all of them poll for something that takes time. Only where something is
-  /// due later; they go on at that instant.
+  /// In place of a ready task's index: all ready tasks poll, so virtual time advances to the next event, and they
+  /// continue there. Only if an event is due later.
   static constexpr std::uint32_t later = ~std::uint32_t{0};
 
-  /// Which of `ready`, of which there are `count`, at least one, goes on; or `later`.
+  /// The index in `ready` of the next task, or `later`; `count` is at least 1.
   virtual std::uint32_t next(Task* const* ready, std::uint32_t count) = 0;
-  /// Which of `count` alternatives, at least two, at something that `task` does.
+  /// The index of one of `count` alternatives, at least 2, at an operation of `task`.
   virtual std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) = 0;
-  /// What a computation of `task` costs, from `least` to `greatest`.
+  /// The cost of a computation of `task`, within [`least`, `greatest`].
   virtual Duration computing(const Task& task, Duration least, Duration greatest) = 0;
 
  protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An event: when it is due, its place among those due then, and the node by which its task or timer finds it again.
+// An event: its key, {time, place among the events of that instant}, and its node, a member of its task or timer.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace waitpoint::kernel {
 
-/// At one instant, what runs before what.
+/// The first criterion of the order of events at one instant.
 enum class Phase : std::uint8_t { deliveries = 0, world = 1, tasks = 2, processors = 3 };
 
 inline constexpr std::uint64_t tie_mask = (std::uint64_t{1} << 60) - 1;
@@ -18,17 +18,17 @@ constexpr std::uint64_t make_order(Phase phase, std::uint64_t tie) {
 }
 constexpr Phase phase_of(std::uint64_t order) { return static_cast<Phase>(order >> 60); }
 
-/// When an event is due, not before the start of the run, and its place among those due then: phase:4 | tie:60.
+/// The time of an event, not negative, and its place at that instant: phase:4 | tie:60.
 struct EventKey {
   Time time;
   std::uint64_t order = 0;
 
-  /// Behind every event.
+  /// Greater than the key of every event.
   static constexpr EventKey never() { return {Time::max(), ~std::uint64_t{0}}; }
 
   constexpr std::uint64_t due_ns() const { return static_cast<std::uint64_t>(time.ns()); }
 
-  // As one number of 128 bits: compared without a branch.
+  // Compared as one number of 128 bits, without a branch.
   friend constexpr bool operator<(const EventKey& a, const EventKey& b) { return a.whole() < b.whole(); }
 
  private:
@@ -41,7 +41,7 @@ struct EventNode {
   static constexpr std::uint32_t ready =
       0xFFFFFFFE;  // with others of its instant, see ready_set.hpp and present_queue.hpp
 
-  // Which part of the event list has the event, and where.
+  // `place` encodes the part of the event list that contains the event, and the position there.
   enum class Part : std::uint32_t { heap = 0, run = 1, calendar = 2 };
   static constexpr std::uint32_t in_heap(std::uint32_t at) { return at; }
   static constexpr std::uint32_t in_run(std::uint32_t at) { return 1u << 30 | at; }
@@ -50,7 +50,7 @@ struct EventNode {
   std::uint32_t index() const { return place & ((1u << 30) - 1); }
 
   std::uint32_t place = absent;
-  /// What a timer or a delivery does when due; null for a task, which is switched to. Must not block.
+  /// The action of a timer or a delivery, which must not block; null for a task, which is switched to.
   void (*fire)(EventNode&) = nullptr;
 
   bool in_list() const { return place != absent; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A heap of events with four children a node, the keys by value beside the nodes' addresses:
+// A four-ary heap of events, with the keys by value beside the nodes' addresses:
 //
 //   entries_:  [0: least] [1][2][3][4] [5..8: children of 1] [9..12: children of 2] ...
 //
-// The best event list for up to about a hundred events: a handful of cache lines. The least of four children is found
-// without a branch that could be mispredicted; for that, the entries behind the last one read as never due.
+// The fastest event list for up to about a hundred events: a handful of cache lines. The least of four children is
+// found without a branch; for that, the entries after the last one have the key never().
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ namespace waitpoint::kernel {
 
 class EventHeap {
  public:
-  /// How many entries more than its capacity the memory must have.
+  /// The number of entries that the memory must have beyond the capacity.
   static constexpr std::uint32_t margin = 8;
 
   /// `entries` is zeroed memory for the capacity and the margin.
   explicit EventHeap(EventEntry* entries) : entries_(entries) { bound(0); }
 
   std::uint32_t size() const { return size_; }
-  /// The least entry; never due if there is none.
+  /// The least entry; its key is never() if the heap is empty.
   const EventEntry& least() const { return entries_[0]; }
 
   void insert(const EventEntry& entry) {
@@ -31,7 +31,7 @@ class EventHeap {
     sift_up(at, entry);
   }
 
-  /// Takes the entry at `at` out; the node does not learn of it.
+  /// Takes out the entry at `at`; its node's position is not updated.
   void remove(std::uint32_t at) {
     const EventEntry last = entries_[--size_];
     entries_[size_].key = EventKey::never();
@@ -54,7 +54,7 @@ class EventHeap {
         to(entries_[i]);
     }
     for (std::uint32_t i = kept; i < count; ++i) entries_[i].key = EventKey::never();
-    // What is left must be a heap again: as if inserted one by one.
+    // Rebuild the heap: insert the remaining entries one by one.
     for (size_ = 0; size_ < kept;) {
       const EventEntry entry = entries_[size_];
       sift_up(size_++, entry);
@@ -67,7 +67,7 @@ class EventHeap {
     entry.node->place = EventNode::in_heap(at);
   }
 
-  // The entries that a search among the children of the last ones reads.
+  // Initialises the entries after the last one that sift_down() reads.
   void bound(std::uint32_t size) {
     bounded_ = size + 3;
     for (std::uint32_t i = size; i < size + margin; ++i) entries_[i].key = EventKey::never();
@@ -100,7 +100,7 @@ class EventHeap {
 
   EventEntry* entries_;
   std::uint32_t size_ = 0;
-  std::uint32_t bounded_ = 0;  // from size to here and the margin on, entries were made to read as never due
+  std::uint32_t bounded_ = 0;  // entries from size to here and the margin have the key never()
 };
 
 }  // namespace waitpoint::kernel
