@@ -38,8 +38,7 @@ struct EventKey {
 
 struct EventNode {
   static constexpr std::uint32_t absent = 0xFFFFFFFF;
-  static constexpr std::uint32_t ready =
-      0xFFFFFFFE;  // with others of its instant, see ready_set.hpp and present_queue.hpp
+  static constexpr std::uint32_t ready = 0xFFFFFFFE;  // in the present queue or the ready set
 
   // `place` encodes the part of the event list that contains the event, and the position there.
   enum class Part : std::uint32_t { heap = 0, run = 1, calendar = 2 };

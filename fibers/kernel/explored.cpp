@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The order in which somebody else decides: the events of tasks that are due at the present instant are taken out of
-// the event list together, and chosen from.
+// The explored order: the events of all tasks due at the present instant are moved from the event list to the ready
+// set, and a strategy chooses among them.
 #include <sys/mman.h>
 
 #include "core/error.hpp"
@@ -11,7 +11,7 @@
 namespace waitpoint::kernel {
 namespace {
 
-// Of all phases the one in which there is a choice.
+// Only events of the phase `tasks` are a choice.
 bool is_before_tasks_at(const EventKey& key, Time time) {
   return key.time <= time && key.order < make_order(Phase::tasks, 0);
 }
@@ -39,7 +39,7 @@ void Scheduler::set_decisions(Decisions& decisions) {
   agenda_.chooser.set_decisions(decisions);
 }
 
-// Those that are ready go on at the instant of the next event.
+// Moves the events of all ready tasks to the instant of the next event.
 void Scheduler::let_time_pass() {
   WAITPOINT_CHECK(is_due_later(), "nothing is due later, for which time could pass");
   const Time next = agenda_.events.least().key.time;

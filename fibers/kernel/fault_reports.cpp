@@ -10,16 +10,16 @@
 namespace waitpoint::kernel {
 namespace {
 
-// Tasks run in one thread at a time, so one stack is enough. Large enough for the registers of any processor, and for
-// a handler of the program's own that prints a call stack.
+// One stack suffices, since tasks run in one thread at a time. Large enough for the register state of any processor,
+// and for a handler of the program's own that prints a call stack.
 alignas(64) char handler_stack[64 * 1024];
 
 const FaultReports* innermost = nullptr;
 
-// Null if nobody ran over the end of a stack. The running task first: it is the one, as a rule. But a task that reaches
-// the end of its stack while it hands over is not the running one any more.
+// The task that overran its stack, or null. Usually the running one; but a task that overruns its stack while it hands
+// over is no longer the running one.
 const Task* overflowed(const Scheduler& scheduler, const char* address) {
-  // A frame may be larger than the guard page; below the lowest stack nothing else is ours.
+  // A frame may be larger than the guard page, so the range below the stack is as large as the stack.
   if (running != nullptr) {
     const Stack& stack = running->fiber.stack;
     if (address < stack.low && address >= stack.low - bytes(stack.size)) return running;
@@ -52,7 +52,7 @@ void report_overflow(const Task& task) {
 
 FaultReports::FaultReports(const Scheduler& scheduler) : scheduler_(scheduler), outer_(innermost) {
   if (sanitizer::present) return;
-  // Who runs many short runs has seen to it for all of them.
+  // Already installed: the caller of many short runs installs it once for all of them.
   if (innermost != nullptr && &innermost->scheduler_ == &scheduler) return;
   innermost = this;
   stack_t stack{};
@@ -76,7 +76,7 @@ FaultReports::~FaultReports() {
 }
 
 void FaultReports::handle(int signal, siginfo_t* info, void* context) {
-  // Sent by a process, it has no address.
+  // A signal sent by a process (si_code <= 0) has no address.
   if (innermost != nullptr && info->si_code > 0) {
     const Task* task = overflowed(innermost->scheduler_, static_cast<const char*>(info->si_addr));
     if (task != nullptr) report_overflow(*task);
@@ -93,7 +93,7 @@ void FaultReports::pass_on(int signal, siginfo_t* info, void* context) {
   const struct sigaction previous = innermost->previous_;
   if ((previous.sa_flags & static_cast<int>(SA_SIGINFO)) != 0) return previous.sa_sigaction(signal, info, context);
   if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) return previous.sa_handler(signal);
-  // The instruction is executed again, and dies; what a process sent is sent again.
+  // The faulting instruction is executed again, with the default action; a signal sent by a process is raised again.
   sigaction(signal, &previous, nullptr);
   if (info->si_code <= 0) raise(signal);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Says which task it was when the process is about to die of a bad address.
+// Reports the task when the process is about to die of a bad address.
 //
-// A task that runs over the end of its stack touches the guard page below it. That is reported as the bug it is: time,
-// task, event, seed, replay line, the stack's size and how to ask for a larger one; then the process aborts. A stack
-// without a guard page has a canary: found overwritten, it names its task in the same way. Any other bad address gets
-// one line that says which task ran, and goes to whoever handled it before.
+// A task that overruns its stack touches the guard page below it. The report has time, task, event, seed, replay line,
+// the stack's size and the way to request a larger one; then the process aborts. A stack without a guard page has a
+// canary: if it is overwritten, its task is reported in the same way. Any other bad address is reported in one line
+// with the running task, and passed to the previous handler.
 //
-// The handler runs on a stack of its own (the task's is used up), and writes nothing that a signal handler may not.
+// The handler runs on a stack of its own, since the task's is used up, and is async-signal-safe.
 #pragma once
 
 #include <csignal>
@@ -17,10 +17,10 @@ namespace waitpoint::kernel {
 
 class FaultReports {
  public:
-  /// From here on, in the calling thread, for the tasks of `scheduler`. Where a sanitizer or valgrind is in the
-  /// process, which have reports of their own, nothing is done.
+  /// Installs the handler in the calling thread, for the tasks of `scheduler`; not with a sanitizer or valgrind, which
+  /// have reports of their own.
   explicit FaultReports(const Scheduler& scheduler);
-  /// What was there before is there again, unless a task has installed something since.
+  /// Restores the previous handler, unless a task has installed another one since.
   ~FaultReports();
   FaultReports(const FaultReports&) = delete;
   FaultReports& operator=(const FaultReports&) = delete;
@@ -36,7 +36,7 @@ class FaultReports {
   bool has_stack_ = false;
 };
 
-/// Reports that `task` ran over the end of its stack, and aborts.
+/// Reports that `task` overran its stack, and aborts.
 [[noreturn]] void report_overflow(const Task& task);
 
 }  // namespace waitpoint::kernel

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// With many tasks, each one's record and stack are out of the cache by the time it is due: they are fetched while the
-// ones before it run.
+// With many tasks, each one's record and stack are out of the cache at its next turn: they are prefetched during the
+// turns before.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@
 
 namespace waitpoint::kernel {
 
-// A parked task's registers, and the frames from its switch up to its own code; and below, where the kernel's frames
-// will be when it parks again: to write to a line that is not there holds up all that is written after.
+// Above: a parked task's registers, and the frames from its switch up to its own code. Below: the place of the kernel's
+// frames when it parks again; a write that misses the cache delays all later writes.
 inline constexpr int stack_lines_above = 4, stack_lines_below = 3;
-// Of a task's record, what waking it touches; of its robot's, where its events are hashed.
+// The lines of a task's record that waking it touches, and those of its robot's digest.
 inline constexpr int record_lines_fetched = 4, robot_lines_fetched = 2;
 
 inline void fetch_lines(const void* from, std::ptrdiff_t count) {
   for (std::ptrdiff_t line = 0; line < count; ++line) fetch(static_cast<const char*>(from) + 64 * line);
 }
 
-// Of the tasks that come next, in three steps, each of which reads what the one before it has fetched: the record; the
-// stack, and what else the task works on; that. Any of them may be null.
+// Prefetches for the next three tasks, any of which may be null. A task passes through three steps, each of which reads
+// the lines that the previous step has fetched: its record; its stack, robot and list of working set; its working set.
 inline void fetch_ahead(const Task* next, const Task* second, const Task* third) {
   if (third != nullptr) fetch_lines(third, record_lines_fetched);
   if (second != nullptr) {
@@ -40,8 +40,8 @@ inline void fetch_ahead(const Task* next, const Task* second, const Task* third)
   }
 }
 
-/// Of those that are due next: so far ahead that memory has answered one step before the next asks for more. What comes
-/// last may be no task: it is only fetched.
+/// Prefetches for events of the list. The distances between the steps exceed the latency of memory. The last node may
+/// not be a task's: it is fetched, not read.
 inline void fetch_coming(const EventList& events) {
   const auto as_task = [](const EventNode* node) {
     return node == nullptr || node->fire != nullptr ? nullptr : reinterpret_cast<const Task*>(node);
@@ -50,7 +50,7 @@ inline void fetch_coming(const EventList& events) {
   fetch_ahead(as_task(events.coming(1)), as_task(events.coming(4)), reinterpret_cast<const Task*>(last));
 }
 
-/// Of those that go on at the present instant; there must be one.
+/// Prefetches for tasks of the present queue, which must not be empty.
 [[gnu::noinline]] inline void fetch_coming(const PresentQueue& present) {
   const Task* const next = present.first();
   const Task* const second = next->next_waiter;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a task's local virtual time moves while it computes.
+// The advance of a task's local virtual time while it computes.
 //
-// A segment is the code between two waitpoints. What it costs must be in the local virtual time before anything that it
-// did can be seen by others: a waitpoint ends the segment before it looks for the task's place in the event list, and
-// begins the next one when the task goes on. What primitives do between their waitpoint and their block costs nothing.
+// A segment is the code between two waitpoints. Its cost must be in the local virtual time before others can see any of
+// its effects: a waitpoint ends the segment before it compares the task's event with the list, and begins the next
+// segment when the task continues. A primitive's own code, between its waitpoint and its block, costs nothing.
 //
 //   --- waitpoint | begin ... computing ... now() ... computing ... end | waitpoint ---
 //
-// A task without a local clock has the fixed one: its time moves by what it declares with compute(), and its waitpoints
-// do not even call here. (The paper, II-B: "local virtual time, which depends only on its own execution flow".)
+// A task without a local clock has the fixed one: only costs declared by compute() advance its time, and its waitpoints
+// make no call here. (The paper, II-B: "local virtual time, which depends only on its own execution flow".)
 #pragma once
 
 #include "core/error.hpp"
@@ -17,40 +17,39 @@
 
 namespace waitpoint::kernel {
 
-/// A local clock as the kernel sees it: part of whatever keeps its state, and of one task only. Functions may be null.
+/// The kernel's interface to a local clock, as a member of the clock's state. Serves one task. Functions may be null.
 struct LocalClock {
-  /// The task goes on: a segment begins.
+  /// A segment begins.
   void (*begin)(LocalClock&, Task&) = nullptr;
-  /// The segment is over: the task's local time takes in what it consumed. Nothing more is consumed until the next
-  /// begin; to be called twice must not count twice.
+  /// The segment ends: adds its cost to the task's local time, up to the next begin. A second call must add nothing.
   void (*end)(LocalClock&, Task&) = nullptr;
-  /// The task declares that what it computed costs at least `least` and at most `greatest`. Null: that does not count.
+  /// The task declares a computation's cost within [`least`, `greatest`]. Null: declarations are ignored.
   void (*compute)(LocalClock&, Task&, Duration least, Duration greatest) = nullptr;
 };
 
-/// Gives `task` a clock; null: the fixed one. It must live until the task ends or has another.
+/// Sets the clock of `task`; null: the fixed one. It must live until the task ends or is given another.
 void set_clock(Task& task, LocalClock* clock);
 
-/// Out of line: local_time() of a task that needs attention.
+/// local_time() of a task with attention bits.
 Time local_time_by_clock(Task& task);
 
-/// The local virtual time of the running task, with all that its segment has consumed so far.
+/// The local virtual time of the running task, including the cost of its segment so far.
 inline Time local_time(Task& task) {
   return __builtin_expect(task.attention != 0, 0) ? local_time_by_clock(task) : task.local_time;
 }
 
-/// Moves the local time of the running task on by what it consumed.
+/// Adds `cost` to the local time of the running task.
 void consume(Task& task, Duration cost);
 
-/// The running task waits for a device: its local time moves on by `latency`, which no clock scales, and without use of
-/// a processor. The paper, II-B: "offsetting the logical time of the thread doing the access".
+/// The running task waits for a device: adds `latency` to its local time, not scaled by any clock and without use of a
+/// processor. The paper, II-B: "offsetting the logical time of the thread doing the access".
 void access_hardware(Task& task, Duration latency);
 
-/// The running task declares that what it computed costs something from `least` to `greatest`, neither negative.
-/// Without a clock the chooser decides: in the default order it is the greatest.
+/// Declares the cost of a computation of the running task: within [`least`, `greatest`], neither negative. Without a
+/// clock the chooser decides; in the first-in-first-out order it is the greatest.
 void compute(Task& task, Duration least, Duration greatest);
 
-/// As above, with a cost that is known.
+/// Declares a known cost.
 inline void compute(Task& task, Duration cost) {
   if (__builtin_expect(task.attention != 0, 0)) return compute(task, cost, cost);
   WAITPOINT_CHECK(cost >= Duration(), "computing takes no negative time");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a lock lends its holder urgency on a shared processor, as a value (POSIX: pthread_mutexattr_setprotocol).
+// The priority protocol of a lock on a shared processor (POSIX: pthread_mutexattr_setprotocol).
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 namespace waitpoint::kernel {
 
 enum class LockProtocol : std::uint8_t {
-  inherit,  ///< its holder is as urgent as the most urgent task that waits for it
-  ceiling,  ///< its holder is as urgent as the lock declares
+  inherit,  ///< the holder has at least the priority of the most urgent waiter
+  ceiling,  ///< the holder has at least the priority that the lock declares
 };
 
 }  // namespace waitpoint::kernel

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a task is about to do at a waitpoint. Part of the digest: new operations go to the end.
+// The operation that a task announces at a waitpoint. Part of the digest: append new operations at the end.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ enum class Operation : std::uint8_t {
   join,
   timer_wait,
   timer_tick,
-  step,  ///< of the world
+  step,  ///< the world's
   open,  ///< takes a name
   close,
   connect,
@@ -35,7 +35,7 @@ enum class Operation : std::uint8_t {
   poll,
   timer_start,
   timer_stop,
-  signal,  ///< is sent
+  signal,  ///< a signal is sent
   lock_shared,
   try_lock_shared,
   unlock_shared,
@@ -52,7 +52,7 @@ enum class Operation : std::uint8_t {
   store,
   exchange,
   compare_exchange,
-  modify,  ///< an atomic, by fetch_add and its kin
+  modify,  ///< an atomic: fetch_add, fetch_or, ...
   fence,
 };
 

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who holds what, for locks of one holder: an object knows its owner, and what a task owns hangs in a list in it, so
-// that cycles of owners are found. Both are written here alone.
+// Ownership, for locks with one holder: an object has its owner, and a task the list of its objects, for the search of
+// the wait-for graph. Only these functions write them.
 #pragma once
 
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::kernel {
 
-/// Makes `task` the owner of `object`, which nobody owns.
+/// Makes `task` the owner of `object`, which must have none.
 inline void own(Object& object, Task& task) {
   object.owner = &task;
-  // Mostly the link is as it was the last time. Not written, it need not be waited for when the object is given up.
+  // Mostly the link is unchanged since the last time. Without the write, disown() need not wait for it.
   if (__builtin_expect(object.next_held != task.held, 0)) object.next_held = task.held;
   task.held = &object;
 }
 
-/// Takes `object` from `owner`, who owns it.
+/// Takes `object` from `owner`, which must own it.
 inline void disown(Object& object, Task& owner) {
-  // Locks are mostly given up in the reverse order of their taking: the first link is the right one.
+  // Locks are mostly released in the reverse order of their acquisition: the first link is the right one.
   Object** link = &owner.held;
   while (__builtin_expect(*link != &object, 0)) link = &(*link)->next_held;
   *link = object.next_held;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The call stack of a task that is not running: the task itself is resumed for it, outside of virtual time.
+// The call stack of a parked task: the task itself is resumed to write it, outside of virtual time.
 #include "core/error.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/scheduler.hpp"
@@ -8,8 +8,8 @@
 
 namespace waitpoint::kernel {
 
-// After a task got control back: as long as it is only asked for its call stack, it is not its turn yet. False when the
-// run is over.
+// Called by a resumed task while the run is interrupted: writes its call stack and switches back, as often as
+// requested. Returns when its turn has come; false if the run is over.
 bool Scheduler::answer_interrupt() {
   Task& task = *running;
   while (task.describe) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tasks whose events were put in for the present instant: the head of the event list, where the order is
-// first-in-first-out.
+// The queue of events inserted at the present instant, at the head of the event list in the first-in-first-out order.
 //
-// Such an event goes behind all of its instant and phase that were put in before, so that it needs no search for its
-// place; and most events are such: a task is woken by another, or gives way to those that tie with it. The queue has
-// those of the world's phase in front, then those of the tasks'. In the list there may be earlier ones of this instant,
-// which its least key tells.
+// Such an event sorts behind all earlier insertions of its instant and phase, so it needs no search for its place. Most
+// events are of this kind: a task is woken by another, or yields. Events of the world's phase come first in the queue,
+// then those of the tasks' phase. The event list may hold earlier events of this instant; compare with its least key.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +14,17 @@ namespace waitpoint::kernel {
 
 class PresentQueue {
  public:
-  /// Whether tasks run in that phase.
+  /// True if events of that phase may be in the queue.
   static bool is_for(Phase phase) { return phase == Phase::tasks || phase == Phase::world; }
 
   bool empty() const { return first_ == nullptr; }
   std::uint32_t size() const { return size_; }
-  /// The first, and from there on by Task::next_waiter the others; null if there is none.
+  /// The first task, linked to the others by Task::next_waiter; null if the queue is empty.
   const Task* first() const { return first_; }
-  /// The place of the first among the events of its instant; there must be one.
+  /// The first event's place at its instant; the queue must not be empty.
   std::uint64_t order() const { return make_order(first_->phase, first_->queue_tie); }
 
-  /// `task`, of such a phase, must be neither here nor in the event list, and come behind all of its phase
-  /// that are here.
+  /// `task` must be of such a phase, neither here nor in the event list, and sort behind all events of its phase here.
   void add(Task& task, std::uint64_t tie) {
     WAITPOINT_CHECK(!task.event.in_list(), "a task becomes ready twice");
     task.event.place = EventNode::ready;
@@ -41,7 +38,7 @@ class PresentQueue {
       last_->next_waiter = &task;
     last_ = &task;
   }
-  /// Takes out the first; there must be one.
+  /// Takes out the first task; the queue must not be empty.
   Task& take() {
     Task& task = *first_;
     first_ = task.next_waiter;
@@ -74,7 +71,7 @@ class PresentQueue {
   }
 
   Task* first_ = nullptr;
-  Task* last_ = nullptr;  // while there is a first
+  Task* last_ = nullptr;  // valid unless the queue is empty
   Task* last_of_world_ = nullptr;
   std::uint32_t size_ = 0;
 };

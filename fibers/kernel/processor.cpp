@@ -11,7 +11,7 @@ bool is_before(const Seat& a, const Seat& b) {
   return a.priority > b.priority || (a.priority == b.priority && a.arrival < b.arrival);
 }
 
-// At the end of this instant.
+// Schedules the assignment of the processor, at the end of this instant.
 void decide_later(Processor& processor) {
   if (processor.decision.in_list()) return;
   Scheduler& scheduler = *processor.scheduler;
@@ -50,7 +50,7 @@ void decide(EventNode& node) {
     scheduler.wake(*best->task);
 }
 
-// What the task is, and what it inherits of those who wait for its locks.
+// The greatest of the task's own priority and those that its locks lend.
 int due_priority(const Seat& seat) {
   int priority = seat.own_priority;
   const auto raise_to = [&priority](int other) { priority = other > priority ? other : priority; };
@@ -156,7 +156,7 @@ void let_go(Task& task, PriorityLock& lock) {
   reconsider_priority(&task);
 }
 
-// Along the chain of those who wait for each other's locks. It ends: each step but the last changes a priority.
+// Follows the chain of owners. It terminates: each step but the last changes a priority.
 void reconsider_priority(Task* task) {
   while (task != nullptr && task->seat != nullptr) {
     Seat& seat = *task->seat;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tasks whose events are due at the present instant, side by side for somebody to choose among them: the head of
-// the event list, where its order is not fixed. In the order of their coming.
+// The ready tasks of the present instant, in the order of their becoming ready, for a strategy to choose among: the
+// head of the event list in the explored order.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class ReadySet {
   ReadySet(const ReadySet&) = delete;
   ReadySet& operator=(const ReadySet&) = delete;
 
-  /// Room for `capacity` tasks is reserved, and committed only as it is used. To be called once, before add().
+  /// Reserves address space for `capacity` tasks; memory is committed as it is used. To be called once, before add().
   void reserve(std::uint32_t capacity);
 
   bool empty() const { return size_ == 0; }
@@ -24,13 +24,13 @@ class ReadySet {
   Task* const* tasks() const { return tasks_; }
   static bool contains(const Task& task) { return task.event.place == EventNode::ready; }
 
-  /// `task` must be in neither this set nor the event list.
+  /// `task` must not be in this set or the event list.
   void add(Task& task) {
     WAITPOINT_CHECK(!task.event.in_list(), "a task becomes ready twice");
     task.event.place = EventNode::ready;
     tasks_[size_++] = &task;
   }
-  /// Takes out the task at `at`.
+  /// Takes out the task at index `at`.
   Task& take(std::uint32_t at) {
     WAITPOINT_CHECK(at < size_, "a task was chosen that is not ready");
     Task& task = *tasks_[at];

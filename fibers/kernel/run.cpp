@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The run as a whole: its windows, how it stops, and what it tells.
+// The run as a whole: windows, pauses, stops, and queries.
 #include "core/error.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/debugger.hpp"
@@ -16,14 +16,14 @@ Turn turn;
 
 namespace {
 
-// Tells the objects of one run from those of all others in this process; never part of an event.
+// The epoch of the latest run, which distinguishes objects of different runs in this process; never part of an event.
 std::uint64_t runs = 0;
 
 }  // namespace
 
 Scheduler::Scheduler(Order order, std::uint64_t seed) : agenda_(order, seed), epoch_(++runs) {
   fast_path_.allow(agenda_.chooser.order());
-  if (running == nullptr) turn.lane = nullptr;  // of another run, whose robots may have lain where these will
+  if (running == nullptr) turn.lane = nullptr;  // of a previous run, whose robots may have had the same addresses
   set_watch(nullptr);
   if (sanitizer::present) sanitizer::begin_run();
 }
@@ -97,7 +97,7 @@ void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
   if (&task == running) fast_path_.close();
 }
 
-// The run is left with `state`: the fiber of the context outside.
+// Returns the main fiber, to leave the run with `state`.
 Fiber& Scheduler::end_window(RunState state) {
   state_ = cause_ != StopCause::none ? RunState::stopped : state;
   running = nullptr;
@@ -139,13 +139,13 @@ void Scheduler::reclaim_ended() {
 }
 
 void Scheduler::set_watch(Watch* watch) {
-  fast_path_.close();  // or the running task's waitpoints would not be seen
+  fast_path_.close();  // otherwise the running task's waitpoints would not be shown
   watch_ = watch;
   watched_ = watch != nullptr || sanitizer::present || debugger_view.watching;
 }
 
-// The window ends before the task's event, which is the least. That must not cost it its place: it does not go through
-// the list.
+// The window ends before the task's event, which is the least. The event is not inserted into the list, to keep its
+// place among its ties.
 Fiber& Scheduler::wait_for_window(Task& task) {
   task.state = TaskState::ready;
   paused_ = &task;

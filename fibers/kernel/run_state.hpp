@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a run stands, and why it stopped.
+// The state of a run, and the cause of its stop.
 #pragma once
 
 #include <cstdint>
 
 namespace waitpoint::kernel {
 
-/// How run_before() came back.
+/// The result of run_before().
 enum class RunState : std::uint8_t {
-  reached,  ///< the time asked for; more events may follow
+  reached,  ///< no event is left before the end of the window; later ones may follow
   idle,     ///< no event is left; tasks may be blocked
   stopped,  ///< see StopCause
 };
@@ -16,7 +16,7 @@ enum class RunState : std::uint8_t {
 enum class StopCause : std::uint8_t {
   none,
   ended,        ///< no task remains but services
-  deadlock,     ///< a cycle of owners without finite timeouts
+  deadlock,     ///< a cycle of the wait-for graph
   no_progress,  ///< virtual time stands still while tasks spin
   requested,    ///< by a task
 };

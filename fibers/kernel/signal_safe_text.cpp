@@ -43,7 +43,7 @@ void SignalSafeText::write() {
   for (std::size_t done = 0; done < size_;) {
     const ssize_t written = ::write(STDERR_FILENO, text_ + done, size_ - done);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) break;  // there is nobody to tell
+    if (written <= 0) break;  // an error here cannot be reported
     done += static_cast<std::size_t>(written);
   }
   size_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text for the error stream that can be written from anywhere, a signal handler on a broken stack included: no
-// allocation, no lock, no library state (POSIX.1-2017, 2.4.3).
+// Text for the error stream, async-signal-safe, for handlers on a broken stack too: no allocation, no lock, no library
+// state (POSIX.1-2017, 2.4.3).
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ class SignalSafeText {
   SignalSafeText& add(std::uint64_t number);
   /// In seconds, to the nanosecond.
   SignalSafeText& add(Time time);
-  /// Writes what was added to the error stream's descriptor, past any buffer; errno stays. Long text is written in
-  /// parts, as it is added.
+  /// Writes the text to the error stream's descriptor, unbuffered; preserves errno. Long text is written in parts, as
+  /// it is added.
   void write();
 
  private:

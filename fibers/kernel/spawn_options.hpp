@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a new task is to be.
+// The properties of a new task.
 #pragma once
 
 #include "fibers/kernel/event.hpp"
@@ -15,8 +15,8 @@ struct SpawnOptions {
   StackSize stack = StackSize::medium;
   Phase phase = Phase::tasks;
   bool service = false;
-  LocalClock* clock = nullptr;  ///< must outlive the task; null: only what it declares moves its local time
-  Seat* seat = nullptr;         ///< on the processor that it shares; null: it has one of its own
+  LocalClock* clock = nullptr;  ///< must outlive the task; null: only declared costs advance its local time
+  Seat* seat = nullptr;         ///< on a shared processor; null: a processor of its own
 };
 
 }  // namespace waitpoint::kernel

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Robots, and the making and the ends of tasks: their own, and that of a run which is over before them.
+// Robots, and the making and the ends of tasks: by themselves, in place, or unwound when the run is over.
 #include <cstring>
 #include <new>
 
@@ -38,10 +38,10 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   const Time start = running != nullptr ? kernel::local_time(*running) : agenda_.now;
   if (unwinding_ || tasks_ >= most_tasks_) return nullptr;
   Stack stack;
-  // Sanitizers make frames larger, and put a report together on the stack of the task that is found out.
+  // Sanitizers enlarge frames, and compose a report on the stack of the reported task.
   const StackSize size = sanitizer::present && options.stack < StackSize::large ? StackSize::large : options.stack;
   if (!arena_.take(size, stack) && (size == options.stack || !arena_.take(options.stack, stack))) return nullptr;
-  // The record lies at the high end of the task's own stack: one page for both.
+  // The record is at the high end of the task's own stack: one page for both.
   char* top = stack.high - (sizeof(Task) + 63) / 64 * 64 - 64;
   Task& task = *new (top) Task();
   task.scheduler = this;
@@ -90,7 +90,7 @@ void Scheduler::unlink(Task& task) {
   --tasks_;
 }
 
-// Of a task that is no service: whether it was the last of all.
+// Counts the end of a task that is not a service; true if it was the run's last one.
 bool Scheduler::count_end(const Task& task) {
   if (--task.robot->live_tasks == 0) {
     task.robot->ended = true;
@@ -121,10 +121,10 @@ void Scheduler::unwind() {
   fast_path_.forbid();
   fast_allowed_ = false;
   paused_ = nullptr;
-  // Timers may outlive the run: they must not find themselves in its list. Objects that tasks wait for are not touched:
-  // they may be gone with the frames that own them, and read as fresh in the next run.
+  // Timers may outlive the run, so none may remain in its list. Objects with waiters are not touched: they may be
+  // destroyed with the frames that own them, and are reinitialised in the next run.
   agenda_.clear();
-  // Each entry ends its task, which unlinks it.
+  // Each resumed task ends and unlinks itself.
   while (last_task_ != nullptr) {
     Task& task = *last_task_;
     enter_run(resume(task));
@@ -157,7 +157,7 @@ void Scheduler::keep_running_task_only() {
 
 void Scheduler::end_running_task() { end_task(*running); }
 
-// A task that goes on calling although every call is refused would never end.
+// Refuses a call after the end of the run. A task that keeps calling would never end: it is abandoned.
 bool Scheduler::refuse() {
   if (++running->refusals > refusals_max) abandon();
   return false;

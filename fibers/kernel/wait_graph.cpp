@@ -9,7 +9,7 @@ struct Tasks {
   std::uint32_t count = 0;
 };
 
-// A reader waits for other readers only while a writer is queued between them.
+// A reader waits for the readers that hold the lock only while a writer is queued.
 bool waits_behind_a_writer(const Object& object) {
   for (const Task* waiter = object.first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
     if (!waiter->shared_wait && !waiter->finite_wait) return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wait-for graph: a task that is blocked without a timeout on an object that is held waits for each of its holders.
-// A cycle is a deadlock, whatever else happens.
+// The wait-for graph: a task blocked without a timeout on a held object has an edge to each of its holders. A cycle is
+// a deadlock, regardless of the other tasks.
 //
 //   A --lock--> left, held by B        B --lock--> map, held by readers C and D        D --lock--> ..., held by A
 #pragma once
@@ -13,8 +13,8 @@ namespace waitpoint::kernel {
 
 class WaitGraph {
  public:
-  /// A task of a cycle that `task`, which has just blocked, closes; null if it closes none. `search.to` leads around
-  /// the cycle. Depth first, each task once: linear in the edges.
+  /// Searches for a cycle closed by `task`, which has just blocked. Returns a task of the cycle, whose members are
+  /// linked by `search.to`; null if there is none. Depth-first search, linear in the number of edges.
   Task* find_cycle(Task& task);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who waits for an object: a list through the tasks, in the order of their coming.
+// The waiters of an object: an intrusive list of tasks, in the order of their blocking.
 #pragma once
 
 #include "fibers/kernel/task.hpp"
@@ -17,7 +17,7 @@ inline void append_waiter(Object& object, Task& task) {
   object.last_waiter = &task;
 }
 
-/// There must be one.
+/// `object` must have a waiter.
 inline Task& remove_first_waiter(Object& object) {
   Task& task = *object.first_waiter;
   object.first_waiter = task.next_waiter;
@@ -29,7 +29,7 @@ inline Task& remove_first_waiter(Object& object) {
   return task;
 }
 
-/// `task` must wait for something.
+/// `task` must be among an object's waiters.
 inline void remove_waiter(Task& task) {
   Object& object = *task.blocked_on;
   (task.previous_waiter == nullptr ? object.first_waiter : task.previous_waiter->next_waiter) = task.next_waiter;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who looks on as events are executed: tracing and recording hang on the waitpoint by this.
+// The observer of executed events, for tracing and recording.
 #pragma once
 
 #include "core/time.hpp"
@@ -7,7 +7,7 @@
 
 namespace waitpoint::kernel {
 
-/// One executed event, as a watch sees it.
+/// An executed event.
 struct EventRecord {
   Time time;
   const Task* task;
@@ -15,7 +15,7 @@ struct EventRecord {
   const Object* object;  ///< null for start, end, yield and sleep
 };
 
-/// Costs one predictable branch when there is none.
+/// Called at each event. Without a watch the cost is one predictable branch.
 struct Watch {
   void (*event)(Watch&, const EventRecord&) = nullptr;
 };
