@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A switch of fibers in the frame of who calls a primitive, and not in one of the library's.
+// A switch of fibers in the frame of a primitive's caller, not in a frame of the library.
 //
-// A processor foresees where a function returns to from the calls that it has seen, and those were made by the fiber
-// that is left. Where two tasks run different code, the return from the library to the one's would be foreseen to lead
-// into the other's, and to find out takes as long as all the rest of a hand-over. So the library returns before the
-// switch, and is called again behind it:
+// The return predictor holds the other task's calls: after a switch inside the library, the return to the caller would
+// be mispredicted if the two tasks run different code. A misprediction costs as much as the rest of a hand-over. So the
+// library returns before the switch and is called again after it:
 //
 //   if (Departure away = start(...); away.leads_away()) end(depart(away), ...);
 #pragma once
@@ -17,29 +16,29 @@ namespace waitpoint::kernel {
 
 /// The result of a call that may block: a fiber to continue in, or the outcome of the wait.
 struct Departure {
-  void* context;            ///< where that fiber goes on; null without one
-  std::uintptr_t how_else;  ///< the fiber that is left; or the outcome
+  void* context;            ///< the context of the fiber to enter; null: none
+  std::uintptr_t how_else;  ///< the fiber that is left; without a context, the outcome
 
   bool leads_away() const { return context != nullptr; }
-  /// What the caller of none() meant by it.
+  /// The argument of none().
   std::uintptr_t outcome() const { return how_else; }
   static Departure none(std::uintptr_t outcome) { return {nullptr, outcome}; }
 };
 
-/// Seen by who goes on: the fiber that was left for it, and where that one goes on.
+/// The result of depart() in the entered fiber: the fiber that was left, and its context.
 struct Arrival {
   void* context;
   void* left;
 };
 
-// The switch: a jump to where the other fiber goes on. Were it called, the processor's stack of return addresses would
-// be one too deep after each switch, and would mispredict every return from there on; this keeps it as deep as the
-// fibers' own. And the compiler knows which registers are lost, and saves those alone that it still needs.
+// The switch: a jump to the other fiber's address of continuation. A call would leave the return stack buffer one entry
+// too deep after each switch, and mispredict all later returns; a jump keeps its depth equal to the fibers'. Inline
+// assembly tells the compiler the clobbered registers, so that it saves only those it still needs.
 //
-// What is left on the stack is what jump_fcontext of Boost.Context leaves there, which made the fiber's first such
-// frame: mxcsr:4 x87 control word:4 | r12 to r15, empty here | rbx | rbp | where it goes on. Of a frame that needs rbx
-// or rbp a compiler cannot be told that they are lost. Who contains this calls functions too, and so has no red zone
-// below its stack.
+// The frame on the stack is that of Boost.Context's jump_fcontext, which made the fiber's first one: mxcsr:4 x87
+// control word:4 | r12 to r15, unused here | rbx | rbp | address of continuation. rbx and rbp are saved here, since a
+// compiler does not accept them as clobbers in a frame that needs them. Functions that contain this call others too, so
+// they have no red zone below their stack.
 #ifdef __x86_64__
 [[gnu::always_inline]] inline Arrival depart(Departure away) {
   Arrival arrival;
@@ -77,7 +76,8 @@ struct Arrival {
 Arrival depart(Departure away);
 #endif
 
-/// Behind a switch: who was left. Only who goes on knows where that one does.
+/// After a switch: stores the context of the fiber that was left, which only the entered fiber knows, and returns that
+/// fiber.
 inline Fiber& note_where_left(const Arrival& arrival) {
   Fiber& left = *static_cast<Fiber*>(arrival.left);
   left.context = arrival.context;

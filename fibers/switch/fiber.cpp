@@ -9,7 +9,7 @@
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/switch/thread_pointer.hpp"
 
-// The Itanium C++ ABI has it; libc++'s <cxxabi.h> has not.
+// Part of the Itanium C++ ABI, but not declared by libc++'s <cxxabi.h>.
 namespace __cxxabiv1 {
 struct __cxa_eh_globals;
 extern "C" __cxa_eh_globals* __cxa_get_globals() noexcept;
@@ -20,14 +20,14 @@ namespace {
 
 namespace context = boost::context::detail;
 
-// What make_fcontext's function gets by its first switch.
+// The argument of the first switch to make_fcontext's function.
 struct Start {
   Fiber& fiber;
   void (*entry)(void*);
   void* argument;
 };
 
-// The switch, seen by a sanitizer.
+// The switch, annotated for sanitizers.
 [[gnu::noinline]] void jump_seen(Fiber& from, Fiber& to) {
   const Departure away = departure(from, to);
   sanitizer::leave(from, to);
@@ -35,7 +35,8 @@ struct Start {
   sanitizer::arrive(left, from);
 }
 
-// Back to where the fiber was made. Who goes on in it does so by depart(), which does not give back all registers.
+// Switches back to prepare(). The fiber is entered by depart(), which does not restore all registers: hence the
+// clobbers.
 #ifdef __x86_64__
 context::transfer_t wait_to_begin(context::fcontext_t maker) {
   context::transfer_t came{};
@@ -53,7 +54,7 @@ context::transfer_t wait_to_begin(context::fcontext_t maker) { return context::j
 void run_entry(context::transfer_t transfer) {
   // The outermost frame of the fiber: debuggers and unwinders stop here.
   asm volatile(".cfi_undefined rip");
-  // prepare() switched here once so that the start could be read from its frame; the first real switch comes after.
+  // prepare() switches here once, so that Start can be read from its frame; the next switch starts the fiber.
   const Start start = *static_cast<const Start*>(transfer.data);
   transfer = wait_to_begin(transfer.fctx);
   Fiber& left = note_where_left({transfer.fctx, transfer.data});

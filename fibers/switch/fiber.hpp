@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stack that can be left and re-entered: the one user of Boost.Context, which makes it, and on other processors than
-// x86-64 switches too (departure.hpp).
+// A stack that can be left and re-entered. Only this file uses Boost.Context, which makes fibers, and switches them on
+// other processors than x86-64 (departure.hpp).
 //
-// Boost 1.74 keeps no exception state per fiber: one that switches inside a catch block, or in a destructor during
+// Boost 1.74 keeps no exception state per fiber: a fiber that switches inside a catch block, or in a destructor during
 // unwinding, would see another's exceptions. So the runtime's per-thread record of exceptions in flight, and errno, are
 // saved and restored at every switch.
 #pragma once
@@ -11,13 +11,13 @@
 
 namespace waitpoint::kernel {
 
-/// Fibers run in the calling thread from now on: to be told before it leaves its own stack for the first time.
+/// Binds the fibers to the calling thread; to be called before it leaves its own stack for the first time.
 void bind_to_thread();
 
 /// Makes `fiber` ready to run `entry(argument)` on `stack` below `top`. `entry` must not return.
 void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), void* argument);
 
-/// Leaves `from` and goes on in `to`; returns when something switches back to `from`.
+/// Leaves `from` and continues in `to`; returns when `from` is switched to again.
 void switch_fiber(Fiber& from, Fiber& to);
 
 }  // namespace waitpoint::kernel

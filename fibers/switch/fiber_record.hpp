@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fiber as a plain struct: its stack, and what it has of the thread's state while another one runs.
+// A fiber as a plain struct: its stack, and its copy of per-thread state while another fiber runs.
 #pragma once
 
 #include "fibers/switch/stack.hpp"
 
 namespace waitpoint::kernel {
 
-/// What the C++ runtime and the C library keep per thread, of which every fiber needs its own.
+/// Per-thread state of the C++ runtime and the C library, of which every fiber has its own copy.
 struct ThreadState {
   void* caught_exceptions = nullptr;
   unsigned int uncaught_exceptions = 0;
@@ -14,14 +14,14 @@ struct ThreadState {
 };
 
 struct Fiber {
-  void* context = nullptr;  ///< where it goes on; null while it runs. A debugger reads it.
+  void* context = nullptr;  ///< its parked stack pointer; null while it runs. A debugger reads it.
   ThreadState thread_state;
   Stack stack;
-  /// Where it finds its thread-local variables, its thread's state among them; null: where the thread that runs the
-  /// fibers does.
+  /// The base of its thread-local storage, which includes the per-thread state; null: that of the thread that runs the
+  /// fibers.
   void* thread_pointer = nullptr;
-  bool ended = false;        ///< it is left for good
-  void* known_as = nullptr;  ///< to a sanitizer
+  bool ended = false;        ///< it is never entered again
+  void* known_as = nullptr;  ///< the sanitizer's handle
 };
 
 }  // namespace waitpoint::kernel

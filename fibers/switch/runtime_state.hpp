@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first part of a switch: what the C++ runtime and the C library know of the running thread is exchanged for what
-// they are to know of the fiber that goes on. For the kernel's own sources.
+// The first part of a switch: exchanges the per-thread state of the C++ runtime and the C library for that of the
+// entered fiber. For the kernel's own sources.
 #pragma once
 
 #include "fibers/switch/departure.hpp"
@@ -8,7 +8,7 @@
 
 namespace waitpoint::kernel {
 
-/// Of the thread that runs the fibers: looking it up costs as much as the switch.
+/// Addresses of the state of the thread that runs the fibers, cached since the look-up costs as much as the switch.
 struct RuntimeState {
   // The Itanium C++ ABI fixes the first two members of the record that __cxa_get_globals returns.
   struct Exceptions {
@@ -22,7 +22,7 @@ struct RuntimeState {
   ThreadState now() const { return {exceptions->caught, exceptions->uncaught, *error_number}; }
   void save(Fiber& fiber) const { fiber.thread_state = now(); }
   void restore(const Fiber& fiber) const { set(fiber.thread_state); }
-  // Mostly all is as it was: nothing is written then, for writes are what a switch has most of.
+  // Mostly the state is unchanged and not written: a switch is bound by its writes.
   void exchange(Fiber& from, const Fiber& to) const {
     const ThreadState state = now();
     if (__builtin_expect(differ(state, from.thread_state), 0)) from.thread_state = state;
@@ -35,7 +35,7 @@ struct RuntimeState {
     exceptions->uncaught = state.uncaught_exceptions;
     *error_number = state.error_number;
   }
-  // Without branches between.
+  // Compares all members without branches.
   static bool differ(const ThreadState& a, const ThreadState& b) {
     const auto caught =
         reinterpret_cast<std::uintptr_t>(a.caught_exceptions) ^ reinterpret_cast<std::uintptr_t>(b.caught_exceptions);
@@ -52,8 +52,7 @@ inline Departure departure(Fiber& from, Fiber& to) {
   return {context, reinterpret_cast<std::uintptr_t>(&from)};
 }
 
-/// A switch in two parts, see departure.hpp: for fibers that find their thread-local variables at one place, and
-/// without a sanitizer.
+/// A switch in two parts, see departure.hpp: for fibers with the same thread-local storage, without a sanitizer.
 inline bool can_switch_in_parts(const Fiber& from, const Fiber& to) { return from.thread_pointer == to.thread_pointer; }
 inline Departure start_switch(Fiber& from, Fiber& to) {
   runtime_state.exchange(from, to);

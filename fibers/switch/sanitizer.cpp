@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "fibers/switch/fiber_record.hpp"
 
-// The runtimes' public interfaces (sanitizer/*_interface.h), of which a program has one or none.
+// The runtimes' public interfaces (sanitizer/*_interface.h); a program has at most one of them.
 extern "C" {
 #define WAITPOINT_WEAK __attribute__((weak))
 WAITPOINT_WEAK void __sanitizer_start_switch_fiber(void** fake_stack_save, const void* bottom, std::size_t size);
@@ -23,7 +23,7 @@ WAITPOINT_WEAK void __tsan_switch_to_fiber(void* fiber, unsigned flags);
 WAITPOINT_WEAK void __tsan_set_fiber_name(void* fiber, const char* name);
 WAITPOINT_WEAK void __tsan_acquire(void* address);
 WAITPOINT_WEAK void __tsan_release(void* address);
-// Of our own runtime behind -fsanitize=thread: fibers/explore/races.
+// The interface of this project's runtime for -fsanitize=thread: fibers/explore/races.
 WAITPOINT_WEAK void waitpoint_races_open_run();
 WAITPOINT_WEAK void waitpoint_races_close_run();
 WAITPOINT_WEAK void waitpoint_races_forget(const void* low, std::size_t size);
@@ -39,22 +39,22 @@ namespace {
 
 bool address = false;
 bool thread = false;
-bool own_races = false;  // the runtime behind ThreadSanitizer's calls is ours: it tells itself what is outside
+bool own_races = false;  // this project's runtime is linked: it orders the outside context itself
 bool valgrind = false;
 
-// AddressSanitizer asks for the bounds of every stack that is entered, and tells those of the one that was left: so
-// this is known of the context outside, which has none of our stacks.
+// The bounds of the outside context's stack, which is not from the arena. AddressSanitizer needs the bounds of every
+// stack entered, and returns those of the stack left.
 const void* outside_low = nullptr;
 std::size_t outside_size = 0;
 
-// Stand for the context outside where ThreadSanitizer asks for an address.
+// Addresses that represent the outside context to ThreadSanitizer.
 char from_outside, to_outside;
 
-constexpr unsigned without_synchronization = 1;  // a switch alone orders nothing
+constexpr unsigned without_synchronization = 1;  // a switch does not synchronise
 
 bool is_outside(const Fiber& fiber) { return fiber.stack.low == nullptr; }
 
-// valgrind's client requests, as its manual gives them: a sequence of rotations that does nothing on a processor.
+// valgrind's client requests, as in its manual: a sequence of rotations without effect on a processor.
 constexpr std::uint64_t running_on_valgrind = 0x1001, register_stack = 0x1501, deregister_stack = 0x1502;
 
 std::uint64_t ask_valgrind(std::uint64_t request, std::uint64_t first = 0, std::uint64_t second = 0) {
@@ -91,10 +91,10 @@ void open_stack(const Stack& stack) {
   if (&waitpoint_races_forget != nullptr) return waitpoint_races_forget(stack.low, size_of(stack));
   if (address) {
     __asan_unpoison_memory_region(stack.low, size_of(stack));
-    // Objects that only a parked task knows are no leaks.
+    // Objects referenced only from a parked task's stack are not leaks.
     if (&__lsan_register_root_region != nullptr) __lsan_register_root_region(stack.low, size_of(stack));
   }
-  // ThreadSanitizer forgets who used memory when it is mapped anew.
+  // A new mapping makes ThreadSanitizer discard the history of accesses.
   if (thread) {
     const std::size_t whole_pages = (size_of(stack) + 4095) / 4096 * 4096;
     const void* anew = mmap(stack.low, whole_pages, PROT_READ | PROT_WRITE,
@@ -123,7 +123,7 @@ void leave(Fiber& from, Fiber& to) {
   if (address) {
     const void* low = is_outside(to) ? outside_low : to.stack.low;
     const std::size_t size = is_outside(to) ? outside_size : size_of(to.stack);
-    // Without a place to keep its frames that AddressSanitizer moved to the heap, a fiber loses them: at its end.
+    // Null at the fiber's end: AddressSanitizer then frees the frames that it keeps on the heap (fake stack).
     __sanitizer_start_switch_fiber(from.ended ? nullptr : &from.known_as, low, size);
   }
   if (thread) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What AddressSanitizer, ThreadSanitizer, LeakSanitizer and valgrind are told about fibers, where one of them is in the
-// process: which memory is a stack, whose stack is in use, and, for ThreadSanitizer, what happens before what.
+// Annotations of fibers for AddressSanitizer, ThreadSanitizer, LeakSanitizer and valgrind: which memory is a stack,
+// which stack is in use, and, for ThreadSanitizer, the happens-before order.
 //
-// Their runtimes are met by weak symbols: the same kernel, itself never instrumented, serves plain programs and
-// sanitized ones. Without any of them, nothing here is called: callers look at `present` first.
+// Their runtimes are found by weak symbols: the same kernel, itself never instrumented, serves plain and sanitized
+// programs. Without any of them, these functions are not called: callers test `present` first.
 //
-// ThreadSanitizer sees each task as a thread of its own, and switches as nothing that orders them: what two tasks do to
-// memory is a race unless they met at an object. These edges are told:
+// To ThreadSanitizer each task is a thread, and a switch does not synchronise: accesses of two tasks to memory are a
+// race unless ordered by uses of an object. These happens-before edges are annotated:
 //
 //   maker -> new task                   by the making of the fiber
 //   each use of an object -> the next   at every waitpoint, before every block, at every wake-up
@@ -21,42 +21,42 @@ struct Fiber;
 
 namespace sanitizer {
 
-/// Whether any of them is in this process; known once look() was called.
+/// True if any of them is in this process; set by look().
 extern bool present;
 
-/// Looks for them.
+/// Looks for their runtimes.
 void look();
 
-/// A run begins; it is over, its tasks unwound.
+/// A run begins; a run is over and its tasks are unwound.
 void begin_run();
 void end_run();
 
-/// `stack` is about to be used: nothing that was known of its memory holds any more.
+/// `stack` is about to be used: discards the history of its memory.
 void open_stack(const Stack& stack);
 /// `stack` is free again.
 void close_stack(const Stack& stack);
 
-/// `fiber` was made, by the one that is running.
+/// `fiber` was made by the running fiber.
 void prepare(Fiber& fiber);
-/// What reports are to call it.
+/// Sets the name of `fiber` in reports.
 void name(const Fiber& fiber, const char* name);
 /// Immediately before the switch from `from` to `to`.
 void leave(Fiber& from, Fiber& to);
 /// Immediately after a switch: in `here`, from `left`.
 void arrive(Fiber& left, Fiber& here);
 
-/// What follows, up to leave_timer, is not what the running fiber does: a timer's doing, of which `known_as` is the
-/// sanitizer's record (null at first). Returns what leave_timer wants.
+/// Attributes the following accesses, up to leave_timer(), to a timer instead of the running fiber. `known_as` is the
+/// sanitizer's handle of the timer (null at first). Returns the argument of leave_timer().
 void* enter_timer(void*& known_as);
 void leave_timer(void* interrupted);
-/// There will be no more of it.
+/// Frees the handle of a timer.
 void end_timer(void* known_as);
 
-/// What the caller did so far happens before what others do after they acquired `object`.
+/// The caller's accesses so far happen before those of others after their acquire() of `object`.
 void release(const void* object);
-/// What others did before they released `object` happens before what the caller does from now on.
+/// The accesses of others before their release() of `object` happen before the caller's from now on.
 void acquire(const void* object);
-/// Both: first acquire(), then release().
+/// acquire(), then release().
 void use(const void* object);
 
 }  // namespace sanitizer

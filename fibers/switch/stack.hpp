@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of one stack, as the arena gives it.
+// The memory of one stack, allocated by the arena.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace waitpoint::kernel {
 
-/// 16, 64, 256 KiB; 8 MiB, as the threads of programs have.
+/// 16, 64, 256 KiB, and 8 MiB, the default of a system's threads.
 enum class StackSize : std::uint8_t { small, medium, large, program };
 inline constexpr int stack_sizes = 4;
 

@@ -11,18 +11,19 @@ namespace waitpoint::kernel {
 namespace {
 
 constexpr std::size_t page = 4096;
-// Tops of stacks begin at so many different lines of their pages: a prime, and so few that a parked task's record and
-// frames lie in one page as a rule.
+// The number of different cache lines of a page at which tops of stacks begin: a prime, and small enough that a parked
+// task's record and frames are usually in one page.
 constexpr std::uint32_t shifts = 53;
 constexpr int madv_guard_install = 102;
 // A process may have 65 530 mappings by default, and every mprotect-ed page splits one into three.
 constexpr std::uint32_t protected_pages_max = 25000;
 constexpr std::uint32_t slots_max[stack_sizes] = {1u << 20, 1u << 17, 1u << 14, 1u << 15};
 
-// The free list's link lies at the high end, in the page that is touched anyway.
+// The free list's link, at the high end, in a page that is in use anyway.
 std::uint32_t& link(const Stack& stack) { return reinterpret_cast<std::uint32_t*>(stack.high)[-1]; }
 
-// Of the stacks of one size: the heap and the run's other tables are to find some too where address space is limited.
+// The greatest range of stacks of one size. If address space is limited (ulimit -v), the rest is left to the heap and
+// the run's other tables.
 std::size_t bytes_max() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return ~std::size_t{0};
@@ -38,7 +39,7 @@ StackArena::StackArena() {
 
 void StackArena::reserve(Range& range, StackSize of) {
   const std::size_t most = bytes_max();
-  // A machine with little address space to give (limits, strict overcommit) gets fewer slots, not a failure.
+  // With little address space (limits, strict overcommit) there are fewer slots, not a failure.
   for (range.slots = slots_max[static_cast<int>(of)]; range.slots > 0; range.slots /= 2) {
     const std::size_t size = range.slots * bytes(of);
     if (size > most) continue;

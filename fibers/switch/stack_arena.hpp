@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stacks of all fibers, in address ranges reserved once.
 //
-// One range a size class, cut into slots of equal size; a slot is reused last in, first out, so that its pages are
-// warm (that of programs' stacks, which is vast, is reserved when one is asked for):
+// One range per size class, divided into slots of equal size, reused last in, first out, so that their pages are warm.
+// (The range of StackSize::program, which is vast, is reserved at its first use.)
 //
 //   low                                                                  high
 //   | guard page |  ... grows down ...  stack | shift |   | guard page | ...
 //
-// Memory is committed by the first touch only. The top of a stack is shifted by a varying number of cache lines: tops
-// at the same offset of their pages would share a few cache sets, and cost more than the switch itself.
+// Memory is committed at the first touch. The top of a stack is shifted by a varying number of cache lines: tops at the
+// same offset of their pages would share a few cache sets, whose misses cost more than the switch itself.
 //
-// The guard page is installed as lightly as the kernel allows: MADV_GUARD_INSTALL (Linux 6.13), which needs no mapping
-// of its own; else mprotect, up to the number of mappings a process may have; else none, and a canary word at the low
-// end is checked at every switch.
+// The guard page is installed by MADV_GUARD_INSTALL (Linux 6.13), which needs no mapping of its own; else by mprotect,
+// up to the number of mappings a process may have; else there is none, and a canary word at the low end is checked at
+// every switch.
 #pragma once
 
 #include <cstddef>
@@ -29,16 +29,16 @@ class StackArena {
   StackArena(const StackArena&) = delete;
   StackArena& operator=(const StackArena&) = delete;
 
-  /// A stack of at least bytes(size), less the guard page and less than a page of shift. False when all slots are
-  /// taken.
+  /// Takes a stack of bytes(size), minus the guard page and the shift, which is less than a page. False if all slots
+  /// are in use.
   bool take(StackSize size, Stack& stack);
   void give_back(const Stack& stack);
 
-  /// True while nothing has run over the low end; only stacks under a canary can tell.
+  /// True unless the stack's canary is overwritten; always true with a guard page.
   static bool intact(const Stack& stack) {
     return __builtin_expect(stack.guard == Guard::page, 1) || canary(stack) == canary_word;
   }
-  /// Whether `address` lies in the guard page below `stack`.
+  /// True if `address` is in the guard page below `stack`.
   static bool guards(const Stack& stack, const char* address);
 
  private:
@@ -50,7 +50,7 @@ class StackArena {
     std::uint32_t slots = 0;   // reserved
     std::uint32_t opened = 0;  // used at least once: guarded
     std::uint32_t unguarded_from = 0xFFFFFFFF;
-    std::uint32_t free_first = none;  // a list through the first word of each free slot's usable part
+    std::uint32_t free_first = none;  // a list linked through the highest word of each free slot
   };
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The thread pointer: where the code of a process finds its thread-local variables (x86-64's FS base). A fiber that has
-// one of its own has all of a thread that a C library keeps there: errno, locale, exceptions in flight, keys.
+// The thread pointer: the base of thread-local storage (x86-64's FS base). A fiber with one of its own has its own copy
+// of all per-thread state of a C library: errno, locale, exceptions in flight, keys.
 #pragma once
 
 #if defined(__x86_64__)
@@ -13,7 +13,7 @@
 
 namespace waitpoint::kernel {
 
-/// Whether fibers can have one here.
+/// True if fibers can have their own on this processor.
 constexpr bool has_thread_pointers() {
 #if defined(__x86_64__)
   return true;
@@ -30,7 +30,7 @@ inline void* thread_pointer() {
   return pointer;
 }
 
-/// Whether the instruction may be used: Linux 5.9 and a processor that has it (HWCAP2_FSGSBASE).
+/// True if wrfsbase may be used: Linux 5.9 and a processor with it (HWCAP2_FSGSBASE).
 inline const bool writes_thread_pointer = (getauxval(AT_HWCAP2) & 2) != 0;
 
 inline void set_thread_pointer(void* pointer) {
@@ -38,7 +38,7 @@ inline void set_thread_pointer(void* pointer) {
     asm volatile("wrfsbase %0" : : "r"(pointer) : "memory");
     return;
   }
-  // As a call of the C library it might set errno, in the wrong thread.
+  // Not by the C library's function, which might set errno of the wrong thread.
   long result = SYS_arch_prctl;
   asm volatile("syscall" : "+a"(result) : "D"(static_cast<long>(ARCH_SET_FS)), "S"(pointer) : "rcx", "r11", "memory");
 }
