@@ -54,7 +54,7 @@ bool EventList::has_address_space(std::uint32_t capacity) {
 EventList::~EventList() { munmap(memory_, entries(capacity_) * sizeof(EventEntry)); }
 
 void EventList::restart() {
-  WAITPOINT_CHECK(size_ == 0, "a list with events is begun anew");
+  WAITPOINT_CHECK(size_ == 0, "a non-empty event list is restarted");
   if (calendar_.is_open()) close_calendar();
   empty_run();
   set_bound();

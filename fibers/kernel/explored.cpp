@@ -34,14 +34,14 @@ ReadySet::~ReadySet() {
 }
 
 void Scheduler::set_decisions(Decisions& decisions) {
-  WAITPOINT_CHECK(agenda_.chooser.order() == Order::explored, "only in the explored order somebody else decides");
+  WAITPOINT_CHECK(agenda_.chooser.order() == Order::explored, "a strategy decides only in the explored order");
   if (agenda_.chooser.decisions() == nullptr) agenda_.ready.reserve(tasks_max);
   agenda_.chooser.set_decisions(decisions);
 }
 
 // Moves the events of all ready tasks to the instant of the next event.
 void Scheduler::let_time_pass() {
-  WAITPOINT_CHECK(is_due_later(), "nothing is due later, for which time could pass");
+  WAITPOINT_CHECK(is_due_later(), "the strategy lets time pass, but no event is due later");
   const Time next = agenda_.events.least().key.time;
   while (!agenda_.ready.empty()) {
     Task& task = agenda_.ready.take(0);

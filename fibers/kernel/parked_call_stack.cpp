@@ -21,7 +21,8 @@ bool Scheduler::answer_interrupt() {
 }
 
 std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
-  WAITPOINT_CHECK(running == nullptr && task.state != TaskState::ended, "no call stack can be had of this task");
+  WAITPOINT_CHECK(running == nullptr && task.state != TaskState::ended,
+                  "the call stack of a running or ended task is not available");
   if (task.sequence == 0) return 0;  // it never ran
   const TaskState state = task.state;
   const RunState run_state = state_;

@@ -39,7 +39,7 @@ void decide(EventNode& node) {
   Seat* user = processor.user;
   if (best == nullptr || best == user) return;
   if (user != nullptr) {
-    WAITPOINT_CHECK(user->computing, "a task is preempted that does not compute");
+    WAITPOINT_CHECK(user->computing, "a preempted task does not compute");
     scheduler.cancel(user->completion);
     user->remaining -= scheduler.global_time() - user->resumed;
   }

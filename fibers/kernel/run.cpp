@@ -29,14 +29,14 @@ Scheduler::Scheduler(Order order, std::uint64_t seed) : agenda_(order, seed), ep
 }
 
 Scheduler::~Scheduler() {
-  WAITPOINT_CHECK(running == nullptr, "a run is taken down from within");
+  WAITPOINT_CHECK(running == nullptr, "a scheduler is destroyed from within a task");
   unwind();
   tell_debugger_of_end(*this);
   if (sanitizer::present) sanitizer::end_run();
 }
 
 void Scheduler::restart(std::uint64_t seed) {
-  WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "a run begins before the one before it is unwound");
+  WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "a scheduler is restarted before its run is unwound");
   agenda_.restart(seed);
   epoch_ = ++runs;
   lookahead_ = Duration::max();
@@ -61,7 +61,7 @@ void Scheduler::restart(std::uint64_t seed) {
 
 RunState Scheduler::run_before(Time until) {
   WAITPOINT_CHECK(running == nullptr, "run_before() is called from within a task");
-  WAITPOINT_CHECK(!unwinding_, "a run that is over is run");
+  WAITPOINT_CHECK(!unwinding_, "run_before() is called after the run is over");
   tell_debugger(*this);
   agenda_.until = until;
   allow_fast_paths();

@@ -128,12 +128,12 @@ void Scheduler::unwind() {
   while (last_task_ != nullptr) {
     Task& task = *last_task_;
     enter_run(resume(task));
-    WAITPOINT_CHECK(last_task_ != &task, "a task went on although the run is over");
+    WAITPOINT_CHECK(last_task_ != &task, "a task continued although the run is over");
   }
 }
 
 void Scheduler::end_in_place(Task& task) {
-  WAITPOINT_CHECK(&task != running && task.state != TaskState::running, "a task that runs is ended by another");
+  WAITPOINT_CHECK(&task != running && task.state != TaskState::running, "a running task is ended in place by another");
   if (paused_ == &task) paused_ = nullptr;
   agenda_.remove(task);
   if (task.state == TaskState::blocked) remove_waiter(task);
@@ -164,7 +164,7 @@ bool Scheduler::refuse() {
 }
 
 void Scheduler::abandon() {
-  WAITPOINT_CHECK(unwinding_ && running != nullptr, "a task is abandoned while the run goes on");
+  WAITPOINT_CHECK(unwinding_ && running != nullptr, "a task is abandoned before the run is over");
   Task& task = *running;
   unlink(task);
   task.next = first_abandoned_;

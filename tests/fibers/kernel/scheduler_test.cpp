@@ -335,10 +335,10 @@ TEST(SchedulerDeathTest, MisuseIsABug) {
   TaskRun run;
   run.spawn([&] { EXPECT_DEATH(run.scheduler.run_before(Time::max()), "called from within a task"); });
   run.spawn([&] { EXPECT_DEATH(run.scheduler.unwind(), "called from within a task"); });
-  run.spawn([&] { EXPECT_DEATH(run.scheduler.abandon(), "while the run goes on"); });
+  run.spawn([&] { EXPECT_DEATH(run.scheduler.abandon(), "before the run is over"); });
   run.scheduler.run_before(Time::max());
   run.scheduler.unwind();
-  EXPECT_DEATH(run.scheduler.run_before(Time::max()), "a run that is over is run");
+  EXPECT_DEATH(run.scheduler.run_before(Time::max()), "after the run is over");
 }
 
 // The report of a bug has the time and place in the run.
