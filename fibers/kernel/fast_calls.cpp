@@ -21,7 +21,7 @@ void Scheduler::use_fast_paths(bool used) {
 
 // --- waitpoints ---
 
-// The fast path is open but each event is shown to a watch: the event is the least without a search of the list.
+// The fast path holds for the task, but each event is shown to a watch: executes it without a search of the list.
 bool Scheduler::waitpoint_at_present(Task& task, Operation operation, Object* object) {
   ++task.turns;
   task.operation = operation;

@@ -45,7 +45,7 @@ struct Seat {
 
 struct Processor {
   explicit constexpr Processor(const char* label) : object("processor", label) {}
-  /// Cancels a pending decision.
+  /// Cancels a decision that the last leave_processor() scheduled.
   ~Processor();
   Processor(const Processor&) = delete;
   Processor& operator=(const Processor&) = delete;

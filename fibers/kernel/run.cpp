@@ -139,7 +139,7 @@ void Scheduler::reclaim_ended() {
 }
 
 void Scheduler::set_watch(Watch* watch) {
-  fast_path_.close();  // otherwise the running task's waitpoints would not be shown
+  fast_path_.close();  // the fast path does not show events
   watch_ = watch;
   watched_ = watch != nullptr || sanitizer::present || debugger_view.watching;
 }

@@ -80,7 +80,7 @@ inline Fiber& Scheduler::dispatch_task(Task& task) {
   return resume(task);
 }
 
-// Processes the event just taken out: resumes its task and returns the fiber, or executes a timer or message and
+// The event was just taken out: resumes its task and returns the fiber, or calls the action of a timer or message and
 // returns null.
 inline Fiber* Scheduler::dispatch_event(EventNode& node) {
   agenda_.now = agenda_.events.present();

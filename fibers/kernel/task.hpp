@@ -84,7 +84,7 @@ enum class Wake : std::uint8_t {
 namespace attention {
 inline constexpr std::uint8_t clock = 1;      ///< it has a local clock, which measures its segments
 inline constexpr std::uint8_t signal = 2;     ///< a signal is pending
-inline constexpr std::uint8_t timer = 4;      ///< not a task: the record in whose name timers act, which cannot wait
+inline constexpr std::uint8_t timer = 4;      ///< not a task, but the record that stands for timers, which cannot block
 inline constexpr std::uint8_t processor = 8;  ///< it shares a processor
 }  // namespace attention
 
@@ -119,7 +119,7 @@ struct Task {
   Fiber fiber;
 
   Object* blocked_on = nullptr;
-  Object* held = nullptr;                   ///< the object it owned last; the others follow by Object::next_held
+  Object* held = nullptr;                   ///< the object it took last, linked to the others by Object::next_held
   const CacheLines* working_set = nullptr;  ///< the memory it touches whenever it runs, if declared
   std::uint32_t working_set_size = 0;
   Task* next_waiter = nullptr;  // or the next in the present queue (present_queue.hpp)

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The paper's Algorithm 2 without optimisation: block and wake. Also the events of timers and messages.
+// The paper's Algorithm 2 without optimisation; also the events of timers and messages. fast_calls.cpp has short cuts.
+//
+//   block(object, deadline)   append the task to the object's waiters; place a timeout if `deadline` is finite
+//                             switch to the task of dispatch(), or stop the run if a cycle of waits is closed
+//                             woken or timed out: begin the next segment; execute the event
+//   wake(task)                remove the task from the waiters, and its timeout from the event list
+//                             its local time becomes the global time; place its event there
+//   timeout                   dispatch_task() of a blocked task: the same, without a waker
 #include "core/error.hpp"
 #include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"

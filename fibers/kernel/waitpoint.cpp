@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The paper's Algorithm 1 without optimisation: the waitpoint, sleeping, yielding, and the dispatch of the least event.
-// fast_calls.cpp and fast_path.hpp are short cuts to the same events.
+// The paper's Algorithm 1 without optimisation. fast_calls.cpp and fast_path.hpp are short cuts to the same events.
+//
+//   waitpoint(operation, object)   end the segment: its cost is in the local time
+//                                  announce the operation and the object
+//                                  await the turn: unless the task's event is the least, place it at the local time and
+//                                    switch to the task of dispatch()
+//                                  the global time is the local time; begin the next segment; execute the event
+//   sleep_until(time)              the local time becomes `time`, then as a waitpoint
+//   yield()                        a waitpoint whose event is behind all tasks of the instant
+//   dispatch()                     take out the least event: the global time is its time; resume its task
 #include "fibers/kernel/access.hpp"
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/local_clock.hpp"
@@ -106,8 +114,8 @@ inline Fiber& Scheduler::dispatch_instead_of(Task& task) {
   return dispatch();
 }
 
-// Takes out events in order: executes those of timers and messages, and stops at the first one of a task. Returns that
-// task's fiber, which the caller must switch to; at the end of the window or of the run, the main fiber.
+// Takes out events in order: calls the actions of timers and messages, and resumes the task of the first other event.
+// Returns its fiber, which the caller must switch to; at the end of the window or of the run, the main fiber.
 Fiber& Scheduler::dispatch() {
   if (__builtin_expect(agenda_.is_explored(), 0)) return dispatch_explored();
   for (;;) {

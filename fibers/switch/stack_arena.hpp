@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stacks of all fibers, in address ranges reserved once.
 //
-// One range per size class, divided into slots of equal size, reused last in, first out, so that their pages are warm.
-// (The range of StackSize::program, which is vast, is reserved at its first use.)
+// One range per size class (the vast one of StackSize::program is reserved at its first use), divided into slots of
+// equal size, reused last in, first out, so that their pages are warm:
 //
 //   low                                                                  high
 //   | guard page |  ... grows down ...  stack | shift |   | guard page | ...
