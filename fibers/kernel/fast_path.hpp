@@ -16,17 +16,17 @@ namespace waitpoint::kernel {
 
 class FastPath {
  public:
-  // Never with a sanitizer: the fast path is inlined into code that ThreadSanitizer may instrument, and the tasks'
-  // writes to the scheduler would be reported as races.
+  /// Allows the fast path as far as `order` does. Never with a sanitizer: the fast path is inlined into code that
+  /// ThreadSanitizer may instrument, and the tasks' writes to the scheduler would be reported as races.
   void allow(Order order) {
     const bool allowed = enabled_ && !sanitizer::present;
     keeps_turn_ = allowed && order == Order::fifo;
     keeps_turn_alone_ = allowed && order == Order::seeded;
   }
-  /// Enables or disables later calls of allow().
+  /// Makes later calls of allow() effective, or not.
   void enable(bool enabled) { enabled_ = enabled; }
   bool is_enabled() const { return enabled_; }
-  /// No path is opened from now on.
+  /// Forbids the fast path until the next allow().
   void forbid() { keeps_turn_ = keeps_turn_alone_ = false; }
 
   /// True if a task at a waitpoint continues although others tie with it.

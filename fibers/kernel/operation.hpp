@@ -26,7 +26,7 @@ enum class Operation : std::uint8_t {
   timer_wait,
   timer_tick,
   step,  ///< the world's
-  open,  ///< takes a name
+  open,  ///< binds or opens a name
   close,
   connect,
   accept,

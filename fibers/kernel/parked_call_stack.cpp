@@ -30,7 +30,7 @@ std::size_t Scheduler::call_stack(Task& task, void** frames, std::size_t room) {
   frames_room_ = room;
   const bool interrupted = interrupted_;
   task.describe = interrupted_ = true;
-  fast_allowed_ = false;  // until the run goes on
+  fast_allowed_ = false;  // until the next run_before()
   enter_run(resume(task));
   interrupted_ = interrupted;
   task.state = state;

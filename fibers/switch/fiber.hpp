@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stack that can be left and re-entered. Only this file uses Boost.Context, which makes fibers, and switches them on
+// A stack that can be left and re-entered. Only fiber.cpp uses Boost.Context: to make fibers, and to switch them on
 // other processors than x86-64 (departure.hpp).
 //
 // Boost 1.74 keeps no exception state per fiber: a fiber that switches inside a catch block, or in a destructor during
