@@ -48,7 +48,7 @@ TEST(LocalClock, WhatASegmentConsumesIsInTheLocalTimeBeforeItsWaitpoint) {
         run.log("yield");
         clock.consumed_ns = 5;
         run.sleep(50);
-        run.log("sleep");  // until 50, whatever the previous cost
+        run.log("sleep");  // until 50, regardless of the previous cost
         clock.consumed_ns = 30;
         run.sleep(60);
         run.log("late");
