@@ -3,7 +3,7 @@
 
 Each header of the FOLDERs of the tree ROOT is copied to TO/waitpoint/PATH-IN-THE-TREE, and its includes of the tree become
 <waitpoint/...>: users need one include folder, and a `core/` of their own does not conflict. Headers that need FCL's or
-Bullet's headers are left out. TO defaults to Meson's folder for installed headers.
+Bullet's headers are left out, as are those in tools/dev. TO defaults to Meson's folder for installed headers.
 """
 
 import argparse
@@ -34,7 +34,8 @@ def main():
     arguments = parser.parse_args()
     root, known = arguments.root.resolve(), {}
     to = arguments.to or pathlib.Path(os.environ["MESON_INSTALL_DESTDIR_PREFIX"]) / "include"
-    headers = sorted(path.relative_to(root) for folder in arguments.folders for path in (root / folder).rglob("*.hpp"))
+    found = sorted(path.relative_to(root) for folder in arguments.folders for path in (root / folder).rglob("*.hpp"))
+    headers = [header for header in found if not header.is_relative_to("tools/dev")]
     for header in headers:
         if not is_public(str(header), root, known):
             continue
