@@ -261,6 +261,8 @@ int operate(int id, const sembuf* given, std::size_t count, Time deadline) {
     remove(set->first, *waiting);
     family::give(waiting);
   }
+  // A signal may have come together with the operation.
+  if (waiting != nullptr && deliverable(this_thread()) != 0) handle_signals();
   return error == 0 ? 0 : fail(error);
 }
 

@@ -228,11 +228,17 @@ ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
     posix::append(queue.first_receiving, *receiving);
   }
   const int error = wait_for_message(queue, *receiving, point);
-  const family::Section section;
-  Message* const message = receiving->message;
-  WAITPOINT_CHECK(error != 0 || message != nullptr, "a receiver ends without a message and without an error");
-  family::give(receiving);
-  return error == 0 ? hand_over(*message, wanted, to) : fail(error);
+  ssize_t taken = -1;
+  {
+    const family::Section section;
+    Message* const message = receiving->message;
+    WAITPOINT_CHECK(error != 0 || message != nullptr, "a receiver ends without a message and without an error");
+    family::give(receiving);
+    if (error == 0) taken = hand_over(*message, wanted, to);
+  }
+  // A signal may have come together with the message.
+  if (error == 0 && deliverable(this_thread()) != 0) handle_signals();
+  return error == 0 ? taken : fail(error);
 }
 
 void forget_message_waiter(const kernel::Task& task) {
