@@ -44,7 +44,7 @@ void access_hardware(Task& task, Duration latency) {
 }
 
 void compute(Task& task, Duration least, Duration greatest) {
-  WAITPOINT_CHECK(least >= Duration(), "computing takes no negative time");
+  WAITPOINT_CHECK(least >= Duration(), "a computing time is negative");
   WAITPOINT_CHECK(least <= greatest, "the ends of an interval of computing times are swapped");
   if (task.scheduler->unwinding()) return;
   if (task.clock == nullptr)

@@ -216,8 +216,8 @@ class Scheduler {
   void reclaim_ended();
   static Task& task_of(EventNode& node) { return reinterpret_cast<Task&>(node); }  // the node is its first member
 
-  // Algorithm 1, the plain path: waitpoint.cpp. A function that returns a fiber has made its task the running one: the
-  // caller must switch to it at once.
+  // Algorithm 1, the plain path: waitpoint.cpp, its inline steps in scheduler_steps.hpp, and explored.cpp. A function
+  // that returns a fiber has made its task the running one: the caller must switch to it at once.
   bool announce(Task& task, Operation operation, Object* object);
   bool await_turn(Task& task);
   bool end_waitpoint(Task& task);
@@ -244,7 +244,7 @@ class Scheduler {
   void hash_events_of(Robot& robot);
   void set_local_time(Task& task, Time time);
 
-  // Algorithm 2: waiting.cpp.
+  // Algorithm 2: waiting.cpp; put() in scheduler_steps.hpp.
   void adopt(Object& object);
   Departure block_slow(Object& object, Time deadline);
   Wake end_block_slow(Task& task, Object& object);
@@ -254,7 +254,7 @@ class Scheduler {
   void put(EventNode& node, const EventKey& key);
   bool is_deadlock(Task& task, const Object& object);
 
-  // The run: run.cpp, explored.cpp, call_stack.cpp.
+  // The run: run.cpp, explored.cpp, parked_call_stack.cpp; enter_run() in scheduler_steps.hpp.
   void enter_run(Fiber& to);
   void exit_run(RunState state);
   Fiber& end_window(RunState state);

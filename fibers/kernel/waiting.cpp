@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The paper's Algorithm 2 without optimisation; also the events of timers and messages. fast_calls.cpp has short cuts.
+// The paper's Algorithm 2, step by step; also the events of timers and messages. fast_calls.cpp has short cuts.
 //
 //   block(object, deadline)   append the task to the object's waiters; place a timeout if `deadline` is finite
 //                             switch to the task of dispatch(), or stop the run if a cycle of waits is closed

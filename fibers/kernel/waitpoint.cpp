@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The paper's Algorithm 1 without optimisation. fast_calls.cpp and fast_path.hpp are short cuts to the same events.
+// The paper's Algorithm 1, step by step, with the calls that open and close the fast path. fast_calls.cpp and
+// fast_path.hpp are short cuts to the same events.
 //
 //   waitpoint(operation, object)   end the segment: its cost is in the local time
 //                                  announce the operation and the object

@@ -108,7 +108,7 @@ std::string describe_endless(kernel::Scheduler& scheduler, Places places) {
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
     if (task->state == kernel::TaskState::ready && task->local_time == Time::max()) asleep.push_back(task);
   return "virtual time ran out" +
-         describe_each(scheduler, asleep, places, [](const Task& task) { return describe(task) + " sleeps for ever"; });
+         describe_each(scheduler, asleep, places, [](const Task& task) { return describe(task) + " sleeps without end"; });
 }
 
 }  // namespace waitpoint::sync

@@ -18,7 +18,7 @@ std::string describe_deadlock(kernel::Scheduler& scheduler, Places places);
 /// After a run stopped for lack of progress: the tasks that spin at this instant.
 std::string describe_spinning(kernel::Scheduler& scheduler, Places places);
 
-/// After a run that reached the end of virtual time: the tasks that sleep for ever.
+/// After a run that reached the end of virtual time: the tasks that sleep without end.
 std::string describe_endless(kernel::Scheduler& scheduler, Places places);
 
 }  // namespace waitpoint::sync

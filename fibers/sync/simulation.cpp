@@ -6,6 +6,7 @@
 #include <ostream>
 #include <system_error>
 
+#include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/blocking.hpp"
@@ -39,8 +40,11 @@ std::string what(const std::exception_ptr& failure) {
 }  // namespace
 
 bool are_fast_paths_enabled() {
-  const char* const value = std::getenv("WAITPOINT_FAST_PATHS");
-  return value == nullptr || std::string_view(value) != "0";
+  const char* const variable = std::getenv("WAITPOINT_FAST_PATHS");
+  const std::string_view value = variable != nullptr ? variable : "";
+  if (value == "0") return false;
+  if (value.empty() || value == "1") return true;
+  throw BadInput("WAITPOINT_FAST_PATHS", "expected 0 or 1, found '" + std::string(value) + "'");
 }
 
 Simulation::Simulation(SimulationOptions options)

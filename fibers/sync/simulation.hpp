@@ -41,7 +41,7 @@ struct SimulationOptions {
   bool fast_paths = true;
 };
 
-/// False if WAITPOINT_FAST_PATHS=0 is in the environment.
+/// False if WAITPOINT_FAST_PATHS=0 is in the environment, true if it is 1 or not there; else BadInput.
 bool are_fast_paths_enabled();
 
 /// The reason why run_before() returned.
@@ -79,7 +79,7 @@ class Simulation final : public sync::RunContext {
   /// is rethrown here, and at every later call.
   RunEnd run_before(Time until = Time::max());
 
-  /// The report of run_before()'s failure: a deadlock, a lack of progress, tasks that sleep for ever, or an exception
+  /// The report of run_before()'s failure: a deadlock, a lack of progress, tasks that sleep without end, or an exception
   /// with its task and time. Empty if there was none.
   const std::string& trouble() const { return trouble_; }
   /// Controls the source locations in trouble(), on by default: off for callers with many failures.

@@ -136,6 +136,27 @@ class Functions(InATemporaryFolder):
         self.assertEqual(self.body_of(71, "struct A : B<int (*)()> {")[0], 0)
 
 
+class Assertions(InATemporaryFolder):
+    def check_with(self, *lines):
+        table = self.folder / "table"
+        table.write_text("".join(f"{line}\n" for line in lines))
+        return self.check("assertions", str(self.folder), str(table))
+
+    def test_are_counted_for_each_1000_lines(self):
+        self.write("core/a.cpp", "WAITPOINT_CHECK(a, b);\n// static_assert(c);\n" + "\n" * 98)
+        self.assertEqual(self.check_with("core 10  # one in a hundred"), (0, "core: 1 assertions in 100 lines, 10.0 per 1 000\n"))
+        status, output = self.check_with("core 11")
+        self.assertEqual(status, 1)
+        self.assertIn("core: 10.0 assertions per 1 000 lines; at least 11\n", output)
+
+    def test_a_folder_without_sources_is_a_violation(self):
+        self.assertEqual(self.check_with("nowhere 0"), (1, "nowhere: a folder without sources\n"))
+
+    def test_a_bad_line_is_named(self):
+        for line in ("core ten", "core"):
+            self.assertEqual(self.check_with("# folders", line), (1, f"table:2: expected FOLDER NUMBER, found '{line}'\n"))
+
+
 class Files(InATemporaryFolder):
     def test_a_clean_tree_passes(self):
         self.write("core/time.hpp", LICENCE)

@@ -33,6 +33,17 @@ def execute(seed, *command, stdin=None):
     return done.returncode, hashlib.sha256(done.stdout).hexdigest(), done.stderr.decode(errors="replace")
 
 
+COUNTER = """
+#include <sys/prctl.h>
+#include <x86intrin.h>
+int main(void) {
+  prctl(PR_SET_TSC, PR_TSC_SIGSEGV);
+  __rdtsc();
+  return 0;
+}
+"""
+
+
 class ExecCase(unittest.TestCase):
     """`folder` is shared by all tests, and removed after them."""
 
@@ -44,6 +55,13 @@ class ExecCase(unittest.TestCase):
             folder = tempfile.TemporaryDirectory()
             unittest.addModuleCleanup(folder.cleanup)
             ExecCase.folder = pathlib.Path(folder.name)
+
+    def require_trapped_counter(self):
+        """Skips the test on machines whose system does not trap the processor's counter, as some virtual ones."""
+        program = self.folder / "counter"
+        subprocess.run(["gcc", "-x", "c", "-", "-o", program], input=COUNTER, text=True, check=True)
+        if subprocess.run([program]).returncode == 0:
+            self.skipTest("PR_SET_TSC has no effect on this machine")
 
     def compile(self, source, *options):
         """The program compiled from a source beside this file, without waitpoint."""

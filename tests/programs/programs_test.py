@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import unittest
 
-from installed import HERE, Installed, flags, main, run
+from installed import BUILD, HERE, Installed, flags, main, run
 
 
 class Headers(Installed):
@@ -51,6 +51,9 @@ class Libraries(Installed):
             self.assertNotIn(".debug_line", run("readelf", "--section-headers", "--wide", library))
             beside = library.parent / ".debug" / f"{library.name}.debug"
             self.assertIn(".debug_line", run("readelf", "--section-headers", "--wide", beside))
+        sizes = {path: path.stat().st_size for path in self.libraries.rglob("*.debug")}
+        run("meson", "install", "-C", BUILD, "--no-rebuild", "--only-changed", "--destdir", self.folder / "root")
+        self.assertEqual({path: path.stat().st_size for path in self.libraries.rglob("*.debug")}, sizes, "split twice")
         threads = (self.libraries / "libwaitpoint.so").resolve()
         symbols = run("nm", "--dynamic", "--demangle", threads).splitlines()
         simulate = next(line.split()[0] for line in symbols if " T waitpoint::simulate(" in line)

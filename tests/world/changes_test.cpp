@@ -20,7 +20,7 @@ WorldDescription two_and_a_wall() {
   return description;
 }
 
-constexpr double cast_m = 1e-11;  // a box is sealed by 1e-12 m (ray.cpp), and a range rounds
+constexpr double cast_m = 1e-11;  // a box is sealed by 1e-12 m (slice/tree.cpp), and a range rounds
 
 double ahead_m(const World& world, Point from = {0, 0}) { return world.cast({from, 0, 0.4}, 30, robot); }
 

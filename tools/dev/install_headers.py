@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Installs headers for users' code: install_headers.py [--stamp FILE --depfile FILE --to FOLDER] ROOT FOLDER...
+"""Installs headers for users' code: install_headers.py [--stamp FILE --depfile FILE] --to FOLDER ROOT FOLDER...
 
 Each header of the FOLDERs of the tree ROOT is copied to TO/waitpoint/PATH-IN-THE-TREE, and its includes of the tree become
 <waitpoint/...>: users need one include folder, and a `core/` of their own does not conflict. Headers that need FCL's or
-Bullet's headers are left out, as are those in tools/dev. TO defaults to Meson's folder for installed headers.
+Bullet's headers are left out, as are those in tools/dev. A relative TO is one of Meson's installation.
 """
 
 import argparse
@@ -26,14 +26,14 @@ def is_public(header, root, known):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--to", type=pathlib.Path)
+    parser.add_argument("--to", type=pathlib.Path, required=True)
     parser.add_argument("--stamp", type=pathlib.Path)
     parser.add_argument("--depfile", type=pathlib.Path)
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("folders", nargs="+")
     arguments = parser.parse_args()
     root, known = arguments.root.resolve(), {}
-    to = arguments.to or pathlib.Path(os.environ["MESON_INSTALL_DESTDIR_PREFIX"]) / "include"
+    to = pathlib.Path(os.environ.get("MESON_INSTALL_DESTDIR_PREFIX", "")) / arguments.to
     found = sorted(path.relative_to(root) for folder in arguments.folders for path in (root / folder).rglob("*.hpp"))
     headers = [header for header in found if not header.is_relative_to("tools/dev")]
     for header in headers:

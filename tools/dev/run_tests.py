@@ -26,6 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = "BUILD"
 OWN_CASE_TIMEOUT_S = 900
 OWN_CASES = {
+    "check assertions": [str(ROOT / "tools/dev/check.sh"), "assertions"],
     "check cycles": [str(ROOT / "tools/dev/check.sh"), "cycles"],
     "check dependencies": [str(ROOT / "tools/dev/check.sh"), "dependencies"],
     "check files": [str(ROOT / "tools/dev/check.sh"), "files"],

@@ -2,7 +2,8 @@
 """Moves the debugging information of what was installed into files of its own: split_debug.py OBJCOPY LIBDIR BINDIR.
 
 For each shared library and program X of waitpoint's below LIBDIR and BINDIR: `.debug/X.debug` beside it, in which gdb and
-addr2line look, and X without it. Nothing is left to do after `meson install --strip`. Run by Meson at the end of an installation.
+addr2line look, and X without it. A file that was split or stripped before stays as it is. Run by Meson at the end of an
+installation.
 """
 
 import os
@@ -14,7 +15,7 @@ import sys
 def installed(folders):
     """The shared libraries and programs of waitpoint's, links left out."""
     for folder in folders:
-        for pattern in ("*waitpoint*", "waitpoint/*.so*"):
+        for pattern in ("*waitpoint*", "waitpoint/*"):
             for path in sorted(folder.glob(pattern)):
                 if path.is_file() and not path.is_symlink() and path.suffix != ".a":
                     with open(path, "rb") as file:
@@ -23,16 +24,17 @@ def installed(folders):
 
 
 def split(objcopy, path):
-    sections = subprocess.run([objcopy, "--dump-section", ".debug_line=/dev/null", path, "/dev/null"], capture_output=True)
-    if sections.returncode != 0:
-        return  # it has no debugging information
+    sections = subprocess.run(["readelf", "--section-headers", "--wide", path], check=True, capture_output=True, text=True).stdout
+    if ".debug_line" not in sections:
+        return
     debug = path.parent / ".debug" / (path.name + ".debug")
     debug.parent.mkdir(exist_ok=True)
-    subprocess.run([objcopy, "--only-keep-debug", "--compress-debug-sections", path, debug], check=True)
-    # Into a file beside it and then in its place: the installed one is never half written.
-    stripped = path.with_name(path.name + ".stripped")
+    # Each is written beside its place first: an interrupted installation leaves no half file.
+    written, stripped = debug.with_name(debug.name + ".new"), path.with_name(path.name + ".stripped")
+    subprocess.run([objcopy, "--only-keep-debug", "--compress-debug-sections", path, written], check=True)
+    os.chmod(written, 0o644)
+    os.replace(written, debug)
     subprocess.run([objcopy, "--strip-unneeded", f"--add-gnu-debuglink={debug}", path, stripped], check=True)
-    os.chmod(debug, 0o644)
     os.replace(stripped, path)
 
 

@@ -126,7 +126,7 @@ void Senses::stand(std::span<const Shape> standing) {
 }
 
 void Senses::move(std::span<const Shape> movers) {
-  WAITPOINT_CHECK(movers.size() >= description_.bodies.size(), "the movers lack a body");
+  WAITPOINT_CHECK(movers.empty() || movers.size() >= description_.bodies.size(), "the movers lack a body");
   expected_.forget();
   movers_ = Scene(movers, roam_m);
   caster_.move(movers);

@@ -230,7 +230,7 @@ TEST(Deadlock, ManyTasksAreCountedAndTheFirstShown) {
     never.acquire();
   });
   EXPECT_EQ(report.end, RunEnd::deadlock);
-  EXPECT_TRUE(contains(report.text, "5001 tasks wait")) << report;
+  EXPECT_TRUE(contains(report.text, "5001 tasks are blocked")) << report;
   EXPECT_EQ(times(report.text, "waits (acquire)"), 16);
   EXPECT_TRUE(contains(report.text, "and 4985 more tasks"));
 }

@@ -104,7 +104,7 @@ TEST(Endless, WhoSleepsForEverIsNamed) {
   });
   EXPECT_EQ(report.end, RunEnd::time_reached);
   EXPECT_TRUE(contains(report.text, "virtual time ran out")) << report;
-  EXPECT_TRUE(contains(report.text, "task beauty of environment sleeps for ever")) << report;
+  EXPECT_TRUE(contains(report.text, "task beauty of environment sleeps without end")) << report;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ import sys
 
 sys.dont_write_bytecode = True
 from compiled import ROOT, commands  # noqa: E402
+from cycles import include_graph  # noqa: E402
 
 RULES = """builddir = analysis
 rule analyse
@@ -59,11 +60,31 @@ def changed_units(revision):
     return {os.path.splitext(row[-1])[0] for row in rows if row[0] not in ("D", "R100")}
 
 
+def readers(changed, sources):
+    """For each header of `changed` without a source of its name, one source that includes it, directly or not."""
+    graph = include_graph(ROOT)
+    found = set()
+    for header in sorted(changed - sources):
+        reached, reader = {header}, None
+        while reader is None:
+            including = {unit for unit, edges in graph.items() if unit not in reached and reached & edges.keys()}
+            if not including:
+                break
+            reader = min(including & sources, default=None)
+            reached |= including
+        if reader is not None:
+            found.add(reader)
+    return found
+
+
 def main():
     build = pathlib.Path(sys.argv[1])
     first = {}
     wanted = changed_units(sys.argv[2]) if len(sys.argv) > 2 else None
-    for source, entry in commands(build):
+    database = list(commands(build))
+    if wanted is not None:
+        wanted |= readers(wanted, {str(source.with_suffix("")) for source, _ in database})
+    for source, entry in database:
         if wanted is not None and str(source.with_suffix("")) not in wanted:
             continue
         first.setdefault(source, {**entry, "command": PRECOMPILED.sub("", entry["command"])})
