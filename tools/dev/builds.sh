@@ -59,7 +59,7 @@ build_one() {
       python3 "$root/tools/dev/wraps.py" "$root/build-wraps" || return
       local root=$root/build-wraps/tree
     fi
-    options+=(-Ddefault_library=static -Db_pch=false -Doptimization="$level" -Dwerror=false -Dtests=disabled -Dbenchmarks=disabled -Drosbag=disabled)
+    options+=(-Ddefault_library=static -Doptimization="$level" -Dwerror=false -Dtests=disabled -Dbenchmarks=disabled -Drosbag=disabled)
     CXX=$compiler configure "${options[@]}" &&
       compile tools/waitpoint
   } >"$log" 2>&1; then

@@ -2,7 +2,7 @@
 // The headers of the standard library that most sources include, parsed once for each target (Meson's cpp_pch).
 //
 // A precompiled header saves time and nothing else: every file includes what it uses, and builds with -Db_pch=false, as
-// those with sanitizers and other compilers are, prove it. Without a guard: GCC wants none in what it precompiles.
+// those with sanitizers and those of --wraps are, prove it. Without a guard: GCC wants none in what it precompiles.
 #include <algorithm>
 #include <array>
 #include <chrono>
