@@ -21,8 +21,7 @@ class Call {
 template <class Function>
 class CallOf final : public Call {
  public:
-  template <class Given>
-  explicit CallOf(Given&& given) : function_(std::forward<Given>(given)) {}
+  explicit CallOf(Function function) : function_(std::move(function)) {}
 
   void run() override {
     if constexpr (sizeof function_ <= small) {

@@ -38,7 +38,7 @@ struct TreeNode {
 
   static TreeNode empty();
 };
-static_assert(sizeof(EightBounds) == 4 * EightBounds::width * sizeof(float),
+static_assert(sizeof(EightBounds) == sizeof(float) * 4 * EightBounds::width,
               "rectangles have no padding between lanes");
 static_assert(sizeof(TreeNode) == sizeof(EightBounds) + EightBounds::width * sizeof(std::int32_t),
               "a node is 160 bytes: two and a half cache lines, without padding");
