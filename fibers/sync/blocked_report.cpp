@@ -107,8 +107,9 @@ std::string describe_endless(kernel::Scheduler& scheduler, Places places) {
   std::vector<Task*> asleep;
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
     if (task->state == kernel::TaskState::ready && task->local_time == Time::max()) asleep.push_back(task);
-  return "virtual time ran out" +
-         describe_each(scheduler, asleep, places, [](const Task& task) { return describe(task) + " sleeps without end"; });
+  return "virtual time ran out" + describe_each(scheduler, asleep, places, [](const Task& task) {
+           return describe(task) + " sleeps without end";
+         });
 }
 
 }  // namespace waitpoint::sync

@@ -79,8 +79,8 @@ class Simulation final : public sync::RunContext {
   /// is rethrown here, and at every later call.
   RunEnd run_before(Time until = Time::max());
 
-  /// The report of run_before()'s failure: a deadlock, a lack of progress, tasks that sleep without end, or an exception
-  /// with its task and time. Empty if there was none.
+  /// The report of run_before()'s failure: a deadlock, a lack of progress, tasks that sleep without end, or an
+  /// exception with its task and time. Empty if there was none.
   const std::string& trouble() const { return trouble_; }
   /// Controls the source locations in trouble(), on by default: off for callers with many failures.
   void tell(sync::Places places) { places_ = places; }

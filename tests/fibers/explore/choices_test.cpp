@@ -28,8 +28,7 @@ TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
     });
     worker.join();
   });
-  EXPECT_TRUE(
-      contains(slow.text, "the cost of a computation, at 0.000000000 s: worker#1, about to start, computes "))
+  EXPECT_TRUE(contains(slow.text, "the cost of a computation, at 0.000000000 s: worker#1, about to start, computes "))
       << slow;
   EXPECT_TRUE(contains(slow.text, "; it passes if it computes 0.003000000 s")) << slow;
   const ExploreReport woken = explore([] {
