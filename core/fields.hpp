@@ -6,15 +6,19 @@
 //   struct Battery {
 //     Time date;
 //     double volts = 0;
-//     static constexpr auto fields() { return std::tuple(field("date", &Battery::date), field("volts",
-//     &Battery::volts)); }
+//     static void fields(auto field) {
+//       field("date", &Battery::date);
+//       field("volts", &Battery::volts);
+//     }
 //   };
 //
 // Fields are integers, enums, bool, double, Time, Duration, Point, Pose, std::array and Bounded of such, and other
 // types with declared fields. Pointers are not allowed.
 //
-// A field added after runs with the type were published is declared by added_field(), after the others: the digest
-// hashes it, with its name, only if it is set, so that runs without it keep their digests.
+// A field added after runs with the type were published is declared after the others, as `added`: the digest hashes it,
+// with its name, only if it is set, so that runs without it keep their digests.
+//
+//     field("temperature_c", &Battery::temperature_c, added);
 #pragma once
 
 #include <algorithm>
@@ -23,7 +27,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 
 #include "core/digest.hpp"
@@ -33,31 +36,17 @@
 
 namespace waitpoint {
 
-template <class Owner, class Member>
-struct Field {
-  std::string_view name;
-  Member Owner::*member;
-};
+/// Marks a field that was added later: see above.
+struct Added {};
+inline constexpr Added added;
 
-template <class Owner, class Member>
-struct AddedField {
-  std::string_view name;
-  Member Owner::*member;
+/// A visitor that accepts every field.
+struct FieldProbe {
+  void operator()(std::string_view, auto, auto...) const {}
 };
-
-template <class Owner, class Member>
-constexpr Field<Owner, Member> field(std::string_view name, Member Owner::*member) {
-  return {name, member};
-}
-template <class Owner, class Member>
-constexpr AddedField<Owner, Member> added_field(std::string_view name, Member Owner::*member) {
-  return {name, member};
-}
 
 template <class T>
-concept HasFields = requires {
-  T::fields();
-};
+concept HasFields = requires { T::fields(FieldProbe()); };
 
 /// An array of at most `Capacity` elements in place, for values without pointers. Only the first size() elements are
 /// constructed and copied: the cost is that of the content, not of the capacity.
@@ -104,8 +93,8 @@ class Bounded {
 
 /// Calls `visit(name, member)` for every declared field, in order.
 template <HasFields T, class Visit>
-constexpr void for_each_field(T& value, Visit&& visit) {
-  std::apply([&](auto... f) { (visit(f.name, value.*(f.member)), ...); }, std::remove_const_t<T>::fields());
+void for_each_field(T& value, Visit&& visit) {
+  std::remove_const_t<T>::fields([&](std::string_view name, auto member, auto...) { visit(name, value.*member); });
 }
 
 template <class T>
@@ -131,22 +120,25 @@ bool is_set(const Bounded<T, N>& items) {
   return !items.empty();
 }
 
-template <class Owner, class Member>
-void add_field(Digest& digest, const Field<Owner, Member>& field, const Owner& value) {
-  add_value(digest, value.*(field.member));
-}
-template <class Owner, class Member>
-void add_field(Digest& digest, const AddedField<Owner, Member>& field, const Owner& value) {
-  if (!is_set(value.*(field.member))) return;
-  digest.add(field.name);
-  add_value(digest, value.*(field.member));
-}
+/// The visitor that hashes the fields of `value`.
+template <class T>
+struct FieldHash {
+  Digest& digest;
+  const T& value;
+
+  void operator()(std::string_view, auto member) const { add_value(digest, value.*member); }
+  void operator()(std::string_view name, auto member, Added) const {
+    if (!is_set(value.*member)) return;
+    digest.add(name);
+    add_value(digest, value.*member);
+  }
+};
 
 /// Adds a value by its declared fields, recursively.
 template <class T>
 void add_value(Digest& digest, const T& value) {
   if constexpr (HasFields<T>) {
-    std::apply([&](auto... f) { (add_field(digest, f, value), ...); }, T::fields());
+    T::fields(FieldHash<T>{digest, value});
   } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {
     digest.add(static_cast<std::uint64_t>(value));
   } else if constexpr (std::is_floating_point_v<T>) {

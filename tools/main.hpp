@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "modules/genom/module_type.hpp"
+#include "modules/genom/module.hpp"
 
 namespace waitpoint {
 

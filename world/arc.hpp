@@ -20,9 +20,11 @@ struct Velocity {
   double v_m_s = 0, w_rad_s = 0, side_m_s = 0, climb_m_s = 0;
 
   friend constexpr bool operator==(const Velocity&, const Velocity&) = default;
-  static constexpr auto fields() {
-    return std::tuple(field("v_m_s", &Velocity::v_m_s), field("w_rad_s", &Velocity::w_rad_s),
-                      added_field("side_m_s", &Velocity::side_m_s), added_field("climb_m_s", &Velocity::climb_m_s));
+  static void fields(auto field) {
+    field("v_m_s", &Velocity::v_m_s);
+    field("w_rad_s", &Velocity::w_rad_s);
+    field("side_m_s", &Velocity::side_m_s, added);
+    field("climb_m_s", &Velocity::climb_m_s, added);
   }
 };
 
@@ -56,10 +58,12 @@ struct Arc {
   double planar_length_m() const { return side_m == 0 ? std::fabs(distance_m) : exact::hypot(distance_m, side_m); }
   double length_m() const { return climb_m == 0 ? planar_length_m() : exact::hypot(planar_length_m(), climb_m); }
 
-  static constexpr auto fields() {
-    return std::tuple(field("start", &Arc::start), field("distance_m", &Arc::distance_m),
-                      field("turn_rad", &Arc::turn_rad), added_field("side_m", &Arc::side_m),
-                      added_field("climb_m", &Arc::climb_m));
+  static void fields(auto field) {
+    field("start", &Arc::start);
+    field("distance_m", &Arc::distance_m);
+    field("turn_rad", &Arc::turn_rad);
+    field("side_m", &Arc::side_m, added);
+    field("climb_m", &Arc::climb_m, added);
   }
 };
 

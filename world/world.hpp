@@ -46,11 +46,14 @@ struct BodyState {
   double travelled_m = 0;        ///< sum of the lengths of the arcs
   double height_m = 0;           ///< above the floor; 0 unless aerial
 
-  static constexpr auto fields() {
-    return std::tuple(field("pose", &BodyState::pose), field("arc", &BodyState::arc),
-                      field("velocity", &BodyState::velocity), field("stalled", &BodyState::stalled),
-                      field("collisions", &BodyState::collisions), field("travelled_m", &BodyState::travelled_m),
-                      added_field("height_m", &BodyState::height_m));
+  static void fields(auto field) {
+    field("pose", &BodyState::pose);
+    field("arc", &BodyState::arc);
+    field("velocity", &BodyState::velocity);
+    field("stalled", &BodyState::stalled);
+    field("collisions", &BodyState::collisions);
+    field("travelled_m", &BodyState::travelled_m);
+    field("height_m", &BodyState::height_m, added);
   }
 };
 
@@ -62,11 +65,14 @@ struct LooseState {
   Point velocity_m_s;
   double climb_m_s = 0, w_rad_s = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("obstacle", &LooseState::obstacle), field("pose", &LooseState::pose),
-                      field("low_m", &LooseState::low_m), field("high_m", &LooseState::high_m),
-                      field("velocity_m_s", &LooseState::velocity_m_s), field("climb_m_s", &LooseState::climb_m_s),
-                      field("w_rad_s", &LooseState::w_rad_s));
+  static void fields(auto field) {
+    field("obstacle", &LooseState::obstacle);
+    field("pose", &LooseState::pose);
+    field("low_m", &LooseState::low_m);
+    field("high_m", &LooseState::high_m);
+    field("velocity_m_s", &LooseState::velocity_m_s);
+    field("climb_m_s", &LooseState::climb_m_s);
+    field("w_rad_s", &LooseState::w_rad_s);
   }
 };
 
@@ -77,10 +83,11 @@ struct OdometerReading {
   Velocity velocity;  ///< measured over the last step
   std::int64_t side_units = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("travel_units", &OdometerReading::travel_units),
-                      field("turn_units", &OdometerReading::turn_units), field("velocity", &OdometerReading::velocity),
-                      added_field("side_units", &OdometerReading::side_units));
+  static void fields(auto field) {
+    field("travel_units", &OdometerReading::travel_units);
+    field("turn_units", &OdometerReading::turn_units);
+    field("velocity", &OdometerReading::velocity);
+    field("side_units", &OdometerReading::side_units, added);
   }
 };
 

@@ -45,14 +45,14 @@ void end_reading(LocalClock& clock, Task& task) {
   const std::int64_t passed = read_source(self.options.kind) - self.started;
   const std::int64_t unit_ns = self.options.kind == ClockKind::counted ? self.options.block_cost.ns() : 1;
   const Duration cost = scaled(Duration::from_ns(unit_ns) * passed, self.options.scale_millionths);
-  consume(task, task.scheduler->pass(task, cost));
+  consume(task, filter_cost(task, cost));
 }
 
 void compute_as_declared(LocalClock& clock, Task& task, Duration least, Duration greatest) {
   const ClockOptions& options = static_cast<TaskClock&>(clock).options;
   const bool own = options.kind == ClockKind::interval && options.greatest > Duration();
-  const Duration cost = own ? task.scheduler->choose(task, options.least, options.greatest)
-                            : task.scheduler->choose(task, least, greatest);
+  const Duration cost = own ? choose_cost(task, options.least, options.greatest)
+                            : choose_cost(task, least, greatest);
   consume(task, scaled(cost, options.scale_millionths));
 }
 

@@ -8,6 +8,7 @@
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/kernel/call_stack.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
 
@@ -71,7 +72,7 @@ ToldEvent tell_event(Body& body, std::span<const Decision> decisions, const Even
     if (task == nullptr) return;
     told.words = about_to(*task);
     told.stack.resize(frames_searched);
-    told.stack.resize(scheduler.call_stack(*task, told.stack.data(), told.stack.size()));
+    told.stack.resize(kernel::call_stack(*task, told.stack.data(), told.stack.size()));
   });
   scheduler.set_decisions(body.explorer());
   return told;

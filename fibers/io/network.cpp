@@ -9,7 +9,7 @@ std::pair<std::string, std::string> in_order(const std::string& a, const std::st
 }
 
 kernel::Robot* robot_named(const kernel::Scheduler& scheduler, const std::string& name) {
-  for (kernel::Robot* robot = scheduler.first_robot(); robot != nullptr; robot = robot->next)
+  for (kernel::Robot* robot = scheduler.roster().first_robot(); robot != nullptr; robot = robot->next)
     if (name == robot->name) return robot;
   return nullptr;
 }

@@ -12,7 +12,7 @@ void access(Operation operation, Object* memory) {
   running->scheduler->waitpoint(operation, memory);
 }
 
-void give_turn() {
+void yield_after_computing() {
   if ((running->attention & attention::timer) == 0) running->scheduler->yield();
 }
 

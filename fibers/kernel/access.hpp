@@ -16,6 +16,6 @@ extern const char memory_kind[];
 /// without a location. Returns at once for a timer, which cannot wait, and when the run is over.
 void access(Operation operation, Object* memory);
 /// Yields, after a long computation without a waitpoint. Returns at once for a timer and when the run is over.
-void give_turn();
+void yield_after_computing();
 
 }  // namespace waitpoint::kernel

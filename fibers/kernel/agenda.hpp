@@ -38,9 +38,6 @@ struct Agenda {
   /// Removes all events.
   void clear() {
     while (!events.empty()) events.pop();
-    clear_present();
-  }
-  void clear_present() {
     ready.clear();
     present.clear();
   }

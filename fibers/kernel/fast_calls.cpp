@@ -11,10 +11,10 @@
 namespace waitpoint::kernel {
 
 // For the coming window: short cuts are taken unless the run is interrupted.
-void Scheduler::allow_fast_paths() { fast_allowed_ = fast_path_.keeps_turn() && !interrupted_; }
+void Scheduler::allow_fast_paths() { fast_allowed_ = fast_path_.passes_ties() && !interrupted_; }
 
 void Scheduler::use_fast_paths(bool used) {
-  WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "the fast paths are chosen while tasks run");
+  WAITPOINT_CHECK(running == nullptr && first_task() == nullptr, "the fast paths are chosen while tasks run");
   fast_path_.enable(used);
   fast_path_.allow(agenda_.chooser.order());
 }
@@ -23,7 +23,7 @@ void Scheduler::use_fast_paths(bool used) {
 
 // The fast path holds for the task, but each event is shown to a watch: executes it without a search of the list.
 bool Scheduler::waitpoint_at_present(Task& task, Operation operation, Object* object) {
-  ++task.turns;
+  ++task.waitpoints;
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
@@ -54,7 +54,7 @@ Departure Scheduler::start_sleep(Time time) {
   task.local_time = time;
   task.operation = Operation::sleep;
   task.at = nullptr;
-  task.turns = 1;
+  task.waitpoints = 1;
   if (!agenda_.precedes(task, agenda_.events.least().key)) return depart_sleeping(task);
   agenda_.advance(time);
   fast_path_.open(task, time, epoch_);

@@ -20,21 +20,21 @@ class FastPath {
   /// ThreadSanitizer may instrument, and the tasks' writes to the scheduler would be reported as races.
   void allow(Order order) {
     const bool allowed = enabled_ && !sanitizer::present;
-    keeps_turn_ = allowed && order == Order::fifo;
-    keeps_turn_alone_ = allowed && order == Order::seeded;
+    passes_ties_ = allowed && order == Order::fifo;
+    passes_alone_ = allowed && order == Order::seeded;
   }
   /// Makes later calls of allow() effective, or not.
   void enable(bool enabled) { enabled_ = enabled; }
   bool is_enabled() const { return enabled_; }
   /// Forbids the fast path until the next allow().
-  void forbid() { keeps_turn_ = keeps_turn_alone_ = false; }
+  void forbid() { passes_ties_ = passes_alone_ = false; }
 
   /// True if a task at a waitpoint continues although others tie with it.
-  bool keeps_turn() const { return keeps_turn_; }
+  bool passes_ties() const { return passes_ties_; }
   /// True if it continues; `alone`: no other event is due at its instant.
-  bool keeps_turn(bool alone) const { return keeps_turn_ || (keeps_turn_alone_ && alone); }
+  bool passes_ties(bool alone) const { return passes_ties_ || (passes_alone_ && alone); }
 
-  bool holds_for(const Task& task) const { return task.local_time == turn.at && task.turns < turns_max; }
+  bool holds_for(const Task& task) const { return task.local_time == turn.at && task.waitpoints < waitpoints_max; }
 
   /// Opens the path to the running task for the instant `now`. `fast_epoch`: the epoch of the run, or no_epoch if
   /// events are watched.
@@ -47,13 +47,13 @@ class FastPath {
 
   /// An event of this phase was inserted at the present instant.
   void note_present_event(Phase phase) {
-    if (running != nullptr && (!keeps_turn_ || phase < running->phase)) close();
+    if (running != nullptr && (!passes_ties_ || phase < running->phase)) close();
   }
 
  private:
   bool enabled_ = true;
-  bool keeps_turn_ = false;
-  bool keeps_turn_alone_ = false;
+  bool passes_ties_ = false;
+  bool passes_alone_ = false;
 };
 
 /// The running task's waitpoint, if the path is open for `object` and events are not watched; otherwise false, with
@@ -61,8 +61,8 @@ class FastPath {
 [[gnu::always_inline]] inline bool try_fast_waitpoint(Operation operation, Object& object) {
   if (__builtin_expect(object.epoch != turn.fast_epoch, 0)) return false;
   Task& task = *running;
-  if (__builtin_expect(task.turns >= turns_max, 0)) return false;
-  ++task.turns;
+  if (__builtin_expect(task.waitpoints >= waitpoints_max, 0)) return false;
+  ++task.waitpoints;
   task.operation = operation;
   task.at = &object;
   count_event(task, operation, &object, turn.at);

@@ -48,18 +48,18 @@ void compute(Task& task, Duration least, Duration greatest) {
   WAITPOINT_CHECK(least <= greatest, "the ends of an interval of computing times are swapped");
   if (task.scheduler->unwinding()) return;
   if (task.clock == nullptr)
-    consume(task, task.scheduler->choose(task, least, greatest));
+    consume(task, choose_cost(task, least, greatest));
   else if (task.clock->compute != nullptr)
     task.clock->compute(*task.clock, task, least, greatest);
 }
 
-Duration Scheduler::choose(Task& task, Duration least, Duration greatest) {
+Duration choose_cost(Task& task, Duration least, Duration greatest) {
   if (least == greatest) return least;
-  return pass(task, agenda_.chooser.computing(task, least, greatest));
+  return filter_cost(task, task.scheduler->chooser().computing(task, least, greatest));
 }
 
-Duration Scheduler::pass(const Task& task, Duration cost) {
-  Durations* const durations = hooks_.durations;
+Duration filter_cost(const Task& task, Duration cost) {
+  Durations* const durations = task.scheduler->hooks().durations;
   return durations != nullptr ? durations->pass(*durations, task, cost) : cost;
 }
 

@@ -38,6 +38,11 @@ inline Time local_time(Task& task) {
   return __builtin_expect(task.attention != 0, 0) ? local_time_by_clock(task) : task.local_time;
 }
 
+/// The cost of the task's computation, within [`least`, `greatest`]: chosen, or replaced by the recorded one.
+Duration choose_cost(Task& task, Duration least, Duration greatest);
+/// `cost`, which does not follow from the run itself: recorded, or replaced by the recorded one (hooks.hpp, Durations).
+Duration filter_cost(const Task& task, Duration cost);
+
 /// Adds `cost` to the local time of the running task.
 void consume(Task& task, Duration cost);
 

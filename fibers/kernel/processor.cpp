@@ -168,6 +168,16 @@ void reconsider_priority(Task* task) {
   }
 }
 
+void lend_priority(Task& task, const Object& object) {
+  if (task.seat == nullptr) return;
+  leave_processor(task);
+  reconsider_priority(object.owner);
+}
+
+void take_back_priority(const Task& task, const Object& object) {
+  if (task.seat != nullptr) reconsider_priority(object.owner);
+}
+
 Task* wake_most_urgent(Scheduler& scheduler, Object& object) {
   if (scheduler.unwinding()) return nullptr;
   Task* best = nullptr;

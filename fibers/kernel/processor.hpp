@@ -85,6 +85,10 @@ void hold(Task& task, PriorityLock& lock);
 void let_go(Task& task, PriorityLock& lock);
 /// Recomputes the priority of `task` and along its chain of owners, after a change of waiters; null: no effect.
 void reconsider_priority(Task* task);
+/// The running task has become a waiter of `object`: it releases its processor and lends its priority to the owner.
+void lend_priority(Task& task, const Object& object);
+/// The wait of `task` for `object` has timed out: its owner may lose the priority that was lent.
+void take_back_priority(const Task& task, const Object& object);
 /// Wakes the most urgent waiter of `object`, the first of equals; null if there is none.
 Task* wake_most_urgent(Scheduler& scheduler, Object& object);
 

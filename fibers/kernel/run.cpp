@@ -23,7 +23,7 @@ std::uint64_t runs = 0;
 
 Scheduler::Scheduler(Order order, std::uint64_t seed) : agenda_(order, seed), epoch_(++runs) {
   fast_path_.allow(agenda_.chooser.order());
-  if (running == nullptr) turn.lane = nullptr;  // of a previous run, whose robots may have had the same addresses
+  if (running == nullptr) turn.digest = nullptr;  // of a previous run, whose robots may have had the same addresses
   set_watch(nullptr);
   if (sanitizer::present) sanitizer::begin_run();
 }
@@ -36,19 +36,16 @@ Scheduler::~Scheduler() {
 }
 
 void Scheduler::restart(std::uint64_t seed) {
-  WAITPOINT_CHECK(running == nullptr && first_task_ == nullptr, "a scheduler is restarted before its run is unwound");
+  WAITPOINT_CHECK(running == nullptr && first_task() == nullptr, "a scheduler is restarted before its run is unwound");
   agenda_.restart(seed);
   epoch_ = ++runs;
   lookahead_ = Duration::max();
-  first_robot_ = last_robot_ = nullptr;
+  roster_.restart();
   culprit_ = nullptr;
-  first_abandoned_ = nullptr;
-  outputs_ = switches_ = turns_given_ = 0;
-  live_tasks_ = made_ = 0;
+  outputs_ = switches_ = yields_ = 0;
   state_ = RunState::idle;
   cause_ = StopCause::none;
-  turn.lane = lane_ = nullptr;
-  ended_robots_digest_ = PairDigest();
+  turn.digest = digest_in_use_ = nullptr;
   fast_path_.allow(agenda_.chooser.order());
   unwinding_ = interrupted_ = false;
   if (sanitizer::present) {
@@ -79,12 +76,6 @@ RunState Scheduler::run_before(Time until) {
   }
   enter_run(dispatch());
   return state_;
-}
-
-std::uint64_t Scheduler::events() const {
-  std::uint64_t hashed = ended_robots_digest_.pairs();
-  for (const Robot* robot = first_robot_; robot != nullptr; robot = robot->next) hashed += robot->digest.pairs();
-  return hashed - outputs_;
 }
 
 Time Scheduler::next_event_time() const {

@@ -21,10 +21,11 @@
 #include "fibers/kernel/agenda.hpp"
 #include "fibers/kernel/fast_path.hpp"
 #include "fibers/kernel/hooks.hpp"
-#include "fibers/kernel/limits.hpp"
+#include "fibers/kernel/roster.hpp"
 #include "fibers/kernel/run_state.hpp"
 #include "fibers/kernel/spawn_options.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/kernel/visit.hpp"
 #include "fibers/kernel/wait_graph.hpp"
 #include "fibers/kernel/watch.hpp"
 #include "fibers/switch/departure.hpp"
@@ -53,10 +54,10 @@ class Scheduler {
   void restart(std::uint64_t seed);
 
   /// Adds a robot; the record must outlive the run.
-  void add(Robot& robot, const char* name);
+  void add(Robot& robot, const char* name) { roster_.add(robot, name, *this); }
 
   /// Makes a task of `robot` that starts at the caller's local time (outside of tasks: at the global time). Null if
-  /// there are most_tasks() already or no stack is free.
+  /// the roster is full or no stack is free.
   Task* spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument);
 
   /// Executes all events before `until`.
@@ -73,9 +74,6 @@ class Scheduler {
   /// Ends the run: unwinds every remaining task, whose blocking calls return Wake::unwinding. The youngest task goes
   /// first, since a task may refer to the frames of its maker.
   void unwind();
-  /// In a process forked from within a task: ends all other tasks in place, including their waits and ownerships. Their
-  /// stacks are kept as they are.
-  void keep_running_task_only();
   /// Ends `task`, which must not be the running one, without unwinding it; its objects become unowned. Its stack is
   /// kept for free_stack().
   void end_in_place(Task& task);
@@ -85,46 +83,27 @@ class Scheduler {
   [[noreturn]] void end_running_task();
   /// Abandons the running task, which cannot or does not leave its frames while it is unwound: their resources leak.
   [[noreturn]] void abandon();
-  /// The abandoned tasks, linked by `next`.
-  const Task* first_abandoned() const { return first_abandoned_; }
 
   // --- the parts of primitives; only within a task ---
 
   /// The running task's event is at its local time; returns when it is the least. False if the run is over.
-  bool waitpoint(Operation operation, Object* object) {
-    if (object != nullptr && try_fast_waitpoint(operation, *object)) return true;
-    return waitpoint_slow(operation, object);
-  }
+  bool waitpoint(Operation operation, Object* object);
   /// The plain path, for callers that have tried the fast path.
   bool waitpoint_slow(Operation operation, Object* object);
-  /// Reads the running task's clock. Not an event; but a read counts as a waitpoint towards turns_max, so that a task
-  /// that polls its clock yields to its ties. False if the run is over.
-  bool read_clock(Time& local) {
-    Task& task = *running;
-    if (__builtin_expect(!fast_path_.holds_for(task), 0)) return read_clock_slow(task, local);
-    ++task.turns;
-    local = task.local_time;
-    return true;
-  }
+  /// Reads the running task's clock. Not an event; but a read counts towards waitpoints_max, so that a task that polls
+  /// its clock yields to its ties. False if the run is over.
+  bool read_clock(Time& local);
   /// To be called when the running task's local time leaves the present instant.
   void close_fast_path() { fast_path_.close(); }
   /// A waitpoint behind all tasks of this instant; in the seeded order, at a hashed place among them.
   bool yield();
   /// A waitpoint at `time`, or at the local time if that is later. False if the run is over.
-  [[gnu::always_inline]] bool sleep_until(Time time) {
-    const Departure away = start_sleep(time);
-    return away.leads_away() ? end_sleep(depart(away)) : wake_of(away) != Wake::unwinding;
-  }
+  bool sleep_until(Time time);
   /// Blocks the running task on `object` until it is woken or until `deadline`; Time::max(): no timeout.
-  [[gnu::always_inline]] Wake block(Object& object, Time deadline) {
-    // Two instances, since the deadline is mostly a constant: the compiler chooses one, and no test is left.
-    const bool is_finite = deadline != Time::max();
-    const Departure away = is_finite ? start_block<true>(object, deadline) : start_block<false>(object, deadline);
-    return away.leads_away() ? end_block(depart(away), object, is_finite) : wake_of(away);
-  }
+  Wake block(Object& object, Time deadline);
   /// Wakes one waiter of `object`, selected by the chooser; null if there is none. The waiter's local time becomes the
   /// global time.
-  Task* wake_one(Object& object) { return object.first_waiter == nullptr ? nullptr : wake_waiter(object); }
+  Task* wake_one(Object& object);
   void wake_all(Object& object);
   /// Wakes `task`, which must be blocked: for primitives that select the waiter themselves.
   void wake(Task& task);
@@ -133,23 +112,14 @@ class Scheduler {
   /// Wakes the first waiter, without a choice: for timers, which are not tasks.
   Task* wake_first(Object& object);
   /// Makes `object` belong to this run. True if it did not yet: the primitive must then take its initial state.
-  bool enter(Object& object) {
-    if (object.epoch == epoch_) return false;
-    adopt(object);
-    return true;
-  }
+  bool enter(Object& object);
   /// True if the owners and waiters in `object` belong to this run.
   bool has_entered(const Object& object) const { return object.epoch == epoch_; }
   /// Adds words to the digest of the running task's robot.
   void record_output(std::uint64_t name, std::uint64_t value);
 
-  // --- the parts of local clocks ---
-
-  /// The cost of the running task's computation, within [`least`, `greatest`]: chosen, or replaced by the recorded one.
-  Duration choose(Task& task, Duration least, Duration greatest);
-  /// Records `cost`, which does not follow from the run itself, or returns the recorded one: see Durations.
-  Duration pass(const Task& task, Duration cost);
-  /// Blocks the running task on `object` until it is woken, without executing an event. False if the run is over.
+  /// Blocks the running task on `object` until it is woken, without executing an event: for shared processors. False if
+  /// the run is over.
   bool suspend(Object& object);
 
   // --- timers ---
@@ -178,40 +148,33 @@ class Scheduler {
 
   Time global_time() const { return agenda_.now; }
   Chooser& chooser() { return agenda_.chooser; }
-  Task* first_task() const { return first_task_; }
-  Robot* first_robot() const { return first_robot_; }
+  Roster& roster() { return roster_; }
+  const Roster& roster() const { return roster_; }
+  Task* first_task() const { return roster_.first_task(); }
   /// The number of events executed so far: a sum over all robots, too slow to be called at each event.
-  std::uint64_t events() const;
+  std::uint64_t events() const { return roster_.hashed() - outputs_; }
   /// The number of switches between fibers.
   std::uint64_t switches() const { return switches_; }
   bool unwinding() const { return unwinding_; }
-  /// The number of tasks that have not ended, and its bound: at most tasks_max.
-  std::uint32_t tasks() const { return tasks_; }
-  std::uint32_t most_tasks() const { return most_tasks_; }
-  void set_most_tasks(std::uint32_t most) { most_tasks_ = most; }
-  /// The same without services.
-  std::uint32_t live_tasks() const { return live_tasks_; }
   /// In a deadlock, a task of the cycle (`search.to` links its members); without progress, a spinning task; else null.
   Task* culprit() const { return culprit_; }
   void set_watch(Watch* watch);
   /// The digest that takes in the events of the task that ran last: its robot's.
-  const PairDigest* lane_in_use() const { return lane_; }
+  const PairDigest* digest_in_use() const { return digest_in_use_; }
   Watch* watch() const { return watch_; }
   /// The attachments of the layers above.
   Hooks& hooks() { return hooks_; }
   const Hooks& hooks() const { return hooks_; }
   /// Sets or clears a bit of a task's attention.
   void attend(Task& task, std::uint8_t reason, bool needed);
-  /// Writes the call stack of `task` (started, not running) to `frames`, at most `room` addresses, innermost first;
-  /// returns their number.
-  std::size_t call_stack(Task& task, void** frames, std::size_t room);
+  /// From outside of tasks: resumes `task`, which must have started, outside of virtual time. It calls `visit.act` on
+  /// top of its stack and is parked again.
+  void visit(Task& task, Visit& visit);
 
  private:
   // Tasks: tasks.cpp.
   static void task_main(void* task);
   [[noreturn]] void end_task(Task& task);
-  bool count_end(const Task& task);
-  void unlink(Task& task);
   bool refuse();
   void reclaim_ended();
   static Task& task_of(EventNode& node) { return reinterpret_cast<Task&>(node); }  // the node is its first member
@@ -231,15 +194,12 @@ class Scheduler {
   Fiber& resume(Task& task);
   void switch_fibers(Fiber& from, Fiber& to);
   Departure sleep_slow(Time time);
-  bool give_turn(Task& task);
+  bool yield_to_ties(Task& task);
   void check_progress(Task& task);
   bool read_clock_slow(Task& task, Time& local);
   bool timer_waitpoint(Task& task, Operation operation, Object* object);
   void execute_start(Task& task);
-  [[gnu::always_inline]] void execute(Task& task, Operation operation, const Object* object) {
-    count_event(task, operation, object, agenda_.now);
-    if (__builtin_expect(watched_, 0)) show(operation, object);
-  }
+  void execute(Task& task, Operation operation, const Object* object);
   void show(Operation operation, const Object* object);
   void hash_events_of(Robot& robot);
   void set_local_time(Task& task, Time time);
@@ -249,12 +209,10 @@ class Scheduler {
   Departure block_slow(Object& object, Time deadline);
   Wake end_block_slow(Task& task, Object& object);
   Task* wake_one_slow(Object& object);
-  void lend_priority(Task& task, Object& object);
-  void reclaim_priority(Task& task, Object& object);
   void put(EventNode& node, const EventKey& key);
   bool is_deadlock(Task& task, const Object& object);
 
-  // The run: run.cpp, explored.cpp, parked_call_stack.cpp; enter_run() in scheduler_steps.hpp.
+  // The run: run.cpp, explored.cpp, visit.cpp; enter_run() in scheduler_steps.hpp.
   void enter_run(Fiber& to);
   void exit_run(RunState state);
   Fiber& end_window(RunState state);
@@ -274,26 +232,13 @@ class Scheduler {
   bool waitpoint_at_present(Task& task, Operation operation, Object* object);
   Departure start_sleep(Time time);
   Departure depart_sleeping(Task& task);
-  [[gnu::always_inline]] bool end_sleep(const Arrival& arrival) {
-    note_where_left(arrival);
-    Task& task = *running;
-    if (!turn.is_fast()) return end_waitpoint(task);
-    count_event(task, Operation::sleep, nullptr, turn.at);
-    return true;
-  }
+  bool end_sleep(const Arrival& arrival);
   bool can_dispatch_present() const;
   template <bool is_finite>
   bool try_fast_wait(Task& task, Object& object, Time deadline);
   template <bool is_finite>
   Departure start_block(Object& object, Time deadline);
-  [[gnu::always_inline]] Wake end_block(const Arrival& arrival, Object& object, bool is_finite) {
-    note_where_left(arrival);
-    Task& task = *running;
-    if (!turn.is_fast()) return end_block_slow(task, object);
-    const Wake wake = is_finite ? task.wake : Wake::woken;
-    count_event(task, wake == Wake::woken ? Operation::resume : Operation::timeout, &object, turn.at);
-    return wake;
-  }
+  Wake end_block(const Arrival& arrival, Object& object, bool is_finite);
   bool departs(Fiber& from, Fiber& to);
   Task* wake_waiter(Object& object);
 
@@ -305,14 +250,9 @@ class Scheduler {
   StackArena arena_;
   Fiber main_;
   Duration lookahead_ = Duration::max();
-  Task* first_task_ = nullptr;
-  Task* last_task_ = nullptr;
-  Robot* first_robot_ = nullptr;
-  Robot* last_robot_ = nullptr;
   Task* paused_ = nullptr;  // its event is the least, but beyond this window
   Task* ended_ = nullptr;   // its stack is in use until the next switch is done
   Task* culprit_ = nullptr;
-  Task* first_abandoned_ = nullptr;
   Watch* watch_ = nullptr;
   bool watched_ = false;  // by a watch, a debugger or a sanitizer
   Hooks hooks_;
@@ -320,22 +260,75 @@ class Scheduler {
   std::uint64_t epoch_;
   std::uint64_t outputs_ = 0;  // hashed into the digests beside the events
   std::uint64_t switches_ = 0;
-  std::uint32_t live_tasks_ = 0;
-  std::uint32_t tasks_ = 0;
-  std::uint32_t made_ = 0;  // tasks made so far
-  std::uint32_t most_tasks_ = tasks_max;
-  std::uint64_t turns_given_ = 0;  // since virtual time last moved
-  Time turns_given_at_;
+  std::uint64_t yields_ = 0;  // since virtual time last moved
+  Time yields_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  PairDigest* lane_ = nullptr;  // equal to turn.lane, for debuggers that read the scheduler from another process
-  PairDigest ended_robots_digest_;
+  PairDigest* digest_in_use_ = nullptr;  // equal to turn.digest, for debuggers that read the scheduler from another process
   bool fast_allowed_ = false;  // tasks may take the calls of fast_calls.cpp
   bool unwinding_ = false;
-  bool interrupted_ = false;  // resumed tasks do not continue: they unwind, or describe their call stack
-  void** frames_ = nullptr;   // the destination of call_stack()
-  std::size_t frames_room_ = 0;
-  std::size_t frames_found_ = 0;
+  bool interrupted_ = false;  // resumed tasks do not continue: they unwind, or are visited
+  Visit* visit_ = nullptr;    // of the task that is resumed next
+  Roster roster_;
 };
+
+// --- the inline parts of calls ---
+
+inline bool Scheduler::waitpoint(Operation operation, Object* object) {
+  if (object != nullptr && try_fast_waitpoint(operation, *object)) return true;
+  return waitpoint_slow(operation, object);
+}
+
+inline bool Scheduler::read_clock(Time& local) {
+  Task& task = *running;
+  if (__builtin_expect(!fast_path_.holds_for(task), 0)) return read_clock_slow(task, local);
+  ++task.waitpoints;
+  local = task.local_time;
+  return true;
+}
+
+[[gnu::always_inline]] inline void Scheduler::execute(Task& task, Operation operation, const Object* object) {
+  count_event(task, operation, object, agenda_.now);
+  if (__builtin_expect(watched_, 0)) show(operation, object);
+}
+
+[[gnu::always_inline]] inline bool Scheduler::sleep_until(Time time) {
+  const Departure away = start_sleep(time);
+  return away.leads_away() ? end_sleep(depart(away)) : wake_of(away) != Wake::unwinding;
+}
+
+[[gnu::always_inline]] inline bool Scheduler::end_sleep(const Arrival& arrival) {
+  note_where_left(arrival);
+  Task& task = *running;
+  if (!turn.is_fast()) return end_waitpoint(task);
+  count_event(task, Operation::sleep, nullptr, turn.at);
+  return true;
+}
+
+[[gnu::always_inline]] inline Wake Scheduler::block(Object& object, Time deadline) {
+  // Two instances, since the deadline is mostly a constant: the compiler chooses one, and no test is left.
+  const bool is_finite = deadline != Time::max();
+  const Departure away = is_finite ? start_block<true>(object, deadline) : start_block<false>(object, deadline);
+  return away.leads_away() ? end_block(depart(away), object, is_finite) : wake_of(away);
+}
+
+[[gnu::always_inline]] inline Wake Scheduler::end_block(const Arrival& arrival, Object& object, bool is_finite) {
+  note_where_left(arrival);
+  Task& task = *running;
+  if (!turn.is_fast()) return end_block_slow(task, object);
+  const Wake wake = is_finite ? task.wake : Wake::woken;
+  count_event(task, wake == Wake::woken ? Operation::resume : Operation::timeout, &object, turn.at);
+  return wake;
+}
+
+inline Task* Scheduler::wake_one(Object& object) {
+  return object.first_waiter == nullptr ? nullptr : wake_waiter(object);
+}
+
+inline bool Scheduler::enter(Object& object) {
+  if (object.epoch == epoch_) return false;
+  adopt(object);
+  return true;
+}
 
 }  // namespace waitpoint::kernel

@@ -4,6 +4,7 @@
 
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/fetch_ahead.hpp"
+#include "fibers/kernel/processor.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/waiters.hpp"
 #include "fibers/switch/fiber.hpp"
@@ -19,14 +20,14 @@ inline std::uint64_t child_id(std::uint64_t parent, std::uint32_t number) {
 }
 
 inline void Scheduler::hash_events_of(Robot& robot) {
-  if (turn.lane != robot.lane) turn.lane = lane_ = robot.lane;
+  if (turn.digest != robot.digest_in_use) turn.digest = digest_in_use_ = robot.digest_in_use;
 }
 
 // A new instant resets the task's count of waitpoints.
 inline void Scheduler::set_local_time(Task& task, Time time) {
   if (__builtin_expect(task.local_time == time, 1)) return;
   task.local_time = time;
-  task.turns = 0;
+  task.waitpoints = 0;
 }
 
 inline void Scheduler::put(EventNode& node, const EventKey& key) {
@@ -64,7 +65,7 @@ inline Fiber& Scheduler::resume(Task& task) {
   task.state = TaskState::running;
   running = &task;
   hash_events_of(*task.robot);
-  if (fast_path_.keeps_turn()) fast_path_.open(task, agenda_.now, fast_epoch());
+  if (fast_path_.passes_ties()) fast_path_.open(task, agenda_.now, fast_epoch());
   return task.fiber;
 }
 
@@ -75,7 +76,7 @@ inline Fiber& Scheduler::dispatch_task(Task& task) {
     remove_waiter(task);
     task.wake = Wake::timed_out;
     set_local_time(task, agenda_.now);
-    if (needs_attention(task)) reclaim_priority(task, object);
+    if (needs_attention(task)) take_back_priority(task, object);
   }
   return resume(task);
 }

@@ -24,6 +24,8 @@ struct Seat;
 struct Task;
 
 inline constexpr std::size_t name_size = 48;
+/// Copies a name, as much of it as there is room for; null: none.
+void copy_name(char (&to)[name_size], const char* from);
 
 /// A robot as the kernel sees it: the unit of the digest. Tasks of no robot belong to one named "environment".
 struct Robot {
@@ -31,7 +33,7 @@ struct Robot {
   Robot* next = nullptr;
   Scheduler* scheduler = nullptr;
   PairDigest digest;             ///< of its own events and outputs, until its end
-  PairDigest* lane = nullptr;    ///< the digest that takes in its tasks' events: `digest`, until its end
+  PairDigest* digest_in_use = nullptr;  ///< the digest that takes in its tasks' events: `digest`, until its end
   std::uint64_t id = 0;          ///< a hash of its name
   std::uint64_t messages = 0;    ///< number sent to other robots
   std::uint32_t objects = 0;     ///< number of objects numbered so far
@@ -106,7 +108,7 @@ struct Task {
   std::uint64_t id = 0;        ///< a hash of the robot and the path of creation
   std::uint64_t sequence = 0;  ///< number of events so far
   Object* at = nullptr;        ///< the object of its last waitpoint, if any
-  std::uint32_t turns = 0;     ///< number of waitpoints passed at its local time
+  std::uint32_t waitpoints = 0;  ///< number of waitpoints passed at its local time
   Phase phase = Phase::tasks;
   Operation operation = Operation::start;
   Wake wake = Wake::woken;
@@ -115,7 +117,6 @@ struct Task {
   std::uint8_t attention = 0;
   bool service = false;      ///< does not keep the run alive
   bool shared_wait = false;  ///< blocked for shared ownership of the object
-  bool describe = false;     ///< to write its own call stack when resumed, and to switch back
   Fiber fiber;
 
   Object* blocked_on = nullptr;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Robots, and the making and the ends of tasks: by themselves, in place, or unwound when the run is over.
-#include <cstring>
+// The making and the ends of tasks: by themselves, in place, or unwound when the run is over.
 #include <new>
 
 #include "core/error.hpp"
@@ -13,30 +12,10 @@
 #include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
-namespace {
-
-void copy_name(char (&to)[name_size], const char* from) {
-  std::strncpy(to, from != nullptr ? from : "", name_size - 1);
-  to[name_size - 1] = '\0';
-}
-
-}  // namespace
-
-void Scheduler::add(Robot& robot, const char* name) {
-  robot = Robot();
-  copy_name(robot.name, name);
-  robot.scheduler = this;
-  robot.lane = &robot.digest;
-  Digest id;
-  for (const char* c = name; *c != '\0'; ++c) id.add(static_cast<std::uint64_t>(static_cast<unsigned char>(*c)));
-  robot.id = id.value();
-  (last_robot_ == nullptr ? first_robot_ : last_robot_->next) = &robot;
-  last_robot_ = &robot;
-}
 
 Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument) {
   const Time start = running != nullptr ? kernel::local_time(*running) : agenda_.now;
-  if (unwinding_ || tasks_ >= most_tasks_) return nullptr;
+  if (unwinding_ || roster_.is_full()) return nullptr;
   Stack stack;
   // Sanitizers enlarge frames, and compose a report on the stack of the reported task.
   const StackSize size = sanitizer::present && options.stack < StackSize::large ? StackSize::large : options.stack;
@@ -48,7 +27,6 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   task.robot = &robot;
   task.id = running != nullptr ? child_id(running->id, running->children++) : child_id(robot.id, robot.children++);
   task.maker = running != nullptr ? running->id : 0;
-  task.number = made_++;
   task.local_time = start;
   task.entry = entry;
   task.argument = argument;
@@ -60,14 +38,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   prepare(task.fiber, stack, top, task_main, &task);
   if (sanitizer::present) sanitizer::name(task.fiber, task.name);
 
-  task.previous = last_task_;
-  (last_task_ == nullptr ? first_task_ : last_task_->next) = &task;
-  last_task_ = &task;
-  ++tasks_;
-  if (!task.service) {
-    ++live_tasks_;
-    ++robot.live_tasks;
-  }
+  roster_.add(task);
   agenda_.place(task, task.local_time);
   if (task.local_time <= agenda_.now) fast_path_.note_present_event(task.phase);
   return &task;
@@ -83,29 +54,12 @@ void Scheduler::task_main(void* argument) {
   scheduler.end_task(task);
 }
 
-void Scheduler::unlink(Task& task) {
-  task.state = TaskState::ended;
-  (task.previous == nullptr ? first_task_ : task.previous->next) = task.next;
-  (task.next == nullptr ? last_task_ : task.next->previous) = task.previous;
-  --tasks_;
-}
-
-// Counts the end of a task that is not a service; true if it was the run's last one.
-bool Scheduler::count_end(const Task& task) {
-  if (--task.robot->live_tasks == 0) {
-    task.robot->ended = true;
-    task.robot->lane = &ended_robots_digest_;
-    task.robot->end_time = agenda_.now;
-  }
-  return --live_tasks_ == 0;
-}
-
 void Scheduler::end_task(Task& task) {
   if (task.seat != nullptr) vacate(task);
-  unlink(task);
+  roster_.remove(task);
   ended_ = &task;
   task.fiber.ended = true;
-  if (!task.service && !unwinding_ && count_end(task)) {
+  if (!unwinding_ && roster_.count_end(task, agenda_.now)) {
     cause_ = StopCause::ended;
     exit_run(RunState::stopped);
   }
@@ -125,10 +79,9 @@ void Scheduler::unwind() {
   // destroyed with the frames that own them, and are reinitialised in the next run.
   agenda_.clear();
   // Each resumed task ends and unlinks itself.
-  while (last_task_ != nullptr) {
-    Task& task = *last_task_;
-    enter_run(resume(task));
-    WAITPOINT_CHECK(last_task_ != &task, "a task continued although the run is over");
+  while (Task* const task = roster_.last_task()) {
+    enter_run(resume(*task));
+    WAITPOINT_CHECK(roster_.last_task() != task, "a task continued although the run is over");
   }
 }
 
@@ -143,16 +96,8 @@ void Scheduler::end_in_place(Task& task) {
     object.owner = nullptr;
   }
   if (task.seat != nullptr) vacate(task);
-  unlink(task);
-  if (!task.service) count_end(task);
-}
-
-void Scheduler::keep_running_task_only() {
-  agenda_.clear_present();
-  for (Task *task = first_task_, *next = nullptr; task != nullptr; task = next) {
-    next = task->next;
-    if (task != running) end_in_place(*task);
-  }
+  roster_.remove(task);
+  roster_.count_end(task, agenda_.now);
 }
 
 void Scheduler::end_running_task() { end_task(*running); }
@@ -166,9 +111,7 @@ bool Scheduler::refuse() {
 void Scheduler::abandon() {
   WAITPOINT_CHECK(unwinding_ && running != nullptr, "a task is abandoned before the run is over");
   Task& task = *running;
-  unlink(task);
-  task.next = first_abandoned_;
-  first_abandoned_ = &task;
+  roster_.abandon(task);
   exit_run(RunState::stopped);
   bug(__FILE__, __LINE__, "control came back", "an abandoned task was entered");
 }

@@ -18,7 +18,7 @@ struct Turn {
 
   std::uint64_t fast_epoch = no_epoch;  ///< the epoch of the objects for which the fast path is open; no_epoch: none
   Time at = never;                      ///< the instant whose waitpoints pass without a search, watched or not
-  PairDigest* lane = nullptr;           ///< the digest of the task that runs or ran last
+  PairDigest* digest = nullptr;         ///< the digest of the task that runs or ran last
 
   [[gnu::always_inline]] bool is_fast() const { return __builtin_expect(fast_epoch != no_epoch, 1); }
   void close() {
@@ -33,7 +33,7 @@ extern Turn turn;
   ++task.sequence;
   std::uint64_t what = static_cast<std::uint64_t>(operation) << 48;
   if (object != nullptr) what ^= object->identity;
-  turn.lane->add(static_cast<std::uint64_t>(now.ns()), task.id + what);
+  turn.digest->add(static_cast<std::uint64_t>(now.ns()), task.id + what);
 }
 
 }  // namespace waitpoint::kernel

@@ -31,18 +31,6 @@ void Scheduler::adopt(Object& object) {
   object.first_waiter = object.last_waiter = nullptr;
 }
 
-// --- priority inheritance ---
-
-void Scheduler::lend_priority(Task& task, Object& object) {
-  if (task.seat == nullptr) return;
-  leave_processor(task);
-  reconsider_priority(object.owner);
-}
-
-void Scheduler::reclaim_priority(Task& task, Object& object) {
-  if (task.seat != nullptr) reconsider_priority(object.owner);
-}
-
 // --- Algorithm 2: block, and wake ---
 
 // The running task is among the waiters of `object` until it is woken, or until its timeout, an event at `deadline`, is

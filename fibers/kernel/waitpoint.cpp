@@ -46,9 +46,9 @@ inline bool Scheduler::announce(Task& task, Operation operation, Object* object)
   task.at = object;
   if (object != nullptr) enter(*object);
   if (task.local_time != agenda_.now)
-    task.turns = 1;
-  else if (++task.turns > turns_max)
-    return give_turn(task);
+    task.waitpoints = 1;
+  else if (++task.waitpoints > waitpoints_max)
+    return yield_to_ties(task);
   return true;
 }
 
@@ -63,7 +63,7 @@ inline bool Scheduler::announce(Task& task, Operation operation, Object* object)
     if (interrupted_ && !answer_interrupt()) return false;
   }
   agenda_.advance(task.local_time);
-  if (fast_path_.keeps_turn(agenda_.now < agenda_.events.least().key.time))
+  if (fast_path_.passes_ties(agenda_.now < agenda_.events.least().key.time))
     fast_path_.open(task, agenda_.now, fast_epoch());
   return true;
 }
@@ -161,7 +161,7 @@ bool Scheduler::yield() {
   }
   task.operation = Operation::yield;
   task.at = nullptr;
-  if (task.local_time != agenda_.now) task.turns = 0;
+  if (task.local_time != agenda_.now) task.waitpoints = 0;
   check_progress(task);
   if (unwinding_) return false;
   agenda_.place(task, task.local_time);
@@ -170,9 +170,9 @@ bool Scheduler::yield() {
   return end_waitpoint(*running);
 }
 
-// Yields to the task's ties, after turns_max waitpoints at one instant. False if the run is over.
-bool Scheduler::give_turn(Task& task) {
-  task.turns = 1;
+// Yields to the task's ties, after waitpoints_max waitpoints at one instant. False if the run is over.
+bool Scheduler::yield_to_ties(Task& task) {
+  task.waitpoints = 1;
   const Operation operation = task.operation;
   Object* const at = task.at;
   if (!yield()) return false;
@@ -183,11 +183,11 @@ bool Scheduler::give_turn(Task& task) {
 
 // Stops the run if all tasks of an instant only yield to each other.
 void Scheduler::check_progress(Task& task) {
-  if (turns_given_at_ != agenda_.now) {
-    turns_given_at_ = agenda_.now;
-    turns_given_ = 0;
+  if (yields_at_ != agenda_.now) {
+    yields_at_ = agenda_.now;
+    yields_ = 0;
   }
-  if (++turns_given_ <= idle_turns_max + std::uint64_t{turns_max} * tasks_) return;
+  if (++yields_ <= idle_yields_max + std::uint64_t{waitpoints_max} * roster_.tasks()) return;
   culprit_ = &task;
   stop(StopCause::no_progress);
 }
@@ -200,8 +200,8 @@ bool Scheduler::read_clock_slow(Task& task, Time& local) {
   if ((task.attention & attention::timer) != 0) return true;
   fast_path_.close();
   if (local != before)
-    task.turns = 0;
-  else if (++task.turns > turns_max && !unwinding_ && give_turn(task))
+    task.waitpoints = 0;
+  else if (++task.waitpoints > waitpoints_max && !unwinding_ && yield_to_ties(task))
     local = local_time(task);
   return unwinding_ ? refuse() : true;
 }
@@ -224,7 +224,7 @@ void Scheduler::execute_start(Task& task) {
 void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
   if (unwinding_) return;
   ++outputs_;
-  turn.lane->add(name, value);
+  turn.digest->add(name, value);
 }
 
 void Scheduler::show(Operation operation, const Object* object) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/number_text.hpp"
+#include "fibers/kernel/call_stack.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
 
@@ -19,13 +20,12 @@ constexpr std::size_t frames_searched = 24;
 
 // A line for each task, the first few of them, followed by its source locations.
 template <class Describe>
-std::string describe_each(kernel::Scheduler& scheduler, const std::vector<Task*>& tasks, Places told,
-                          Describe describe_one) {
+std::string describe_each(const std::vector<Task*>& tasks, Places told, Describe describe_one) {
   const std::size_t shown = std::min(tasks.size(), tasks_shown);
   std::vector<ReturnAddresses> stacks;
   for (std::size_t i = 0; i < shown && told == Places::told; ++i) {
     ReturnAddresses& stack = stacks.emplace_back(frames_searched);
-    stack.resize(scheduler.call_stack(*tasks[i], stack.data(), stack.size()));
+    stack.resize(kernel::call_stack(*tasks[i], stack.data(), stack.size()));
   }
   const auto places = user_source_lines(stacks, frames_shown);
   std::string text;
@@ -88,7 +88,7 @@ std::string describe_deadlock(kernel::Scheduler& scheduler, Places places) {
     text += counted(waiting.size(), "task") + " wait for each other";
   else
     text += counted(waiting.size(), "task") + " are blocked, and no event can wake them";
-  return text + describe_each(scheduler, waiting, places, describe_wait);
+  return text + describe_each(waiting, places, describe_wait);
 }
 
 std::string describe_spinning(kernel::Scheduler& scheduler, Places places) {
@@ -100,14 +100,14 @@ std::string describe_spinning(kernel::Scheduler& scheduler, Places places) {
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
     if (task->state != kernel::TaskState::blocked && task->local_time == scheduler.global_time())
       spinning.push_back(task);
-  return text + "tasks spin" + describe_each(scheduler, spinning, places, describe_use);
+  return text + "tasks spin" + describe_each(spinning, places, describe_use);
 }
 
 std::string describe_endless(kernel::Scheduler& scheduler, Places places) {
   std::vector<Task*> asleep;
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
     if (task->state == kernel::TaskState::ready && task->local_time == Time::max()) asleep.push_back(task);
-  return "virtual time ran out" + describe_each(scheduler, asleep, places, [](const Task& task) {
+  return "virtual time ran out" + describe_each(asleep, places, [](const Task& task) {
            return describe(task) + " sleeps without end";
          });
 }

@@ -50,7 +50,7 @@ bool are_fast_paths_enabled() {
 Simulation::Simulation(SimulationOptions options)
     : options_(checked(std::move(options))), scheduler_(options_.order, options_.seed) {
   scheduler_.hooks().client = static_cast<sync::RunContext*>(this);
-  scheduler_.set_most_tasks(options_.most_tasks);
+  scheduler_.roster().set_most_tasks(options_.most_tasks);
   if (!options_.fast_paths || !are_fast_paths_enabled()) scheduler_.use_fast_paths(false);
   scheduler_.hooks().replay = options_.replay.c_str();
   scheduler_.hooks().deliver_signals = sync::deliver_signals;
@@ -102,7 +102,7 @@ RunEnd Simulation::run_before(Time until) {
     return RunEnd::no_progress;
   }
   // Services that wait for each other are a deadlock, too, whichever tasks are left.
-  if (scheduler_.live_tasks() == 0 && scheduler_.stop_cause() != kernel::StopCause::deadlock) return RunEnd::ended;
+  if (scheduler_.roster().live_tasks() == 0 && scheduler_.stop_cause() != kernel::StopCause::deadlock) return RunEnd::ended;
   trouble_ = sync::describe_deadlock(scheduler_, places_);
   return RunEnd::deadlock;
 }
@@ -130,7 +130,7 @@ void Simulation::terminate_task() {
 
 std::vector<std::string> Simulation::abandoned() const {
   std::vector<std::string> names;
-  for (const kernel::Task* task = scheduler_.first_abandoned(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = scheduler_.roster().first_abandoned(); task != nullptr; task = task->next)
     names.push_back(std::string(task->name) + " of " + task->robot->name);
   return names;
 }

@@ -52,11 +52,11 @@ void run_thread(void* argument) {
 // As std::thread does.
 [[noreturn]] void refuse(const kernel::Scheduler& scheduler, const kernel::Robot& robot,
                          const kernel::SpawnOptions& options) {
-  const bool all_made = scheduler.tasks() >= scheduler.most_tasks();
+  const bool all_made = scheduler.roster().is_full();
   throw std::system_error(
       std::make_error_code(std::errc::resource_unavailable_try_again),
       std::string("thread ") + options.name + " of " + robot.name + " cannot be created: " +
-          (all_made ? "the run has " + std::to_string(scheduler.tasks()) + " tasks, the most allowed at once"
+          (all_made ? "the run has " + std::to_string(scheduler.roster().tasks()) + " tasks, the most allowed at once"
                     : "no stack of " + std::to_string(kernel::bytes(options.stack) / 1024) +
                           " KiB is left, their address space is used up"));
 }

@@ -21,7 +21,7 @@ struct RunTimers : RobotState {
 };
 
 struct RobotTimers : RobotState {
-  explicit RobotTimers(kernel::Robot& robot) : run(state_of<RunTimers>(*robot.scheduler->first_robot())) {
+  explicit RobotTimers(kernel::Robot& robot) : run(state_of<RunTimers>(*robot.scheduler->roster().first_robot())) {
     task.scheduler = robot.scheduler;
     task.robot = &robot;
     task.id = Digest::mix(~robot.id);

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "core/nearest_name.hpp"
+#include "modules/executive/executive.hpp"
+#include "modules/genom/module.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -45,6 +47,8 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
   connect();
 }
 
+Robot::~Robot() = default;
+
 void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* network) {
   for (const scenario::ModuleScenario& module : scenario_.modules) {
     if (!module.enabled) continue;
@@ -81,7 +85,7 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   for (const scenario::Goal& goal : scenario_.goals) goals.push_back(goal.position);
   posters::KnownPose start;
   start.pose = scenario_.body.start;
-  executive_.emplace(names_, parameters, std::move(known), start, goals,
+  executive_ = std::make_unique<executive::Executive>(names_, parameters, std::move(known), start, goals,
                      RandomStream(seed, scenario_.name, "executive"));
 }
 

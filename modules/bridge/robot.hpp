@@ -14,11 +14,22 @@
 #include "modules/bridge/evaluation.hpp"
 #include "modules/bridge/robot_bridge.hpp"
 #include "modules/bridge/run_result.hpp"
-#include "modules/executive/executive.hpp"
 #include "modules/genom/module_type.hpp"
 #include "modules/genom/task_computing.hpp"
 #include "modules/scenario/scenario.hpp"
 #include "world/world.hpp"
+
+namespace waitpoint::executive {
+class Executive;
+class KnownSpace;
+}  // namespace waitpoint::executive
+namespace waitpoint::genom {
+class ModuleWatch;
+}  // namespace waitpoint::genom
+
+namespace waitpoint::io {
+class Network;
+}  // namespace waitpoint::io
 
 namespace waitpoint::bridge {
 
@@ -29,6 +40,7 @@ class Robot {
   Robot(const scenario::RobotScenario& scenario, std::span<const genom::ModuleType> types,
         std::shared_ptr<const executive::KnownSpace> known, world::World& world, world::BodyId body,
         io::Network* network, std::uint64_t seed);
+  ~Robot();
 
   /// The body of the robot's main task: starts the modules, then drives the round of goals, if any.
   void run();
@@ -75,7 +87,7 @@ class Robot {
   std::vector<const scenario::ModuleScenario*> module_scenarios_;  // by module
   RobotBridge bridge_;
   genom::TaskComputing computing_;
-  std::optional<executive::Executive> executive_;
+  std::unique_ptr<executive::Executive> executive_;  // null without goals
   Evaluation evaluation_;
 };
 

@@ -27,10 +27,11 @@ struct Parameters {
   double mark_range_m = 3;     ///< greatest distance of echoes to be marked on the map
   Duration plan_cost_us = {};  ///< cost of planning a route
 
-  static constexpr auto fields() {
-    return std::tuple(field("planning", &Parameters::planning), field("mission", &Parameters::mission),
-                      field("mark_range_m", &Parameters::mark_range_m),
-                      field("plan_cost_us", &Parameters::plan_cost_us));
+  static void fields(auto field) {
+    field("planning", &Parameters::planning);
+    field("mission", &Parameters::mission);
+    field("mark_range_m", &Parameters::mark_range_m);
+    field("plan_cost_us", &Parameters::plan_cost_us);
   }
 };
 

@@ -32,14 +32,15 @@ struct PlanningParameters {
   double leg_m_max = 5.0;               ///< between via points
   double escape_m_max = 1.0;            ///< from an impassable start to the nearest passable cell
 
-  static constexpr auto fields() {
-    return std::tuple(
-        field("robot_radius_m", &PlanningParameters::robot_radius_m),
-        field("clearance_m", &PlanningParameters::clearance_m),
-        field("preferred_clearance_m", &PlanningParameters::preferred_clearance_m),
-        field("explained_m", &PlanningParameters::explained_m), field("narrow_m", &PlanningParameters::narrow_m),
-        field("approach_m", &PlanningParameters::approach_m), field("leg_m_max", &PlanningParameters::leg_m_max),
-        field("escape_m_max", &PlanningParameters::escape_m_max));
+  static void fields(auto field) {
+    field("robot_radius_m", &PlanningParameters::robot_radius_m);
+    field("clearance_m", &PlanningParameters::clearance_m);
+    field("preferred_clearance_m", &PlanningParameters::preferred_clearance_m);
+    field("explained_m", &PlanningParameters::explained_m);
+    field("narrow_m", &PlanningParameters::narrow_m);
+    field("approach_m", &PlanningParameters::approach_m);
+    field("leg_m_max", &PlanningParameters::leg_m_max);
+    field("escape_m_max", &PlanningParameters::escape_m_max);
   }
 };
 

@@ -22,11 +22,12 @@ struct MissionParameters {
   double detour_max = 3;     ///< a detour longer by this factor is not taken at first: wait instead
   double detour_m_min = 15;  ///< unless it is no longer than this
 
-  static constexpr auto fields() {
-    return std::tuple(
-        field("tries_max", &MissionParameters::tries_max), field("wait_s_min", &MissionParameters::wait_s_min),
-        field("wait_s_max", &MissionParameters::wait_s_max), field("detour_max", &MissionParameters::detour_max),
-        field("detour_m_min", &MissionParameters::detour_m_min));
+  static void fields(auto field) {
+    field("tries_max", &MissionParameters::tries_max);
+    field("wait_s_min", &MissionParameters::wait_s_min);
+    field("wait_s_max", &MissionParameters::wait_s_max);
+    field("detour_max", &MissionParameters::detour_max);
+    field("detour_m_min", &MissionParameters::detour_m_min);
   }
 };
 

@@ -27,9 +27,10 @@ struct ActivityStatus {
   std::uint32_t request = 0;
   State state = State::ether;
 
-  static constexpr auto fields() {
-    return std::tuple(field("number", &ActivityStatus::number), field("request", &ActivityStatus::request),
-                      field("state", &ActivityStatus::state));
+  static void fields(auto field) {
+    field("number", &ActivityStatus::number);
+    field("request", &ActivityStatus::request);
+    field("state", &ActivityStatus::state);
   }
 };
 
@@ -39,10 +40,10 @@ struct ModuleStatus {
   std::uint64_t missed_periods = 0;  ///< of all execution tasks
   bool suspended = false;            ///< an execution task is suspended, after a forbidden transition
 
-  static constexpr auto fields() {
-    return std::tuple(field("activities", &ModuleStatus::activities),
-                      field("missed_periods", &ModuleStatus::missed_periods),
-                      field("suspended", &ModuleStatus::suspended));
+  static void fields(auto field) {
+    field("activities", &ModuleStatus::activities);
+    field("missed_periods", &ModuleStatus::missed_periods);
+    field("suspended", &ModuleStatus::suspended);
   }
 };
 
@@ -52,7 +53,7 @@ struct AbortInput {
   static constexpr std::int32_t resume_tasks = -88;  ///< after a forbidden transition
   std::int32_t activity = 0;                         ///< the activity to end, or one of the above
 
-  static constexpr auto fields() { return std::tuple(field("activity", &AbortInput::activity)); }
+  static void fields(auto field) { field("activity", &AbortInput::activity); }
 };
 
 class ControlTask {

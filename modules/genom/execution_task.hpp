@@ -32,9 +32,10 @@ struct TaskOptions {
   Duration delay_ms = {};   ///< phase of a periodic task's ticks
   Duration cost_us = {};    ///< of each permanent codel
 
-  static constexpr auto fields() {
-    return std::tuple(field("period_ms", &TaskOptions::period_ms), field("delay_ms", &TaskOptions::delay_ms),
-                      field("cost_us", &TaskOptions::cost_us));
+  static void fields(auto field) {
+    field("period_ms", &TaskOptions::period_ms);
+    field("delay_ms", &TaskOptions::delay_ms);
+    field("cost_us", &TaskOptions::cost_us);
   }
 };
 

@@ -25,6 +25,7 @@
 #include "modules/genom/control_task.hpp"
 #include "modules/genom/execution_task.hpp"
 #include "modules/genom/module_data.hpp"
+#include "modules/genom/module_type.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/genom/request.hpp"
 #include "modules/genom/settings.hpp"
@@ -34,8 +35,6 @@ class Network;
 }
 
 namespace waitpoint::genom {
-
-struct ModuleType;
 
 /// Constructor arguments of a module.
 struct ModuleSetup {
@@ -196,6 +195,16 @@ PosterLink<T>& Module::read_poster(const std::string& name, bool required) {
   PosterLink<T>& reference = *link;
   links_.push_back({std::move(link), required});
   return reference;
+}
+
+/// Registers a module class, constructible from ModuleSetup&, under a name.
+template <class M>
+ModuleType module_type(std::string name) {
+  return {std::move(name), [](ModuleSetup& setup) -> std::unique_ptr<Module> {
+            auto module = std::make_unique<M>(setup);
+            static_cast<Module&>(*module).size_ = sizeof(M);
+            return module;
+          }};
 }
 
 }  // namespace waitpoint::genom

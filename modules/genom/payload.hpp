@@ -14,7 +14,7 @@ inline constexpr std::size_t payload_bytes_max = 1024;
 
 /// For requests without input or output.
 struct Nothing {
-  static constexpr auto fields() { return std::tuple(); }
+  static void fields(auto) {}
 };
 
 class Payload {

@@ -30,21 +30,28 @@ struct Parameters {
   double progress_m = 0.2;             ///< the remaining route must shrink by this
   double patience_s = 8.0;             ///< within this time, or it is reported as blocked
 
-  static constexpr auto fields() {
-    return std::tuple(
-        field("robot_radius_m", &Parameters::robot_radius_m), field("v_m_s_max", &Parameters::v_m_s_max),
-        field("w_rad_s_max", &Parameters::w_rad_s_max), field("braking_m_s2", &Parameters::braking_m_s2),
-        field("reaction_s", &Parameters::reaction_s), field("prediction_s", &Parameters::prediction_s),
-        field("security_distance_m", &Parameters::security_distance_m),
-        field("emergency_distance_m", &Parameters::emergency_distance_m), field("creep_m_s", &Parameters::creep_m_s),
-        field("bypass_distance_m", &Parameters::bypass_distance_m),
-        field("bypass_clearance_m", &Parameters::bypass_clearance_m),
-        field("diagram_range_m", &Parameters::diagram_range_m), field("memory_range_m", &Parameters::memory_range_m),
-        field("memory_age_s", &Parameters::memory_age_s), field("turning_gain_per_s", &Parameters::turning_gain_per_s),
-        field("via_tolerance_m", &Parameters::via_tolerance_m),
-        field("goal_tolerance_m", &Parameters::goal_tolerance_m), field("goal_near_m", &Parameters::goal_near_m),
-        field("goal_braking_m_s2", &Parameters::goal_braking_m_s2), field("progress_m", &Parameters::progress_m),
-        field("patience_s", &Parameters::patience_s));
+  static void fields(auto field) {
+    field("robot_radius_m", &Parameters::robot_radius_m);
+    field("v_m_s_max", &Parameters::v_m_s_max);
+    field("w_rad_s_max", &Parameters::w_rad_s_max);
+    field("braking_m_s2", &Parameters::braking_m_s2);
+    field("reaction_s", &Parameters::reaction_s);
+    field("prediction_s", &Parameters::prediction_s);
+    field("security_distance_m", &Parameters::security_distance_m);
+    field("emergency_distance_m", &Parameters::emergency_distance_m);
+    field("creep_m_s", &Parameters::creep_m_s);
+    field("bypass_distance_m", &Parameters::bypass_distance_m);
+    field("bypass_clearance_m", &Parameters::bypass_clearance_m);
+    field("diagram_range_m", &Parameters::diagram_range_m);
+    field("memory_range_m", &Parameters::memory_range_m);
+    field("memory_age_s", &Parameters::memory_age_s);
+    field("turning_gain_per_s", &Parameters::turning_gain_per_s);
+    field("via_tolerance_m", &Parameters::via_tolerance_m);
+    field("goal_tolerance_m", &Parameters::goal_tolerance_m);
+    field("goal_near_m", &Parameters::goal_near_m);
+    field("goal_braking_m_s2", &Parameters::goal_braking_m_s2);
+    field("progress_m", &Parameters::progress_m);
+    field("patience_s", &Parameters::patience_s);
   }
 };
 

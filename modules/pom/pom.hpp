@@ -20,7 +20,7 @@ namespace waitpoint::pom {
 struct SourceInput {
   std::uint32_t source = 0;
 
-  static constexpr auto fields() { return std::tuple(field("source", &SourceInput::source)); }
+  static void fields(auto field) { field("source", &SourceInput::source); }
 };
 
 class Pom : public genom::Module {

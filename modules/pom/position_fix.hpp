@@ -19,11 +19,13 @@ struct FixParameters {
   double gps_drift_m = 0;                           ///< standard deviation per axis of the error shared by fixes
   double gps_gate = 13.82;                          ///< chi square of 2 degrees of freedom at 99.9 %
 
-  static constexpr auto fields() {
-    return std::tuple(field("gps", &FixParameters::gps), field("gps_antenna_x_m", &FixParameters::gps_antenna_x_m),
-                      field("gps_antenna_y_m", &FixParameters::gps_antenna_y_m),
-                      field("gps_noise_m", &FixParameters::gps_noise_m),
-                      field("gps_drift_m", &FixParameters::gps_drift_m), field("gps_gate", &FixParameters::gps_gate));
+  static void fields(auto field) {
+    field("gps", &FixParameters::gps);
+    field("gps_antenna_x_m", &FixParameters::gps_antenna_x_m);
+    field("gps_antenna_y_m", &FixParameters::gps_antenna_y_m);
+    field("gps_noise_m", &FixParameters::gps_noise_m);
+    field("gps_drift_m", &FixParameters::gps_drift_m);
+    field("gps_gate", &FixParameters::gps_gate);
   }
 };
 

@@ -37,13 +37,14 @@ struct FusionParameters {
   double motion_covariance_scale = 1;  ///< factor on the odometry's covariance
   double extrapolation_s_max = 0.1;    ///< extrapolation of the last motion beyond the newest odometry
 
-  static constexpr auto fields() {
-    return std::tuple(field("kalman", &FusionParameters::kalman),
-                      field("shared_errors", &FusionParameters::shared_errors), field("gate", &FusionParameters::gate),
-                      field("uncertain_m", &FusionParameters::uncertain_m),
-                      field("uncertain_rad", &FusionParameters::uncertain_rad),
-                      field("motion_covariance_scale", &FusionParameters::motion_covariance_scale),
-                      field("extrapolation_s_max", &FusionParameters::extrapolation_s_max));
+  static void fields(auto field) {
+    field("kalman", &FusionParameters::kalman);
+    field("shared_errors", &FusionParameters::shared_errors);
+    field("gate", &FusionParameters::gate);
+    field("uncertain_m", &FusionParameters::uncertain_m);
+    field("uncertain_rad", &FusionParameters::uncertain_rad);
+    field("motion_covariance_scale", &FusionParameters::motion_covariance_scale);
+    field("extrapolation_s_max", &FusionParameters::extrapolation_s_max);
   }
 };
 

@@ -18,10 +18,12 @@ struct BaseCommand {
   bool sonars_on = false;
   double side_m_s = 0, climb_m_s = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("v_m_s", &BaseCommand::v_m_s), field("w_rad_s", &BaseCommand::w_rad_s),
-                      field("sonars_on", &BaseCommand::sonars_on), added_field("side_m_s", &BaseCommand::side_m_s),
-                      added_field("climb_m_s", &BaseCommand::climb_m_s));
+  static void fields(auto field) {
+    field("v_m_s", &BaseCommand::v_m_s);
+    field("w_rad_s", &BaseCommand::w_rad_s);
+    field("sonars_on", &BaseCommand::sonars_on);
+    field("side_m_s", &BaseCommand::side_m_s, added);
+    field("climb_m_s", &BaseCommand::climb_m_s, added);
   }
 };
 
@@ -38,14 +40,19 @@ struct BaseReading {
   double height_m = 0;                       ///< flying bases
   double battery_charge = 0, battery_a = 0;  ///< remaining fraction; current; if the battery is simulated
 
-  static constexpr auto fields() {
-    return std::tuple(
-        field("date", &BaseReading::date), field("travel_units", &BaseReading::travel_units),
-        field("turn_units", &BaseReading::turn_units), field("v_m_s", &BaseReading::v_m_s),
-        field("w_rad_s", &BaseReading::w_rad_s), field("battery_volts", &BaseReading::battery_volts),
-        field("stalled", &BaseReading::stalled), field("sonar_m", &BaseReading::sonar_m),
-        added_field("side_units", &BaseReading::side_units), added_field("height_m", &BaseReading::height_m),
-        added_field("battery_charge", &BaseReading::battery_charge), added_field("battery_a", &BaseReading::battery_a));
+  static void fields(auto field) {
+    field("date", &BaseReading::date);
+    field("travel_units", &BaseReading::travel_units);
+    field("turn_units", &BaseReading::turn_units);
+    field("v_m_s", &BaseReading::v_m_s);
+    field("w_rad_s", &BaseReading::w_rad_s);
+    field("battery_volts", &BaseReading::battery_volts);
+    field("stalled", &BaseReading::stalled);
+    field("sonar_m", &BaseReading::sonar_m);
+    field("side_units", &BaseReading::side_units, added);
+    field("height_m", &BaseReading::height_m, added);
+    field("battery_charge", &BaseReading::battery_charge, added);
+    field("battery_a", &BaseReading::battery_a, added);
   }
 };
 
@@ -54,8 +61,9 @@ struct Bumpers {
   Time date;
   std::uint32_t pressed = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &Bumpers::date), field("pressed", &Bumpers::pressed));
+  static void fields(auto field) {
+    field("date", &Bumpers::date);
+    field("pressed", &Bumpers::pressed);
   }
 };
 
@@ -64,8 +72,9 @@ struct InfraredReading {
   Time date;
   Bounded<double, infrared_count_max> volts;
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &InfraredReading::date), field("volts", &InfraredReading::volts));
+  static void fields(auto field) {
+    field("date", &InfraredReading::date);
+    field("volts", &InfraredReading::volts);
   }
 };
 
@@ -77,11 +86,13 @@ struct SpeedReference {
   std::uint32_t number = 0;  ///< counts the references: if it does not change, the writer has stopped
   double side_m_s = 0, climb_m_s = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &SpeedReference::date), field("v_m_s", &SpeedReference::v_m_s),
-                      field("w_rad_s", &SpeedReference::w_rad_s), field("number", &SpeedReference::number),
-                      added_field("side_m_s", &SpeedReference::side_m_s),
-                      added_field("climb_m_s", &SpeedReference::climb_m_s));
+  static void fields(auto field) {
+    field("date", &SpeedReference::date);
+    field("v_m_s", &SpeedReference::v_m_s);
+    field("w_rad_s", &SpeedReference::w_rad_s);
+    field("number", &SpeedReference::number);
+    field("side_m_s", &SpeedReference::side_m_s, added);
+    field("climb_m_s", &SpeedReference::climb_m_s, added);
   }
 };
 
@@ -91,9 +102,12 @@ struct Battery {
   bool low = false;
   double charge = 0, current_a = 0;  ///< remaining fraction; current; if the battery is simulated
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &Battery::date), field("volts", &Battery::volts), field("low", &Battery::low),
-                      added_field("charge", &Battery::charge), added_field("current_a", &Battery::current_a));
+  static void fields(auto field) {
+    field("date", &Battery::date);
+    field("volts", &Battery::volts);
+    field("low", &Battery::low);
+    field("charge", &Battery::charge, added);
+    field("current_a", &Battery::current_a, added);
   }
 };
 
@@ -102,8 +116,9 @@ struct SonarEcho {
   Pose mount;
   double range_m = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("mount", &SonarEcho::mount), field("range_m", &SonarEcho::range_m));
+  static void fields(auto field) {
+    field("mount", &SonarEcho::mount);
+    field("range_m", &SonarEcho::range_m);
   }
 };
 
@@ -111,15 +126,19 @@ struct Sonars {
   Time date;
   Bounded<SonarEcho, sonar_count_max> echoes;
 
-  static constexpr auto fields() { return std::tuple(field("date", &Sonars::date), field("echoes", &Sonars::echoes)); }
+  static void fields(auto field) {
+    field("date", &Sonars::date);
+    field("echoes", &Sonars::echoes);
+  }
 };
 
 struct Infrareds {
   Time date;
   Bounded<SonarEcho, infrared_count_max> echoes;
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &Infrareds::date), field("echoes", &Infrareds::echoes));
+  static void fields(auto field) {
+    field("date", &Infrareds::date);
+    field("echoes", &Infrareds::echoes);
   }
 };
 

@@ -14,11 +14,14 @@ struct Inertial {
   double ahead_m_s2 = 0, left_m_s2 = 0, up_m_s2 = 0;  ///< at rest: 0, 0, gravity
   double turned_rad = 0;                              ///< integral of the turn rate since the start
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &Inertial::date), field("number", &Inertial::number),
-                      field("turn_rad_s", &Inertial::turn_rad_s), field("ahead_m_s2", &Inertial::ahead_m_s2),
-                      field("left_m_s2", &Inertial::left_m_s2), field("up_m_s2", &Inertial::up_m_s2),
-                      field("turned_rad", &Inertial::turned_rad));
+  static void fields(auto field) {
+    field("date", &Inertial::date);
+    field("number", &Inertial::number);
+    field("turn_rad_s", &Inertial::turn_rad_s);
+    field("ahead_m_s2", &Inertial::ahead_m_s2);
+    field("left_m_s2", &Inertial::left_m_s2);
+    field("up_m_s2", &Inertial::up_m_s2);
+    field("turned_rad", &Inertial::turned_rad);
   }
 };
 
@@ -29,9 +32,11 @@ struct PositionFix {
   Point position;
   double height_m = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &PositionFix::date), field("number", &PositionFix::number),
-                      field("position", &PositionFix::position), field("height_m", &PositionFix::height_m));
+  static void fields(auto field) {
+    field("date", &PositionFix::date);
+    field("number", &PositionFix::number);
+    field("position", &PositionFix::position);
+    field("height_m", &PositionFix::height_m);
   }
 };
 

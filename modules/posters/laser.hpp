@@ -13,7 +13,7 @@ inline constexpr std::size_t segment_count_max = 64;
 struct LaserCommand {
   bool on = false;
 
-  static constexpr auto fields() { return std::tuple(field("on", &LaserCommand::on)); }
+  static void fields(auto field) { field("on", &LaserCommand::on); }
 };
 
 /// From the device: one scan, counter-clockwise, in the device's own frame.
@@ -24,11 +24,13 @@ struct LaserReading {
   double range_max_m = 0;                  ///< the reading of a beam without echo
   Bounded<float, beam_count_max> range_m;  ///< quantised by the device
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &LaserReading::date), field("number", &LaserReading::number),
-                      field("first_angle_rad", &LaserReading::first_angle_rad),
-                      field("angle_step_rad", &LaserReading::angle_step_rad),
-                      field("range_max_m", &LaserReading::range_max_m), field("range_m", &LaserReading::range_m));
+  static void fields(auto field) {
+    field("date", &LaserReading::date);
+    field("number", &LaserReading::number);
+    field("first_angle_rad", &LaserReading::first_angle_rad);
+    field("angle_step_rad", &LaserReading::angle_step_rad);
+    field("range_max_m", &LaserReading::range_max_m);
+    field("range_m", &LaserReading::range_m);
   }
 };
 
@@ -37,7 +39,10 @@ struct Echoes {
   LaserReading scan;
   Pose mount;
 
-  static constexpr auto fields() { return std::tuple(field("scan", &Echoes::scan), field("mount", &Echoes::mount)); }
+  static void fields(auto field) {
+    field("scan", &Echoes::scan);
+    field("mount", &Echoes::mount);
+  }
 };
 
 /// A straight run of echoes in the robot's frame, from `start` to `end`, counter-clockwise as seen from the device. Its
@@ -49,10 +54,13 @@ struct Segment {
       covariance{};  ///< rad^2, rad m, m^2: (normal, normal), (normal, distance), (distance, distance)
   std::uint32_t points = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("start", &Segment::start), field("end", &Segment::end),
-                      field("normal_rad", &Segment::normal_rad), field("distance_m", &Segment::distance_m),
-                      field("covariance", &Segment::covariance), field("points", &Segment::points));
+  static void fields(auto field) {
+    field("start", &Segment::start);
+    field("end", &Segment::end);
+    field("normal_rad", &Segment::normal_rad);
+    field("distance_m", &Segment::distance_m);
+    field("covariance", &Segment::covariance);
+    field("points", &Segment::points);
   }
 };
 
@@ -62,9 +70,10 @@ struct Segments {
   std::uint32_t number = 0;  ///< of the scan
   Bounded<Segment, segment_count_max> items;
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &Segments::date), field("number", &Segments::number),
-                      field("items", &Segments::items));
+  static void fields(auto field) {
+    field("date", &Segments::date);
+    field("number", &Segments::number);
+    field("items", &Segments::items);
   }
 };
 
@@ -72,8 +81,9 @@ struct Segments {
 struct MapSegment {
   Point start, end;
 
-  static constexpr auto fields() {
-    return std::tuple(field("start", &MapSegment::start), field("end", &MapSegment::end));
+  static void fields(auto field) {
+    field("start", &MapSegment::start);
+    field("end", &MapSegment::end);
   }
 };
 
@@ -83,8 +93,9 @@ struct SegmentMap {
   Time date;
   Bounded<MapSegment, map_segment_count_max> items;
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &SegmentMap::date), field("items", &SegmentMap::items));
+  static void fields(auto field) {
+    field("date", &SegmentMap::date);
+    field("items", &SegmentMap::items);
   }
 };
 

@@ -13,9 +13,10 @@ struct KnownPose {
   Pose pose;
   double position_deviation_m = 0.01, heading_deviation_rad = 0.005;
 
-  static constexpr auto fields() {
-    return std::tuple(field("pose", &KnownPose::pose), field("position_deviation_m", &KnownPose::position_deviation_m),
-                      field("heading_deviation_rad", &KnownPose::heading_deviation_rad));
+  static void fields(auto field) {
+    field("pose", &KnownPose::pose);
+    field("position_deviation_m", &KnownPose::position_deviation_m);
+    field("heading_deviation_rad", &KnownPose::heading_deviation_rad);
   }
 };
 
@@ -23,7 +24,7 @@ struct KnownPose {
 struct GoToInput {
   Bounded<Point, via_point_count_max> via;
 
-  static constexpr auto fields() { return std::tuple(field("via", &GoToInput::via)); }
+  static void fields(auto field) { field("via", &GoToInput::via); }
 };
 
 /// Reports of GoTo in addition to GenoM's standard ones.

@@ -14,9 +14,10 @@ struct PositionEstimate {
   Pose pose;
   std::array<double, 9> covariance{};
 
-  static constexpr auto fields() {
-    return std::tuple(field("date", &PositionEstimate::date), field("pose", &PositionEstimate::pose),
-                      field("covariance", &PositionEstimate::covariance));
+  static void fields(auto field) {
+    field("date", &PositionEstimate::date);
+    field("pose", &PositionEstimate::pose);
+    field("covariance", &PositionEstimate::covariance);
   }
 };
 
@@ -27,10 +28,12 @@ struct Odometry {
   bool stalled = false;           ///< the base reports that it cannot move as commanded
   double height_m = 0;            ///< flying bases: measured height
 
-  static constexpr auto fields() {
-    return std::tuple(field("position", &Odometry::position), field("v_m_s", &Odometry::v_m_s),
-                      field("w_rad_s", &Odometry::w_rad_s), field("stalled", &Odometry::stalled),
-                      added_field("height_m", &Odometry::height_m));
+  static void fields(auto field) {
+    field("position", &Odometry::position);
+    field("v_m_s", &Odometry::v_m_s);
+    field("w_rad_s", &Odometry::w_rad_s);
+    field("stalled", &Odometry::stalled);
+    field("height_m", &Odometry::height_m, added);
   }
 };
 
@@ -40,9 +43,10 @@ struct Localisation {
   std::uint32_t matched = 0;   ///< segments of the scan matched to the map
   std::uint32_t observed = 0;  ///< segments of the scan
 
-  static constexpr auto fields() {
-    return std::tuple(field("position", &Localisation::position), field("matched", &Localisation::matched),
-                      field("observed", &Localisation::observed));
+  static void fields(auto field) {
+    field("position", &Localisation::position);
+    field("matched", &Localisation::matched);
+    field("observed", &Localisation::observed);
   }
 };
 
@@ -59,9 +63,10 @@ struct FusedPosition {
   FusionState state = FusionState::good;
   Duration correction_age;  ///< age of the newest absolute position used; Duration::max(): none
 
-  static constexpr auto fields() {
-    return std::tuple(field("position", &FusedPosition::position), field("state", &FusedPosition::state),
-                      field("correction_age", &FusedPosition::correction_age));
+  static void fields(auto field) {
+    field("position", &FusedPosition::position);
+    field("state", &FusedPosition::state);
+    field("correction_age", &FusedPosition::correction_age);
   }
 };
 

@@ -19,10 +19,10 @@ struct OdometryNoise {
   double turn_variance_rad2_per_rad = 4e-4;
   double turn_variance_rad2_per_m = 1e-4;
 
-  static constexpr auto fields() {
-    return std::tuple(field("travel_variance_m2_per_m", &OdometryNoise::travel_variance_m2_per_m),
-                      field("turn_variance_rad2_per_rad", &OdometryNoise::turn_variance_rad2_per_rad),
-                      field("turn_variance_rad2_per_m", &OdometryNoise::turn_variance_rad2_per_m));
+  static void fields(auto field) {
+    field("travel_variance_m2_per_m", &OdometryNoise::travel_variance_m2_per_m);
+    field("turn_variance_rad2_per_rad", &OdometryNoise::turn_variance_rad2_per_rad);
+    field("turn_variance_rad2_per_m", &OdometryNoise::turn_variance_rad2_per_m);
   }
 };
 

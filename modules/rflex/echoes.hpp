@@ -13,8 +13,9 @@ struct SonarRing {
   std::uint32_t count = 0;
   double radius_m = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("count", &SonarRing::count), field("radius_m", &SonarRing::radius_m));
+  static void fields(auto field) {
+    field("count", &SonarRing::count);
+    field("radius_m", &SonarRing::radius_m);
   }
 };
 
@@ -24,10 +25,12 @@ struct InfraredCalibration {
   double range_max_m = 0.8;  ///< greater ranges count as no echo
   double ring_radius_m = 0.25;
 
-  static constexpr auto fields() {
+  static void fields(auto field) {
     using I = InfraredCalibration;
-    return std::tuple(field("gain_per_v", &I::gain_per_v), field("exponent", &I::exponent),
-                      field("range_max_m", &I::range_max_m), field("ring_radius_m", &I::ring_radius_m));
+    field("gain_per_v", &I::gain_per_v);
+    field("exponent", &I::exponent);
+    field("range_max_m", &I::range_max_m);
+    field("ring_radius_m", &I::ring_radius_m);
   }
 };
 

@@ -41,17 +41,21 @@ struct Parameters {
   bool gyro_turns = false;  ///< odometry uses the gyro's turns; requires a gyro
   Duration gyro_calibration_ms = std::chrono::seconds(5);
 
-  static constexpr auto fields() {
-    return std::tuple(
-        field("noise", &Parameters::noise), field("units_per_m", &Parameters::units_per_m),
-        field("units_per_rad", &Parameters::units_per_rad), field("speed_poster", &Parameters::speed_poster),
-        field("reference_timeout_ms", &Parameters::reference_timeout_ms),
-        field("battery_low_v", &Parameters::battery_low_v),
-        field("sonar_ring_radius_m", &Parameters::sonar_ring_radius_m),
-        field("cruise_height_m", &Parameters::cruise_height_m), field("climb_m_s_max", &Parameters::climb_m_s_max),
-        field("sonar_rings", &Parameters::sonar_rings), field("infrared", &Parameters::infrared),
-        field("battery_low_charge", &Parameters::battery_low_charge), field("gyro_turns", &Parameters::gyro_turns),
-        field("gyro_calibration_ms", &Parameters::gyro_calibration_ms));
+  static void fields(auto field) {
+    field("noise", &Parameters::noise);
+    field("units_per_m", &Parameters::units_per_m);
+    field("units_per_rad", &Parameters::units_per_rad);
+    field("speed_poster", &Parameters::speed_poster);
+    field("reference_timeout_ms", &Parameters::reference_timeout_ms);
+    field("battery_low_v", &Parameters::battery_low_v);
+    field("sonar_ring_radius_m", &Parameters::sonar_ring_radius_m);
+    field("cruise_height_m", &Parameters::cruise_height_m);
+    field("climb_m_s_max", &Parameters::climb_m_s_max);
+    field("sonar_rings", &Parameters::sonar_rings);
+    field("infrared", &Parameters::infrared);
+    field("battery_low_charge", &Parameters::battery_low_charge);
+    field("gyro_turns", &Parameters::gyro_turns);
+    field("gyro_calibration_ms", &Parameters::gyro_calibration_ms);
   }
 };
 
@@ -59,9 +63,11 @@ struct Parameters {
 struct SpeedInput {
   double v_m_s = 0, w_rad_s = 0, side_m_s = 0, climb_m_s = 0;
 
-  static constexpr auto fields() {
-    return std::tuple(field("v_m_s", &SpeedInput::v_m_s), field("w_rad_s", &SpeedInput::w_rad_s),
-                      added_field("side_m_s", &SpeedInput::side_m_s), added_field("climb_m_s", &SpeedInput::climb_m_s));
+  static void fields(auto field) {
+    field("v_m_s", &SpeedInput::v_m_s);
+    field("w_rad_s", &SpeedInput::w_rad_s);
+    field("side_m_s", &SpeedInput::side_m_s, added);
+    field("climb_m_s", &SpeedInput::climb_m_s, added);
   }
 };
 
@@ -72,7 +78,7 @@ enum class CalibrationReport : std::uint16_t { no_gyro = genom::first_own_report
 struct GyroBias {
   double rad_s = 0;
 
-  static constexpr auto fields() { return std::tuple(field("rad_s", &GyroBias::rad_s)); }
+  static void fields(auto field) { field("rad_s", &GyroBias::rad_s); }
 };
 
 class Rflex : public genom::Module {

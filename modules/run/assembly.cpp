@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/number_text.hpp"
+#include "modules/executive/known_space.hpp"
 #include "modules/run/known_map.hpp"
 #include "modules/scenario/scenario_checks.hpp"
 #include "world/bullet/bullet_world.hpp"

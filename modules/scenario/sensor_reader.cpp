@@ -42,9 +42,9 @@ void read_laser_timing(const YamlMap& map, bool lms, world::LaserDescription& la
   constexpr std::uint64_t line_max_bit_s = 1'000'000'000;
   map.read("line_bit_s", laser.line_bit_s, 300, line_max_bit_s);
   map.read("mirror_turn_ms", laser.mirror_turn, 1ms);
-  constexpr std::uint64_t turns_max = 16;
+  constexpr std::uint64_t waitpoints_max = 16;
   if (!lms) {
-    map.read("interlaced_turns", laser.interlaced_turns, 1, turns_max);
+    map.read("interlaced_turns", laser.interlaced_turns, 1, waitpoints_max);
   } else if (const auto cannot = set_lms_mode(laser)) {
     throw map.node().written.bad(*cannot);
   }

@@ -17,12 +17,15 @@ struct CandidateParameters {
   std::uint32_t sightings_enough = 8;                ///< accepted even without motion
   std::uint32_t patience_updates = 15;               ///< forgotten after so many updates without a sighting
 
-  static constexpr auto fields() {
+  static void fields(auto field) {
     using P = CandidateParameters;
-    return std::tuple(field("angle_rad_max", &P::angle_rad_max), field("offset_m_max", &P::offset_m_max),
-                      field("sightings_min", &P::sightings_min), field("travel_m_min", &P::travel_m_min),
-                      field("turn_rad_min", &P::turn_rad_min), field("sightings_enough", &P::sightings_enough),
-                      field("patience_updates", &P::patience_updates));
+    field("angle_rad_max", &P::angle_rad_max);
+    field("offset_m_max", &P::offset_m_max);
+    field("sightings_min", &P::sightings_min);
+    field("travel_m_min", &P::travel_m_min);
+    field("turn_rad_min", &P::turn_rad_min);
+    field("sightings_enough", &P::sightings_enough);
+    field("patience_updates", &P::patience_updates);
   }
 };
 

@@ -53,25 +53,36 @@ struct Parameters {
   double lost_noise_m = 0.1, lost_noise_rad = 0.05;
   CandidateParameters candidates;
 
-  static constexpr auto fields() {
+  static void fields(auto field) {
     using P = Parameters;
-    return std::tuple(field("landmarks_max", &P::landmarks_max), field("matches_max", &P::matches_max),
-                      field("travel_noise_m_per_sqrt_m", &P::travel_noise_m_per_sqrt_m),
-                      field("drift_noise_rad_per_sqrt_m", &P::drift_noise_rad_per_sqrt_m),
-                      field("turn_noise_rad_per_sqrt_rad", &P::turn_noise_rad_per_sqrt_rad),
-                      field("travel_scale_deviation", &P::travel_scale_deviation),
-                      field("turn_scale_deviation", &P::turn_scale_deviation),
-                      field("drift_deviation_rad_per_m", &P::drift_deviation_rad_per_m),
-                      field("angle_floor_rad", &P::angle_floor_rad), field("offset_floor_m", &P::offset_floor_m),
-                      field("update_travel_m", &P::update_travel_m), field("update_turn_rad", &P::update_turn_rad),
-                      field("update_scans", &P::update_scans), field("chi2_match", &P::chi2_match),
-                      field("angle_rad_max", &P::angle_rad_max), field("offset_m_max", &P::offset_m_max),
-                      field("gap_m_max", &P::gap_m_max), field("information_min", &P::information_min),
-                      field("disputed_offset_m", &P::disputed_offset_m), field("length_m_min", &P::length_m_min),
-                      field("length_at_once_m", &P::length_at_once_m), field("join_m", &P::join_m),
-                      field("chi2_merge", &P::chi2_merge), field("lost_updates", &P::lost_updates),
-                      field("lost_updates_max", &P::lost_updates_max), field("lost_noise_m", &P::lost_noise_m),
-                      field("lost_noise_rad", &P::lost_noise_rad), field("candidates", &P::candidates));
+    field("landmarks_max", &P::landmarks_max);
+    field("matches_max", &P::matches_max);
+    field("travel_noise_m_per_sqrt_m", &P::travel_noise_m_per_sqrt_m);
+    field("drift_noise_rad_per_sqrt_m", &P::drift_noise_rad_per_sqrt_m);
+    field("turn_noise_rad_per_sqrt_rad", &P::turn_noise_rad_per_sqrt_rad);
+    field("travel_scale_deviation", &P::travel_scale_deviation);
+    field("turn_scale_deviation", &P::turn_scale_deviation);
+    field("drift_deviation_rad_per_m", &P::drift_deviation_rad_per_m);
+    field("angle_floor_rad", &P::angle_floor_rad);
+    field("offset_floor_m", &P::offset_floor_m);
+    field("update_travel_m", &P::update_travel_m);
+    field("update_turn_rad", &P::update_turn_rad);
+    field("update_scans", &P::update_scans);
+    field("chi2_match", &P::chi2_match);
+    field("angle_rad_max", &P::angle_rad_max);
+    field("offset_m_max", &P::offset_m_max);
+    field("gap_m_max", &P::gap_m_max);
+    field("information_min", &P::information_min);
+    field("disputed_offset_m", &P::disputed_offset_m);
+    field("length_m_min", &P::length_m_min);
+    field("length_at_once_m", &P::length_at_once_m);
+    field("join_m", &P::join_m);
+    field("chi2_merge", &P::chi2_merge);
+    field("lost_updates", &P::lost_updates);
+    field("lost_updates_max", &P::lost_updates_max);
+    field("lost_noise_m", &P::lost_noise_m);
+    field("lost_noise_rad", &P::lost_noise_rad);
+    field("candidates", &P::candidates);
   }
 };
 

@@ -41,17 +41,24 @@ struct SegmentExtractionParameters {
   std::uint32_t points_min = 6;
   double length_m_min = 0.4;
 
-  static constexpr auto fields() {
+  static void fields(auto field) {
     using P = SegmentExtractionParameters;
-    return std::tuple(field("range_noise_m", &P::range_noise_m), field("range_noise_near_m", &P::range_noise_near_m),
-                      field("range_noise_growth_m_per_m", &P::range_noise_growth_m_per_m),
-                      field("range_resolution_m", &P::range_resolution_m), field("range_bias_m", &P::range_bias_m),
-                      field("bearing_noise_rad", &P::bearing_noise_rad), field("roughness_m", &P::roughness_m),
-                      field("range_min_m", &P::range_min_m), field("beam_gap_rad_max", &P::beam_gap_rad_max),
-                      field("grazing_angle_rad", &P::grazing_angle_rad), field("jump_m_min", &P::jump_m_min),
-                      field("chi2_split", &P::chi2_split), field("merge_gap_m_max", &P::merge_gap_m_max),
-                      field("bow_m_max", &P::bow_m_max), field("points_min", &P::points_min),
-                      field("length_m_min", &P::length_m_min));
+    field("range_noise_m", &P::range_noise_m);
+    field("range_noise_near_m", &P::range_noise_near_m);
+    field("range_noise_growth_m_per_m", &P::range_noise_growth_m_per_m);
+    field("range_resolution_m", &P::range_resolution_m);
+    field("range_bias_m", &P::range_bias_m);
+    field("bearing_noise_rad", &P::bearing_noise_rad);
+    field("roughness_m", &P::roughness_m);
+    field("range_min_m", &P::range_min_m);
+    field("beam_gap_rad_max", &P::beam_gap_rad_max);
+    field("grazing_angle_rad", &P::grazing_angle_rad);
+    field("jump_m_min", &P::jump_m_min);
+    field("chi2_split", &P::chi2_split);
+    field("merge_gap_m_max", &P::merge_gap_m_max);
+    field("bow_m_max", &P::bow_m_max);
+    field("points_min", &P::points_min);
+    field("length_m_min", &P::length_m_min);
   }
 };
 

@@ -20,10 +20,12 @@ struct Parameters {
   Duration scan_age_ms;
   SegmentExtractionParameters segments;
 
-  static constexpr auto fields() {
-    return std::tuple(field("mount_x_m", &Parameters::mount_x_m), field("mount_y_m", &Parameters::mount_y_m),
-                      field("mount_heading_deg", &Parameters::mount_heading_deg),
-                      field("scan_age_ms", &Parameters::scan_age_ms), field("segments", &Parameters::segments));
+  static void fields(auto field) {
+    field("mount_x_m", &Parameters::mount_x_m);
+    field("mount_y_m", &Parameters::mount_y_m);
+    field("mount_heading_deg", &Parameters::mount_heading_deg);
+    field("scan_age_ms", &Parameters::scan_age_ms);
+    field("segments", &Parameters::segments);
   }
 };
 

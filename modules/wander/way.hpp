@@ -22,11 +22,14 @@ struct Parameters {
   Duration back_off_ms = std::chrono::seconds(1);  ///< duration of driving backwards after a stall
   bool on = true;                                  ///< drives from the start; false: from the request Go
 
-  static constexpr auto fields() {
-    return std::tuple(field("v_m_s", &Parameters::v_m_s), field("w_rad_s", &Parameters::w_rad_s),
-                      field("clear_m", &Parameters::clear_m), field("slow_m", &Parameters::slow_m),
-                      field("half_width_m", &Parameters::half_width_m), field("back_off_ms", &Parameters::back_off_ms),
-                      field("on", &Parameters::on));
+  static void fields(auto field) {
+    field("v_m_s", &Parameters::v_m_s);
+    field("w_rad_s", &Parameters::w_rad_s);
+    field("clear_m", &Parameters::clear_m);
+    field("slow_m", &Parameters::slow_m);
+    field("half_width_m", &Parameters::half_width_m);
+    field("back_off_ms", &Parameters::back_off_ms);
+    field("on", &Parameters::on);
   }
 };
 

@@ -14,7 +14,10 @@ enum class Mode : std::uint8_t { idle, drive };
 struct Inner {
   std::uint8_t small = 1;  // padding follows
   double wide = 2;
-  static constexpr auto fields() { return std::tuple(field("small", &Inner::small), field("wide", &Inner::wide)); }
+  static void fields(auto field) {
+    field("small", &Inner::small);
+    field("wide", &Inner::wide);
+  }
 };
 
 struct Outer {
@@ -29,11 +32,17 @@ struct Outer {
   std::array<Inner, 2> pair;
   Bounded<Inner, 4> list;
   double not_a_field = 0;
-  static constexpr auto fields() {
-    return std::tuple(field("date", &Outer::date), field("age", &Outer::age), field("on", &Outer::on),
-                      field("mode", &Outer::mode), field("ratio", &Outer::ratio),
-                      field("signed_count", &Outer::signed_count), field("point", &Outer::point),
-                      field("pose", &Outer::pose), field("pair", &Outer::pair), field("list", &Outer::list));
+  static void fields(auto field) {
+    field("date", &Outer::date);
+    field("age", &Outer::age);
+    field("on", &Outer::on);
+    field("mode", &Outer::mode);
+    field("ratio", &Outer::ratio);
+    field("signed_count", &Outer::signed_count);
+    field("point", &Outer::point);
+    field("pose", &Outer::pose);
+    field("pair", &Outer::pair);
+    field("list", &Outer::list);
   }
 };
 
@@ -70,15 +79,17 @@ TEST(Fields, EveryDeclaredFieldCountsHoweverDeep) {
 
 struct Before {
   double wide = 2;
-  static constexpr auto fields() { return std::tuple(field("wide", &Before::wide)); }
+  static void fields(auto field) { field("wide", &Before::wide); }
 };
 
 struct Later {
   double wide = 2, side = 0, up = 0;
   Bounded<Inner, 2> list;
-  static constexpr auto fields() {
-    return std::tuple(field("wide", &Later::wide), added_field("side", &Later::side), added_field("up", &Later::up),
-                      added_field("list", &Later::list));
+  static void fields(auto field) {
+    field("wide", &Later::wide);
+    field("side", &Later::side, added);
+    field("up", &Later::up, added);
+    field("list", &Later::list, added);
   }
 };
 

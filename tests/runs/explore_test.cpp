@@ -28,8 +28,9 @@ struct PairParameters {
   std::uint32_t fault = 0;  ///< 0: nothing, 1: an exception, 2: a loop without end, 3: a crash
   std::uint32_t turns = 2;  ///< consecutive periods in which the second task must come first
 
-  static constexpr auto fields() {
-    return std::tuple(field("fault", &PairParameters::fault), field("turns", &PairParameters::turns));
+  static void fields(auto field) {
+    field("fault", &PairParameters::fault);
+    field("turns", &PairParameters::turns);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fibers/io/datagram_socket.hpp"
+#include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
@@ -21,22 +22,25 @@ struct Heard {
   std::uint64_t count = 0;
   Time sent, received;            // of the last message
   std::int64_t travel_units = 0;  // of the other robot, by its own odometry
-  static constexpr auto fields() {
-    return std::tuple(field("count", &Heard::count), field("sent", &Heard::sent), field("received", &Heard::received),
-                      field("travel_units", &Heard::travel_units));
+  static void fields(auto field) {
+    field("count", &Heard::count);
+    field("sent", &Heard::sent);
+    field("received", &Heard::received);
+    field("travel_units", &Heard::travel_units);
   }
 };
 
 struct Told {
   io::Status status = io::Status::ok;  // of the last message sent
-  static constexpr auto fields() { return std::tuple(field("status", &Told::status)); }
+  static void fields(auto field) { field("status", &Told::status); }
 };
 
 struct BeaconParameters {
   double v_m_s = 0;
   bool sends = false;
-  static constexpr auto fields() {
-    return std::tuple(field("v_m_s", &BeaconParameters::v_m_s), field("sends", &BeaconParameters::sends));
+  static void fields(auto field) {
+    field("v_m_s", &BeaconParameters::v_m_s);
+    field("sends", &BeaconParameters::sends);
   }
 };
 

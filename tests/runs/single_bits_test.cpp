@@ -29,7 +29,10 @@ struct Bytes {
   std::array<std::uint8_t, 32> bytes{};
   std::array<std::uint32_t, 4> draw{};
 
-  static constexpr auto fields() { return std::tuple(field("bytes", &Bytes::bytes), field("draw", &Bytes::draw)); }
+  static void fields(auto field) {
+    field("bytes", &Bytes::bytes);
+    field("draw", &Bytes::draw);
+  }
 };
 
 struct Flip {
@@ -37,10 +40,13 @@ struct Flip {
   std::uint64_t cost_tick = ~0u, cost_bit = 0;  // of the nanoseconds of a codel's cost
   std::uint64_t draw_tick = ~0u, draw_bit = 0;  // of the output of a stream
 
-  static constexpr auto fields() {
-    return std::tuple(field("byte_tick", &Flip::byte_tick), field("byte_bit", &Flip::byte_bit),
-                      field("cost_tick", &Flip::cost_tick), field("cost_bit", &Flip::cost_bit),
-                      field("draw_tick", &Flip::draw_tick), field("draw_bit", &Flip::draw_bit));
+  static void fields(auto field) {
+    field("byte_tick", &Flip::byte_tick);
+    field("byte_bit", &Flip::byte_bit);
+    field("cost_tick", &Flip::cost_tick);
+    field("cost_bit", &Flip::cost_bit);
+    field("draw_tick", &Flip::draw_tick);
+    field("draw_bit", &Flip::draw_bit);
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tests/runs/shipped.hpp"

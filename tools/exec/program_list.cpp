@@ -130,7 +130,7 @@ std::string ends_of_programs(const posix::Record& record) {
 
 std::string program_of_last_turn(const posix::Record& record) {
   for (const posix::ProgramRecord& program : record.several())
-    if (record.scheduler.lane_in_use() == &program.robot.digest) return program.name;
+    if (record.scheduler.digest_in_use() == &program.robot.digest) return program.name;
   return "";
 }
 

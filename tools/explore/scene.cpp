@@ -11,6 +11,7 @@
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/schedules/trail_recorder.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/kernel/call_stack.hpp"
 #include "fibers/sync/source_lines.hpp"
 #include "modules/run/expectation.hpp"
 
@@ -139,7 +140,7 @@ void Scene::tell_stop(Finding& finding) const {
   kernel::Task* const task = stage_->stop->stopped_before();
   if (task == nullptr) return;
   sync::ReturnAddresses stack(exploration::frames_searched);
-  stack.resize(scheduler.call_stack(*task, stack.data(), stack.size()));
+  stack.resize(kernel::call_stack(*task, stack.data(), stack.size()));
   const sync::ReturnAddresses stacks[] = {stack};
   finding.end = scheduler.global_time();
   finding.tell(exploration::about_to(*task), sync::user_source_lines(stacks, exploration::frames_shown).front());

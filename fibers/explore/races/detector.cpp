@@ -96,7 +96,7 @@ inline bool Detector::is_other_switch_point(const Seen& seen) {
 void Detector::pass_switch_point(kernel::Operation operation, Cell& cell) {
   const bool computed_long = weight_ >= weight_max;
   weight_ = 0;
-  if (computed_long) return kernel::give_turn();
+  if (computed_long) return kernel::yield_after_computing();
   kernel::access(operation, &shadow_.object(cell));
 }
 
@@ -104,7 +104,7 @@ void Detector::pass_switch_point(kernel::Operation operation, Cell& cell) {
 void Detector::unwatched(std::uint32_t weight) {
   if (!is_unwound(kernel::running) || (weight_ += weight) < weight_max) return;
   weight_ = 0;
-  kernel::give_turn();
+  kernel::yield_after_computing();
 }
 
 [[gnu::always_inline]] inline void Detector::record(Cell& cell, const Seen& seen) {

@@ -13,7 +13,7 @@ using kernel::Operation;
 constexpr std::uint8_t looks_max = 6;
 
 // The number of turns given while all ready tasks spin, before time advances.
-constexpr std::uint32_t idle_turns_max = 20;
+constexpr std::uint32_t idle_yields_max = 20;
 
 template <class... Operations>
 constexpr std::uint64_t set_of(Operations... operations) {
@@ -108,7 +108,7 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
 
 // Called if a schedule is played, or some tasks spin.
 std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) {
-  if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_turns_max && scheduler_.is_due_later())
+  if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_yields_max && scheduler_.is_due_later())
     return later;
   if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
   const bool chooses = count > 1;

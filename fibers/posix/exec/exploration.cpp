@@ -7,6 +7,7 @@
 #include "fibers/explore/report/choice_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/course.hpp"
+#include "fibers/kernel/call_stack.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -61,12 +62,12 @@ void Explored::watch(kernel::Scheduler& scheduler, const Asked& asked) {
     scheduler.set_watch(&log_.emplace(log, explorer, asked.log_from));
 }
 
-void Explored::note_stop(kernel::Scheduler& scheduler) {
+void Explored::note_stop() {
   kernel::Task* const task = stop_ ? stop_->stopped_before() : nullptr;
   if (task == nullptr) return;
   stopped_before = exploration::about_to(*task);
   void* frames[exploration::frames_searched];
-  const std::size_t count = scheduler.call_stack(*task, frames, exploration::frames_searched);
+  const std::size_t count = kernel::call_stack(*task, frames, exploration::frames_searched);
   WAITPOINT_CHECK(count <= exploration::frames_searched, "a call stack is longer than its room");
   const std::string own = own_module();
   for (std::size_t i = 0; i < count; ++i)

@@ -77,7 +77,7 @@ struct Explored {
   sync::CodePlaces stopped_calls;  ///< its task's call stack, without the layer's own frames
 
   /// After the run: notes if it has stopped where requested.
-  void note_stop(kernel::Scheduler& scheduler);
+  void note_stop();
 
  private:
   void begin(const Asked& asked);

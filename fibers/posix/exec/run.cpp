@@ -171,7 +171,7 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
   if (scheduler.stop_cause() == kernel::StopCause::ended) return record->ending = Ending::own;
   if (scheduler.stop_cause() == kernel::StopCause::requested) {
     WAITPOINT_CHECK(record->explored != nullptr, "a run is stopped without an exploration");
-    record->explored->note_stop(scheduler);
+    record->explored->note_stop();
     return record->ending = Ending::cut_off;
   }
   const bool stuck = scheduler.stop_cause() != kernel::StopCause::no_progress;

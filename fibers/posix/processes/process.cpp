@@ -66,6 +66,16 @@ void take_own_record() {
   copy_of_record = nullptr;
 }
 
+void end_other_tasks() {
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  for (kernel::Task *task = scheduler.first_task(), *next = nullptr; task != nullptr; task = next) {
+    next = task->next;
+    if (task != kernel::running) scheduler.end_in_place(*task);
+  }
+  WAITPOINT_CHECK(first_task() == kernel::running && kernel::running->next == nullptr,
+                  "a child has tasks of its parent's");
+}
+
 // In the child, before any handler of pthread_atfork() of the program's. The child has begun once it has the copy.
 void begin_as_child() {
   if (!is_simulated() || copy_of_record == nullptr) return;
@@ -75,9 +85,7 @@ void begin_as_child() {
   forget_waiters();
   forget_vectors();
   leave_shared_mutexes();
-  kernel::running->scheduler->keep_running_task_only();
-  WAITPOINT_CHECK(first_task() == kernel::running && kernel::running->next == nullptr,
-                  "a child has tasks of its parent's");
+  end_other_tasks();
   forget_interval_timers();
   forget_timers();
   forget_notices();

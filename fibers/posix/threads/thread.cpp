@@ -122,7 +122,7 @@ void count_threads(Program& program) {
   ++program.threads_made;
   if (has_host) return;
   ++record->threads_made;
-  const std::uint32_t now = record->scheduler.tasks();
+  const std::uint32_t now = record->scheduler.roster().tasks();
   if (now > record->threads_most) record->threads_most = now;
 }
 

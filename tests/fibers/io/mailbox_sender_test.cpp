@@ -22,9 +22,11 @@ struct Order {
   double metres = 0;
   std::array<std::int16_t, 3> parts{};
   Bounded<Point, 4> way;
-  static constexpr auto fields() {
-    return std::tuple(field("number", &Order::number), field("metres", &Order::metres), field("parts", &Order::parts),
-                      field("way", &Order::way));
+  static void fields(auto field) {
+    field("number", &Order::number);
+    field("metres", &Order::metres);
+    field("parts", &Order::parts);
+    field("way", &Order::way);
   }
 };
 

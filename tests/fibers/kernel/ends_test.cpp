@@ -17,7 +17,7 @@ TEST(Ends, UnwindingFromAGivenTurnRunsNobodyElse) {
   TaskRun run;
   Object object("object");
   run.spawn([&] {
-    for (std::uint32_t k = 0; k <= turns_max; ++k) run.scheduler.waitpoint(Operation::try_lock, &object);
+    for (std::uint32_t k = 0; k <= waitpoints_max; ++k) run.scheduler.waitpoint(Operation::try_lock, &object);
     run.log("first");
   });
   run.spawn([&] {
@@ -55,7 +55,7 @@ TEST(Ends, TasksEndInPlaceWhereverTheyAre) {
         run.scheduler.free_stack(*other);
       }
       EXPECT_EQ(run.scheduler.wake_one(object), nullptr);
-      EXPECT_EQ(run.scheduler.tasks(), 1u);
+      EXPECT_EQ(run.scheduler.roster().tasks(), 1u);
       run.sleep(200);
       run.log("alone");
     });
@@ -105,9 +105,9 @@ TEST(Ends, ATaskThatGoesOnAfterTheEndIsAbandoned) {
   EXPECT_EQ(run.scheduler.run_before(Time::from_ns(500)), RunState::reached);
   run.scheduler.unwind();
   EXPECT_EQ(run.trace, "left@499 ");
-  ASSERT_NE(run.scheduler.first_abandoned(), nullptr);
-  EXPECT_STREQ(run.scheduler.first_abandoned()->name, "endless");
-  EXPECT_EQ(run.scheduler.first_abandoned()->next, nullptr);
+  ASSERT_NE(run.scheduler.roster().first_abandoned(), nullptr);
+  EXPECT_STREQ(run.scheduler.roster().first_abandoned()->name, "endless");
+  EXPECT_EQ(run.scheduler.roster().first_abandoned()->next, nullptr);
   EXPECT_EQ(run.scheduler.first_task(), nullptr);
 }
 

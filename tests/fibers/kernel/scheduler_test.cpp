@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +70,7 @@ TEST(Scheduler, AfterAThousandWaitpointsAtOneInstantTiesGetATurn) {
   run.spawn([&] { seen = passed; });
   run.scheduler.run_before(Time::max());
   EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
-  EXPECT_EQ(seen, static_cast<int>(turns_max));
+  EXPECT_EQ(seen, static_cast<int>(waitpoints_max));
 }
 
 TEST(Scheduler, PhasesOfOneInstantComeInTheirOrder) {
@@ -320,12 +321,12 @@ TEST(Scheduler, AStackCanBeReadOfEveryTaskThatIsParked) {
   Task& unborn = run.spawn([] {}, {.phase = Phase::tasks});
   run.scheduler.run_before(Time::from_ns(0));
   void* frames[16];
-  EXPECT_EQ(run.scheduler.call_stack(unborn, frames, 16), 0u);
+  EXPECT_EQ(call_stack(unborn, frames, 16), 0u);
   run.scheduler.run_before(Time::from_ns(20));
   for (int repeat = 0; repeat < 2; ++repeat) {
-    EXPECT_GT(run.scheduler.call_stack(blocked, frames, 16), 4u);
-    EXPECT_GT(run.scheduler.call_stack(paused, frames, 16), 4u);
-    EXPECT_EQ(run.scheduler.call_stack(paused, frames, 2), 2u);
+    EXPECT_GT(call_stack(blocked, frames, 16), 4u);
+    EXPECT_GT(call_stack(paused, frames, 16), 4u);
+    EXPECT_EQ(call_stack(paused, frames, 2), 2u);
   }
   EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
   EXPECT_EQ(run.trace, "paused@50 blocked@100 ");

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fibers/kernel/call_stack.hpp"
 #include "fibers/sync/threads.hpp"
 #include "tests/fibers/sync/mixed_program.hpp"
 #include "tests/fibers/sync/orders.hpp"
@@ -99,7 +100,7 @@ TEST(Determinism, DrawingStacksBetweenWindowsChangesNothing) {
   for (Time until; simulation.run_before(until) == RunEnd::time_reached; until += 170us)
     for (kernel::Task* t = simulation.scheduler().first_task(); t != nullptr; t = t->next) {
       void* frames[8];
-      simulation.scheduler().call_stack(*t, frames, 8);
+      kernel::call_stack(*t, frames, 8);
     }
   EXPECT_EQ(to_string(simulation.digest()), whole.digest);
 }
@@ -109,7 +110,7 @@ std::map<std::string, std::uint64_t> digest_of_each_robot(const SimulationOption
   spawn_mixed_program(simulation, {.robots = robots});
   EXPECT_EQ(simulation.run_before(), RunEnd::ended);
   std::map<std::string, std::uint64_t> digests;
-  for (kernel::Robot* r = simulation.scheduler().first_robot(); r != nullptr; r = r->next)
+  for (kernel::Robot* r = simulation.scheduler().roster().first_robot(); r != nullptr; r = r->next)
     if (r != &simulation.environment()) digests[r->name] = r->digest.value();
   return digests;
 }
@@ -127,7 +128,7 @@ TEST(Determinism, ARobotsDigestDoesNotDependOnUnrelatedRobots) {
 
 struct Output {
   double value = 0;
-  static constexpr auto fields() { return std::tuple(field("value", &Output::value)); }
+  static void fields(auto field) { field("value", &Output::value); }
 };
 
 TEST(Digest, SeesTimesOperationsObjectsAndOutputs) {

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 struct Output {
   int value;
-  static constexpr auto fields() { return std::tuple(field("value", &Output::value)); }
+  static void fields(auto field) { field("value", &Output::value); }
 };
 
 // The objects that the tasks of one robot share.

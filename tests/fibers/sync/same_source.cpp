@@ -16,8 +16,9 @@ using namespace std::chrono_literals;
 struct Item {
   int producer = 0;
   int number = 0;
-  static constexpr auto fields() {
-    return std::tuple(field("producer", &Item::producer), field("number", &Item::number));
+  static void fields(auto field) {
+    field("producer", &Item::producer);
+    field("number", &Item::number);
   }
 };
 

@@ -16,7 +16,7 @@ namespace waitpoint::genom {
 
 struct Number {
   std::int32_t value = 0;
-  static constexpr auto fields() { return std::tuple(field("value", &Number::value)); }
+  static void fields(auto field) { field("value", &Number::value); }
 };
 
 class ScriptedModule : public Module {

@@ -17,7 +17,10 @@ using Act = Running<Number, Number>;
 
 struct Pair {
   std::int32_t a = 0, b = 0;
-  static constexpr auto fields() { return std::tuple(field("a", &Pair::a), field("b", &Pair::b)); }
+  static void fields(auto field) {
+    field("a", &Pair::a);
+    field("b", &Pair::b);
+  }
 };
 
 std::string message_of(const std::function<void()>& call) {

@@ -24,12 +24,17 @@ struct Parameters {
   Duration period_ms = 2ms;
   Duration cost_us = 3us;
 
-  static constexpr auto fields() {
-    return std::tuple(field("gain", &Parameters::gain), field("on", &Parameters::on),
-                      field("label", &Parameters::label), field("count", &Parameters::count),
-                      field("small", &Parameters::small), field("large", &Parameters::large),
-                      field("positive", &Parameters::positive), field("pause_s", &Parameters::pause_s),
-                      field("period_ms", &Parameters::period_ms), field("cost_us", &Parameters::cost_us));
+  static void fields(auto field) {
+    field("gain", &Parameters::gain);
+    field("on", &Parameters::on);
+    field("label", &Parameters::label);
+    field("count", &Parameters::count);
+    field("small", &Parameters::small);
+    field("large", &Parameters::large);
+    field("positive", &Parameters::positive);
+    field("pause_s", &Parameters::pause_s);
+    field("period_ms", &Parameters::period_ms);
+    field("cost_us", &Parameters::cost_us);
   }
 };
 
@@ -104,9 +109,11 @@ struct Places {
   std::array<double, 2> gains{1, 2};
   enum class Kind : std::uint8_t { slow, fast } kind = Kind::slow;
 
-  static constexpr auto fields() {
-    return std::tuple(field("start", &Places::start), field("via", &Places::via), field("gains", &Places::gains),
-                      field("kind", &Places::kind));
+  static void fields(auto field) {
+    field("start", &Places::start);
+    field("via", &Places::via);
+    field("gains", &Places::gains);
+    field("kind", &Places::kind);
   }
 };
 

@@ -14,13 +14,16 @@ using waitpoint::genom::State;
 struct Lamp {
   bool lit = false;
   std::uint32_t flashes = 0;  ///< so far
-  static constexpr auto fields() { return std::tuple(field("lit", &Lamp::lit), field("flashes", &Lamp::flashes)); }
+  static void fields(auto field) {
+    field("lit", &Lamp::lit);
+    field("flashes", &Lamp::flashes);
+  }
 };
 
 /// Input of the request Blink.
 struct BlinkInput {
   std::uint32_t flashes = 1;
-  static constexpr auto fields() { return std::tuple(field("flashes", &BlinkInput::flashes)); }
+  static void fields(auto field) { field("flashes", &BlinkInput::flashes); }
 };
 
 class Blinker : public waitpoint::genom::Module {
@@ -58,7 +61,7 @@ class Blinker : public waitpoint::genom::Module {
 /// The module's settings in a scenario.
 struct WatchmanParameters {
   std::uint32_t flashes = 3;  ///< number requested
-  static constexpr auto fields() { return std::tuple(field("flashes", &WatchmanParameters::flashes)); }
+  static void fields(auto field) { field("flashes", &WatchmanParameters::flashes); }
 };
 
 class Watchman : public waitpoint::genom::Module {

@@ -23,24 +23,28 @@ struct Mate {
   Time date;                    ///< of its last position
   std::uint32_t positions = 0;  ///< received so far
   std::uint32_t entries = 0;    ///< of its log, received so far
-  static constexpr auto fields() {
-    return std::tuple(field("x_m", &Mate::x_m), field("y_m", &Mate::y_m), field("date", &Mate::date),
-                      field("positions", &Mate::positions), field("entries", &Mate::entries));
+  static void fields(auto field) {
+    field("x_m", &Mate::x_m);
+    field("y_m", &Mate::y_m);
+    field("date", &Mate::date);
+    field("positions", &Mate::positions);
+    field("entries", &Mate::entries);
   }
 };
 
 /// An entry of a robot's log.
 struct LogEntry {
   std::uint32_t number = 0;
-  static constexpr auto fields() { return std::tuple(field("number", &LogEntry::number)); }
+  static void fields(auto field) { field("number", &LogEntry::number); }
 };
 
 /// The module's settings in a scenario.
 struct RadioParameters {
   std::string mate;              ///< the other robot
   Duration silence_ms = 1500ms;  ///< contact is lost after this time without a position
-  static constexpr auto fields() {
-    return std::tuple(field("mate", &RadioParameters::mate), field("silence_ms", &RadioParameters::silence_ms));
+  static void fields(auto field) {
+    field("mate", &RadioParameters::mate);
+    field("silence_ms", &RadioParameters::silence_ms);
   }
 };
 

@@ -33,12 +33,12 @@ using Value = std::uint64_t;
 
 struct Shown {
   Value value = 0;
-  static constexpr auto fields() { return std::tuple(field("value", &Shown::value)); }
+  static void fields(auto field) { field("value", &Shown::value); }
 };
 
 struct Parameters {
   std::string source = "none";
-  static constexpr auto fields() { return std::tuple(field("source", &Parameters::source)); }
+  static void fields(auto field) { field("source", &Parameters::source); }
 };
 
 /// A hash that depends on the order.

@@ -88,7 +88,7 @@ class Object(records.Record):
 
 
 def all_tasks(scheduler=None):
-    address = (scheduler or records.scheduler()).number("first_task_")
+    address = (scheduler or records.scheduler()).number("roster_.first_task_")
     tasks = []
     while address:
         tasks.append(Task(address))

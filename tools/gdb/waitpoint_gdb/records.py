@@ -127,8 +127,8 @@ def scheduler():
 def events_of(run):
     """The number of events executed in this scheduler's run, as in Scheduler::events()."""
     inverse = constant("PairDigest", "inverse_of_step")
-    hashed = run.number("ended_robots_digest_.last_key_") * inverse
-    robot = run.follow("first_robot_", "Robot")
+    hashed = run.number("roster_.ended_robots_digest_.last_key_") * inverse
+    robot = run.follow("roster_.first_robot_", "Robot")
     while robot:
         hashed += robot.number("digest.last_key_") * inverse
         robot = robot.follow("next", "Robot")
