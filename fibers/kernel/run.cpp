@@ -11,7 +11,10 @@
 
 namespace waitpoint::kernel {
 
-Task* running = nullptr;
+// Side by side, `running` in the section of initialised data as `turn` is: at the end of the uninitialised data its
+// offset in its page was that of the first task's record, and each load waited for the store before it, to an address
+// with the same low 12 bits. A hand-over took a tenth longer.
+[[gnu::section(".data")]] alignas(64) Task* running = nullptr;
 Turn turn;
 
 namespace {
