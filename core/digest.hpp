@@ -78,6 +78,13 @@ class PairDigest {
   std::uint64_t last_key_ = 0;
 };
 
+/// The hash of a text alone, of names for example.
+inline std::uint64_t text_hash(std::string_view text) {
+  Digest digest;
+  digest.add(text);
+  return digest.value();
+}
+
 /// The printed form: "wp1:" and 16 hexadecimal digits. The prefix changes with the definition of the hashed input.
 std::string to_string(const Digest& digest);
 

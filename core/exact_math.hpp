@@ -33,6 +33,8 @@ double hypot(double x, double y);
 /// The equivalent angle in (-pi, pi].
 double wrap_angle(double x);
 
+constexpr double square(double x) { return x * x; }
+
 /// A hash of some thousand results of the functions above: equal on all machines on which the results are.
 std::uint64_t fingerprint();
 

@@ -46,7 +46,9 @@ struct FieldProbe {
 };
 
 template <class T>
-concept HasFields = requires { T::fields(FieldProbe()); };
+concept HasFields = requires {
+  T::fields(FieldProbe());
+};
 
 /// An array of at most `Capacity` elements in place, for values without pointers. Only the first size() elements are
 /// constructed and copied: the cost is that of the content, not of the capacity.

@@ -51,8 +51,7 @@ void end_reading(LocalClock& clock, Task& task) {
 void compute_as_declared(LocalClock& clock, Task& task, Duration least, Duration greatest) {
   const ClockOptions& options = static_cast<TaskClock&>(clock).options;
   const bool own = options.kind == ClockKind::interval && options.greatest > Duration();
-  const Duration cost = own ? choose_cost(task, options.least, options.greatest)
-                            : choose_cost(task, least, greatest);
+  const Duration cost = own ? choose_cost(task, options.least, options.greatest) : choose_cost(task, least, greatest);
   consume(task, scaled(cost, options.scale_millionths));
 }
 

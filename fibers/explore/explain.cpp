@@ -8,7 +8,7 @@
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/visit.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
 

@@ -15,17 +15,6 @@ struct Capture {
   std::size_t found;
 };
 
-struct CallStackVisit : Visit {
-  void** frames;
-  std::size_t room;
-  std::size_t found = 0;
-};
-
-void capture_in_task(Visit& visit) {
-  auto& request = static_cast<CallStackVisit&>(visit);
-  request.found = capture_call_stack(request.frames, request.room);
-}
-
 _Unwind_Reason_Code add_frame(_Unwind_Context* context, void* argument) {
   Capture& capture = *static_cast<Capture*>(argument);
   void* address = reinterpret_cast<void*>(_Unwind_GetIP(context));
@@ -41,13 +30,6 @@ std::size_t capture_call_stack(void** frames, std::size_t room) {
   Capture capture{frames, room, 0};
   _Unwind_Backtrace(add_frame, &capture);
   return capture.found;
-}
-
-std::size_t call_stack(Task& task, void** frames, std::size_t room) {
-  if (task.sequence == 0) return 0;
-  CallStackVisit request{{capture_in_task}, frames, room};
-  task.scheduler->visit(task, request);
-  return request.found;
 }
 
 void describe_run(const Task& task) {

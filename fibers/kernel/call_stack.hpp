@@ -10,8 +10,6 @@ namespace waitpoint::kernel {
 
 /// Writes the caller's call stack to `frames`, at most `room` return addresses, innermost first; returns their number.
 std::size_t capture_call_stack(void** frames, std::size_t room);
-/// The same of `task`, which is not running, from outside of tasks; 0 if it never ran.
-std::size_t call_stack(Task& task, void** frames, std::size_t room);
 
 /// Writes virtual time, task, seed and replay line to the error stream; async-signal-safe.
 void describe_run(const Task& task);

@@ -25,13 +25,14 @@
 #include "fibers/kernel/run_state.hpp"
 #include "fibers/kernel/spawn_options.hpp"
 #include "fibers/kernel/task.hpp"
-#include "fibers/kernel/visit.hpp"
 #include "fibers/kernel/wait_graph.hpp"
 #include "fibers/kernel/watch.hpp"
 #include "fibers/switch/departure.hpp"
 #include "fibers/switch/stack_arena.hpp"
 
 namespace waitpoint::kernel {
+
+struct Visit;
 
 class Scheduler {
  public:
@@ -264,7 +265,8 @@ class Scheduler {
   Time yields_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;
-  PairDigest* digest_in_use_ = nullptr;  // equal to turn.digest, for debuggers that read the scheduler from another process
+  PairDigest* digest_in_use_ =
+      nullptr;                 // equal to turn.digest, for debuggers that read the scheduler from another process
   bool fast_allowed_ = false;  // tasks may take the calls of fast_calls.cpp
   bool unwinding_ = false;
   bool interrupted_ = false;  // resumed tasks do not continue: they unwind, or are visited

@@ -32,14 +32,14 @@ struct Robot {
   char name[name_size] = {};
   Robot* next = nullptr;
   Scheduler* scheduler = nullptr;
-  PairDigest digest;             ///< of its own events and outputs, until its end
+  PairDigest digest;                    ///< of its own events and outputs, until its end
   PairDigest* digest_in_use = nullptr;  ///< the digest that takes in its tasks' events: `digest`, until its end
-  std::uint64_t id = 0;          ///< a hash of its name
-  std::uint64_t messages = 0;    ///< number sent to other robots
-  std::uint32_t objects = 0;     ///< number of objects numbered so far
-  std::uint32_t children = 0;    ///< number of tasks spawned from outside any task
-  std::uint32_t live_tasks = 0;  ///< number of tasks that are not services
-  bool ended = false;            ///< live_tasks fell to 0: the digest is frozen
+  std::uint64_t id = 0;                 ///< a hash of its name
+  std::uint64_t messages = 0;           ///< number sent to other robots
+  std::uint32_t objects = 0;            ///< number of objects numbered so far
+  std::uint32_t children = 0;           ///< number of tasks spawned from outside any task
+  std::uint32_t live_tasks = 0;         ///< number of tasks that are not services
+  bool ended = false;                   ///< live_tasks fell to 0: the digest is frozen
   Time end_time;
   void* client = nullptr;  ///< the robot's object in the layer above
 };
@@ -105,9 +105,9 @@ struct Task {
   EventNode event;
   Time local_time;
   Robot* robot = nullptr;
-  std::uint64_t id = 0;        ///< a hash of the robot and the path of creation
-  std::uint64_t sequence = 0;  ///< number of events so far
-  Object* at = nullptr;        ///< the object of its last waitpoint, if any
+  std::uint64_t id = 0;          ///< a hash of the robot and the path of creation
+  std::uint64_t sequence = 0;    ///< number of events so far
+  Object* at = nullptr;          ///< the object of its last waitpoint, if any
   std::uint32_t waitpoints = 0;  ///< number of waitpoints passed at its local time
   Phase phase = Phase::tasks;
   Operation operation = Operation::start;

@@ -6,10 +6,25 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
 
 namespace waitpoint::kernel {
+namespace {
+
+struct CallStackVisit : Visit {
+  void** frames;
+  std::size_t room;
+  std::size_t found = 0;
+};
+
+void capture_in_task(Visit& visit) {
+  auto& request = static_cast<CallStackVisit&>(visit);
+  request.found = capture_call_stack(request.frames, request.room);
+}
+
+}  // namespace
 
 // Called by a resumed task while the run is interrupted: serves visits until its turn has come. False if the run is
 // over.
@@ -35,6 +50,13 @@ void Scheduler::visit(Task& task, Visit& visit) {
   interrupted_ = interrupted;
   task.state = state;
   state_ = run_state;
+}
+
+std::size_t call_stack(Task& task, void** frames, std::size_t room) {
+  if (task.sequence == 0) return 0;
+  CallStackVisit request{{capture_in_task}, frames, room};
+  task.scheduler->visit(task, request);
+  return request.found;
 }
 
 }  // namespace waitpoint::kernel

@@ -2,11 +2,18 @@
 // A visit to a parked task: a call on top of its stack, outside of virtual time (Scheduler::visit).
 #pragma once
 
+#include <cstddef>
+
+#include "fibers/kernel/task.hpp"
+
 namespace waitpoint::kernel {
 
 /// The call, as a member of its arguments. It must return, and pass no waitpoint.
 struct Visit {
   void (*act)(Visit&) = nullptr;
 };
+
+/// The call stack of `task`, which is not running, from outside of tasks: as capture_call_stack(); 0 if it never ran.
+std::size_t call_stack(Task& task, void** frames, std::size_t room);
 
 }  // namespace waitpoint::kernel

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/number_text.hpp"
-#include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/visit.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/source_lines.hpp"
 
@@ -107,9 +107,8 @@ std::string describe_endless(kernel::Scheduler& scheduler, Places places) {
   std::vector<Task*> asleep;
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
     if (task->state == kernel::TaskState::ready && task->local_time == Time::max()) asleep.push_back(task);
-  return "virtual time ran out" + describe_each(asleep, places, [](const Task& task) {
-           return describe(task) + " sleeps without end";
-         });
+  return "virtual time ran out" +
+         describe_each(asleep, places, [](const Task& task) { return describe(task) + " sleeps without end"; });
 }
 
 }  // namespace waitpoint::sync

@@ -102,7 +102,8 @@ RunEnd Simulation::run_before(Time until) {
     return RunEnd::no_progress;
   }
   // Services that wait for each other are a deadlock, too, whichever tasks are left.
-  if (scheduler_.roster().live_tasks() == 0 && scheduler_.stop_cause() != kernel::StopCause::deadlock) return RunEnd::ended;
+  if (scheduler_.roster().live_tasks() == 0 && scheduler_.stop_cause() != kernel::StopCause::deadlock)
+    return RunEnd::ended;
   trouble_ = sync::describe_deadlock(scheduler_, places_);
   return RunEnd::deadlock;
 }

@@ -86,7 +86,7 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   posters::KnownPose start;
   start.pose = scenario_.body.start;
   executive_ = std::make_unique<executive::Executive>(names_, parameters, std::move(known), start, goals,
-                     RandomStream(seed, scenario_.name, "executive"));
+                                                      RandomStream(seed, scenario_.name, "executive"));
 }
 
 void Robot::connect() {

@@ -14,15 +14,9 @@ std::uint64_t hash(const Letter& letter) {
   return digest.value();
 }
 
-std::uint64_t hash(const std::string& text) {
-  Digest digest;
-  digest.add(std::string_view(text));
-  return digest.value();
-}
-
 }  // namespace
 
-Mailbox::Mailbox(std::string owner) : owner_(std::move(owner)), name_(hash(owner_)) {}
+Mailbox::Mailbox(std::string owner) : owner_(std::move(owner)), name_(text_hash(owner_)) {}
 
 bool Mailbox::post(const Letter& letter) {
   {

@@ -11,16 +11,9 @@ namespace {
 
 using world::Shape;
 
-constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
 constexpr NumberRange turn{-3600, 3600, "degrees within ten turns"};
 
 /// From -pi to pi; default 0.
-double read_heading(const YamlMap& map) {
-  double heading_rad = 0;
-  map.read_degrees("heading_deg", heading_rad, turn);
-  return exact::wrap_angle(heading_rad);
-}
-
 void read_corners(const YamlMap& map, Shape& shape) {
   if (map.has("centre_m") || map.has("size_m") || map.has("radius_m") || map.has("heading_deg")) {
     throw map.node().written.bad("expected " + map.what() +
@@ -69,6 +62,12 @@ Shape read_shape(const YamlMap& map, bool of_world, std::optional<double> height
 }
 
 }  // namespace
+
+double read_heading(const YamlMap& map) {
+  double heading_rad = 0;
+  map.read_degrees("heading_deg", heading_rad, turn);
+  return exact::wrap_angle(heading_rad);
+}
 
 Shape read_body_shape(const YamlNode& node) {
   const YamlMap map(node, "the shape", {"centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m"});

@@ -14,6 +14,7 @@
 
 namespace waitpoint::scenario {
 
+inline constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
 inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
 
 /// A robot's body in its own frame: `centre_m` is optional, `height_m` is not.
@@ -24,6 +25,9 @@ std::string shape_name(const YamlNode& node, std::size_t number);
 
 /// A shape of the world; a cylinder or rotated box needs `centre_m`. `height_m` is the default height.
 world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number);
+
+/// `heading_deg` in radians, in (-pi, pi]; 0 if it is not given.
+double read_heading(const YamlMap& map);
 
 /// `[x, y]` or `{x_m: x, y_m: y}`.
 Point read_point(const YamlNode& node, std::string_view what);

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/scenario/surface_reader.hpp"
 
-#include "core/exact_math.hpp"
+#include "modules/scenario/shape_reader.hpp"
 #include "world/formats/mesh_file.hpp"
 #include "world/formats/octree.hpp"
 
 namespace waitpoint::scenario {
 namespace {
 
-constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
-constexpr NumberRange turn{-3600, 3600, "degrees within ten turns"};
 constexpr NumberRange scale_number{1e-9, 1e9, "a positive number"};
 
 std::string resolved(const YamlNode& file, std::string_view what) {
@@ -22,12 +20,6 @@ world::SpaceVector read_place(const YamlMap& map) {
   if (node == nullptr) return {};
   const std::vector<double> at = read_numbers(*node, "at_m", 2, 3, coordinate);
   return {at[0], at[1], at.size() == 3 ? at[2] : 0};
-}
-
-double read_heading(const YamlMap& map) {
-  double heading_rad = 0;
-  map.read_degrees("heading_deg", heading_rad, turn);
-  return exact::wrap_angle(heading_rad);
 }
 
 world::SpaceVector read_scale(const YamlMap& map) {

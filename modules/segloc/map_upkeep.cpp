@@ -7,12 +7,6 @@
 #include "modules/segloc/segment_map_filter.hpp"
 
 namespace waitpoint::segloc {
-namespace {
-
-double square(double x) { return x * x; }
-
-}  // namespace
-
 // True if a line matched in this scan constrains the pose across the observed line, which can then wait.
 bool SegmentMapFilter::held_by_matches(const LineObservation& observation) const {
   for (const std::size_t i : matched_) {
@@ -133,7 +127,7 @@ bool SegmentMapFilter::try_merge(std::size_t kept, std::size_t other) {
   rows.add_column(column_of(kept), 1, -a.place(common));
   rows.add_column(column_of(kept) + 1, 0, 1);
   rows.innovation = {turn, beyond};
-  rows.noise = {square(parameters_.angle_floor_rad), 0, square(parameters_.offset_floor_m)};
+  rows.noise = {exact::square(parameters_.angle_floor_rad), 0, exact::square(parameters_.offset_floor_m)};
   joint_.clear();
   if (joint_.test(covariance_, rows).squared_distance > parameters_.chi2_merge) return false;
   joint_.accept(covariance_, rows);

@@ -7,12 +7,6 @@
 #include "core/exact_math.hpp"
 
 namespace waitpoint::segloc {
-namespace {
-
-double square(double x) { return x * x; }
-
-}  // namespace
-
 SegmentMapFilter::SegmentMapFilter(const Parameters& parameters, const PoseEstimate& start)
     : parameters_(parameters),
       pose_(start.pose),
@@ -27,9 +21,9 @@ SegmentMapFilter::SegmentMapFilter(const Parameters& parameters, const PoseEstim
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j <= i; ++j) covariance_(i, j) = start.covariance[3 * i + j];
   }
-  covariance_(3, 3) = square(parameters.travel_scale_deviation);
-  covariance_(4, 4) = square(parameters.turn_scale_deviation);
-  covariance_(5, 5) = square(parameters.drift_deviation_rad_per_m);
+  covariance_(3, 3) = exact::square(parameters.travel_scale_deviation);
+  covariance_(4, 4) = exact::square(parameters.turn_scale_deviation);
+  covariance_(5, 5) = exact::square(parameters.drift_deviation_rad_per_m);
   scans_ = parameters.update_scans;  // so that the first scan is used
 }
 
@@ -74,16 +68,16 @@ void SegmentMapFilter::predict(const PoseEstimate& motion) {
   }
 
   const auto& q = motion.covariance;
-  const double along = q[0] + square(parameters_.travel_noise_m_per_sqrt_m) * way;
-  const double across = q[4] + square(parameters_.travel_noise_m_per_sqrt_m) * way;
+  const double along = q[0] + exact::square(parameters_.travel_noise_m_per_sqrt_m) * way;
+  const double across = q[4] + exact::square(parameters_.travel_noise_m_per_sqrt_m) * way;
   const double c2 = cosine * cosine, s2 = sine * sine, cs = cosine * sine;
   p(0, 0) += c2 * along - 2.0 * cs * q[1] + s2 * across;
   p(1, 0) += cs * (along - across) + (c2 - s2) * q[1];
   p(1, 1) += s2 * along + 2.0 * cs * q[1] + c2 * across;
   p(2, 0) += cosine * q[2] - sine * q[5];
   p(2, 1) += sine * q[2] + cosine * q[5];
-  p(2, 2) += q[8] + square(parameters_.drift_noise_rad_per_sqrt_m) * way +
-             square(parameters_.turn_noise_rad_per_sqrt_rad) * turn;
+  p(2, 2) += q[8] + exact::square(parameters_.drift_noise_rad_per_sqrt_m) * way +
+             exact::square(parameters_.turn_noise_rad_per_sqrt_rad) * turn;
   const double turned = (1.0 + calibration_.turn) * measured.heading + calibration_.drift_rad_per_m * measured.x;
   pose_ = {pose_.x + moved.x, pose_.y + moved.y, exact::wrap_angle(pose_.heading + turned)};
 }
@@ -145,8 +139,8 @@ void SegmentMapFilter::sort_observations(const posters::Segments& segments) {
   for (const posters::Segment& segment : segments.items) {
     LineObservation o = line_observation(segment);
     if (o.length_m < parameters_.length_m_min) continue;
-    o.covariance[0] += square(parameters_.angle_floor_rad);
-    o.covariance[2] += square(parameters_.offset_floor_m);
+    o.covariance[0] += exact::square(parameters_.angle_floor_rad);
+    o.covariance[2] += exact::square(parameters_.offset_floor_m);
     observations_.push_back(o);
   }
   std::sort(observations_.begin(), observations_.end(), [](const LineObservation& a, const LineObservation& b) {
@@ -221,9 +215,9 @@ bool SegmentMapFilter::lost(const Observed& result) {
   lost_ = result.strayed > result.matched + 1 ? lost_ + 1 : 0;
   if (lost_ == 0 || lost_ > parameters_.lost_updates_max) return false;
   if (lost_ >= parameters_.lost_updates) {
-    covariance_(0, 0) += square(parameters_.lost_noise_m);
-    covariance_(1, 1) += square(parameters_.lost_noise_m);
-    covariance_(2, 2) += square(parameters_.lost_noise_rad);
+    covariance_(0, 0) += exact::square(parameters_.lost_noise_m);
+    covariance_(1, 1) += exact::square(parameters_.lost_noise_m);
+    covariance_(2, 2) += exact::square(parameters_.lost_noise_rad);
   }
   return true;
 }

@@ -9,8 +9,6 @@
 namespace waitpoint::sick {
 namespace {
 
-double square(double x) { return x * x; }
-
 double length_m(const posters::Segment& segment) { return length(segment.end - segment.start); }
 
 // From the device's frame to the robot's. The angle's error rotates the line about the device, not about the robot.
@@ -90,7 +88,7 @@ void SegmentExtraction::prepare_beams(const posters::LaserReading& scan) {
 }
 
 void SegmentExtraction::take_echoes(const posters::LaserReading& scan) {
-  const double quantisation = square(parameters_.range_resolution_m) / 12.0;
+  const double quantisation = exact::square(parameters_.range_resolution_m) / 12.0;
   // A range rounded to the device's resolution may be half a step below the maximum.
   const double range_m_max = scan.range_max_m - 0.5 * parameters_.range_resolution_m;
   echoes_ = 0;
@@ -147,7 +145,7 @@ void SegmentExtraction::split(Run region) {
     std::uint32_t at = run.first;
     for (std::uint32_t i = run.first + 1; i < run.last; ++i) {
       const double projection = dot(normal, point_[i]);
-      const double squared = square(projection - distance);
+      const double squared = exact::square(projection - distance);
       const double bound = worst * variance_across(i, projection);
       if (squared <= bound) continue;
       worst = worst * squared / bound;
@@ -182,7 +180,8 @@ bool SegmentExtraction::straight(Run run) const {
   const Line line = fit(run);
   for (std::uint32_t i = run.first; i <= run.last; ++i) {
     const double projection = dot(line.normal, point_[i]);
-    if (square(projection - line.distance_m) > parameters_.chi2_split * variance_across(i, projection)) return false;
+    if (exact::square(projection - line.distance_m) > parameters_.chi2_split * variance_across(i, projection))
+      return false;
   }
   return true;
 }
@@ -225,11 +224,11 @@ bool SegmentExtraction::finish(Run run, posters::Segment& segment) const {
   for (std::uint32_t i = run.first; i <= run.last; ++i) {
     const double t = dot(along, point_[i] - line.centre);
     const double projection = dot(line.normal, point_[i]);
-    const double variance = variance_across(i, projection) - square(parameters_.roughness_m);
+    const double variance = variance_across(i, projection) - exact::square(parameters_.roughness_m);
     const double slant = projection / range_m_[i];
     t2 += t * t;
     t3 += t * t * t;
-    error2 += square(projection - line.distance_m) / variance;
+    error2 += exact::square(projection - line.distance_m) / variance;
     v0 += variance;
     v1 += t * variance;
     v2 += t * t * variance;
@@ -247,10 +246,10 @@ bool SegmentExtraction::finish(Run run, posters::Segment& segment) const {
     fit2 += q * q;
     bow += q * (dot(line.normal, point_[i]) - line.distance_m);
   }
-  if (std::fabs(bow) * square(0.5 * (to - from)) > parameters_.bow_m_max * fit2) return false;
+  if (std::fabs(bow) * exact::square(0.5 * (to - from)) > parameters_.bow_m_max * fit2) return false;
 
   const double scale = std::max(1.0, error2 / (n - 2.0));
-  const double bias = square(parameters_.range_bias_m);
+  const double bias = exact::square(parameters_.range_bias_m);
   const double mean = bias0 / n, slope = bias1 / t2;
   const double angle = scale * v2 / (t2 * t2) + bias * slope * slope;
   const double mixed = scale * v1 / (n * t2) + bias * mean * slope;

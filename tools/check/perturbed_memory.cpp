@@ -17,7 +17,7 @@ constexpr unsigned char fill = 0xB7;
 std::uint64_t address(const void* at) { return reinterpret_cast<std::uint64_t>(at); }
 
 // The address of an object in each part of a program's address space.
-SharedPage surroundings() {
+SharedPage surroundings_page() {
   const std::unique_ptr<char> on_heap(new char);
   SharedPage page;
   page.calendar_s = std::time(nullptr);
@@ -60,7 +60,7 @@ void fill_stack(const kernel::Task& task) {
 }
 
 void note_surroundings(SharedPage& page) {
-  const SharedPage here = surroundings();
+  const SharedPage here = surroundings_page();
   page.calendar_s = here.calendar_s;
   page.stack = here.stack;
   page.heap = here.heap;
@@ -68,7 +68,7 @@ void note_surroundings(SharedPage& page) {
 }
 
 void compare_surroundings(SharedPage& page) {
-  const SharedPage here = surroundings();
+  const SharedPage here = surroundings_page();
   page.moved = here.stack != page.stack && here.heap != page.heap && here.library != page.library;
   page.surrounded = here.calendar_s < page.calendar_s;
 }

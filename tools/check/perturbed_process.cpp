@@ -42,7 +42,7 @@ std::vector<std::string> command_line() {
 }
 
 /// A memory file that the new process opens by its descriptor.
-int surroundings() {
+int surroundings_library() {
   const int file = memfd_create("waitpoint-surroundings", 0);
   if (file < 0) fail("cannot create a memory file");
   const std::span<const unsigned char> bytes = surroundings_file();
@@ -149,7 +149,7 @@ void check_perturbed_process_possible() {
 ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bool (*interrupted)()) {
   using Clock = std::chrono::steady_clock;
   std::vector<std::string> words = command_line();
-  const int preload = surroundings();
+  const int preload = surroundings_library();
   std::vector<std::string> environment = other_environment(files, preload);
   const std::vector<char*> arguments = pointers(words), variables = pointers(environment);
   std::fflush(nullptr);

@@ -24,8 +24,8 @@ formatting() {
   echo "$(list_sources | tr -cd '\0' | wc -c) files formatted according to .clang-format"
 }
 
-# clang-tidy analyses each file as compiled in the build, and again only after changes; .clang-tidy gives the reason for
-# each group.
+# clang-tidy analyses each file by itself, with the flags of a set-up of its own, and again only after changes; .clang-tidy
+# gives the reason for each group.
 analysis() {
   command -v clang-tidy >/dev/null || { say 'clang-tidy is not installed' && return 77; }
   local count quiet=()
@@ -35,13 +35,18 @@ analysis() {
   elif ! git rev-parse --quiet --verify "$since^{commit}" >/dev/null 2>&1; then
     echo "no commit $since to compare with; check --all reads every file" && return
   fi
-  count=$(python3 tools/dev/check/analysis.py "$build" ${since:+"$since"})
+  local separate=$build/separate
+  if [[ ! -e $separate/build.ninja ]]; then
+    meson setup "$separate" "$root" --buildtype=debugoptimized -Dgrouped=false -Db_pch=false -Dtests=enabled >/dev/null
+  fi
+  ninja -C "$separate" build.ninja >/dev/null  # after changes of a meson.build
+  count=$(python3 tools/dev/check/analysis.py "$separate" ${since:+"$since"})
   ((count)) || { echo "no source changed since $since" && return; }
   # This generated header is included by the kernel's benchmark.
   local generated=tests/bench/installed_headers.hpp
-  if grep -qF "build $generated:" "$build/build.ninja"; then compile "$generated"; fi
+  if grep -qF "build $generated:" "$separate/build.ninja"; then ninja -C "$separate" "$generated" >/dev/null; fi
   [[ -t 1 ]] || quiet=(--quiet)
-  ninja -C "$build" -f analysis/build.ninja -j "$(nproc)" -k 0 "${quiet[@]}"
+  ninja -C "$separate" -f analysis/build.ninja -j "$(nproc)" -k 0 "${quiet[@]}"
   echo "$count files conform to .clang-tidy"
 }
 

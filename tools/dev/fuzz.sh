@@ -28,7 +28,7 @@ done
 
 build=$root/build-fuzz
 export CC=clang CXX=clang++
-configure -Ddefault_library=static -Db_pch=false -Dtests=enabled -Dbenchmarks=disabled -Dwerror=false -Dfast_path_checks=true
+configure -Ddefault_library=static -Db_pch=false -Dgrouped=false -Dtests=enabled -Dbenchmarks=disabled -Dwerror=false -Dfast_path_checks=true
 compile "${names[@]/#/tests/fuzz/fuzz-}"
 mkdir -p "$build/found"
 status=0

@@ -39,7 +39,7 @@ case $tool in
     # tests enable reports themselves.
     export TSAN_OPTIONS=handle_segv=0:report_bugs=0
     export UBSAN_OPTIONS=print_stacktrace=1
-    options+=(-Db_sanitize="$tool" -Db_lundef=false -Db_pch=false -Ddefault_library=static -Doptimization=1 -Dwerror=false -Dbenchmarks=disabled -Dfast_path_checks=true)
+    options+=(-Db_sanitize="$tool" -Db_lundef=false -Db_pch=false -Dgrouped=false -Ddefault_library=static -Doptimization=1 -Dwerror=false -Dbenchmarks=disabled -Dfast_path_checks=true)
     [[ $tool != undefined ]] || options+=(-Dcpp_args=-fno-sanitize-recover=undefined)
     # ThreadSanitizer supports at most 8 000 threads.
     [[ $tool == undefined ]] || without=$campaigns

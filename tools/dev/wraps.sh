@@ -17,7 +17,7 @@ python3 "$root/tools/dev/wraps.py" "$root/build-wraps"
 (
   build=$root/build-wraps/build
   root=$root/build-wraps/tree
-  configure -Ddefault_library=static -Db_pch=false -Dwrap_mode=forcefallback -Dtests=enabled -Dbenchmarks=disabled -Dbullet=disabled -Dassimp=disabled -Drosbag=disabled -Dwerror=false
+  configure -Ddefault_library=static -Db_pch=false -Dgrouped=false -Dwrap_mode=forcefallback -Dtests=enabled -Dbenchmarks=disabled -Dbullet=disabled -Dassimp=disabled -Drosbag=disabled -Dwerror=false
   compile tools/waitpoint tests/test-core tests/test-fibers
 )
 # The compiler's libraries, and optional ones of the tests, may come from the system.

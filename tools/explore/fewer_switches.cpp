@@ -11,7 +11,7 @@ namespace {
 using exploration::Switch;
 
 // With other switches the same failure may occur somewhat later.
-constexpr Duration longer = std::chrono::seconds(5);
+constexpr Duration delay_max = std::chrono::seconds(5);
 
 // Up to this number of switches, leaving one out is also tried with the later ones shifted.
 constexpr std::size_t few = 40;
@@ -28,7 +28,7 @@ FewerSwitches::FewerSwitches(Target& target, SearchProgress& progress, Budget& b
       budget_(budget),
       number_(target.has_noise() ? number : 0),
       least_(found),
-      until_(found.end + longer) {}
+      until_(found.end + delay_max) {}
 
 std::optional<Finding> FewerSwitches::tried(Plan plan) {
   if (interrupted_ || !budget_.take()) return std::nullopt;

@@ -9,14 +9,14 @@ namespace {
 // Continuations tried for each candidate choice.
 constexpr std::uint64_t continuations = 4;
 // A run that survives the other's failure by this much counts as passed.
-constexpr Duration longer = std::chrono::seconds(5);
+constexpr Duration survival = std::chrono::seconds(5);
 
 }  // namespace
 
 Plan LeastFailure::plan() const { return {.number = number, .drawn = false, .deviations = finding.deviations}; }
 
 Plan LeastFailure::plan_up_to(std::size_t decision, std::optional<std::uint32_t> instead) const {
-  Plan plan{.number = number, .drawn = false, .until = finding.end + longer};
+  Plan plan{.number = number, .drawn = false, .until = finding.end + survival};
   for (const exploration::Deviation& deviation : finding.deviations)
     if (deviation.decision < decision) plan.deviations.push_back(deviation);
   if (instead) plan.deviations.push_back({static_cast<std::uint32_t>(decision), *instead});

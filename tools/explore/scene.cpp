@@ -11,7 +11,7 @@
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/schedules/trail_recorder.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/visit.hpp"
 #include "fibers/sync/source_lines.hpp"
 #include "modules/run/expectation.hpp"
 

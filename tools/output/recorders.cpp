@@ -4,7 +4,8 @@
 namespace waitpoint::tools {
 
 void DigestRecorder::record(const Simulation& simulation, std::int64_t second) {
-  for (const kernel::Robot* robot = simulation.scheduler().roster().first_robot(); robot != nullptr; robot = robot->next) {
+  for (const kernel::Robot* robot = simulation.scheduler().roster().first_robot(); robot != nullptr;
+       robot = robot->next) {
     char line[160];
     const int length = std::snprintf(line, sizeof line, "%lld %s %s %llu\n", static_cast<long long>(second),
                                      robot->name, to_string(robot->digest.digest()).c_str(),

@@ -89,7 +89,7 @@ class Stack {
   std::size_t size_ = 0;
 };
 
-struct Pending {
+struct PendingNode {
   const Node* node;
   double entry_m2;
 };
@@ -151,7 +151,7 @@ struct Scene::Trees {
             std::span<double> ranges_m) const {
     const Wedge wedge = {origin, directions.front(), directions.back()};
     double limit_m2 = farthest_m2(ranges_m);
-    Stack<Pending> pending;
+    Stack<PendingNode> pending;
     pending.push({root(), 0});
     while (!pending.empty()) {
       auto [node, entry_m2] = pending.pop();

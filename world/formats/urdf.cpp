@@ -25,7 +25,7 @@ namespace {
 using Element = XmlReader::Element;
 
 constexpr std::size_t link_count_max = 10'000;
-constexpr double thin_m = 1e-4;
+constexpr double thickness_least_m = 1e-4;
 constexpr int folders_up_max = 32;
 // The sides of a polygon about a disc; and the ratio of areas below which a prism replaces a box or a cylinder.
 constexpr int round_sides = 24;
@@ -215,7 +215,9 @@ class UrdfReader {
     const SpaceVector size = high + -1 * low;
     tell(mesh, "a <mesh>", "is taken as the box about it");
     // A box must not be flat.
-    return upright_box(middle, {std::max(size.x, thin_m), std::max(size.y, thin_m), std::max(size.z, thin_m)}).shape;
+    return upright_box(middle, {std::max(size.x, thickness_least_m), std::max(size.y, thickness_least_m),
+                                std::max(size.z, thickness_least_m)})
+        .shape;
   }
 
   // Empty for a package that is not found.
@@ -304,7 +306,7 @@ class UrdfReader {
         corners.push_back(outline.centre + corner_m * Point{c, s});
       }
     }
-    return hull_of(std::move(corners), thin_m);
+    return hull_of(std::move(corners), thickness_least_m);
   }
 
   void stand_on_floor() {

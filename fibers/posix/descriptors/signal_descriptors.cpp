@@ -27,10 +27,10 @@ struct SignalDescriptor {
   bool can_be_read;
   SignalDescriptor* next;
 };
-SignalDescriptor* first = nullptr;
+SignalDescriptor* first_descriptor = nullptr;
 
 SignalDescriptor* find_descriptor(int descriptor) {
-  SignalDescriptor* each = first;
+  SignalDescriptor* each = first_descriptor;
   while (each != nullptr && each->descriptor != descriptor) each = each->next;
   return each;
 }
@@ -66,14 +66,16 @@ signalfd_siginfo to_record(const siginfo_t& from) {
 
 }  // namespace
 
-bool is_signal_descriptor(int descriptor) { return first != nullptr && find_descriptor(descriptor) != nullptr; }
+bool is_signal_descriptor(int descriptor) {
+  return first_descriptor != nullptr && find_descriptor(descriptor) != nullptr;
+}
 
 void show_signal_descriptors() {
-  if (first == nullptr) return;
+  if (first_descriptor == nullptr) return;
   const ErrorNumberKept kept;
   const SignalSet pending = pending_anywhere();
   bool any = false;
-  for (SignalDescriptor* each = first; each != nullptr; each = each->next) {
+  for (SignalDescriptor* each = first_descriptor; each != nullptr; each = each->next) {
     const bool can_be_read = (each->set & pending) != 0;
     if (can_be_read == each->can_be_read) continue;
     each->can_be_read = can_be_read;
@@ -86,7 +88,7 @@ void show_signal_descriptors() {
 }
 
 void forget_signal_descriptor(int descriptor) {
-  for (SignalDescriptor** link = &first; *link != nullptr; link = &(*link)->next) {
+  for (SignalDescriptor** link = &first_descriptor; *link != nullptr; link = &(*link)->next) {
     SignalDescriptor* const each = *link;
     if (each->descriptor != descriptor) continue;
     *link = each->next;
@@ -130,8 +132,8 @@ WAITPOINT_INTERPOSED int signalfd(int descriptor, const sigset_t* set, int flags
     }
     // Its signals may come from outside.
     note_inside(known->descriptor, false);
-    known->next = first;
-    first = known;
+    known->next = first_descriptor;
+    first_descriptor = known;
     after_pending_changed = show_signal_descriptors;
   }
   known->set = signals;

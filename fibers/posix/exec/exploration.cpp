@@ -7,7 +7,7 @@
 #include "fibers/explore/report/choice_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/course.hpp"
-#include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/visit.hpp"
 
 namespace waitpoint::posix {
 namespace {

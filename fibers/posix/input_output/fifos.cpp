@@ -28,10 +28,10 @@ struct Opening {
   bool is_met;     // of a reader: the pipe was opened for writing
   Opening* next;
 };
-Opening* first = nullptr;
+Opening* first_opening = nullptr;
 
 void remove(const Opening& opening) {
-  for (Opening** link = &first; *link != nullptr; link = &(*link)->next)
+  for (Opening** link = &first_opening; *link != nullptr; link = &(*link)->next)
     if (*link == &opening) {
       *link = opening.next;
       return;
@@ -44,7 +44,7 @@ int open_at_once(const Opening& opening) {
 
 // A writer of this process releases the waiting readers; one of another process is noticed by its data.
 void meet_readers(const Opening& writer) {
-  for (Opening* each = first; each != nullptr; each = each->next)
+  for (Opening* each = first_opening; each != nullptr; each = each->next)
     if (each != &writer && each->inode == writer.inode && each->device == writer.device) each->is_met = true;
 }
 
@@ -73,17 +73,17 @@ int open_fifo(int folder, const char* path, int flags) {
   pass(kernel::Operation::open, nullptr);
   struct stat of {};
   if (fstatat(folder, path, &of, 0) != 0) return -1;
-  Opening opening{of.st_dev, of.st_ino, path, folder, flags, -1, false, first};
+  Opening opening{of.st_dev, of.st_ino, path, folder, flags, -1, false, first_opening};
   const bool reads = (flags & O_ACCMODE) == O_RDONLY;
   opening.descriptor = open_at_once(opening);
   if (opening.descriptor < 0 && (reads || errno != ENXIO)) return -1;
   // A writer may be waiting for this reader.
-  for (const Opening* each = first; each != nullptr && reads; each = each->next)
+  for (const Opening* each = first_opening; each != nullptr && reads; each = each->next)
     if (each->inode == of.st_ino && each->device == of.st_dev && (each->flags & O_ACCMODE) != O_RDONLY)
       opening.is_met = true;
   int result = 1;
   if (reads || opening.descriptor < 0) {
-    first = &opening;
+    first_opening = &opening;
     result = wait_outside(is_open, &opening, Restart::if_asked);
     remove(opening);
   }

@@ -23,26 +23,26 @@ struct Condition : Waitable {
   explicit Condition(const void* address) : Waitable(kind_of_all, "condition variable", address) {}
 };
 
-struct Bytes : SharedBytes<Condition> {
+struct ConditionBytes : SharedBytes<Condition> {
   clockid_t clock;  // 0: CLOCK_REALTIME
   // If processes share it: each waiter has a ticket, and those below `released` continue.
   std::uint64_t next_ticket;
   std::uint64_t released;
   std::uint32_t changes;
 };
-static_assert(sizeof(Bytes) <= sizeof(pthread_cond_t) && alignof(Bytes) <= alignof(pthread_cond_t));
+static_assert(sizeof(ConditionBytes) <= sizeof(pthread_cond_t) && alignof(ConditionBytes) <= alignof(pthread_cond_t));
 static_assert(CLOCK_REALTIME == 0, "PTHREAD_COND_INITIALIZER is all zeroes");
 
-Bytes& bytes_of(pthread_cond_t* condition) { return *reinterpret_cast<Bytes*>(condition); }
+ConditionBytes& bytes_of(pthread_cond_t* condition) { return *reinterpret_cast<ConditionBytes*>(condition); }
 
-std::uint64_t take_ticket(Bytes& bytes) {
+std::uint64_t take_ticket(ConditionBytes& bytes) {
   const family::Section section;
   return bytes.next_ticket++;
 }
 
 // A wait that ends without a signal leaves an unused ticket. Unless that is the newest, all waiters wake: spuriously,
 // as POSIX allows, but no signal is lost.
-void give_ticket_back(Bytes& bytes, std::uint64_t ticket) {
+void give_ticket_back(ConditionBytes& bytes, std::uint64_t ticket) {
   const family::Section section;
   if (ticket < bytes.released) return;
   if (ticket + 1 == bytes.next_ticket)
@@ -52,7 +52,8 @@ void give_ticket_back(Bytes& bytes, std::uint64_t ticket) {
   ++bytes.changes;
 }
 
-Wait wait_shared(Condition& known, Bytes& bytes, std::uint64_t ticket, Time deadline, const CancellationPoint& point) {
+Wait wait_shared(Condition& known, ConditionBytes& bytes, std::uint64_t ticket, Time deadline,
+                 const CancellationPoint& point) {
   for (;;) {
     std::uint32_t changes = 0;
     {
@@ -71,7 +72,7 @@ Wait wait_shared(Condition& known, Bytes& bytes, std::uint64_t ticket, Time dead
   }
 }
 
-void release_shared(Condition& known, Bytes& bytes, bool all) {
+void release_shared(Condition& known, ConditionBytes& bytes, bool all) {
   {
     const family::Section section;
     if (bytes.released == bytes.next_ticket) return;
@@ -83,7 +84,7 @@ void release_shared(Condition& known, Bytes& bytes, bool all) {
 
 int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
-  Bytes& words = bytes_of(condition);
+  ConditionBytes& words = bytes_of(condition);
   Condition& known = bytes_of(condition).waitable();
   Mutex& mutex = mutex_of(bytes);
   const CancellationPoint point;
@@ -138,7 +139,7 @@ WAITPOINT_INTERPOSED int pthread_cond_init(pthread_cond_t* condition, const pthr
 }
 
 WAITPOINT_INTERPOSED int pthread_cond_destroy(pthread_cond_t* condition) noexcept {
-  Bytes& bytes = bytes_of(condition);
+  ConditionBytes& bytes = bytes_of(condition);
   Waitable* const known = bytes.is_shared() ? find_waitable(condition, Waitable::Kind::condition) : bytes.known;
   if (known != nullptr) forget(*known);
   bytes.known = nullptr;

@@ -14,7 +14,7 @@ namespace {
 // One callback for all pending returns.
 void (*to_be_called)() = nullptr;
 
-struct Search {
+struct FrameSearch {
   std::uintptr_t interrupted;
   const LibraryRange& library;
   bool (*is_of_program)(std::uintptr_t);
@@ -23,7 +23,7 @@ struct Search {
 };
 
 _Unwind_Reason_Code look_at(_Unwind_Context* frame, void* to) {
-  auto& search = *static_cast<Search*>(to);
+  auto& search = *static_cast<FrameSearch*>(to);
   const std::uintptr_t at = _Unwind_GetIP(frame);
   if (!search.is_within) {
     search.is_within = at == search.interrupted;
@@ -91,7 +91,7 @@ waitpoint_library_returned:
 
 bool call_after_return(std::uintptr_t interrupted, const LibraryRange& library, bool (*is_of_program)(std::uintptr_t),
                        void (*then)()) {
-  Search search{interrupted, library, is_of_program};
+  FrameSearch search{interrupted, library, is_of_program};
   {
     const InKernel unwinding;  // it locks, and calls pthread_once(), which must not be simulated
     _Unwind_Backtrace(look_at, &search);

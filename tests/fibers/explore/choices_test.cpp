@@ -12,13 +12,12 @@
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/explore/contains.hpp"
 
 namespace waitpoint {
 namespace {
 
 using namespace std::chrono_literals;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
   const ExploreReport slow = explore([] {

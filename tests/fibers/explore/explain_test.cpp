@@ -8,13 +8,12 @@
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/explore/contains.hpp"
 
 namespace waitpoint {
 namespace {
 
 using namespace std::chrono_literals;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // The line that begins with `label` and the lines indented more than it.
 std::string told_under(const std::string& text, const std::string& label) {

@@ -10,6 +10,7 @@
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/explore/contains.hpp"
 #include "tests/fibers/explore/faulty_bodies.hpp"
 
 namespace waitpoint {
@@ -18,8 +19,6 @@ namespace {
 using faulty::count_to_three;
 using faulty::lose_a_wake_up;
 using namespace std::chrono_literals;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Explore, WhatHoldsInAllSchedulesPasses) {
   const ExploreReport report = explore([] { count_to_three(1); });

@@ -10,11 +10,10 @@
 #include "fibers/explore/explore.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/explore/contains.hpp"
 
 namespace waitpoint {
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Sanitizers and valgrind have heaps of their own.
 bool the_heap_is_counted() {

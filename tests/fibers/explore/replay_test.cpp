@@ -12,6 +12,7 @@
 #include "fibers/explore/strategies/factory.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/explore/contains.hpp"
 #include "tests/fibers/explore/faulty_bodies.hpp"
 
 namespace waitpoint {
@@ -19,8 +20,6 @@ namespace {
 
 using faulty::count_to_three;
 using faulty::lose_a_wake_up;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Explore, TheTokenRepeatsTheFailure) {
   const auto body = [] { count_to_three(2); };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/visit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/visit.hpp"
 #include "fibers/sync/threads.hpp"
 #include "tests/fibers/sync/mixed_program.hpp"
 #include "tests/fibers/sync/orders.hpp"

@@ -32,12 +32,12 @@ void spawn_racing_threads(Simulation& simulation, int rounds = 20) {
     });
 }
 
-struct Outcome {
+struct Recorded {
   std::string digest;
   DurationRecord record;
 };
 
-Outcome record_run(const SimulationOptions& options, int rounds = 20) {
+Recorded record_run(const SimulationOptions& options, int rounds = 20) {
   Simulation simulation(options);
   DurationRecorder recorder(simulation, "racing");
   spawn_racing_threads(simulation, rounds);
@@ -47,7 +47,7 @@ Outcome record_run(const SimulationOptions& options, int rounds = 20) {
 
 TEST(DurationRecord, MeasuredRunsReplayFromTheirRecordToTheSameDigest) {
   for (std::uint64_t number = 0; number <= 5; ++number) {
-    const Outcome recorded = record_run(order_number(number));
+    const Recorded recorded = record_run(order_number(number));
     EXPECT_GT(recorded.record.entries.size(), 100u);
     EXPECT_NE(record_run(order_number(number)).digest, recorded.digest);  // two measurements never agree
     const DurationRecord read = parse_duration_record("file", to_text(recorded.record));

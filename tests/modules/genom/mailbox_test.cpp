@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 using this_thread::sleep_for;
 using Act = Running<Number, Number>;
 
-struct EchoRobot : TestRobot {
-  EchoRobot() {
+struct MailboxRobot : TestRobot {
+  MailboxRobot() {
     module.add_control<Number, Number>("Echo", [](const Number& in, Number& out) { return out = in, ok; });
   }
 };
@@ -42,7 +42,7 @@ TEST(Mailbox, KeepsLettersInOrderUpToItsBound) {
 }
 
 TEST(Client, IsToldWhenTheModulesMailboxIsFull) {
-  EchoRobot robot;
+  MailboxRobot robot;
   ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms});
   task.set_permanent([] { compute(8ms); });  // blocks the control task for so long
   robot.run([&] {
@@ -59,7 +59,7 @@ TEST(Client, IsToldWhenTheModulesMailboxIsFull) {
 }
 
 TEST(Client, ThatDoesNotReadLosesRepliesAndHoldsUpNobody) {
-  EchoRobot robot;
+  MailboxRobot robot;
   robot.run([&] {
     for (int i = 0; i < 100; ++i) {
       EXPECT_TRUE(robot.client.send("m", "Echo", Number{i}));
@@ -73,7 +73,7 @@ TEST(Client, ThatDoesNotReadLosesRepliesAndHoldsUpNobody) {
 }
 
 TEST(Client, WaitsForRepliesAsLongAsItIsAskedTo) {
-  EchoRobot robot;
+  MailboxRobot robot;
   ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms});
   robot.module.add_activity<Number, Number>("Go", task, {.exec = [](Act&) { return State::ether; }});
   robot.run([&] {
@@ -89,7 +89,7 @@ TEST(Client, WaitsForRepliesAsLongAsItIsAskedTo) {
 }
 
 TEST(Client, ACallWaitsForItsOwnFinalReply) {
-  EchoRobot robot;
+  MailboxRobot robot;
   ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms});
   robot.module.add_activity<Number, Number>("Go", task, {.exec = [](Act& act) {
                                               act.output = act.input;
@@ -106,7 +106,7 @@ TEST(Client, ACallWaitsForItsOwnFinalReply) {
 }
 
 TEST(Client, ACallHasItsReplyThoughTheMailboxIsFullOfOthers) {
-  EchoRobot robot;
+  MailboxRobot robot;
   ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms});
   robot.module.add_activity<Number, Number>("Go", task, {.exec = [](Act&) { return State::ether; }});
   robot.run([&] {

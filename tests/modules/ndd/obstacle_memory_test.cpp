@@ -8,12 +8,11 @@
 
 #include "modules/ndd/progress_watch.hpp"
 #include "modules/ndd/route.hpp"
+#include "tests/modules/milliseconds.hpp"
 #include "tests/modules/ndd/closed_loop.hpp"
 
 namespace waitpoint::ndd {
 namespace {
-
-Time ms(std::int64_t n) { return Time::from_ns(n * 1000000); }
 
 posters::Echoes scan_from(const test::Shapes& shapes, const Pose& robot, Time date) {
   posters::Echoes echoes;

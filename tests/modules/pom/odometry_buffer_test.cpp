@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/pom/odometry_buffer.hpp"
+#include "tests/modules/milliseconds.hpp"
 
 #include <gtest/gtest.h>
 
 namespace waitpoint::pom {
 namespace {
-
-Time ms(std::int64_t n) { return Time::from_ns(n * 1000000); }
 
 UncertainPose along_x(double x) { return {{x, 0, 0}, {0.001 * x, 0, 0, 0, 0.001 * x, 0, 0, 0, 0.001 * x}}; }
 

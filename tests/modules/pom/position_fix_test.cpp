@@ -8,13 +8,12 @@
 
 #include "core/random.hpp"
 #include "modules/pom/position_fusion.hpp"
+#include "tests/modules/milliseconds.hpp"
 
 namespace waitpoint::pom {
 namespace {
 
 constexpr Matrix3 diagonal(double xx, double yy, double hh) { return {xx, 0, 0, 0, yy, 0, 0, 0, hh}; }
-Time ms(std::int64_t n) { return Time::from_ns(n * 1000000); }
-
 TEST(PositionFix, CountsByItsVarianceOnEachAxisAndLeavesTheHeading) {
   const UncertainPose prior = {{1, 2, 0.5}, diagonal(4, 1, 0.01)};
   const UncertainPose fused = fuse(prior, {{3, 3}, {}, 1, 0});

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "tests/modules/milliseconds.hpp"
 
 namespace waitpoint::pom {
 namespace {
@@ -23,8 +24,6 @@ constexpr Matrix3 diagonal(double xy, double heading) {
   return {xy * xy, 0, 0, 0, xy * xy, 0, 0, 0, heading * heading};
 }
 Time tick(std::int64_t n) { return Time::from_ns(n * 20000000); }
-Time ms(std::int64_t n) { return Time::from_ns(n * 1000000); }
-
 // A drive on a circle: the truth, dead reckoning with its own covariance, and fixes on the truth.
 struct Drive {
   std::vector<Pose> truth;

@@ -11,7 +11,7 @@
 namespace waitpoint::segloc {
 namespace {
 
-const RandomStream draws(2, "r", "test.joint_update");
+const RandomStream joint_draws(2, "r", "test.joint_update");
 
 // A positive definite matrix: A A' + 1.
 Covariance positive(std::size_t size) {
@@ -20,7 +20,7 @@ Covariance positive(std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = i == j ? 1.0 : 0.0;
-      for (std::size_t k = 0; k < 6; ++k) sum += draws.normal(i, k) * draws.normal(j, k);
+      for (std::size_t k = 0; k < 6; ++k) sum += joint_draws.normal(i, k) * joint_draws.normal(j, k);
       p(i, j) = sum;
     }
   }
@@ -31,10 +31,10 @@ RowPair some_rows(std::size_t line, std::uint64_t tick) {
   RowPair rows;
   std::uint64_t n = 0;
   for (const std::size_t column : {std::size_t{0}, std::size_t{1}, std::size_t{2}, 3 + 2 * line, 4 + 2 * line}) {
-    const auto [a, b] = draws.normal_pair(1000 + tick, n++);
+    const auto [a, b] = joint_draws.normal_pair(1000 + tick, n++);
     rows.add_column(column, a, b);
   }
-  const auto [v0, v1] = draws.normal_pair(1000 + tick, n);
+  const auto [v0, v1] = joint_draws.normal_pair(1000 + tick, n);
   rows.innovation = {v0, v1};
   rows.noise = {0.5, 0.1, 0.3};
   return rows;

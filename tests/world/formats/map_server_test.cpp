@@ -40,7 +40,7 @@ void write_png(const std::string& file, std::uint32_t format, std::uint32_t widt
   ASSERT_NE(png_image_write_to_file(&image, file.c_str(), 0, pixels.data(), 0, nullptr), 0);
 }
 
-testing::AssertionResult refuses(const std::string& yaml, const std::string& where, const std::string& what) {
+testing::AssertionResult rejects_map(const std::string& yaml, const std::string& where, const std::string& what) {
   return complains([&] { read_map_server_map(yaml); }, where, what);
 }
 
@@ -187,7 +187,7 @@ TEST(MapServer, APngThatPromisesMoreThanItHoldsTakesNoMemory) {
   file.seekp(0);
   file.write(head.data(), 33);
   file.close();
-  EXPECT_TRUE(refuses(yaml, folder.path("map.png") + ": ", "the PNG image is cut short"));
+  EXPECT_TRUE(rejects_map(yaml, folder.path("map.png") + ": ", "the PNG image is cut short"));
 }
 
 struct BadYaml {
@@ -224,16 +224,16 @@ TEST(MapServer, EveryBadYamlIsNamedByFileAndLine) {
   };
   for (const BadYaml& bad : cases) {
     const std::string yaml = folder.write("map.yaml", bad.contents);
-    EXPECT_TRUE(refuses(yaml, yaml + ":" + std::to_string(bad.line) + ": ", bad.says)) << bad.contents;
+    EXPECT_TRUE(rejects_map(yaml, yaml + ":" + std::to_string(bad.line) + ": ", bad.says)) << bad.contents;
   }
   const std::string none = folder.path("none.yaml");
-  EXPECT_TRUE(refuses(none, none + ": ", "no file"));
+  EXPECT_TRUE(rejects_map(none, none + ": ", "no file"));
   const std::string empty = folder.write("empty.yaml", "");
-  EXPECT_TRUE(refuses(empty, empty + ": ", "an empty one"));
+  EXPECT_TRUE(rejects_map(empty, empty + ": ", "an empty one"));
   const std::string deep = folder.write("deep.yaml", "origin: " + std::string(100000, '['));
-  EXPECT_TRUE(refuses(deep, deep + ":1: ", "expected YAML"));
+  EXPECT_TRUE(rejects_map(deep, deep + ":1: ", "expected YAML"));
   const std::string large = folder.write("large.yaml", head + std::string(2 << 20, '#'));
-  EXPECT_TRUE(refuses(large, large + ": ", "of at most 1 MiB"));
+  EXPECT_TRUE(rejects_map(large, large + ": ", "of at most 1 MiB"));
 }
 
 struct BadImage {
@@ -244,7 +244,7 @@ struct BadImage {
 TEST(MapServer, EveryBadImageIsNamed) {
   const Folder folder;
   const std::string yaml = folder.write("map.yaml", head), image = folder.path("map.pgm");
-  EXPECT_TRUE(refuses(yaml, image + ": ", "no file"));
+  EXPECT_TRUE(rejects_map(yaml, image + ": ", "no file"));
   const std::vector<BadImage> cases = {
       {"", "no file or an empty one"},
       {"GIF89a", "expected a PGM image (P5 or P2) or a PNG image"},
@@ -270,7 +270,7 @@ TEST(MapServer, EveryBadImageIsNamed) {
   };
   for (const BadImage& bad : cases) {
     folder.write("map.pgm", bad.contents);
-    EXPECT_TRUE(refuses(yaml, image + ": ", bad.says)) << bad.contents;
+    EXPECT_TRUE(rejects_map(yaml, image + ": ", bad.says)) << bad.contents;
   }
 }
 
@@ -283,13 +283,13 @@ TEST(MapServer, ATruncatedPngIsNamed) {
   const auto size = std::filesystem::file_size(folder.path("map.png"));
   for (const auto left : {size / 2, size / 10, std::uintmax_t{20}}) {
     std::filesystem::resize_file(folder.path("map.png"), left);
-    EXPECT_TRUE(refuses(yaml, folder.path("map.png") + ": ", "PNG"));
+    EXPECT_TRUE(rejects_map(yaml, folder.path("map.png") + ": ", "PNG"));
   }
 }
 
 TEST(MapServer, AFolderIsNoMap) {
   const Folder folder;
-  EXPECT_TRUE(refuses(folder.path(""), folder.path(""), "found no regular file"));
+  EXPECT_TRUE(rejects_map(folder.path(""), folder.path(""), "found no regular file"));
 }
 
 }  // namespace

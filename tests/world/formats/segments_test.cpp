@@ -17,13 +17,13 @@
 namespace waitpoint::world {
 namespace {
 
-std::vector<Obstacle> parsed(const std::string& text) {
+std::vector<Obstacle> walls_of(const std::string& text) {
   LeftOut left_out;
   return parse_segments(text, "walls.txt", 2, left_out);
 }
 
-testing::AssertionResult refuses(const std::string& text, const std::string& where, const std::string& what) {
-  return complains([&] { parsed(text); }, where, what);
+testing::AssertionResult rejects_walls(const std::string& text, const std::string& where, const std::string& what) {
+  return complains([&] { walls_of(text); }, where, what);
 }
 
 Outline disc(Point centre, double radius_m) {
@@ -34,7 +34,7 @@ Outline disc(Point centre, double radius_m) {
 }
 
 TEST(Segments, EachLineIsAWall) {
-  const std::vector<Obstacle> walls = parsed("# a room\n0 0 4 0\r\n\n  4,0,4,3 # the right side\n-1.5e0\t2 1 2");
+  const std::vector<Obstacle> walls = walls_of("# a room\n0 0 4 0\r\n\n  4,0,4,3 # the right side\n-1.5e0\t2 1 2");
   ASSERT_EQ(walls.size(), 3u);
   EXPECT_EQ(walls[0].name, "segment 0");
   EXPECT_EQ(walls[0].shape.pose, (Pose{2, 0, 0}));
@@ -126,21 +126,21 @@ TEST(Segments, OneWithoutLengthIsLeftOutWithAWarning) {
 }
 
 TEST(Segments, AWrongLineIsNamed) {
-  EXPECT_TRUE(
-      refuses("0 0 1 0\n0 0 1\n", "walls.txt:2: ", "'x0 y0 x1 y1' in metres within 100 km, found the line's end"));
-  EXPECT_TRUE(refuses("0 0 1 nan\n", "walls.txt:1: ", "found 'nan'"));
-  EXPECT_TRUE(refuses("0 0 1 inf\n", "walls.txt:1: ", "found 'inf'"));
-  EXPECT_TRUE(refuses("0 0 1 1e6\n", "walls.txt:1: ", "found '1e6'"));
-  EXPECT_TRUE(refuses("0 0 1 0x10\n", "walls.txt:1: ", "found '0x10'"));
-  EXPECT_TRUE(refuses("\n0 0 1 1 5\n", "walls.txt:2: ", "expected nothing after"));
-  EXPECT_TRUE(refuses("0 0 1 \x01\xff\n", "walls.txt:1: ", "found '?"));
-  EXPECT_TRUE(refuses("# nothing\n", "walls.txt: ", "found none"));
+  EXPECT_TRUE(rejects_walls("0 0 1 0\n0 0 1\n",
+                            "walls.txt:2: ", "'x0 y0 x1 y1' in metres within 100 km, found the line's end"));
+  EXPECT_TRUE(rejects_walls("0 0 1 nan\n", "walls.txt:1: ", "found 'nan'"));
+  EXPECT_TRUE(rejects_walls("0 0 1 inf\n", "walls.txt:1: ", "found 'inf'"));
+  EXPECT_TRUE(rejects_walls("0 0 1 1e6\n", "walls.txt:1: ", "found '1e6'"));
+  EXPECT_TRUE(rejects_walls("0 0 1 0x10\n", "walls.txt:1: ", "found '0x10'"));
+  EXPECT_TRUE(rejects_walls("\n0 0 1 1 5\n", "walls.txt:2: ", "expected nothing after"));
+  EXPECT_TRUE(rejects_walls("0 0 1 \x01\xff\n", "walls.txt:1: ", "found '?"));
+  EXPECT_TRUE(rejects_walls("# nothing\n", "walls.txt: ", "found none"));
 }
 
 TEST(Segments, MoreThanCanBeMeantAreRefused) {
   std::string text;
   for (std::size_t i = 0; i <= obstacle_count_max; ++i) text += "0 0 1 1\n";
-  EXPECT_TRUE(refuses(text, "walls.txt:1048577: ", "expected at most 1048576 segments"));
+  EXPECT_TRUE(rejects_walls(text, "walls.txt:1048577: ", "expected at most 1048576 segments"));
 }
 
 TEST(Segments, AreReadAsAWorldOfAHeight) {

@@ -16,25 +16,25 @@
 namespace waitpoint::world {
 namespace {
 
-struct Read : StageWorld {
+struct ReadStage : StageWorld {
   std::vector<std::string> warnings;
 };
 
-Read parsed(const std::string& text, const std::string& file = "a.world") {
+ReadStage stage_world(const std::string& text, const std::string& file = "a.world") {
   LeftOut left_out;
-  Read read{parse_stage(text, file, left_out), {}};
+  ReadStage read{parse_stage(text, file, left_out), {}};
   read.warnings = left_out.warnings();
   return read;
 }
 
-testing::AssertionResult refuses(const std::string& text, const std::string& where, const std::string& what) {
-  return complains([&] { parsed(text); }, where, what);
+testing::AssertionResult rejects_stage(const std::string& text, const std::string& where, const std::string& what) {
+  return complains([&] { stage_world(text); }, where, what);
 }
 
 double degrees(double value) { return value / 180 * exact::pi; }
 
 TEST(Stage, AModelIsABoxOfItsSize) {
-  const Read read = parsed("model( name \"desk\" pose [1 2 0.5 30] size [2 1 0.75] )\nmodel( size [1 1] )\n");
+  const ReadStage read = stage_world("model( name \"desk\" pose [1 2 0.5 30] size [2 1 0.75] )\nmodel( size [1 1] )\n");
   ASSERT_EQ(read.obstacles.size(), 2u);
   EXPECT_EQ(read.obstacles[0].name, "desk");
   const Shape& desk = read.obstacles[0].shape;
@@ -49,7 +49,7 @@ TEST(Stage, AModelIsABoxOfItsSize) {
 }
 
 TEST(Stage, AThingHasWhatItsTypeHasWhereItGivesNoneOfItsOwn) {
-  const Read read = parsed(
+  const ReadStage read = stage_world(
       "define box model ( size [1 2 3] pose [9 9 0 0] )\n"
       "define high box( size [1 2 4] )\n"
       "box( pose [1 0 0 0] )\nhigh()\nhigh( size [5 5 5] size [6 6 6] )\n");
@@ -66,8 +66,9 @@ TEST(Stage, ABitmapsDarkPixelsFillTheModel) {
   std::filesystem::create_directories(folder.path("maps"));
   // Dark: the upper left and the two lower right ones.
   folder.write("maps/plan.pgm", std::string("P5 4 2 255\n") + '\x7f' + "\xff\xff\xff" + "\x80\xff" + '\0' + '\0');
-  const Read read = parsed("model( name \"plan\" pose [10 0 0 90] size [8 2 0.5] bitmap \"maps/plan.pgm\" boundary 1 )",
-                           folder.path("a.world"));
+  const ReadStage read =
+      stage_world("model( name \"plan\" pose [10 0 0 90] size [8 2 0.5] bitmap \"maps/plan.pgm\" boundary 1 )",
+                  folder.path("a.world"));
   ASSERT_EQ(read.obstacles.size(), 6u);
   const Shape& wide = read.obstacles[0].shape;
   EXPECT_EQ(wide.length_m, 4);
@@ -86,7 +87,7 @@ TEST(Stage, ABitmapsDarkPixelsFillTheModel) {
 }
 
 TEST(Stage, BlocksFillTheModel) {
-  const Read read = parsed(
+  const ReadStage read = stage_world(
       "model( size [4 2 1] block( points 4 point[0] [0 0] point[1] [0 1] point[2] [1 1] point[3] [1 0] z [0 1] )\n"
       "block( points 3 point[0] [1 0] point[1] [2 0] point[2] [2 1] z [0.5 2] ) )");
   ASSERT_EQ(read.obstacles.size(), 2u);
@@ -100,7 +101,7 @@ TEST(Stage, BlocksFillTheModel) {
 }
 
 TEST(Stage, WhatPassesBodiesAndBeamsIsNotThere) {
-  const Read read = parsed(
+  const ReadStage read = stage_world(
       "define zone model( obstacle_return 0 ranger_return -1 )\nzone()\nmodel( obstacle_return 0 )\n"
       "model( ranger_return -1 )\nmodel( ranger_return 0.5 )\n");
   EXPECT_EQ(read.obstacles.size(), 3u);
@@ -113,7 +114,8 @@ TEST(Stage, WhatPassesBodiesAndBeamsIsNotThere) {
 }
 
 TEST(Stage, ModelsInAModelStandOnIt) {
-  const Read read = parsed("model( size [1 1 0.75] pose [5 0 0 180] model( pose [0.25 0 0 0] size [0.1 0.1 0.3] ) )");
+  const ReadStage read =
+      stage_world("model( size [1 1 0.75] pose [5 0 0 180] model( pose [0.25 0 0 0] size [0.1 0.1 0.3] ) )");
   ASSERT_EQ(read.obstacles.size(), 2u);
   EXPECT_NEAR(read.obstacles[1].shape.pose.x, 4.75, 1e-12);
   EXPECT_EQ(read.obstacles[1].shape.z_low_m, 0.75);
@@ -121,7 +123,7 @@ TEST(Stage, ModelsInAModelStandOnIt) {
 }
 
 TEST(Stage, APositionIsARobotWithItsLasers) {
-  const Read read = parsed(
+  const ReadStage read = stage_world(
       "define sick ranger( size [0.15 0.15 0.2] sensor( pose [0.05 0 0.1 0] range [0 8] fov 180 samples 181 ) )\n"
       "define bot position( size [0.4 0.3 0.25] origin [-0.04 0 0 0] drive \"diff\"\n"
       "  velocity_bounds [-0.5 0.5 0 0 0 0 -90 90] sick( pose [0.1 0 -0.05 180] ) )\n"
@@ -155,12 +157,14 @@ TEST(Stage, APositionIsARobotWithItsLasers) {
 
 TEST(Stage, SensorsOfOneSampleAtOnePlaceAreOneLaser) {
   const std::string ring = "sensor( pose [0 0 0 0] ) sensor( pose [0 0 0 120] ) sensor( pose [0 0 0 240] )";
-  const LaserDescription fan = parsed("position( ranger( " + ring + " ) )").bodies[0].lasers.at(0);
+  const LaserDescription fan = stage_world("position( ranger( " + ring + " ) )").bodies[0].lasers.at(0);
   EXPECT_EQ(fan.beams, 3u);
   EXPECT_NEAR(fan.field_of_view_rad, degrees(240), 1e-12);
   EXPECT_NEAR(fan.mount.heading, degrees(120), 1e-12);
   const auto lasers = [](const std::string& last) {
-    return parsed("position( ranger( sensor( ) sensor( pose [0 0 0 30] ) sensor( " + last + " ) ) )").bodies[0].lasers;
+    return stage_world("position( ranger( sensor( ) sensor( pose [0 0 0 30] ) sensor( " + last + " ) ) )")
+        .bodies[0]
+        .lasers;
   };
   EXPECT_EQ(lasers("pose [0 0 0 60]").size(), 1u);
   EXPECT_EQ(lasers("pose [0 0 0 70]").size(), 3u) << "not evenly spaced";
@@ -170,7 +174,7 @@ TEST(Stage, SensorsOfOneSampleAtOnePlaceAreOneLaser) {
 }
 
 TEST(Stage, ADriveIsTheBasesKind) {
-  const Read read = parsed(
+  const ReadStage read = stage_world(
       "define omni position( drive \"omni\" velocity_bounds [-0.5 0.5 -0.5 0.5 0 0 -60 60] )\nomni()\n"
       "omni( velocity_bounds [-0.5 0.5 0 0 0 0 -60 60] )\nposition( drive \"diff\" )\n");
   ASSERT_EQ(read.bodies.size(), 3u);
@@ -184,7 +188,7 @@ TEST(Stage, ADriveIsTheBasesKind) {
 }
 
 TEST(Stage, ACarSteers) {
-  const Read read = parsed(
+  const ReadStage read = stage_world(
       "define car position( drive \"car\" wheelbase 2.5 acceleration_bounds [-1 1 0 0 0 0 -40 40] )\n"
       "car( velocity_bounds [-3 3 0 0 0 0 -30 30] )\ncar( velocity_bounds [-3 3 0 0 0 0 -90 90] )\nposition( drive "
       "\"car\" )\n");
@@ -204,7 +208,7 @@ TEST(Stage, ACarSteers) {
 }
 
 TEST(Stage, ARobotTellsWhereItStandsItsTypesAndItsRangersNames) {
-  const Read read = parsed(
+  const ReadStage read = stage_world(
       "define eye sensor( samples 9 fov 90 )\ndefine bot position( ranger( eye() ) )\n"
       "define red bot( ranger( name \"rear\" eye() ) ranger( eye() eye( pose [1 0 0 0] ) ) )\n"
       "bot()\nred( ranger( name \"rear\" eye() ) )\n");
@@ -220,7 +224,7 @@ TEST(Stage, ARobotTellsWhereItStandsItsTypesAndItsRangersNames) {
 }
 
 TEST(Stage, WhatIsLeftOutIsToldOnceForEachKind) {
-  const Read read = parsed(
+  const ReadStage read = stage_world(
       "quit_time 60\nwindow( size [1 2] )\nposition( color \"red\" ctrl \"wander\" drive \"tank\"\n"
       "  fiducial() ranger( sensor( color_rgba [0 0 1 0.15] range [0.1 5] ) ) block( points 3 point[0] [0 0] point[1] "
       "[1 0] "
@@ -237,31 +241,34 @@ TEST(Stage, WhatIsLeftOutIsToldOnceForEachKind) {
 }
 
 TEST(Stage, WrongTextIsNamedByLine) {
-  EXPECT_TRUE(refuses("\npioner()", "a.world:2: ", "there is no type 'pioner'"));
-  EXPECT_TRUE(refuses("modle()", "a.world:1: ", "did you mean 'model'?"));
-  EXPECT_TRUE(refuses("define a a()", "a.world:1: ", "there is no type 'a'"));
-  EXPECT_TRUE(refuses("define a", "a.world:1: ", "expected the type that 'a' is made from, found the file's end"));
-  EXPECT_TRUE(refuses("model(\nsize [1 1 1]\n", "a.world:1: ", "expected ')' for this '('"));
-  EXPECT_TRUE(refuses("model( size [1 1\n)", "a.world:2: ", "expected ']' or a value, found ')'"));
-  EXPECT_TRUE(refuses("model( name \"a\n\" )", "a.world:1: ", "closing '\"' on this line"));
-  EXPECT_TRUE(refuses("model( size )", "a.world:1: ", "expected a value of 'size', found ')'"));
-  EXPECT_TRUE(refuses("model( [1 1] )", "a.world:1: ", "expected a type, a property or ')', found '['"));
-  EXPECT_TRUE(refuses("include map.inc", "a.world:1: ", "expected a file's name in quotes"));
-  EXPECT_TRUE(refuses("\x01\x02(", "a.world:1: ", "there is no type"));
+  EXPECT_TRUE(rejects_stage("\npioner()", "a.world:2: ", "there is no type 'pioner'"));
+  EXPECT_TRUE(rejects_stage("modle()", "a.world:1: ", "did you mean 'model'?"));
+  EXPECT_TRUE(rejects_stage("define a a()", "a.world:1: ", "there is no type 'a'"));
+  EXPECT_TRUE(
+      rejects_stage("define a", "a.world:1: ", "expected the type that 'a' is made from, found the file's end"));
+  EXPECT_TRUE(rejects_stage("model(\nsize [1 1 1]\n", "a.world:1: ", "expected ')' for this '('"));
+  EXPECT_TRUE(rejects_stage("model( size [1 1\n)", "a.world:2: ", "expected ']' or a value, found ')'"));
+  EXPECT_TRUE(rejects_stage("model( name \"a\n\" )", "a.world:1: ", "closing '\"' on this line"));
+  EXPECT_TRUE(rejects_stage("model( size )", "a.world:1: ", "expected a value of 'size', found ')'"));
+  EXPECT_TRUE(rejects_stage("model( [1 1] )", "a.world:1: ", "expected a type, a property or ')', found '['"));
+  EXPECT_TRUE(rejects_stage("include map.inc", "a.world:1: ", "expected a file's name in quotes"));
+  EXPECT_TRUE(rejects_stage("\x01\x02(", "a.world:1: ", "there is no type"));
 }
 
 TEST(Stage, WrongValuesAreNamedByLine) {
-  EXPECT_TRUE(refuses("model(\n size [1 nan 1] )", "a.world:2: ", "expected numbers"));
-  EXPECT_TRUE(refuses("model( size [1 0 1] )", "a.world:1: ", "positive size"));
-  EXPECT_TRUE(refuses("model( pose [1 2 3 4 5] )", "a.world:1: ", "expected 2 to 4 numbers in 'pose'"));
-  EXPECT_TRUE(refuses("model( pose [1e9 0 0 0] )", "a.world:1: ", "within 100000"));
-  EXPECT_TRUE(refuses("model( bitmap \"none.png\" )", "none.png: ", "expected an image"));
-  EXPECT_TRUE(refuses("model( block( points 4 point[0] [0 0] ) )", "a.world:1: ", "expected a block of 'points'"));
-  EXPECT_TRUE(refuses("position( ranger( sensor( samples 1e9 ) ) )", "a.world:1: ", "'samples'"));
-  EXPECT_TRUE(refuses("position( ranger( sensor( range [5 1] ) ) )", "a.world:1: ", "range [least most]"));
-  EXPECT_TRUE(refuses("position( drive \"car\" wheelbase 0 )", "a.world:1: ", "expected 'wheelbase' to be from"));
-  EXPECT_TRUE(refuses("position( velocity_bounds [1 2] )", "a.world:1: ", "expected 8 numbers"));
-  EXPECT_TRUE(refuses("position( velocity_bounds [-1 -1 0 0 0 0 -9 9] )", "a.world:1: ", "positive upper bounds"));
+  EXPECT_TRUE(rejects_stage("model(\n size [1 nan 1] )", "a.world:2: ", "expected numbers"));
+  EXPECT_TRUE(rejects_stage("model( size [1 0 1] )", "a.world:1: ", "positive size"));
+  EXPECT_TRUE(rejects_stage("model( pose [1 2 3 4 5] )", "a.world:1: ", "expected 2 to 4 numbers in 'pose'"));
+  EXPECT_TRUE(rejects_stage("model( pose [1e9 0 0 0] )", "a.world:1: ", "within 100000"));
+  EXPECT_TRUE(rejects_stage("model( bitmap \"none.png\" )", "none.png: ", "expected an image"));
+  EXPECT_TRUE(
+      rejects_stage("model( block( points 4 point[0] [0 0] ) )", "a.world:1: ", "expected a block of 'points'"));
+  EXPECT_TRUE(rejects_stage("position( ranger( sensor( samples 1e9 ) ) )", "a.world:1: ", "'samples'"));
+  EXPECT_TRUE(rejects_stage("position( ranger( sensor( range [5 1] ) ) )", "a.world:1: ", "range [least most]"));
+  EXPECT_TRUE(rejects_stage("position( drive \"car\" wheelbase 0 )", "a.world:1: ", "expected 'wheelbase' to be from"));
+  EXPECT_TRUE(rejects_stage("position( velocity_bounds [1 2] )", "a.world:1: ", "expected 8 numbers"));
+  EXPECT_TRUE(
+      rejects_stage("position( velocity_bounds [-1 -1 0 0 0 0 -9 9] )", "a.world:1: ", "positive upper bounds"));
 }
 
 TEST(Stage, AnIncludeOfItselfOrOfNothingIsRefused) {
@@ -282,16 +289,16 @@ TEST(Stage, TypesThatMultiplyEndSoon) {
     const std::string below = "t" + std::to_string(i);
     text += "define t" + std::to_string(i + 1) + " model( " + below + "() " + below + "() )\n";
   }
-  EXPECT_TRUE(refuses(text + "t30()", "a.world:", "expected at most 1048576"));
+  EXPECT_TRUE(rejects_stage(text + "t30()", "a.world:", "expected at most 1048576"));
   text = "define t0 model()\n";
   for (int i = 0; i < 100; ++i) {
     text += "define t" + std::to_string(i + 1) + " model( t" + std::to_string(i) + "() )\n";
   }
-  EXPECT_TRUE(refuses(text, "a.world:66: ", "things in things at most 64 deep"));
-  EXPECT_TRUE(refuses("define t0 model()\n" + std::string(70, '\n') + "model(", "a.world:72: ", "expected ')'"));
+  EXPECT_TRUE(rejects_stage(text, "a.world:66: ", "things in things at most 64 deep"));
+  EXPECT_TRUE(rejects_stage("define t0 model()\n" + std::string(70, '\n') + "model(", "a.world:72: ", "expected ')'"));
   std::string nested;
   for (int i = 0; i < 100000; ++i) nested += "model(";
-  EXPECT_TRUE(refuses(nested, "a.world:1: ", "at most 64 deep"));
+  EXPECT_TRUE(rejects_stage(nested, "a.world:1: ", "at most 64 deep"));
 }
 
 class StageData : public testing::Test {

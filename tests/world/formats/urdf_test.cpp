@@ -13,14 +13,14 @@
 namespace waitpoint::world {
 namespace {
 
-struct Read {
+struct ReadRobot {
   UrdfRobot robot;
   std::vector<std::string> warnings;
 };
 
-Read parsed(const std::string& inside) {
+ReadRobot robot_of(const std::string& inside) {
   LeftOut left_out;
-  Read read;
+  ReadRobot read;
   read.robot = parse_urdf("<robot name='r'>\n" + inside + "</robot>", "r.urdf", left_out);
   read.warnings = left_out.warnings();
   return read;
@@ -39,12 +39,12 @@ std::string joint(const std::string& parent, const std::string& child, const std
 }
 const std::string hull = "<cylinder radius='0.2' length='0.3'/>";
 
-testing::AssertionResult refuses(const std::string& inside, const std::string& where, const std::string& what) {
-  return complains([&] { parsed(inside); }, where, what);
+testing::AssertionResult rejects_urdf(const std::string& inside, const std::string& where, const std::string& what) {
+  return complains([&] { robot_of(inside); }, where, what);
 }
 
 TEST(Urdf, OneUprightSolidIsTheShape) {
-  const Read read = parsed(link("base", collision(hull, "<origin xyz='0.1 0 0.2'/>")));
+  const ReadRobot read = robot_of(link("base", collision(hull, "<origin xyz='0.1 0 0.2'/>")));
   EXPECT_EQ(read.robot.name, "r");
   EXPECT_EQ(read.robot.shape.kind, Shape::Kind::cylinder);
   EXPECT_EQ(read.robot.shape.pose.position(), (Point{0.1, 0}));
@@ -56,7 +56,7 @@ TEST(Urdf, OneUprightSolidIsTheShape) {
 
 // The robot of the figures: a hull, two wheels beside it, a laser on a mast.
 TEST(Urdf, SeveralSolidsAreTakenTogetherAndFramesFollowTheJoints) {
-  const Read read = parsed(
+  const ReadRobot read = robot_of(
       link("base", collision("<box size='0.6 0.4 0.2'/>")) +
       link("left", collision("<cylinder radius='0.1' length='0.05'/>", "<origin rpy='1.5707963267948966 0 0'/>")) +
       link("mast") + link("laser") + joint("base", "left", "<origin xyz='0 0.225 -0.1'/>", "continuous") +
@@ -85,9 +85,9 @@ TEST(Urdf, SeveralSolidsAreTakenTogetherAndFramesFollowTheJoints) {
 
 // A hull with an arm across its front: neither the box nor the cylinder about them is tight.
 TEST(Urdf, SeveralSolidsAreThePrismAboutThemWhereThatIsMuchTighter) {
-  const Read read =
-      parsed(link("base", collision("<cylinder radius='0.2' length='0.4'/>", "<origin xyz='-0.5 0 0'/>")) +
-             link("arm", collision("<box size='0.1 1 0.2'/>", "<origin xyz='0.4 0 0.3'/>")) + joint("base", "arm"));
+  const ReadRobot read =
+      robot_of(link("base", collision("<cylinder radius='0.2' length='0.4'/>", "<origin xyz='-0.5 0 0'/>")) +
+               link("arm", collision("<box size='0.1 1 0.2'/>", "<origin xyz='0.4 0 0.3'/>")) + joint("base", "arm"));
   const Shape& shape = read.robot.shape;
   ASSERT_EQ(shape.kind, Shape::Kind::prism);
   EXPECT_NEAR(shape.z_low_m, 0, 1e-12);
@@ -116,16 +116,16 @@ TEST(Urdf, SeveralSolidsAreThePrismAboutThemWhereThatIsMuchTighter) {
 }
 
 TEST(Urdf, ARoundRobotStaysRound) {
-  const Read read =
-      parsed(link("base", collision(hull) + collision("<sphere radius='0.05'/>", "<origin xyz='-0.15 0 -0.15'/>")));
+  const ReadRobot read =
+      robot_of(link("base", collision(hull) + collision("<sphere radius='0.05'/>", "<origin xyz='-0.15 0 -0.15'/>")));
   EXPECT_EQ(read.robot.shape.kind, Shape::Kind::cylinder);
   EXPECT_NEAR(read.robot.shape.radius_m, 0.2, 1e-12);
   EXPECT_NEAR(read.robot.shape.z_high_m, 0.35, 1e-12);
 }
 
 TEST(Urdf, WhatItDoesNotKnowIsTold) {
-  const Read read = parsed("<material name='m'/>\n" + link("base", "<visual/><inertial/>" + collision(hull)) +
-                           link("arm", "\n" + collision("<mesh filename='arm.stl'/>")) + joint("base", "arm"));
+  const ReadRobot read = robot_of("<material name='m'/>\n" + link("base", "<visual/><inertial/>" + collision(hull)) +
+                                  link("arm", "\n" + collision("<mesh filename='arm.stl'/>")) + joint("base", "arm"));
   ASSERT_EQ(read.warnings.size(), 4u);
   EXPECT_EQ(read.warnings[0], "r.urdf:2: <material> is left out");
   EXPECT_EQ(read.warnings[1], "r.urdf:3: <visual> is left out");
@@ -134,19 +134,20 @@ TEST(Urdf, WhatItDoesNotKnowIsTold) {
 
 TEST(Urdf, BadInputIsOneLineAtItsPlace) {
   const std::string base = link("base", collision(hull));
-  EXPECT_TRUE(refuses("", "r.urdf:1", "expected a <link>"));
-  EXPECT_TRUE(refuses(link("base"), "r.urdf:1", "the robot has no collision geometry"));
-  EXPECT_TRUE(refuses(base + base, "r.urdf:3", "'base' is there already"));
-  EXPECT_TRUE(refuses(base + link("arm"), "r.urdf:3", "neither 'base' nor 'arm' is the child of a joint"));
-  EXPECT_TRUE(refuses(base + joint("base", "arm"), "r.urdf:3", "expected a link of the robot, found 'arm'"));
-  EXPECT_TRUE(refuses(base + link("a") + link("b") + joint("a", "b") + joint("b", "a"), "r.urdf:6", "found a circle"));
-  EXPECT_TRUE(refuses(link("a") + joint("a", "a"), "r.urdf:2", "found a circle"));
-  EXPECT_TRUE(refuses(base + link("a") + joint("base", "a") + joint("base", "a"), "r.urdf:5", "'a' has two"));
-  EXPECT_TRUE(refuses(link("a", collision("<box size='1 2'/>")), "r.urdf:2", "expected 3 numbers within 100 km"));
-  EXPECT_TRUE(refuses(link("a", collision("<box size='1 2 0'/>")), "r.urdf:2", "expected 'size' of <box>"));
-  EXPECT_TRUE(refuses(link("a", collision("<cylinder radius='0.1'/>")), "r.urdf:2", "to have 'length'"));
-  EXPECT_TRUE(refuses(link("a", collision("<sphere radius='nan'/>")), "r.urdf:2", "expected 1 number"));
-  EXPECT_TRUE(refuses(link("a", collision(hull, "<origin rpy='90000 0 0'/>")), "r.urdf:2", "angles in radians"));
+  EXPECT_TRUE(rejects_urdf("", "r.urdf:1", "expected a <link>"));
+  EXPECT_TRUE(rejects_urdf(link("base"), "r.urdf:1", "the robot has no collision geometry"));
+  EXPECT_TRUE(rejects_urdf(base + base, "r.urdf:3", "'base' is there already"));
+  EXPECT_TRUE(rejects_urdf(base + link("arm"), "r.urdf:3", "neither 'base' nor 'arm' is the child of a joint"));
+  EXPECT_TRUE(rejects_urdf(base + joint("base", "arm"), "r.urdf:3", "expected a link of the robot, found 'arm'"));
+  EXPECT_TRUE(
+      rejects_urdf(base + link("a") + link("b") + joint("a", "b") + joint("b", "a"), "r.urdf:6", "found a circle"));
+  EXPECT_TRUE(rejects_urdf(link("a") + joint("a", "a"), "r.urdf:2", "found a circle"));
+  EXPECT_TRUE(rejects_urdf(base + link("a") + joint("base", "a") + joint("base", "a"), "r.urdf:5", "'a' has two"));
+  EXPECT_TRUE(rejects_urdf(link("a", collision("<box size='1 2'/>")), "r.urdf:2", "expected 3 numbers within 100 km"));
+  EXPECT_TRUE(rejects_urdf(link("a", collision("<box size='1 2 0'/>")), "r.urdf:2", "expected 'size' of <box>"));
+  EXPECT_TRUE(rejects_urdf(link("a", collision("<cylinder radius='0.1'/>")), "r.urdf:2", "to have 'length'"));
+  EXPECT_TRUE(rejects_urdf(link("a", collision("<sphere radius='nan'/>")), "r.urdf:2", "expected 1 number"));
+  EXPECT_TRUE(rejects_urdf(link("a", collision(hull, "<origin rpy='90000 0 0'/>")), "r.urdf:2", "angles in radians"));
   EXPECT_TRUE(complains(
       [] {
         LeftOut left_out;

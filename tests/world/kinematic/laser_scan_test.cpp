@@ -13,11 +13,11 @@
 namespace waitpoint::world {
 namespace {
 
-constexpr double half_square_m = 12;
+constexpr double arena_m = 12;
 
-std::vector<Shape> random_scene(std::uint64_t seed, int count) { return random_shapes(seed, count, half_square_m); }
+std::vector<Shape> random_scene(std::uint64_t seed, int count) { return random_shapes(seed, count, arena_m); }
 
-WorldDescription robots_among_shapes() {
+WorldDescription scanning_robots() {
   WorldDescription description;
   for (const Shape& shape : random_scene(1, 50)) {
     description.obstacles.push_back({numbered("o", description.obstacles.size()), shape, true});
@@ -25,7 +25,7 @@ WorldDescription robots_among_shapes() {
   Draws draw(2);
   while (description.bodies.size() < 5) {
     const std::size_t n = description.bodies.size();
-    const Pose start = {draw(-half_square_m, half_square_m), draw(-half_square_m, half_square_m), draw(-3, 3)};
+    const Pose start = {draw(-arena_m, arena_m), draw(-arena_m, arena_m), draw(-3, 3)};
     const Shape shape = n % 2 == 0 ? cylinder({0, 0}, 0.3) : box({0.1, 0, 0}, 0.8, 0.5);
     description.bodies.push_back(nimble_body(numbered("r", n), shape, start));
     LaserDescription laser = perfect_laser(n < 3 ? 0.4 : 0.6);
@@ -50,7 +50,7 @@ std::vector<Shape> seen_by(const World& world, std::size_t own) {
 }
 
 TEST(LaserScan, AgreesWithBruteForceOnAMillionBeams) {
-  const WorldDescription description = robots_among_shapes();
+  const WorldDescription description = scanning_robots();
   const auto world = make_kinematic_world(description, 1);
   Draws draw(3);
   LaserScan scan;
@@ -96,7 +96,7 @@ TEST(LaserScan, GrazingBeamsAreThoseOfAskingEveryShapeToTheLastBit) {
   std::vector<double> ranges;
   long flips = 0;
   for (long beams = 0; beams < 1'000'000; beams += static_cast<long>(fan.size())) {
-    const Point origin = {draw(-half_square_m, half_square_m), draw(-half_square_m, half_square_m)};
+    const Point origin = {draw(-arena_m, arena_m), draw(-arena_m, arena_m)};
     const auto target = static_cast<std::uint32_t>(draw.below(scene.size()));
     const Point towards = grazing_direction(scene.outline(target), origin, draw);
     // The grazing ray, and its neighbours by single roundings, as a fan.
@@ -119,7 +119,7 @@ TEST(LaserScan, AFanIsEachOfItsRaysAlone) {
   const Scene scene(random_scene(8, 60));
   Draws draw(9);
   for (int k = 0; k < 400; ++k) {
-    const Point origin = {draw(-half_square_m, half_square_m), draw(-half_square_m, half_square_m)};
+    const Point origin = {draw(-arena_m, arena_m), draw(-arena_m, arena_m)};
     const double from = draw(-3, 3), field_of_view = draw(0, 6.28);
     const std::uint64_t rays = 1 + draw.below(k % 4 == 0 ? 8 : 361);
     std::vector<Point> fan;

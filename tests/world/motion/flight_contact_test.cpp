@@ -29,7 +29,7 @@ double height_gap(const Mover& a, const Mover& b, double fraction) {
 }
 
 // Must stay above 0: solids touch if they overlap both seen from above and in height.
-double gap(const Mover& a, const Mover& b, double fraction) {
+double flight_gap(const Mover& a, const Mover& b, double fraction) {
   return std::max(height_gap(a, b, fraction), separation(a.at(fraction), b.at(fraction)).distance_m);
 }
 
@@ -115,15 +115,15 @@ TEST(FlightContact, NeverLateOnRandomFlights) {
     const double scale = i % 2 == 0 ? 1 : 20;
     const Mover first = random_flight(draw, a, scale);
     const Mover second = random_flight(draw, b, scale);
-    if (gap(first, second, 0) < 2 * contact_gap_m) continue;
+    if (flight_gap(first, second, 0) < 2 * contact_gap_m) continue;
     const auto contact = first_contact(first, second, 0);
     const double end = contact ? contact->fraction : 1;
-    for (int k = 0; k <= 60; ++k) ASSERT_GT(gap(first, second, end * k / 60), 0.49 * contact_gap_m);
+    for (int k = 0; k <= 60; ++k) ASSERT_GT(flight_gap(first, second, end * k / 60), 0.49 * contact_gap_m);
     if (!contact) continue;
     const double height = height_gap(first, second, end);
     ++(height > 0 ? from_above : from_the_side);
-    ASSERT_LT(gap(first, second, end), contact_gap_m + 2 * contact_tolerance_m);
-    ASSERT_LT(gap(first, second, std::min(1.0, end + 1e-6 / scale)), gap(first, second, end))
+    ASSERT_LT(flight_gap(first, second, end), contact_gap_m + 2 * contact_tolerance_m);
+    ASSERT_LT(flight_gap(first, second, std::min(1.0, end + 1e-6 / scale)), flight_gap(first, second, end))
         << "it would have touched";
   }
   EXPECT_GT(from_the_side, 400);
@@ -139,8 +139,9 @@ TEST(FlightContact, ASwarmNeverOverlapsAndEveryNumberingGivesTheSameStops) {
     std::vector<Mover> movers;
     for (const Shape& shape : shapes) {
       const Mover mover = random_flight(draw, shape, 0.7);
-      const bool clear = std::all_of(movers.begin(), movers.end(),
-                                     [&](const Mover& other) { return gap(mover, other, 0) > 2 * contact_gap_m; });
+      const bool clear = std::all_of(movers.begin(), movers.end(), [&](const Mover& other) {
+        return flight_gap(mover, other, 0) > 2 * contact_gap_m;
+      });
       if (clear) movers.push_back(mover);
     }
     std::vector<std::size_t> order(movers.size());
@@ -162,7 +163,8 @@ TEST(FlightContact, ASwarmNeverOverlapsAndEveryNumberingGivesTheSameStops) {
     const auto at = [&](std::size_t i, double f) { return movers[i].stopped_at(std::min(f, expected[i].value_or(1))); };
     for (int k = 0; k <= 40; ++k) {
       for (std::size_t i = 0; i < movers.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j) ASSERT_GT(gap(at(i, k / 40.0), at(j, k / 40.0), 0), 0.49 * contact_gap_m);
+        for (std::size_t j = 0; j < i; ++j)
+          ASSERT_GT(flight_gap(at(i, k / 40.0), at(j, k / 40.0), 0), 0.49 * contact_gap_m);
     }
     for (const auto& s : expected) stopped += s ? 1 : 0;
   }

@@ -13,11 +13,11 @@
 namespace waitpoint::world {
 namespace {
 
-constexpr double half_square_m = 12;
+constexpr double floor_half_m = 12;
 
 TEST(Footprints, NearAreThoseOfTheSceneToTheLastBit) {
   for (const double offset_m : {0.0, 1e6}) {
-    std::vector<Shape> shapes = random_shapes(1, 300, half_square_m);
+    std::vector<Shape> shapes = random_shapes(1, 300, floor_half_m);
     for (Shape& shape : shapes) shape.pose.x += offset_m;
     const Scene scene(shapes);
     for (const Kernels* variant : all_kernels()) {

@@ -9,7 +9,6 @@ A file without findings gets a stamp; its includes come from the compiler's depe
 import json
 import os
 import pathlib
-import re
 import shlex
 import subprocess
 import sys
@@ -28,10 +27,6 @@ rule analyse
   deps = gcc
   description = $in
 """
-
-
-# GCC's precompiled headers: clang-tidy cannot read them, and reads each source by its own includes instead.
-PRECOMPILED = re.compile(r" -fpch-preprocess -include \w+\.hpp\b")
 
 
 def flags(entry):
@@ -87,7 +82,7 @@ def main():
     for source, entry in database:
         if wanted is not None and str(source.with_suffix("")) not in wanted:
             continue
-        first.setdefault(source, {**entry, "command": PRECOMPILED.sub("", entry["command"])})
+        first.setdefault(source, entry)
     folder, settings = build / "analysis", os.path.relpath(ROOT / ".clang-tidy", build)
     folder.mkdir(exist_ok=True)
     (folder / "compile_commands.json").write_text(json.dumps(list(first.values())))
