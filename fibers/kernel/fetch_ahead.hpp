@@ -14,7 +14,7 @@ namespace waitpoint::kernel {
 
 // Above: a parked task's registers, and the frames from its switch up to its own code. Below: the place of the kernel's
 // frames when it parks again; a write that misses the cache delays all later writes.
-inline constexpr int stack_lines_above = 4, stack_lines_below = 3;
+inline constexpr std::ptrdiff_t stack_lines_above = 4, stack_lines_below = 3;
 // The lines of a task's record that waking it touches, and those of its robot's digest.
 inline constexpr int record_lines_fetched = 4, robot_lines_fetched = 2;
 

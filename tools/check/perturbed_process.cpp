@@ -104,6 +104,7 @@ std::vector<std::string> other_environment(const PerturbedFiles& files, int prel
 
 std::vector<char*> pointers(std::vector<std::string>& words) {
   std::vector<char*> result;
+  result.reserve(words.size() + 1);
   for (std::string& word : words) result.push_back(word.data());
   result.push_back(nullptr);
   return result;

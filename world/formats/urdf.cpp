@@ -194,6 +194,7 @@ class UrdfReader {
       xml_.fail(mesh, "expected at most " + std::to_string(mesh_count_max) + " meshes");
     const std::vector<SpaceVector> corners = read_mesh_file(file, placement, left_out_).corners;
     std::vector<SpaceVector> placed;
+    placed.reserve(corners.size());
     for (const SpaceVector& corner : corners) placed.push_back(pose.position + pose.turned(corner));
     if (const std::optional<Shape> hull = upright_hull(placed)) {
       tell(mesh, "a <mesh>", "is taken as the upright prism over its convex outline");

@@ -35,8 +35,8 @@ struct Mutex : Waitable {
 static_assert((PTHREAD_MUTEX_TIMED_NP | PTHREAD_MUTEX_RECURSIVE_NP | PTHREAD_MUTEX_ERRORCHECK_NP |
                PTHREAD_MUTEX_ADAPTIVE_NP) == 3 &&
               ((Mutex::robust_bit | Mutex::shared_bit) & 3) == 0);
-static_assert(offsetof(pthread_mutex_t, __data.__list.__prev) % alignof(Mutex*) == 0 &&
-              sizeof(pthread_mutex_t::__data.__list.__prev) == sizeof(Mutex*));
+static_assert(offsetof(pthread_mutex_t, __data.__list.__prev) % alignof(void*) == 0 &&
+              sizeof(pthread_mutex_t::__data.__list) == 2 * sizeof(void*));
 
 inline bool is_shared(const pthread_mutex_t& mutex) { return (mutex.__data.__kind & Mutex::shared_bit) != 0; }
 

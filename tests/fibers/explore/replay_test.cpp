@@ -78,7 +78,7 @@ TEST(Explore, BadTokensAndStrategiesAreOneClearLine) {
 }
 
 TEST(Explore, TheEnvironmentSaysWhatToDoInAnyProgram) {
-  const auto with = [](const char* name, const char* value, std::function<void()> then) {
+  const auto with = [](const char* name, const char* value, const std::function<void()>& then) {
     setenv(name, value, 1);
     then();
     unsetenv(name);

@@ -273,7 +273,7 @@ TEST(Scheduler, WhatATaskHasInFlightStaysItsOwn) {
           }
           return;
         }
-        for (int round = 0; round < 4; ++round) {
+        for (std::int64_t round = 0; round < 4; ++round) {
           errno = own;
           run.scheduler.waitpoint(Operation::wait, &object);
           if (run.scheduler.wake_one(object) == nullptr && round == 3) return;

@@ -62,7 +62,7 @@ class FrameRobot {
   Reply begin(const std::string& request, std::int32_t value = 0) {
     const std::optional<std::uint32_t> id = client.send("m", request, Number{value});
     EXPECT_TRUE(id.has_value());
-    const Reply reply = next();
+    Reply reply = next();
     EXPECT_EQ(reply.send_id, id);
     return reply;
   }

@@ -47,7 +47,7 @@ TEST(PositionFix, TurnsARobotWhoseAntennaIsBeside) {
 posters::PositionEstimate driven(int tick, double heading) {
   const auto [s, c] = exact::sincos(heading);
   const double way_m = 0.01 * tick;
-  return {ms(20 * tick), {way_m * c, way_m * s, heading}, {}};
+  return {ms(std::int64_t{20} * tick), {way_m * c, way_m * s, heading}, {}};
 }
 
 // The heading is unknown; the odometry goes east, the fixes go north.
@@ -58,7 +58,7 @@ TEST(PositionFix, TheWayBetweenFixesTellsTheHeading) {
     fusion.add_odometry(driven(tick, 0));
     if (tick % 50 != 0) continue;
     const auto n = static_cast<std::uint64_t>(tick);
-    fusion.add_fix(1, ms(20 * tick), {{0.2 * noise.normal(n, 0), 0.01 * tick + 0.2 * noise.normal(n, 1)}, {}, 0.04, 0},
+    fusion.add_fix(1, ms(std::int64_t{20} * tick), {{0.2 * noise.normal(n, 0), 0.01 * tick + 0.2 * noise.normal(n, 1)}, {}, 0.04, 0},
                    13.82);
   }
   const posters::FusedPosition now = fusion.at(ms(40000));

@@ -115,7 +115,10 @@ TEST(Segments, FclCollidesWithAWallAsThePlaneDoes) {
 TEST(Segments, AWallBetweenTwoRowsOfCellsIsDrawnIntoBoth) {
   OccupancyGrid grid(3, 4, 1, {}, Cell::free);
   draw(std::vector<Shape>{wall_between({0, 2}, {3, 2}, 0, 2)}, grid);
-  for (int y = 0; y < 4; ++y) EXPECT_EQ(grid[CellIndex(1, y)] == Cell::occupied, y == 1 || y == 2) << y;
+  for (int y = 0; y < 4; ++y) {
+    const CellIndex middle = {1, y};
+    EXPECT_EQ(grid[middle] == Cell::occupied, y == 1 || y == 2) << y;
+  }
 }
 
 TEST(Segments, OneWithoutLengthIsLeftOutWithAWarning) {

@@ -287,7 +287,7 @@ TEST(Stage, TypesThatMultiplyEndSoon) {
   std::string text = "define t0 model( size [1 1 1] )\n";
   for (int i = 0; i < 30; ++i) {
     const std::string below = "t" + std::to_string(i);
-    text += "define t" + std::to_string(i + 1) + " model( " + below + "() " + below + "() )\n";
+    text.append("define t" + std::to_string(i + 1)).append(" model( " + below).append("() " + below).append("() )\n");
   }
   EXPECT_TRUE(rejects_stage(text + "t30()", "a.world:", "expected at most 1048576"));
   text = "define t0 model()\n";

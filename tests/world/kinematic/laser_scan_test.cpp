@@ -138,6 +138,7 @@ TEST(LaserScan, AFanIsEachOfItsRaysAlone) {
 TEST(LaserScan, NoBeamSlipsBetweenShapesThatShareAnEdge) {
   // A wall of cells of 5 cm whose edges are not representable, seen exactly along their common edges.
   std::vector<Shape> cells;
+  cells.reserve(200);
   for (int i = 0; i < 200; ++i) cells.push_back(box({5, 0.05 * i + 0.025, 0}, 0.05, 0.05));
   const Scene scene(cells);
   for (int i = 1; i < 200; ++i) {

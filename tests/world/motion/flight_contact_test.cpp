@@ -135,6 +135,7 @@ TEST(FlightContact, ASwarmNeverOverlapsAndEveryNumberingGivesTheSameStops) {
   int stopped = 0;
   for (int round = 0; round < 700; ++round) {
     std::vector<Shape> shapes;
+    shapes.reserve(6);
     for (int i = 0; i < 6; ++i) shapes.push_back(between(random_shape(draw, 0.1, 0.9), 0, draw(0.1, 0.5)));
     std::vector<Mover> movers;
     for (const Shape& shape : shapes) {
