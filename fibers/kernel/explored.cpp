@@ -12,6 +12,8 @@ namespace waitpoint::kernel {
 namespace {
 
 // Only events of the phase `tasks` are a choice.
+constexpr std::size_t entry_size = sizeof(void*);  // of the table of ready tasks
+
 bool is_before_tasks_at(const EventKey& key, Time time) {
   return key.time <= time && key.order < make_order(Phase::tasks, 0);
 }
@@ -22,15 +24,15 @@ bool is_of_tasks(const EventKey& key) {
 }  // namespace
 
 void ReadySet::reserve(std::uint32_t capacity) {
-  void* memory = mmap(nullptr, capacity * sizeof(Task*), PROT_READ | PROT_WRITE,
-                      MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* memory =
+      mmap(nullptr, capacity * entry_size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   WAITPOINT_CHECK(memory != MAP_FAILED, "no address space for the tasks that are ready");
   tasks_ = static_cast<Task**>(memory);
   capacity_ = capacity;
 }
 
 ReadySet::~ReadySet() {
-  if (tasks_ != nullptr) munmap(tasks_, capacity_ * sizeof(Task*));
+  if (tasks_ != nullptr) munmap(tasks_, capacity_ * entry_size);
 }
 
 void Scheduler::set_decisions(Decisions& decisions) {

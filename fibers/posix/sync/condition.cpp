@@ -30,7 +30,8 @@ struct ConditionBytes : SharedBytes<Condition> {
   std::uint64_t released;
   std::uint32_t changes;
 };
-static_assert(sizeof(ConditionBytes) <= sizeof(pthread_cond_t) && alignof(ConditionBytes) <= alignof(pthread_cond_t));
+static_assert(sizeof(ConditionBytes) <= sizeof(pthread_cond_t));
+static_assert(alignof(ConditionBytes) <= alignof(pthread_cond_t));
 static_assert(!CLOCK_REALTIME, "PTHREAD_COND_INITIALIZER is all zeroes");
 
 ConditionBytes& bytes_of(pthread_cond_t* condition) { return *reinterpret_cast<ConditionBytes*>(condition); }

@@ -57,8 +57,10 @@ TEST(Client, ManyTasksAskAtOnceAndEachGetsItsOwnReplies) {
   on_threads([] {
     EchoRobot robot;
     robot.run([&] {
+      constexpr std::int32_t clients = 4;
       std::vector<threads::thread> all;
-      for (std::int32_t i = 0; i < 4; ++i)
+      all.reserve(clients);
+      for (std::int32_t i = 0; i < clients; ++i)
         all.emplace_back([&robot, i] {
           Client client(robot.names, "asker");
           for (std::int32_t k = 0; k < 50; ++k)

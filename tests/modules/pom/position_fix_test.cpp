@@ -58,8 +58,8 @@ TEST(PositionFix, TheWayBetweenFixesTellsTheHeading) {
     fusion.add_odometry(driven(tick, 0));
     if (tick % 50 != 0) continue;
     const auto n = static_cast<std::uint64_t>(tick);
-    fusion.add_fix(1, ms(std::int64_t{20} * tick), {{0.2 * noise.normal(n, 0), 0.01 * tick + 0.2 * noise.normal(n, 1)}, {}, 0.04, 0},
-                   13.82);
+    fusion.add_fix(1, ms(std::int64_t{20} * tick),
+                   {{0.2 * noise.normal(n, 0), 0.01 * tick + 0.2 * noise.normal(n, 1)}, {}, 0.04, 0}, 13.82);
   }
   const posters::FusedPosition now = fusion.at(ms(40000));
   EXPECT_NEAR(now.position.pose.heading, exact::pi / 2, 0.05);
