@@ -7,7 +7,6 @@
 
 using namespace std::chrono_literals;
 using waitpoint::Duration;
-using waitpoint::field;
 using waitpoint::genom::State;
 
 /// The type of the poster blinker.lamp.

@@ -13,7 +13,6 @@
 
 using namespace std::chrono_literals;
 using waitpoint::Duration;
-using waitpoint::field;
 using waitpoint::Time;
 namespace io = waitpoint::io;
 

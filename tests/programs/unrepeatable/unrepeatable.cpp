@@ -25,7 +25,6 @@
 #include <waitpoint/tools/main.hpp>
 
 using namespace std::chrono_literals;
-using waitpoint::field;
 
 namespace {
 
