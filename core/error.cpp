@@ -9,7 +9,8 @@
 namespace waitpoint {
 
 BadInput::BadInput(const std::string& file, int line, const std::string& message)
-    : std::runtime_error(printable_line(file + ":" + (line > 0 ? std::to_string(line) + ": " : " ") + message)),
+    : std::runtime_error(printable_line(file + ":" + (line > 0 ? std::to_string(line) + ": " : " ")) +
+                         printable_message(message)),
       file_(file),
       line_(line) {}
 

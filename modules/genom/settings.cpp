@@ -18,6 +18,7 @@ namespace {
 double parse_double(const Setting& setting, const char* expected) {
   double value = 0;
   if (!parse_number(setting.text, value) || !std::isfinite(value)) refuse(setting, expected);
+  if (std::fabs(value) > 1e12) refuse(setting, std::string(expected) + " of at most 1e12");
   return value;
 }
 

@@ -35,23 +35,23 @@ world::OdometryErrors read_odometry(const YamlNode& node, Kind kind) {
        "turn_noise_rad_per_sqrt_rad", "slips_per_m", "slip_m", "slip_turn_rad", "units_per_m", "units_per_rad",
        "wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
   world::OdometryErrors errors;
-  map.read("travel_scale", errors.travel_scale, positive_number);
-  map.read("turn_scale", errors.turn_scale, positive_number);
-  map.read("drift_rad_per_m", errors.drift_rad_per_m, any_number);
-  map.read("travel_noise_m_per_sqrt_m", errors.travel_noise_m_per_sqrt_m, number_from_zero);
-  map.read("turn_noise_rad_per_sqrt_m", errors.turn_noise_rad_per_sqrt_m, number_from_zero);
-  map.read("turn_noise_rad_per_sqrt_rad", errors.turn_noise_rad_per_sqrt_rad, number_from_zero);
+  map.read("travel_scale", errors.travel_scale, factor);
+  map.read("turn_scale", errors.turn_scale, factor);
+  map.read("drift_rad_per_m", errors.drift_rad_per_m, signed_angle_error);
+  map.read("travel_noise_m_per_sqrt_m", errors.travel_noise_m_per_sqrt_m, length_error);
+  map.read("turn_noise_rad_per_sqrt_m", errors.turn_noise_rad_per_sqrt_m, angle_error);
+  map.read("turn_noise_rad_per_sqrt_rad", errors.turn_noise_rad_per_sqrt_rad, angle_error);
   constexpr NumberRange slips{0, 1000, "a number from 0 to 1000"};
   map.read("slips_per_m", errors.slips_per_m, slips);
-  map.read("slip_m", errors.slip_m, number_from_zero);
-  map.read("slip_turn_rad", errors.slip_turn_rad, number_from_zero);
+  map.read("slip_m", errors.slip_m, length_error);
+  map.read("slip_turn_rad", errors.slip_turn_rad, angle_error);
   map.read("units_per_m", errors.units_per_m, positive_number);
   map.read("units_per_rad", errors.units_per_rad, positive_number);
   only_for(map, has_two_sides(kind), "differential or skid_steer",
            {"wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
-  map.read("wheel_diameter_ratio", errors.wheel_diameter_ratio, positive_number);
-  map.read("wheel_base_ratio", errors.wheel_base_ratio, positive_number);
-  map.read("wheel_noise_m_per_sqrt_m", errors.wheel_noise_m_per_sqrt_m, number_from_zero);
+  map.read("wheel_diameter_ratio", errors.wheel_diameter_ratio, factor);
+  map.read("wheel_base_ratio", errors.wheel_base_ratio, factor);
+  map.read("wheel_noise_m_per_sqrt_m", errors.wheel_noise_m_per_sqrt_m, length_error);
   map.read("wheel_ticks_per_m", errors.wheel_ticks_per_m, positive_number);
   return errors;
 }
@@ -66,10 +66,10 @@ void read_kind(const YamlMap& map, world::BaseDescription& base) {
   constexpr NumberRange longer{1, 1e9, "a number of at least 1"};
   map.read("effective_axle_ratio", base.effective_axle_ratio, longer);
   map.read("wheelbase_m", base.wheelbase_m, positive_number);
-  constexpr NumberRange steering{least_positive, 89, "degrees above 0, at most 89"};
+  constexpr NumberRange steering{least_nonzero, 89, "degrees above 0, at most 89"};
   map.read_degrees("steering_max_deg", base.steering_max_rad, steering);
   map.read_degrees("steering_rate_deg_s", base.steering_rate_rad_s, positive_number);
-  map.read("climb_max_m_s", base.climb_max_m_s, positive_number);
+  map.read("climb_max_m_s", base.climb_max_m_s, rate);
   map.read("climb_acceleration_m_s2", base.climb_acceleration_m_s2, positive_number);
 }
 
@@ -97,8 +97,8 @@ world::BaseDescription read_base(const YamlNode& node, world::BaseDescription ba
                      "battery_capacity_s",
                      "battery_capacity_m"});
   read_kind(map, base);
-  map.read("v_max_m_s", base.v_max_m_s, positive_number);
-  map.read("w_max_rad_s", base.w_max_rad_s, positive_number);
+  map.read("v_max_m_s", base.v_max_m_s, rate);
+  map.read("w_max_rad_s", base.w_max_rad_s, rate);
   map.read("v_acceleration_m_s2", base.v_acceleration_m_s2, positive_number);
   map.read("w_acceleration_rad_s2", base.w_acceleration_rad_s2, positive_number);
   map.read("mass_kg", base.mass_kg, mass_number);
@@ -138,7 +138,7 @@ world::BatteryDescription read_battery(const YamlNode& node) {
   map.read("rated_h", battery.rated_h, positive_number);
   constexpr NumberRange exponent{1, 2, "a number from 1 to 2"};
   map.read("peukert", battery.peukert, exponent);
-  constexpr NumberRange part{least_positive, 1, "a part above 0, at most 1"};
+  constexpr NumberRange part{least_nonzero, 1, "a part above 0, at most 1"};
   map.read("charge", battery.charge, part);
   map.read("off_v", battery.off_v, number_from_zero);
   map.read("idle_a", battery.idle_a, number_from_zero);

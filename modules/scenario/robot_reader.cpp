@@ -128,8 +128,8 @@ std::vector<Goal> read_goals(const YamlNode& node) {
     goal.written = item.written;
     if (item.kind == YamlNode::Kind::map) {
       const YamlMap map(item, "a goal", {"x_m", "y_m", "name"});
-      goal.position.x = map.number("x_m", any_number);
-      goal.position.y = map.number("y_m", any_number);
+      goal.position.x = map.number("x_m", coordinate);
+      goal.position.y = map.number("y_m", coordinate);
       goal.name = map.text("name", "");
     } else {
       goal.position = read_point(item, "a goal");

@@ -19,11 +19,11 @@ constexpr NumberRange probability{0, 1, "a probability from 0 to 1"};
 
 /// Error parameters of a laser that do not depend on others.
 void read_laser_errors(const YamlMap& map, world::LaserDescription& laser) {
-  map.read("range_noise_m", laser.range_noise_m, number_from_zero);
+  map.read("range_noise_m", laser.range_noise_m, length_error);
   constexpr NumberRange growth{1, 1e9, "a number from 1 on"};
   map.read("noise_growth", laser.noise_growth, growth);
-  map.read("range_bias_m", laser.range_bias_m, any_number);
-  map.read("warm_up_bias_m", laser.warm_up_bias_m, any_number);
+  map.read("range_bias_m", laser.range_bias_m, coordinate);
+  map.read("warm_up_bias_m", laser.warm_up_bias_m, coordinate);
   map.read("warm_up_s", laser.warm_up_s, positive_number);
   constexpr NumberRange jitter{0, 10, "degrees from 0 to 10"};
   map.read_degrees("angle_noise_deg", laser.angle_noise_rad, jitter);
@@ -33,7 +33,7 @@ void read_laser_errors(const YamlMap& map, world::LaserDescription& laser) {
   map.read("spot_divergence_rad", laser.spot_divergence_rad, divergence);
   map.read("mixed_jump_m", laser.mixed_jump_m, positive_number);
   map.read("dropout", laser.dropout, probability);
-  constexpr NumberRange incidence{least_positive, 90, "degrees above 0, at most 90"};
+  constexpr NumberRange incidence{least_nonzero, 90, "degrees above 0, at most 90"};
   map.read_degrees("incidence_max_deg", laser.incidence_max_rad, incidence);
 }
 
@@ -62,13 +62,13 @@ world::InertialErrors read_inertial_errors(const YamlNode& node, std::string_vie
   const YamlMap map(node, std::string(what),
                     {"noise_per_sqrt_hz", "bias", "walk_per_sqrt_s", "drift", "drift_s", "scale", "resolution", "max"});
   world::InertialErrors errors;
-  map.read("noise_per_sqrt_hz", errors.noise_per_sqrt_hz, number_from_zero);
-  map.read("bias", errors.bias, number_from_zero);
-  map.read("walk_per_sqrt_s", errors.walk_per_sqrt_s, number_from_zero);
-  map.read("drift", errors.drift, number_from_zero);
+  map.read("noise_per_sqrt_hz", errors.noise_per_sqrt_hz, rate_error);
+  map.read("bias", errors.bias, rate_error);
+  map.read("walk_per_sqrt_s", errors.walk_per_sqrt_s, rate_error);
+  map.read("drift", errors.drift, rate_error);
   map.read("drift_s", errors.drift_s, positive_number);
-  map.read("scale", errors.scale, positive_number);
-  map.read("resolution", errors.resolution, number_from_zero);
+  map.read("scale", errors.scale, factor);
+  map.read("resolution", errors.resolution, rate_error);
   map.read("max", errors.max, positive_number);
   return errors;
 }
@@ -143,7 +143,7 @@ LaserReading read_laser(const YamlNode& node) {
   if (const YamlNode* mount = map.find("mount")) laser.mount = read_pose(*mount, "mount");
   map.read("height_m", laser.height_m, number_from_zero);
   map.read("beams", laser.beams, 2, posters::beam_count_max);
-  constexpr NumberRange fan{least_positive, 360, "degrees above 0, at most 360"};
+  constexpr NumberRange fan{least_nonzero, 360, "degrees above 0, at most 360"};
   map.read_degrees("field_of_view_deg", laser.field_of_view_rad, fan);
   map.read("resolution_m", laser.resolution_m, positive_number);
   if (lms) laser.range_max_m = world::lms_range_max_m(laser.resolution_m);
@@ -166,7 +166,7 @@ world::SonarRingDescription read_sonar_ring(const YamlNode& node) {
        "period_ms", "firing_order", "crosstalk", "air_celsius", "calibrated_celsius"});
   world::SonarRingDescription ring;
   read_ring(map, posters::sonar_count_max, number_from_zero, ring);
-  constexpr NumberRange cone{least_positive, 90, "degrees above 0, at most 90"};
+  constexpr NumberRange cone{least_nonzero, 90, "degrees above 0, at most 90"};
   map.read_degrees("half_cone_deg", ring.half_cone_rad, cone);
   map.read("range_noise_relative", ring.range_noise_relative, number_from_zero);
   constexpr NumberRange celsius{-60, 60, "degrees from -60 to 60"};
@@ -216,11 +216,11 @@ world::PositionReceiverDescription read_gps(const YamlNode& node) {
                      "resolution_m", "dropout", "period_ms"});
   world::PositionReceiverDescription gps;
   if (const YamlNode* antenna = map.find("antenna_m")) gps.antenna = read_point(*antenna, "antenna_m");
-  map.read("bias_x_m", gps.bias_x_m, any_number);
-  map.read("bias_y_m", gps.bias_y_m, any_number);
-  map.read("drift_m", gps.drift_m, number_from_zero);
+  map.read("bias_x_m", gps.bias_x_m, coordinate);
+  map.read("bias_y_m", gps.bias_y_m, coordinate);
+  map.read("drift_m", gps.drift_m, length_error);
   map.read("drift_s", gps.drift_s, positive_number);
-  map.read("noise_m", gps.noise_m, number_from_zero);
+  map.read("noise_m", gps.noise_m, length_error);
   map.read("height_factor", gps.height_factor, number_from_zero);
   map.read("resolution_m", gps.resolution_m, number_from_zero);
   map.read("dropout", gps.dropout, probability);

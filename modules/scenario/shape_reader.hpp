@@ -14,7 +14,6 @@
 
 namespace waitpoint::scenario {
 
-inline constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
 inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
 
 /// A robot's body in its own frame: `centre_m` is optional, `height_m` is not.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/scenario/yaml_reader.hpp"
 
+#include <cmath>
+
 #include <span>
 
 #include "core/exact_math.hpp"
@@ -33,7 +35,8 @@ std::string joined(std::span<const std::string_view> words) {
 double read_number(const YamlNode& node, std::string_view what, const NumberRange& range) {
   double number = 0;
   // Negated to reject "nan", too.
-  if (!parse(node, number) || !(number >= range.low && number <= range.high)) {
+  if (!parse(node, number) || !(number >= range.low && number <= range.high) ||
+      (number != 0 && std::fabs(number) < least_nonzero)) {
     refuse(node, what, std::string(range.phrase));
   }
   return number;

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
 
 #include <string>
 #include <string_view>
@@ -16,15 +15,26 @@
 
 namespace waitpoint::scenario {
 
-/// A range of valid numbers, and its description in messages.
+/// A range of valid numbers, and its description in messages. Numbers nearer to 0 than `least_nonzero`, but not 0, are
+/// not valid either: quotients by them would leave the range of integers.
 struct NumberRange {
   double low, high;         ///< inclusive
   std::string_view phrase;  ///< "a positive number"
 };
-inline constexpr double least_positive = std::numeric_limits<double>::min();
+inline constexpr double least_nonzero = 1e-12;
 inline constexpr NumberRange any_number{-1e9, 1e9, "a number"};
-inline constexpr NumberRange positive_number{least_positive, 1e9, "a positive number"};
+inline constexpr NumberRange positive_number{least_nonzero, 1e9, "a positive number"};
 inline constexpr NumberRange number_from_zero{0, 1e9, "a number that is not negative"};
+inline constexpr NumberRange coordinate{-1e5, 1e5, "a coordinate within 100 km"};
+/// Of errors and noises of angles: within the headings that the simulation can stand, after any way.
+inline constexpr NumberRange angle_error{0, 10, "a number of rad from 0 to 10"};
+inline constexpr NumberRange signed_angle_error{-10, 10, "a number of rad from -10 to 10"};
+/// Of errors and noises of places.
+inline constexpr NumberRange length_error{0, 1e5, "a number of metres from 0 to 100000"};
+inline constexpr NumberRange factor{1e-3, 1e3, "a factor from 0.001 to 1000"};
+/// Of speeds, accelerations and the errors of sensors for them.
+inline constexpr NumberRange rate{least_nonzero, 1e4, "a positive number up to 10000"};
+inline constexpr NumberRange rate_error{0, 1e3, "a number from 0 to 1000"};
 
 /// Numbers are decimal text ("-0.5", "1e-3"), independent of the locale, and finite. `what` is the subject of the
 /// message: "expected step_ms to be a positive number, found '-1'".

@@ -18,17 +18,22 @@ namespace {
 
 constexpr int depth_max = 32;
 constexpr std::size_t node_count_max = 200'000;
+// A text of many robots that share anchors has several values for each of its bytes.
+constexpr std::size_t values_per_byte = 4;
 constexpr std::size_t bytes_max = std::size_t{1} << 22;
 
 /// Converts a document of yaml-cpp, where aliases share nodes, into values.
 class Copier {
  public:
-  Copier(const std::string& file, bool file_has_lines) : file_(file), file_has_lines_(file_has_lines) {}
+  /// `size`: of the text, in bytes.
+  Copier(const std::string& file, bool file_has_lines, std::size_t size)
+      : file_(file), file_has_lines_(file_has_lines), count_max_(std::max(node_count_max, values_per_byte * size)) {}
 
   YamlNode copy(const YAML::Node& source, int depth) {
     YamlNode node;
     node.written = location(source.Mark());
-    if (++count_ > node_count_max) throw node.written.bad("more than 200000 values: an anchor that multiplies itself?");
+    if (++count_ > count_max_)
+      throw node.written.bad("more than " + std::to_string(count_max_) + " values: an anchor that multiplies itself?");
     if (depth > depth_max) throw node.written.bad("values are nested more than 32 deep");
     if (source.IsScalar()) {
       copy_scalar(source, node);
@@ -67,6 +72,7 @@ class Copier {
 
   std::string file_;
   bool file_has_lines_;
+  std::size_t count_max_;
   std::size_t count_ = 0;
 };
 
@@ -170,7 +176,7 @@ std::string described(const YamlNode& node) {
 YamlNode load_yaml(const std::filesystem::path& file) { return parse_yaml(read_text(file), file.string()); }
 
 YamlNode parse_yaml(const std::string& text, const std::string& file, bool file_has_lines) {
-  Copier copier(file, file_has_lines);
+  Copier copier(file, file_has_lines, text.size());
   try {
     if (const std::optional<YAML::Mark> second = second_document(text)) {
       throw copier.location(*second).bad("expected one YAML document, found a second");

@@ -43,7 +43,8 @@ class MapFileReader {
     MapFile map;
     map.image = text(required(root, "image"), "image");
     map.resolution_m = number(required(root, "resolution"), "resolution");
-    if (!(map.resolution_m > 0)) fail(root["resolution"], "resolution: expected metres a pixel above 0");
+    if (!(map.resolution_m >= 1e-4 && map.resolution_m <= 1e3))
+      fail(root["resolution"], "resolution: expected metres a pixel, from 0.0001 to 1000");
     map.origin = pose(required(root, "origin"));
     if (root["negate"]) map.negate = flag(root["negate"]);
     if (root["occupied_thresh"]) map.occupied_threshold = threshold(root, "occupied_thresh");
@@ -112,6 +113,7 @@ class MapFileReader {
   Pose pose(const YAML::Node& node) const {
     if (!node.IsSequence() || node.size() != 3) fail(node, "origin: expected [x, y, yaw] in metres and radians");
     const Pose pose = {number(node[0], "origin"), number(node[1], "origin"), number(node[2], "origin")};
+    if (std::fabs(pose.x) > 1e7 || std::fabs(pose.y) > 1e7) fail(node, "origin: expected metres within 10000 km");
     if (std::fabs(pose.heading) > 1e6) fail(node, "origin: expected a yaw in radians");
     return pose;
   }
