@@ -4,6 +4,9 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/printable_line.hpp"
+#include "fibers/kernel/fault_reports.hpp"
+#include "fibers/sync/post_mortem.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/check/self_check.hpp"
@@ -23,6 +26,7 @@ namespace {
 int check(const tools::CheckOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   tools::begin_with_program_layer(scenario);
+  kernel::set_post_mortem(sync::write_call_stack);
   const run::Experiment experiment(scenario, types, {});
   std::size_t modules = 0;
   for (const scenario::RobotScenario& robot : scenario.robots)
@@ -39,6 +43,7 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
   // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
+  const kernel::FaultReports reports(nullptr);  // also of constructors; once for all windows of a run
   try {
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
     if (const auto* run = std::get_if<tools::RunOptions>(&options))
@@ -57,7 +62,7 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
     return is_exec ? tools::exec_failed : 2;
   } catch (const std::exception& error) {
     std::fflush(stdout);
-    std::fprintf(stderr, "waitpoint: the run failed: %s\n", error.what());
+    std::fprintf(stderr, "waitpoint: the run failed: %s\n", printable_message(error.what()).c_str());
     return 1;
   }
 }

@@ -2,6 +2,7 @@
 #include "tools/options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -28,6 +29,12 @@ DebugOptions debug_options(const std::vector<std::string>& words, const std::vec
     if (const auto* const program = std::get_if<ExecOptions>(&read)) options.program = *program;
   }
   return options;
+}
+
+/// A program with modules of its own is named as it was called.
+std::string name_in_replay_lines(const std::string& program) {
+  const std::string name = std::filesystem::path(program).filename().string();
+  return name.empty() || name == "waitpoint" ? "waitpoint" : program;
 }
 
 }  // namespace
@@ -64,7 +71,11 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
     argc = 2 + static_cast<int>(dashes - words.begin());  // the program's own
   }
   if (const std::optional<std::string> text = line.parse(argc, argv)) return ShownText{*text};
-  if (run.parsed()) return run.options();
+  if (run.parsed()) {
+    RunOptions options = run.options();
+    options.program = name_in_replay_lines(argv[0]);
+    return options;
+  }
   if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
   if (check.parsed()) return CheckOptions{checked.file, checked.assignments};

@@ -31,7 +31,7 @@ Body::Body(std::function<void()> function, ExternalChecks* checks, Time until, s
       checks_(checks),
       until_(until),
       simulation_(explored()),
-      reports_(simulation_.scheduler()),
+      reports_(&simulation_.scheduler()),
       explorer_(simulation_.scheduler(), steps_max) {
   simulation_.scheduler().set_decisions(explorer_);
   tell(sync::Places::left_out);

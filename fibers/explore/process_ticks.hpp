@@ -12,7 +12,10 @@ namespace waitpoint::exploration {
 /// The longest time without CPU usage before a process that should compute counts as blocked.
 inline constexpr std::uint32_t idle_s_max = 10;
 
-/// The CPU time of `process`, in the system's ticks; none if it is stopped, for example by a debugger.
+/// The unit of CPU times.
+inline constexpr std::uint64_t ticks_per_s = 100;
+
+/// The CPU time of `process`, in ticks; none if it is stopped, for example by a debugger.
 std::optional<std::uint64_t> ticks_of(pid_t process);
 
 }  // namespace waitpoint::exploration

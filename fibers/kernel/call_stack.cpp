@@ -17,10 +17,13 @@ struct Capture {
 
 _Unwind_Reason_Code add_frame(_Unwind_Context* context, void* argument) {
   Capture& capture = *static_cast<Capture*>(argument);
-  void* address = reinterpret_cast<void*>(_Unwind_GetIP(context));
+  int is_interrupted = 0;
+  char* address = reinterpret_cast<char*>(_Unwind_GetIPInfo(context, &is_interrupted));
+  // Above the frame that a signal interrupted are the handler's.
+  if (is_interrupted != 0) capture.found = 0;
   // A fiber's first frame has no caller.
   if (address == nullptr || capture.found == capture.room) return _URC_END_OF_STACK;
-  capture.frames[capture.found++] = address;
+  capture.frames[capture.found++] = address + is_interrupted;
   return _URC_NO_REASON;
 }
 
@@ -40,6 +43,10 @@ void describe_run(const Task& task) {
   const Chooser& chooser = task.scheduler->chooser();
   if (chooser.order() != Order::explored) text.add(", seed ").add(chooser.seed());  // else a strategy decides
   text.add("\n").write();
+  if (task.work.what != nullptr) {
+    SignalSafeText work;
+    work.add("  in ").add(task.work.what).add(" of ").add(task.work.of).add("\n").write();
+  }
   SignalSafeText replay;
   const char* const command = task.scheduler->hooks().replay;
   if (command[0] != '\0') replay.add("  replay: ").add(command).add("\n").write();

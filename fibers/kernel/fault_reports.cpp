@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/kernel/fault_reports.hpp"
 
-#include <cstdlib>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "core/doing.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
 #include "fibers/switch/sanitizer.hpp"
@@ -11,11 +19,13 @@ namespace waitpoint::kernel {
 namespace {
 
 // One stack suffices, since tasks run in one thread at a time. Large enough for the register state of any processor,
-// and for a handler of the program's own that prints a call stack.
-alignas(64) char handler_stack[64 * 1024];
+// and for a post mortem; pages that are not used are not there.
+alignas(64) char handler_stack[1024 * 1024];
 
-const FaultReports* innermost = nullptr;
-
+FaultReports* innermost = nullptr;
+PostMortem post_mortem = nullptr;
+// A bug and an overrun stack were reported before their SIGABRT.
+bool is_described = false;
 // The task that overran its stack, or null. Usually the running one; but a task that overruns its stack while it hands
 // over is no longer the running one.
 const Task* overflowed(const Scheduler& scheduler, const char* address) {
@@ -31,12 +41,53 @@ const Task* overflowed(const Scheduler& scheduler, const char* address) {
   return nullptr;
 }
 
+struct Cause {
+  int signal, code;
+  const char* text;
+};
+constexpr Cause causes[] = {
+    {SIGSEGV, SEGV_MAPERR, "the process dies of SIGSEGV (a bad address)"},
+    {SIGSEGV, SEGV_ACCERR, "the process dies of SIGSEGV (an address without permission)"},
+    {SIGSEGV, 0, "the process dies of SIGSEGV (a bad address)"},
+    {SIGBUS, BUS_ADRALN, "the process dies of SIGBUS (a misaligned address)"},
+    {SIGBUS, BUS_ADRERR, "the process dies of SIGBUS (an address behind the end of its file)"},
+    {SIGBUS, 0, "the process dies of SIGBUS"},
+    {SIGILL, 0, "the process dies of SIGILL (an illegal instruction)"},
+    {SIGFPE, FPE_INTDIV, "the process dies of SIGFPE (integer division by zero)"},
+    {SIGFPE, FPE_INTOVF, "the process dies of SIGFPE (integer overflow)"},
+    {SIGFPE, 0, "the process dies of SIGFPE"},
+    {SIGABRT, 0, "the process dies of SIGABRT (abort() was called)"},
+};
+
+const char* text_of(const siginfo_t& info) {
+  for (const Cause& cause : causes)
+    if (cause.signal == info.si_signo && (cause.code == info.si_code || cause.code == 0)) return cause.text;
+  return "the process dies of a signal";
+}
+
+// In the forked copy, whose own death is nobody's business.
+[[noreturn]] void die_after(PostMortem function, const char* reason) {
+  constexpr unsigned time_limit_s = 20;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(signal, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  alarm(time_limit_s);
+  function(reason);
+  syscall(SYS_exit_group, 0);
+  __builtin_unreachable();
+}
+
+// At exit(): a caller such as a CI would take its status for the run's.
+void refuse_exit_in_task() { refuse_exit("exit() is called in a task"); }
+
 }  // namespace
 
 void report_overflow(const Task& task) {
   const StackSize size = task.fiber.stack.size;
   SignalSafeText text;
   text.add("waitpoint: bug: a task ran over the end of its stack\n").write();
+  is_described = true;
   describe_run(task);
   SignalSafeText advice;
   advice.add("  its stack has ").add(std::uint64_t{bytes(size)} / 1024).add(" KiB; ");
@@ -50,11 +101,42 @@ void report_overflow(const Task& task) {
   std::abort();
 }
 
-FaultReports::FaultReports(const Scheduler& scheduler) : scheduler_(scheduler), outer_(innermost) {
+PostMortem set_post_mortem(PostMortem function) { return std::exchange(post_mortem, function); }
+
+void report(const char* reason, PostMortem function) {
+  if (!is_described) {
+    SignalSafeText text;
+    text.add("waitpoint: ").add(reason).add("\n").write();
+    if (running != nullptr) describe_run(*running);
+  }
+  const char* const doing = Doing::present();
+  if (running == nullptr && doing != nullptr) {
+    SignalSafeText where;
+    where.add("  while ").add(doing).add("\n").write();
+  }
+  if (function == nullptr) return;
+  const pid_t copy = _Fork();
+  if (copy == 0) die_after(function, reason);
+  int status = 0;
+  while (copy > 0 && waitpid(copy, &status, 0) < 0 && errno == EINTR) {
+  }
+}
+
+void report_death(const char* reason) { report(reason, post_mortem); }
+
+void refuse_exit(const char* reason) {
+  if (running == nullptr || innermost == nullptr || innermost->process() != getpid()) return;
+  std::fflush(nullptr);
+  report_death(reason);
+  syscall(SYS_exit_group, 1);
+}
+
+FaultReports::FaultReports(const Scheduler* scheduler) : outer_(innermost), scheduler_(scheduler), process_(getpid()) {
   if (sanitizer::present) return;
-  // Already installed: the caller of many short runs installs it once for all of them.
-  if (innermost != nullptr && &innermost->scheduler_ == &scheduler) return;
   innermost = this;
+  if (outer_ != nullptr) return;
+  static const int registered = std::atexit(refuse_exit_in_task);
+  static_cast<void>(registered);
   stack_t stack{};
   stack.ss_sp = handler_stack;
   stack.ss_size = sizeof handler_stack;
@@ -62,35 +144,40 @@ FaultReports::FaultReports(const Scheduler& scheduler) : scheduler_(scheduler), 
   struct sigaction action {};
   action.sa_sigaction = handle;
   action.sa_flags = static_cast<int>(SA_SIGINFO | SA_ONSTACK);
-  sigaction(SIGSEGV, &action, &previous_);
+  for (std::size_t i = 0; i < std::size(signals); ++i) sigaction(signals[i], &action, &previous_[i]);
 }
 
 FaultReports::~FaultReports() {
   if (innermost != this) return;
-  struct sigaction present {};
-  sigaction(SIGSEGV, &previous_, &present);
-  if ((present.sa_flags & static_cast<int>(SA_SIGINFO)) == 0 || present.sa_sigaction != handle)
-    sigaction(SIGSEGV, &present, nullptr);
-  if (has_stack_) sigaltstack(&previous_stack_, nullptr);
   innermost = outer_;
+  if (outer_ != nullptr) return;
+  for (std::size_t i = 0; i < std::size(signals); ++i) {
+    struct sigaction present {};
+    sigaction(signals[i], &previous_[i], &present);
+    if ((present.sa_flags & static_cast<int>(SA_SIGINFO)) == 0 || present.sa_sigaction != handle)
+      sigaction(signals[i], &present, nullptr);
+  }
+  if (has_stack_) sigaltstack(&previous_stack_, nullptr);
 }
 
 void FaultReports::handle(int signal, siginfo_t* info, void* context) {
-  // A signal sent by a process (si_code <= 0) has no address.
-  if (innermost != nullptr && info->si_code > 0) {
-    const Task* task = overflowed(innermost->scheduler_, static_cast<const char*>(info->si_addr));
-    if (task != nullptr) report_overflow(*task);
-    if (running != nullptr) {
-      SignalSafeText text;
-      text.add("waitpoint: a bad address is used at virtual time ").add(running->local_time).add(" s, in task ");
-      text.add(running->name).add(" of ").add(running->robot->name).add("\n").write();
-    }
+  // A signal sent by a process (si_code <= 0) has no address; abort() sends its own.
+  const bool is_own = info->si_code > 0 || (signal == SIGABRT && info->si_pid == getpid());
+  if (innermost != nullptr && is_own) {
+    if (signal == SIGSEGV && innermost->scheduler_ != nullptr)
+      if (const Task* task = overflowed(*innermost->scheduler_, static_cast<const char*>(info->si_addr)))
+        report_overflow(*task);
+    if (running != nullptr || Doing::present() != nullptr) report_death(text_of(*info));
   }
   pass_on(signal, info, context);
 }
 
 void FaultReports::pass_on(int signal, siginfo_t* info, void* context) {
-  const struct sigaction previous = innermost->previous_;
+  struct sigaction previous {};
+  const FaultReports* installer = innermost;
+  while (installer != nullptr && installer->outer_ != nullptr) installer = installer->outer_;
+  for (std::size_t i = 0; i < std::size(signals); ++i)
+    if (signals[i] == signal && installer != nullptr) previous = installer->previous_[i];
   if ((previous.sa_flags & static_cast<int>(SA_SIGINFO)) != 0) return previous.sa_sigaction(signal, info, context);
   if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) return previous.sa_handler(signal);
   // The faulting instruction is executed again, with the default action; a signal sent by a process is raised again.
@@ -99,3 +186,10 @@ void FaultReports::pass_on(int signal, siginfo_t* info, void* context) {
 }
 
 }  // namespace waitpoint::kernel
+
+extern "C" void waitpoint_describe_run() {
+  using namespace waitpoint::kernel;
+  if (running == nullptr) return;
+  is_described = true;
+  describe_run(*running);
+}

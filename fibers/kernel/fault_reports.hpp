@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports the task when the process is about to die of a bad address.
+// Reports the task when the process is about to die in it: of SIGSEGV, SIGBUS, SIGILL, SIGFPE or SIGABRT (a failed
+// assert, std::terminate, a corrupted heap), or by exit().
 //
-// A task that overruns its stack touches the guard page below it. The report has time, task, event, seed, replay line,
-// the stack's size and the way to request a larger one; then the process aborts. A stack without a guard page has a
-// canary: if it is overwritten, its task is reported in the same way. Any other bad address is reported in one line
-// with the running task, and passed to the previous handler.
+//   waitpoint: the process dies of SIGFPE (integer division by zero)
+//     at virtual time 0.250000000 s, in task main of blinker, at its event 12 (sleep), seed 3
+//     in codel exec of Blink
+//     replay: ...
 //
-// The handler runs on a stack of its own, since the task's is used up, and is async-signal-safe.
+// Then the signal takes its usual course: the previous handler, or the default action. A task that overruns its stack
+// touches the guard page below it: its report has the stack's size and the way to request a larger one. A stack without
+// a guard page has a canary: if it is overwritten, its task is reported in the same way.
+//
+// The handler runs on a stack of its own, since the task's may be used up, and is async-signal-safe. What is not, such
+// as unwinding a call stack and completing files, is done by a forked copy of the process: whatever state the heap is
+// in, and however that ends, the process itself only waits for it.
 #pragma once
 
+#include <sys/types.h>
+
 #include <csignal>
+#include <cstddef>
+#include <iterator>
 
 #include "fibers/kernel/scheduler.hpp"
 
@@ -17,24 +28,45 @@ namespace waitpoint::kernel {
 
 class FaultReports {
  public:
-  /// Installs the handler in the calling thread, for the tasks of `scheduler`; not with a sanitizer or valgrind, which
-  /// have reports of their own.
-  explicit FaultReports(const Scheduler& scheduler);
-  /// Restores the previous handler, unless a task has installed another one since.
+  /// Installs the handlers in the calling thread, for the tasks of `scheduler`; null: outside of runs. Not with a
+  /// sanitizer or valgrind, which have reports of their own. An inner one only changes the scheduler.
+  explicit FaultReports(const Scheduler* scheduler);
+  /// Restores the previous handlers, except where a task has installed another one since.
   ~FaultReports();
   FaultReports(const FaultReports&) = delete;
   FaultReports& operator=(const FaultReports&) = delete;
 
+  /// The process that made it: not the one that a task forked.
+  pid_t process() const { return process_; }
+
  private:
+  static constexpr int signals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+
   static void handle(int signal, siginfo_t* info, void* context);
   static void pass_on(int signal, siginfo_t* info, void* context);
 
-  const Scheduler& scheduler_;
-  const FaultReports* outer_;
-  struct sigaction previous_ {};
+  FaultReports* outer_;
+  const Scheduler* scheduler_;
+  pid_t process_;
+  struct sigaction previous_[std::size(signals)]{};
   stack_t previous_stack_{};
   bool has_stack_ = false;
 };
+
+/// Called in the forked copy, with the reason: "the process dies of SIGFPE (integer division by zero)".
+using PostMortem = void (*)(const char* reason);
+/// Sets the function, and returns the previous one; null: none, and no copy is forked.
+PostMortem set_post_mortem(PostMortem function);
+
+/// Writes `reason` and the running task to the error stream, then calls `function` in a forked copy of the process and
+/// waits for it; null: no copy. Async-signal-safe.
+void report(const char* reason, PostMortem function);
+/// The same with the post mortem that is set: the process must end after it.
+void report_death(const char* reason);
+
+/// If a task of this process's own run is running: reports its call of exit() or the like, and ends the process with
+/// status 1.
+void refuse_exit(const char* reason);
 
 /// Reports that `task` overran its stack, and aborts.
 [[noreturn]] void report_overflow(const Task& task);

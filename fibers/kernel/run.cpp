@@ -2,7 +2,6 @@
 //
 // The run as a whole: windows, pauses, stops, and queries.
 #include "core/error.hpp"
-#include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
@@ -147,10 +146,3 @@ Fiber& Scheduler::wait_for_window(Task& task) {
 }
 
 }  // namespace waitpoint::kernel
-
-extern "C" void waitpoint_describe_run() {
-  using waitpoint::kernel::running;
-  if (running == nullptr) return;
-  const auto& task = *running;
-  waitpoint::kernel::describe_run(task);
-}

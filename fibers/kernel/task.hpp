@@ -99,6 +99,12 @@ struct WaitSearch {
   bool on_path = false;
 };
 
+/// What a task executes, for reports, in two texts that outlive it: {"codel exec", "Blink"}. Null: nothing declared.
+struct Work {
+  const char* what = nullptr;
+  const char* of = "";
+};
+
 struct Task {
   // The members that every event touches, in the first two cache lines. The event comes first: a node's address is its
   // task's.
@@ -140,6 +146,7 @@ struct Task {
   std::uint32_t held_shared = 0;  ///< number of its entries in lists of holders
   std::uint32_t refusals = 0;     ///< number of calls refused since the run is over
   WaitSearch search;
+  Work work{};
   char name[name_size] = {};
 };
 

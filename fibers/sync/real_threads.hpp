@@ -226,6 +226,7 @@ using std::this_thread::yield;
 inline void sleep_for(Duration span) { std::this_thread::sleep_for(std::chrono::nanoseconds(span.ns())); }
 inline void sleep_until(Time time) { sleep_for(time - now()); }
 inline void set_working_set(const WorkingSet&) {}
+inline void set_work(const char*, const char*) {}
 }  // namespace this_thread
 
 class periodic_timer {

@@ -88,7 +88,7 @@ void Simulation::spawn(kernel::Robot& robot, const kernel::SpawnOptions& options
 }
 
 RunEnd Simulation::run_before(Time until) {
-  const kernel::FaultReports reports(scheduler_);
+  const kernel::FaultReports reports(&scheduler_);
   const kernel::RunState state = scheduler_.run_before(until);
   if (failure_ != nullptr) std::rethrow_exception(failure_);
   const bool was_told = state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::requested;
@@ -109,7 +109,7 @@ RunEnd Simulation::run_before(Time until) {
 }
 
 void Simulation::unwind() {
-  const kernel::FaultReports reports(scheduler_);
+  const kernel::FaultReports reports(&scheduler_);
   terminate_ = std::set_terminate(terminate_task);
   scheduler_.unwind();
   std::set_terminate(terminate_);

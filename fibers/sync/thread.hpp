@@ -151,6 +151,9 @@ inline void set_working_set(const WorkingSet& set) {
   task.working_set_size = static_cast<std::uint32_t>(set.lines().size());
 }
 
+/// Declares what the caller executes, for reports (kernel::Work); the texts must outlive it.
+inline void set_work(const char* what, const char* of) { sync::running_task().work = {what, of}; }
+
 /// Moves the caller behind all tasks of this instant.
 inline void yield() {
   if (!sync::running_task().scheduler->yield()) sync::unwind();

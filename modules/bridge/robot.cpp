@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/doing.hpp"
 #include "core/nearest_name.hpp"
 #include "modules/executive/executive.hpp"
 #include "modules/genom/module.hpp"
@@ -47,7 +48,16 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
   connect();
 }
 
-Robot::~Robot() = default;
+// The executive, a client of the modules, ends before them.
+Robot::~Robot() {
+  executive_.reset();
+  while (!modules_.empty()) {
+    const std::string doing = "destroying module " + module_scenarios_.back()->name + " of robot " + scenario_.name;
+    const Doing destruction(doing.c_str());
+    modules_.pop_back();
+    module_scenarios_.pop_back();
+  }
+}
 
 void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* network) {
   for (const scenario::ModuleScenario& module : scenario_.modules) {
@@ -60,6 +70,8 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
     }
     genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), network};
     std::unique_ptr<genom::Module> made;
+    const std::string doing = "constructing module " + module.name + " of robot " + scenario_.name;
+    const Doing construction(doing.c_str());
     // Errors of settings have a line of their own; others get the module's.
     try {
       made = type->make(setup);
@@ -68,6 +80,8 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
     } catch (const BadInput& error) {
       if (error.line() > 0 || error.file().starts_with("--set")) throw;
       throw module.written.bad(error.what());
+    } catch (const std::exception& error) {
+      throw std::runtime_error(doing + " threw an exception: " + error.what());
     }
     modules_.push_back(std::move(made));
     module_scenarios_.push_back(&module);

@@ -26,10 +26,12 @@ enum class Outcome : std::uint8_t {
   no_progress,  ///< tasks spin while virtual time stands still
   interrupted,  ///< a signal, at the end of the step
   left,         ///< `quit` or end of input at the prompt
+  crashed,      ///< the process died in a task
 };
 
 constexpr std::string_view to_string(Outcome outcome) {
-  constexpr std::string_view names[] = {"finished", "time limit", "deadlock", "no progress", "interrupted", "left"};
+  constexpr std::string_view names[] = {"finished",    "time limit", "deadlock", "no progress",
+                                        "interrupted", "left",       "crashed"};
   return names[static_cast<std::size_t>(outcome)];
 }
 

@@ -31,6 +31,13 @@ constexpr const char* name(State state) {
   return names[static_cast<int>(state)];
 }
 
+/// The codel that is called in a state, for reports.
+constexpr const char* codel_name(State state) {
+  constexpr const char* names[] = {"no codel",   "no codel",    "codel start", "codel exec", "codel end",
+                                   "codel fail", "codel inter", "no codel",    "no codel"};
+  return names[static_cast<int>(state)];
+}
+
 /// True if the codel of state `from` may return `to`.
 constexpr bool allowed(State from, State to) {
   const auto one_of = [to](auto... states) { return ((to == states) || ...); };

@@ -52,7 +52,9 @@ void ControlTask::handle(const Letter& letter) {
   const RequestType& type = data_.requests[letter.request];
   tell(LetterKind::request, type);
   if (type.kind == RequestKind::control) {
+    threads::this_thread::set_work("the control codel", type.name.c_str());
     const Report report = type.control(letter.payload, output);
+    threads::this_thread::set_work(nullptr, "");
     threads::compute(type.cost);
     if (report == ok) interrupt_incompatible(type);
     return reply(LetterKind::final_reply, letter, report, output);
@@ -72,7 +74,10 @@ Report ControlTask::execute(const RequestType& type, const Letter& letter) {
     if (a.state == State::zombie) return data_.report(StandardReport::wait_abort_zombie_activity);
   if (table.full()) return data_.report(StandardReport::too_many_activities);
   Payload output;
-  if (const Report refused = type.control(letter.payload, output); refused != ok) return refused;
+  threads::this_thread::set_work("the control codel", type.name.c_str());
+  const Report checked = type.control(letter.payload, output);
+  threads::this_thread::set_work(nullptr, "");
+  if (checked != ok) return checked;
   interrupt_incompatible(type);
   Activity& a = table.add();
   a.state = State::init;

@@ -83,7 +83,9 @@ bool ExecutionTask::wake_up(std::int64_t periods) {
 
 void ExecutionTask::call_permanent(const std::function<void()>& codel) {
   if (codel == nullptr) return;
+  threads::this_thread::set_work("a permanent codel", name_.c_str());
   codel();
+  threads::this_thread::set_work(nullptr, "");
   after_codel(options_.cost_us);
 }
 
@@ -105,10 +107,14 @@ bool ExecutionTask::step(Activity& a) {
   }
   std::optional<State> next;
   // States without a codel are passed at once.
+  threads::this_thread::set_work(codel_name(a.state), a.type->name.c_str());
   while (!(next = a.type->codel(a.state, a))) {
     a.state = default_after(a.state);
-    if (a.state == State::ether || a.state == State::zombie) return true;
+    if (a.state == State::ether || a.state == State::zombie) break;
+    threads::this_thread::set_work(codel_name(a.state), a.type->name.c_str());
   }
+  threads::this_thread::set_work(nullptr, "");
+  if (!next) return true;
   const State called = a.state;
   after_codel(a.type->cost);
   if (!allowed(called, *next)) {

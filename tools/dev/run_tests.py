@@ -42,6 +42,7 @@ OWN_CASES = {
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
     "exec: planted bugs": [sys.executable, str(ROOT / "tests/exec/zoo_test.py"), BUILD],
     "gdb": [sys.executable, str(ROOT / "tests/programs/gdb_test.py"), BUILD],
+    "deaths": [sys.executable, str(ROOT / "tests/programs/deaths_test.py"), BUILD],
     "mistakes": [sys.executable, str(ROOT / "tests/programs/mistakes_test.py"), BUILD],
     "recordings": [sys.executable, str(ROOT / "tests/programs/recordings_test.py"), BUILD],
     "programs": [sys.executable, str(ROOT / "tests/programs/programs_test.py"), BUILD],

@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 #include <sys/uio.h>
-#include <unistd.h>
 
 #include <cstddef>
-#include <cstdio>
-#include <fstream>
+#include <ctime>
 #include <string>
 
 namespace waitpoint::tools {
@@ -15,17 +13,11 @@ namespace {
 
 constexpr double patience_s = 10;  // processor time
 
-// proc(5): utime and stime are the 14th and 15th field; the 2nd, in parentheses, may hold anything.
 double processor_s(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  const std::size_t end = text.rfind(')');
-  unsigned long user = 0, system = 0;
-  if (end == std::string::npos ||
-      std::sscanf(text.c_str() + end + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu", &user, &system) != 2)
-    return 0;
-  return static_cast<double>(user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  clockid_t clock{};
+  timespec used{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0) return 0;
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 bool read(pid_t process, const void* from, void* to, std::size_t size) {

@@ -2,8 +2,10 @@
 // A file that is written completely or not at all.
 //
 // Opened before the run starts, so that an unwritable name is reported at once. Data goes to a temporary file beside
-// it, which commit() renames; without commit() the temporary file is removed and the old file stays. A name of a
-// special file (/dev/null, a pipe) is written directly.
+// it, FILE.waitpoint-XXXXXX, which commit() renames; without commit() the temporary file is removed and the old file
+// stays. Its writer holds a lock on it: temporary files of FILE without one are leftovers of processes that were
+// killed, which the next writer removes. A name of a special file (/dev/null, a pipe) is written directly; "-" is
+// standard output.
 #pragma once
 
 #include <cstdio>
@@ -11,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace waitpoint::tools {
 
@@ -21,7 +24,11 @@ class OutputFile {
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  OutputFile(OutputFile&&) = default;
+  OutputFile(OutputFile&& other) noexcept
+      : path_(std::move(other.path_)),
+        target_(std::move(other.target_)),
+        temporary_(std::exchange(other.temporary_, {})),
+        stream_(std::move(other.stream_)) {}
 
   const std::filesystem::path& path() const { return path_; }
   /// The file that commit() renames, for a library that opens files by name.
@@ -38,7 +45,8 @@ class OutputFile {
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;  ///< as requested
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;  ///< empty for a special file, and once it has its name
   std::unique_ptr<std::FILE, Close> stream_;
 };
 

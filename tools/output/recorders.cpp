@@ -14,6 +14,11 @@ void DigestRecorder::record(const Simulation& simulation, std::int64_t second) {
   }
 }
 
+void DigestRecorder::cut_off(const std::string& reason) {
+  file_.write("# cut off: " + reason + "\n");
+  finish();
+}
+
 EventRecorder::EventRecorder(const std::filesystem::path& path) : Watch{&EventRecorder::write}, file_(path) {
   file_.write("# time robot task operation object\n");
 }
@@ -42,6 +47,11 @@ void EventRecorder::write(kernel::Watch& watch, const kernel::EventRecord& recor
 void EventRecorder::finish() {
   if (failure_ != nullptr) std::rethrow_exception(failure_);
   file_.commit();
+}
+
+void EventRecorder::cut_off(const std::string& reason) {
+  file_.write("# cut off: " + reason + "\n");
+  finish();
 }
 
 }  // namespace waitpoint::tools

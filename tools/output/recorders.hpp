@@ -19,6 +19,8 @@ class DigestRecorder {
   explicit DigestRecorder(const std::filesystem::path& path) : file_(path) {}
   void record(const Simulation& simulation, std::int64_t second);
   void finish() { file_.commit(); }
+  /// Ends the file with a comment: the process dies for `reason`.
+  void cut_off(const std::string& reason);
 
  private:
   OutputFile file_;
@@ -33,6 +35,7 @@ class EventRecorder : private kernel::Watch {
   explicit EventRecorder(const std::filesystem::path& path);
   void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
   void finish();
+  void cut_off(const std::string& reason);
 
  private:
   static void write(kernel::Watch& watch, const kernel::EventRecord& record);

@@ -151,8 +151,12 @@ Json json_of(const RunResult& result) {
   }
   json["environment_digest"] = to_string(result.environment_digest);
   json["warnings"] = result.warnings;
-  if (!result.trouble.empty())
-    json[result.outcome == bridge::Outcome::no_progress ? "no_progress" : "deadlock"] = result.trouble;
+  if (!result.trouble.empty()) {
+    const bool crashed = result.outcome == bridge::Outcome::crashed;
+    json[crashed                                          ? "crash"
+         : result.outcome == bridge::Outcome::no_progress ? "no_progress"
+                                                          : "deadlock"] = result.trouble;
+  }
   json["robots"] = Json::array();
   for (const RobotResult& robot : result.robots) json["robots"].push_back(json_of(robot));
   return json;

@@ -15,8 +15,9 @@ std::filesystem::path with_part(const std::filesystem::path& path, const std::st
   return path.parent_path() / (path.stem().string() + "." + part + path.extension().string());
 }
 
-void write_whole(OutputFile& file, std::span<const bridge::DatedPose> path) {
+void write_whole(OutputFile& file, std::span<const bridge::DatedPose> path, const std::string& end) {
   file.write(tum_text(path));
+  file.write(end);
   file.commit();
 }
 
@@ -41,10 +42,11 @@ TrajectoryFiles::TrajectoryFiles(const std::filesystem::path& path, std::span<co
 
 void TrajectoryFiles::write(const bridge::RunResult& result) {
   WAITPOINT_CHECK(result.robots.size() == robots_.size(), "a run ended with other robots than it began with");
+  const std::string end = result.outcome == bridge::Outcome::crashed ? "# cut off: " + result.trouble + "\n" : "";
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    write_whole(robots_[i].truth, result.robots[i].true_path);
-    write_whole(robots_[i].estimate, result.robots[i].estimated_path);
-    write_whole(robots_[i].odometry, result.robots[i].odometry_path);
+    write_whole(robots_[i].truth, result.robots[i].true_path, end);
+    write_whole(robots_[i].estimate, result.robots[i].estimated_path, end);
+    write_whole(robots_[i].odometry, result.robots[i].odometry_path, end);
   }
 }
 

@@ -25,7 +25,8 @@ class TrajectoryFiles {
   /// Throws BadInput if a file cannot be written.
   TrajectoryFiles(const std::filesystem::path& path, std::span<const std::string> robots);
 
-  /// Writes and commits all files; the result has the robots given before, in that order.
+  /// Writes and commits all files; the result has the robots given before, in that order. Of a crashed run they end
+  /// with a comment that says so.
   void write(const bridge::RunResult& result);
 
  private:

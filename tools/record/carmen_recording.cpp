@@ -49,6 +49,9 @@ void CarmenRecording::record_robot(const run::Experiment& experiment, std::size_
   file_.write(fmt::format("TRUEPOS {} {}", text(truth), text(*robot.odometry)) + ending(scan->date, name));
 }
 
-void CarmenRecording::commit(const bridge::RunResult&) { file_.commit(); }
+void CarmenRecording::commit(const bridge::RunResult& result) {
+  if (result.outcome == bridge::Outcome::crashed) file_.write("# cut off: " + result.trouble + "\n");
+  file_.commit();
+}
 
 }  // namespace waitpoint::tools

@@ -85,6 +85,11 @@ void McapRecording::close(const bridge::RunResult& result) {
                         fmt::format("{} ({:.2f}, {:.2f}): {}", name, goal.position.x, goal.position.y, goal.report)));
     }
   }
+  if (result.outcome == bridge::Outcome::crashed) {
+    const Time end = Time() + result.simulated;
+    file_.write(file_.add_channel(log_, "/waitpoint"), end,
+                foxglove::log(end, "waitpoint", "cut off: " + result.trouble, true));
+  }
   file_.finish();
 }
 

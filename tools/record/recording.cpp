@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/record/recording.hpp"
 
+#include "core/error.hpp"
+
 namespace waitpoint::tools {
 
 void Recording::observe(const run::Experiment& experiment, Time now) {
@@ -13,8 +15,15 @@ void Recording::observe(const run::Experiment& experiment, Time now) {
 }
 
 void Recording::finish(const bridge::RunResult& result) {
-  if (failure_ != nullptr) std::rethrow_exception(failure_);
-  commit(result);
+  // A library's own exceptions, too, mean that the file cannot be written.
+  try {
+    if (failure_ != nullptr) std::rethrow_exception(failure_);
+    commit(result);
+  } catch (const BadInput&) {
+    throw;
+  } catch (const std::exception& failure) {
+    throw BadInput("--record", std::string("the recording cannot be written: ") + failure.what());
+  }
 }
 
 }  // namespace waitpoint::tools

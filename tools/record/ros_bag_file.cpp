@@ -64,7 +64,14 @@ RosBagFile::RosBagFile(const std::string& path) : bag_(std::make_unique<Bag>()) 
   bag_->bag.open(path, rosbag::bagmode::Write);
 }
 
-RosBagFile::~RosBagFile() = default;
+// A bag that cannot be closed, as the disk is full, is leaked: its destructor would try again and throw.
+RosBagFile::~RosBagFile() {
+  try {
+    bag_->bag.close();
+  } catch (const std::exception&) {
+    static_cast<void>(bag_.release());
+  }
+}
 
 template <class Message>
 void RosBagFile::write(const std::string& topic, const Message& message) {

@@ -73,7 +73,9 @@ void RosBagRecording::write_log(const OfRobot& robot, const ModuleLog::Line& lin
                   line.is_bad);
 }
 
-void RosBagRecording::close(const bridge::RunResult&) {
+void RosBagRecording::close(const bridge::RunResult& result) {
+  if (result.outcome == bridge::Outcome::crashed)
+    bag_->write_log("/waitpoint", result.simulated.ns(), "waitpoint", "cut off: " + result.trouble, true);
   bag_->close();
   file_.commit();
 }

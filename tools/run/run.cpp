@@ -7,76 +7,25 @@
 #include <cstdio>
 #include <optional>
 
+#include "fibers/kernel/fault_reports.hpp"
+#include "fibers/sync/post_mortem.hpp"
 #include "modules/run/expectation.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/run/journal.hpp"
-#include "modules/run/plan.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/output/output_file.hpp"
-#include "tools/output/picture.hpp"
-#include "tools/output/recorders.hpp"
 #include "tools/output/summary.hpp"
-#include "tools/output/trajectory.hpp"
-#include "tools/record/formats.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/journal_file.hpp"
+#include "tools/run/outputs.hpp"
 #include "tools/run/prompt.hpp"
+#include "tools/run/run_watchdog.hpp"
 #include "tools/run/session.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-// The output files of one run: opened before it starts, written when it is over.
-class Outputs {
- public:
-  Outputs(const RunOptions& options, const scenario::Scenario& scenario) {
-    if (options.summary) summary_.emplace(*options.summary);
-    if (options.picture) picture_.emplace(*options.picture);
-    if (options.digests) digests_.emplace(*options.digests);
-    if (options.events) events_.emplace(*options.events);
-    if (options.record) recording_ = make_recording(*options.record, scenario);
-    if (!options.trajectory) return;
-    std::vector<std::string> names;
-    for (const scenario::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
-    trajectory_.emplace(*options.trajectory, names);
-  }
-
-  void watch(run::Experiment& experiment) {
-    if (events_) events_->watch(experiment.simulation());
-    if (!recording_) return;
-    recording_->begin(experiment);
-    experiment.set_observer([this, &experiment](Time now) { recording_->observe(experiment, now); });
-  }
-  void second(const Simulation& simulation, std::int64_t second) {
-    if (digests_) digests_->record(simulation, second);
-  }
-  void write(run::Experiment& experiment, const bridge::RunResult& result) {
-    if (summary_) {
-      summary_->write(summary_json(result));
-      summary_->commit();
-    }
-    if (picture_) {
-      const world::WorldDescription& world = experiment.world().description();
-      std::vector<world::Obstacle> shown = world.obstacles, meshes = run::meshes_on_plan(world);
-      shown.insert(shown.end(), meshes.begin(), meshes.end());
-      picture_->write(picture_svg(shown, result));
-      picture_->commit();
-    }
-    if (trajectory_) trajectory_->write(result);
-    if (recording_) recording_->finish(result);
-    if (digests_) digests_->finish();
-    if (events_) events_->finish();
-  }
-
- private:
-  std::optional<OutputFile> summary_, picture_;
-  std::optional<TrajectoryFiles> trajectory_;
-  std::optional<DigestRecorder> digests_;
-  std::optional<EventRecorder> events_;
-  std::unique_ptr<Recording> recording_;
-};
 
 bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool interrupted) {
   bridge::RunResult result = session.result();
@@ -179,6 +128,8 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   heed_signals();
+  kernel::set_post_mortem(sync::write_call_stack);
+  const RunWatchdog watchdog(options.watchdog_s);
   if (options.seeds) return run_seeds(options, scenario, types);
   run::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
   const run::JournalHead head = run::journal_head(scenario, options.seed, options.order);
@@ -198,7 +149,8 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const bridge::RunResult result = journal ? repeat(options, scenario, *journal, experiment, outputs, keep, same)
                                            : carry_out(options, scenario, options.seed, experiment, outputs, keep);
   durations.finish(result.outcome == bridge::Outcome::finished);
-  std::fputs(summary_text(result).c_str(), stdout);
+  std::fputs(summary_text(result).c_str(), options.summary == "-" ? stderr : stdout);
+  std::fflush(stdout);
   outputs.write(experiment, result);
   flush_standard_output();
   if (journal) tell_of(*journal, same);

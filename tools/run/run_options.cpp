@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "tools/command/data_folder.hpp"
 #include "tools/command/distinct_files.hpp"
 #include "tools/run/pacing.hpp"
 
@@ -24,7 +25,7 @@ void check_not_together(const char* option, const Given& others) {
 }  // namespace
 
 std::string replay_line(const RunOptions& options, std::uint64_t seed) {
-  std::string line = "waitpoint run " + options.scenario.string() + " --seed " + std::to_string(seed);
+  std::string line = options.program + " run " + options.scenario.string() + " --seed " + std::to_string(seed);
   if (options.order == kernel::Order::seeded) line += " --order seeded";
   if (options.replay_durations) line += " --replay-durations " + options.replay_durations->string();
   // A replay has to read the journal that this run writes.
@@ -36,6 +37,14 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
 
 void ScenarioArguments::add_file(Command& command) {
   command.argument("SCENARIO", file, "the scenario file", Command::Presence::required);
+}
+
+std::filesystem::path ScenarioArguments::path() const {
+  const std::filesystem::path here = file;
+  std::error_code error;
+  if (here.has_parent_path() || std::filesystem::exists(here, error)) return here;
+  const std::filesystem::path installed = std::filesystem::path(data_folder) / "scenarios" / here;
+  return std::filesystem::exists(installed, error) ? installed : here;
 }
 
 void ScenarioArguments::add_set(Command& command) {
@@ -59,13 +68,17 @@ RunArguments::RunArguments(CommandLine& line)
                   "order of events of one instant: fifo, or seeded: by hashes of the seed\n(default: fifo)");
   command_.option("--until", until_, "S", "end at virtual time S, in seconds (default: the scenario's until_s)");
   command_.option("--speed", speed_, "X", "throttle to X simulated seconds per second; 0: unthrottled (default: 0)");
+  command_.option("--watchdog", watchdog_, "S",
+                  "report a task that reaches no event for S seconds of the wall clock, and end\n"
+                  "the run after six times that; 0: never (default: 10)");
   command_.flag("--interactive", interactive_,
                 "read commands from standard input: step, stop at a time or a condition, change\n"
                 "the speed, send requests, move robots and obstacles; help lists them");
   command_.option("--journal", journal_, "FILE", "write the interventions of the prompt with their virtual times");
   command_.option("--replay-journal", replay_journal_, "FILE",
                   "repeat the interventions of a journal and verify that the run ends with its\ndigest");
-  command_.option("--summary", summary_, "FILE.json", "write the summary as JSON");
+  command_.option("--summary", summary_, "FILE.json",
+                  "write the summary as JSON; -: to standard output, in place of the text");
   command_.option("--picture", picture_, "FILE.svg", "draw the floor and the paths");
   command_.option("--trajectory", trajectory_, "FILE.tum",
                   "write the paths in TUM format: the true one to FILE.tum, the others to\n"
@@ -115,7 +128,7 @@ void RunArguments::check_alone() const {
 
 RunOptions RunArguments::options() const {
   RunOptions options;
-  options.scenario = scenario_.file;
+  options.scenario = scenario_.path();
   options.assignments = scenario_.assignments;
   const char* const environment = std::getenv("WAITPOINT_SEED");
   if (!seed_.empty()) {
@@ -137,6 +150,9 @@ RunOptions RunArguments::options() const {
   options.until = positive_seconds("--until", until_);
   if (!speed_.empty() && (!parse_number(speed_, options.speed) || !is_speed(options.speed)))
     refuse("--speed", speeds, speed_);
+  if (!watchdog_.empty() &&
+      (!parse_number(watchdog_, options.watchdog_s) || !(options.watchdog_s >= 0 && options.watchdog_s <= 1e6)))
+    refuse("--watchdog", "seconds from 0 to 1000000", watchdog_);
   check_distinct({{"--summary", summary_},
                   {"--picture", picture_},
                   {"--trajectory", trajectory_},
@@ -155,6 +171,9 @@ RunOptions RunArguments::options() const {
   options.replay_journal = file(replay_journal_);
   if (options.interactive && options.replay_journal)
     throw BadInput("--replay-journal", "cannot be used together with --interactive");
+  if (const std::string kind = std::filesystem::path(picture_).extension();
+      kind == ".png" || kind == ".jpg" || kind == ".pdf")
+    refuse("--picture", "a name that ends in .svg, the format of pictures", picture_);
   options.summary = file(summary_);
   options.picture = file(picture_);
   options.trajectory = file(trajectory_);

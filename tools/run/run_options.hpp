@@ -16,13 +16,15 @@
 namespace waitpoint::tools {
 
 struct RunOptions {
+  std::string program = "waitpoint";  ///< for replay lines
   std::filesystem::path scenario;
   std::vector<std::string> assignments;  ///< of --set, in their order: "world.step_ms=5"
   std::uint64_t seed = 1;
   std::optional<SeedRange> seeds;  ///< instead of `seed`
   std::optional<Duration> until;   ///< instead of the scenario's
   kernel::Order order = kernel::Order::fifo;
-  double speed = 0;  ///< simulated seconds per second; 0: unthrottled
+  double speed = 0;        ///< simulated seconds per second; 0: unthrottled
+  double watchdog_s = 10;  ///< of the wall clock, without an event; 0: unlimited
   bool interactive = false;
   std::optional<std::filesystem::path> journal;         ///< to write
   std::optional<std::filesystem::path> replay_journal;  ///< to repeat
@@ -44,6 +46,8 @@ struct ScenarioArguments {
 
   void add_file(Command& command);
   void add_set(Command& command);
+  /// The scenario's file; a name without a folder that is not here may be one of the installed scenarios.
+  std::filesystem::path path() const;
 };
 
 /// The arguments as text.
@@ -64,7 +68,7 @@ class RunArguments {
 
   Command command_;
   ScenarioArguments scenario_;
-  std::string seed_, seeds_, order_, until_, speed_, journal_, replay_journal_;
+  std::string seed_, seeds_, order_, until_, speed_, watchdog_, journal_, replay_journal_;
   std::string summary_, picture_, trajectory_, record_, digests_, events_;
   std::string record_durations_, replay_durations_;
   bool interactive_ = false, check_ = false;

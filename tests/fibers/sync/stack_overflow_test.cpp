@@ -87,8 +87,9 @@ void write_nowhere() {
 }
 
 TEST_F(StackOverflowDeathTest, AnotherFaultIsPassedOnWithTheTasksName) {
-  EXPECT_EXIT(write_nowhere(), testing::KilledBySignal(SIGSEGV),
-              "a bad address is used at virtual time 0.003000000 s, in task wild of environment");
+  EXPECT_EXIT(
+      write_nowhere(), testing::KilledBySignal(SIGSEGV),
+      "the process dies of SIGSEGV .a bad address.\n  at virtual time 0.003000000 s, in task wild of environment");
 }
 
 TEST_F(StackOverflowDeathTest, AnotherFaultGoesToTheProgramsOwnHandler) {

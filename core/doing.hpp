@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the process does outside of tasks, for the report of its death: "constructing module ndd of robot rackham".
+#pragma once
+
+namespace waitpoint {
+
+class Doing {
+ public:
+  /// In force until the object's end, unless an inner one is; the text must outlive it.
+  explicit Doing(const char* text);
+  ~Doing();
+  Doing(const Doing&) = delete;
+  Doing& operator=(const Doing&) = delete;
+
+  /// The innermost text; null if there is none. Async-signal-safe.
+  static const char* present();
+
+ private:
+  const char* outer_;
+};
+
+}  // namespace waitpoint
