@@ -6,13 +6,15 @@
 namespace waitpoint {
 namespace {
 
-const char* innermost = nullptr;
+const char* in_force = nullptr;
+std::uint64_t texts = 0;
 
 }  // namespace
 
-Doing::Doing(const char* text) : outer_(std::exchange(innermost, text)) {}
-Doing::~Doing() { innermost = outer_; }
+Doing::Doing(const char* text) : outer_(std::exchange(in_force, text)) { ++texts; }
+Doing::~Doing() { in_force = outer_; }
 
-const char* Doing::present() { return innermost; }
+const char* Doing::present() { return in_force; }
+std::uint64_t Doing::count() { return texts; }
 
 }  // namespace waitpoint

@@ -2,6 +2,8 @@
 // What the process does outside of tasks, for the report of its death: "constructing module ndd of robot rackham".
 #pragma once
 
+#include <cstdint>
+
 namespace waitpoint {
 
 class Doing {
@@ -14,6 +16,8 @@ class Doing {
 
   /// The innermost text; null if there is none. Async-signal-safe.
   static const char* present();
+  /// The number of texts so far.
+  static std::uint64_t count();
 
  private:
   const char* outer_;

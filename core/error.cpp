@@ -24,4 +24,13 @@ void bug(const char* file, int line, const char* condition, const char* message)
   std::abort();
 }
 
+void misuse(const char* message) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "waitpoint: misuse: %s\n", message);
+  if (waitpoint_describe_run != nullptr) waitpoint_describe_run();
+  if (waitpoint_describe_caller != nullptr) waitpoint_describe_caller();
+  std::fflush(stderr);
+  std::abort();
+}
+
 }  // namespace waitpoint

@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/main.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdio>
+#include <optional>
+#include <string>
 #include <string_view>
 
+#include "core/confinement.hpp"
 #include "core/printable_line.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/post_mortem.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/check/self_check.hpp"
+#include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/exec/program_process.hpp"
 #include "tools/explore/explore.hpp"
 #include "tools/gdb/debug.hpp"
 #include "tools/options.hpp"
+#include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
 #include "tools/run/run.hpp"
+#include "tools/run/run_watchdog.hpp"
 #include "tools/version.hpp"
 
 namespace waitpoint {
@@ -26,14 +34,18 @@ namespace {
 int check(const tools::CheckOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   tools::begin_with_program_layer(scenario);
-  kernel::set_post_mortem(sync::write_call_stack);
+  const tools::RunWatchdog watchdog(tools::RunWatchdog::usual_limit_s);
   const run::Experiment experiment(scenario, types, {});
-  std::size_t modules = 0;
-  for (const scenario::RobotScenario& robot : scenario.robots)
+  std::size_t modules = 0, goals = 0;
+  for (const scenario::RobotScenario& robot : scenario.robots) {
+    goals += robot.goals.size();
     for (const scenario::ModuleScenario& module : robot.modules) modules += module.enabled ? 1 : 0;
-  std::printf("%s: good: %zu robots, %zu modules, %zu goals, %zu obstacles\n", options.scenario.c_str(),
-              scenario.robots.size(), modules, experiment.goals(), experiment.world().description().obstacles.size());
-  for (const std::string& warning : experiment.result().warnings) std::printf("warning: %s\n", warning.c_str());
+  }
+  std::string text = fmt::format("{}: good: {} robots, {} modules, {} goals, {} obstacles\n",
+                                 printable_line(options.scenario.string()), scenario.robots.size(), modules, goals,
+                                 experiment.world().description().obstacles.size());
+  for (const std::string& warning : experiment.result().warnings) text += "warning: " + warning + "\n";
+  tools::write_standard_output(text);
   return 0;
 }
 
@@ -44,15 +56,27 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
   const kernel::FaultReports reports(nullptr);  // also of constructors; once for all windows of a run
+  kernel::set_call_stack_writer(sync::write_call_stack);
+  tools::prefer_errors_to_signals();
   try {
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
+    std::optional<Confinement> confinement;
+    const auto confine = [&](const auto& given) {
+      if constexpr (requires { given.confined_to; })
+        if (!given.confined_to.empty()) confinement.emplace(given.confined_to);
+    };
+    std::visit(confine, options);
     if (const auto* run = std::get_if<tools::RunOptions>(&options))
       return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
     if (const auto* executed = std::get_if<tools::ExecOptions>(&options)) return tools::exec(*executed);
-    if (const auto* explored = std::get_if<tools::ExploreOptions>(&options)) return tools::explore(*explored, types);
-    std::fputs(std::get<tools::ShownText>(options).text.c_str(), stdout);
+    if (const auto* explored = std::get_if<tools::ExploreOptions>(&options)) {
+      std::optional<tools::RunWatchdog> watchdog;  // for constructors in this process: runs have --schedule-limit
+      if (explored->program.empty()) watchdog.emplace(tools::RunWatchdog::usual_limit_s);
+      return tools::explore(*explored, types);
+    }
+    tools::write_standard_output(std::get<tools::ShownText>(options).text);
     return 0;
   } catch (const BadInput& error) {
     std::fflush(stdout);

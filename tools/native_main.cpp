@@ -8,6 +8,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/main.hpp"
+#include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
 
 namespace waitpoint::tools {
@@ -24,14 +25,17 @@ void print(const bridge::RunResult& result) {
   const bridge::RunTotals sum = totals(result);
   std::printf("%s: %s after %.1f s on real threads\n\n", result.scenario.c_str(),
               std::string(to_string(result.outcome)).c_str(), result.simulated.seconds());
-  std::printf("  goals reached     %zu of %zu\n", sum.goals_reached, sum.goals);
-  std::printf("  distance driven   %.1f m\n", sum.distance_m);
-  std::printf("  collisions        %llu\n", static_cast<unsigned long long>(sum.collisions));
-  std::printf("  position error    mean %.3f m, greatest %.3f m\n", sum.position_error_mean_m,
-              sum.position_error_max_m);
+  if (sum.goals > 0) std::printf("  goals reached     %zu of %zu\n", sum.goals_reached, sum.goals);
+  if (sum.present.motion) {
+    std::printf("  distance driven   %.1f m\n", sum.distance_m);
+    std::printf("  collisions        %llu\n", static_cast<unsigned long long>(sum.collisions));
+  }
+  if (sum.present.position)
+    std::printf("  position error    mean %.3f m, greatest %.3f m\n", sum.position_error_mean_m,
+                sum.position_error_max_m);
   for (const bridge::RobotResult& robot : result.robots)
     for (const bridge::GoalResult& goal : robot.goals)
-      if (!goal.reached)
+      if (!goal.reached())
         std::printf("  %s: goal at (%.2f, %.2f): %s\n", robot.name.c_str(), goal.position.x, goal.position.y,
                     goal.report.empty() ? "not reached" : goal.report.c_str());
   for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
@@ -45,9 +49,9 @@ int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
                      [] { return interruption() != 0; });
   const bridge::RunResult result = experiment.result();
   print(result);
+  flush_standard_output();
   if (result.outcome == bridge::Outcome::interrupted) return 130;
   const std::vector<std::string> unmet = run::unmet(scenario.expect, result);
-  std::fflush(stdout);
   for (const std::string& line : unmet) std::fprintf(stderr, "waitpoint: not as expected: %s\n", line.c_str());
   return unmet.empty() ? 0 : 1;
 }
@@ -69,7 +73,7 @@ int read_and_run(int argc, const char* const* argv, std::span<const genom::Modul
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
+    write_standard_output(app.help());
     return 0;
   } catch (const CLI::ParseError& error) {
     throw BadInput("command line", error.what());
@@ -86,6 +90,7 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
   // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
+  tools::prefer_errors_to_signals();
   try {
     return tools::read_and_run(argc, argv, types);
   } catch (const BadInput& error) {

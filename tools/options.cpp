@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "tools/command/command_line.hpp"
+#include "tools/command/installed_part.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -78,7 +79,10 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   }
   if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
-  if (check.parsed()) return CheckOptions{checked.file, checked.assignments};
+  if (check.parsed()) {
+    const std::filesystem::path scenario = find_scenario(checked.file);
+    return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
+  }
   throw BadInput("command line", "expected a command, run, check, explore or exec; see waitpoint --help");
 }
 

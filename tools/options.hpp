@@ -17,6 +17,7 @@ namespace waitpoint::tools {
 /// `waitpoint check SCENARIO ...`
 struct CheckOptions {
   std::filesystem::path scenario;
+  std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all
   std::vector<std::string> assignments;
 };
 

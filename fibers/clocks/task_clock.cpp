@@ -28,7 +28,7 @@ std::int64_t read_source(ClockKind kind) {
 Duration scaled(Duration d, std::int64_t millionths) {
   const __int128 product = static_cast<__int128>(d.ns()) * millionths + 500'000;
   const __int128 ns = product / 1'000'000;
-  WAITPOINT_CHECK(ns <= Duration::max().ns(), "virtual time overflows");
+  WAITPOINT_REQUIRE(ns <= Duration::max().ns(), "virtual time overflows");
   return Duration::from_ns(static_cast<std::int64_t>(ns));
 }
 
@@ -58,9 +58,9 @@ void compute_as_declared(LocalClock& clock, Task& task, Duration least, Duration
 }  // namespace
 
 TaskClock::TaskClock(const ClockOptions& given) : options(given) {
-  WAITPOINT_CHECK(options.scale_millionths >= 0, "a local clock is scaled by a negative factor");
-  WAITPOINT_CHECK(options.least >= Duration() && options.block_cost >= Duration(), "a computing time is negative");
-  WAITPOINT_CHECK(options.least <= options.greatest, "the ends of an interval of computing times are swapped");
+  WAITPOINT_REQUIRE(options.scale_millionths >= 0, "a local clock is scaled by a negative factor");
+  WAITPOINT_REQUIRE(options.least >= Duration() && options.block_cost >= Duration(), "a computing time is negative");
+  WAITPOINT_REQUIRE(options.least <= options.greatest, "the ends of an interval of computing times are swapped");
   if (options.kind == ClockKind::fixed || options.kind == ClockKind::interval) {
     compute = compute_as_declared;
   } else {

@@ -12,7 +12,7 @@ namespace waitpoint::kernel {
 
 /// The clock of one task.
 struct TaskClock : LocalClock {
-  /// A negative scale, cost or interval, or one with swapped ends, is a bug.
+  /// A negative scale, cost or interval, or one with swapped ends, is a misuse.
   explicit TaskClock(const ClockOptions& options);
 
   ClockOptions options;

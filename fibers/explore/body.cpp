@@ -5,6 +5,7 @@
 
 #include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/sync/system_calls.hpp"
 
 namespace waitpoint::exploration {
 namespace {
@@ -46,6 +47,7 @@ void Body::start(Strategy& strategy, const Played& played) {
   if (used_) simulation_.restart(0);
   used_ = true;
   explorer_.begin(strategy, played);
+  sync::forget_started();
   if (checks_ != nullptr) checks_->begin();
   simulation_.spawn(simulation_.environment(), {.name = "main"}, function_);
 }
@@ -61,6 +63,8 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   outcome.was_cut = explorer_.was_cut();
   if (!outcome.was_cut && outcome.failure.empty() && outcome.end == RunEnd::time_reached)
     outcome.failure = "not finished at " + to_string(until_) + " s of virtual time";
+  if (outcome.failure.empty() && sync::has_started_outside_of_virtual_time())
+    outcome.failure = sync::started_outside_of_virtual_time;
   if (fails_on_races_ && outcome.failure.empty() && races::any_found()) outcome.failure = describe_races(places_);
   outcome.digest = simulation_.digest().value();
   outcome.end_time = simulation_.global_time();

@@ -44,7 +44,7 @@ ExploreReport explore_call(exploration::ExternalChecks* checks, std::function<vo
 
 ExploreReport explore_with(exploration::ExternalChecks* checks, std::function<void()> body,
                            const ExploreOptions& asked) {
-  WAITPOINT_CHECK(kernel::running == nullptr, "explore() is called from within a simulated run");
+  WAITPOINT_REQUIRE(kernel::running == nullptr, "explore() is called from within a simulated run");
   try {
     return explore_call(checks, std::move(body), exploration::with_environment(asked));
   } catch (const BadInput& input) {

@@ -16,9 +16,9 @@ void Channel::enter() {
     arrivals_ = 0;
     refresh();
   }
-  WAITPOINT_CHECK(receiving_.robot == kernel::running->robot || scheduler.unwinding(),
-                  "a pipe, socket or mailbox is used by a task of another robot: robots talk through sockets and "
-                  "mailbox senders");
+  WAITPOINT_REQUIRE(receiving_.robot == kernel::running->robot || scheduler.unwinding(),
+                    "a pipe, socket or mailbox is used by a task of another robot: robots talk through sockets and "
+                    "mailbox senders");
 }
 
 void Channel::remove_poller(const kernel::Object& poller) {

@@ -5,7 +5,7 @@
 //                                     ready()
 //                                       ^ pollers_: tasks in poll()
 //
-// A channel belongs to the robot of the first task that uses it in a run; use by another robot's task is a bug:
+// A channel belongs to the robot of the first task that uses it in a run; use by another robot's task is a misuse:
 // communication between robots goes through a medium. The one exception is an arrival, an event without a task, which
 // wakes waiting tasks.
 #pragma once
@@ -44,7 +44,7 @@ class Channel {
   /// The calls that would not block now.
   virtual Events ready() const = 0;
 
-  /// Must be called before a task uses the channel: resets it in a new run. A task of another robot is a bug.
+  /// Must be called before a task uses the channel: resets it in a new run. A task of another robot is a misuse.
   void enter();
   /// `poller` is woken whenever ready() may have grown, until it is removed.
   void add_poller(kernel::Object& poller) { pollers_.push_back(&poller); }

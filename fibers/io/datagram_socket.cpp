@@ -7,9 +7,9 @@ namespace waitpoint::io {
 
 DatagramCore::DatagramCore(Network& network, const DatagramOptions& options)
     : Channel("datagram socket", ""), network_(network), node_(network.own_node()), options_(options) {
-  WAITPOINT_CHECK(options.queue_max > 0 && options.queue_max <= datagrams_max,
-                  "a datagram socket's queue holds at least one datagram and at most 65536");
-  WAITPOINT_CHECK(options.message_bytes_max <= datagram_bytes_max, "a datagram has at most 65507 bytes");
+  WAITPOINT_REQUIRE(options.queue_max > 0 && options.queue_max <= datagrams_max,
+                    "a datagram socket's queue holds at least one datagram and at most 65536");
+  WAITPOINT_REQUIRE(options.message_bytes_max <= datagram_bytes_max, "a datagram has at most 65507 bytes");
   node_->take_socket();
 }
 
@@ -17,7 +17,7 @@ DatagramCore::~DatagramCore() { node_->release_socket(); }
 
 Status DatagramCore::bind(const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
-  WAITPOINT_CHECK(port_.empty(), "a datagram socket is bound a second time");
+  WAITPOINT_REQUIRE(port_.empty(), "a datagram socket is bound a second time");
   if (!node_->bind(Protocol::datagram, port, *this)) return Status::address_in_use;
   port_ = port;
   set_label(node_->name() + ":" + port);

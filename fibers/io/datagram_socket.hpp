@@ -61,7 +61,7 @@ class DatagramCore : public Channel {
   bool closed_ = false;
 };
 
-/// Movable; closed by its destructor. Any other use after close() is a bug.
+/// Movable; closed by its destructor. Any other use after close() is a misuse.
 class datagram_socket {
  public:
   datagram_socket() = default;  ///< closed
@@ -72,7 +72,7 @@ class datagram_socket {
   datagram_socket& operator=(datagram_socket&& other) noexcept;
   ~datagram_socket();
 
-  /// Binds a name on this robot: ok or address_in_use. A second name for one socket is a bug.
+  /// Binds a name on this robot: ok or address_in_use. A second name for one socket is a misuse.
   Status bind(const std::string& port) { return use()->bind(port); }
   /// Does not wait. ok means sent, not delivered; else message_too_long or no_route.
   Status send_to(const Address& address, std::span<const std::byte> data) { return use()->send_to(address, data); }
@@ -89,7 +89,7 @@ class datagram_socket {
 
  private:
   std::shared_ptr<DatagramCore> use() const {
-    WAITPOINT_CHECK(core_ != nullptr, "a datagram socket is used after its close");
+    WAITPOINT_REQUIRE(core_ != nullptr, "a datagram socket is used after its close");
     return core_;
   }
   std::shared_ptr<DatagramCore> core_;

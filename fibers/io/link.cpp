@@ -43,7 +43,7 @@ void Link::stop() {
 
 double Link::distance_m() const {
   const double distance_m = distance_ == nullptr ? 0 : distance_(from_.name, to_);
-  WAITPOINT_CHECK(distance_m >= 0, "the distance between two robots is negative or not a number");
+  WAITPOINT_REQUIRE(distance_m >= 0, "the distance between two robots is negative or not a number");
   return distance_m;
 }
 
@@ -71,7 +71,7 @@ bool Link::is_lost() const {
 }
 
 void Link::begin_sending() {
-  WAITPOINT_CHECK(!stopped_, "a message is sent on a network that was destroyed");
+  WAITPOINT_REQUIRE(!stopped_, "a message is sent on a network that was destroyed");
   ++statistics.sent;
 }
 
@@ -122,8 +122,8 @@ void Link::transmit_in_order(std::size_t bytes, double distance_m, Arrival arriv
 }
 
 void Link::check_room() const {
-  WAITPOINT_CHECK(flights_.size() - free_flights_.size() + waiting_.size() <= in_flight_max_,
-                  "more messages in transit between two robots than NetworkLimits::in_flight_max");
+  WAITPOINT_REQUIRE(flights_.size() - free_flights_.size() + waiting_.size() <= in_flight_max_,
+                    "more messages in transit between two robots than NetworkLimits::in_flight_max");
 }
 
 void Link::launch(Time arrives, Arrival arrival) {

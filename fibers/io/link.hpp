@@ -47,7 +47,7 @@ class Link {
   /// Arrives after all earlier messages sent in order; beyond the range it waits.
   void send_in_order(std::size_t bytes, Arrival arrival);
 
-  /// The network is destroyed: nothing arrives any more, and sending is a bug.
+  /// The network is destroyed: nothing arrives any more, and sending is a misuse.
   void stop();
 
   /// True between robots: messages in transit then occupy room that the receiver cannot free at once.

@@ -37,16 +37,16 @@ class mailbox : public Channel {
   /// Holds `capacity` letters, from one to letters_max.
   explicit mailbox(std::size_t capacity, std::string label = "")
       : Channel("mailbox", std::move(label)), capacity_(capacity) {
-    WAITPOINT_CHECK(capacity > 0 && capacity <= letters_max, "a mailbox holds at least one letter and at most 65536");
+    WAITPOINT_REQUIRE(capacity > 0 && capacity <= letters_max, "a mailbox holds at least one letter and at most 65536");
   }
-  /// Destroying a mailbox at which a task waits is a bug.
+  /// Destroying a mailbox at which a task waits is a misuse.
   ~mailbox() override {
     const bool tell = begin_release(kernel::Operation::close, receiving_);
-    WAITPOINT_CHECK(!tell || !is_waited_for(), "a mailbox is destroyed while a task waits at it");
+    WAITPOINT_REQUIRE(!tell || !is_waited_for(), "a mailbox is destroyed while a task waits at it");
     shut(tell);
   }
 
-  /// Binds a name on this robot: ok or address_in_use. A second name is a bug.
+  /// Binds a name on this robot: ok or address_in_use. A second name is a misuse.
   Status bind(Network& network, const std::string& port);
 
   /// Enqueues a letter, moved from only if the status is ok; peer_closed once the mailbox is closed.
@@ -111,8 +111,8 @@ class mailbox : public Channel {
 template <class T>
 Status mailbox<T>::bind(Network& network, const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
-  WAITPOINT_CHECK(node_ == nullptr, "a mailbox is bound a second time");
-  WAITPOINT_CHECK(!closed_, "a mailbox is bound after its close");
+  WAITPOINT_REQUIRE(node_ == nullptr, "a mailbox is bound a second time");
+  WAITPOINT_REQUIRE(!closed_, "a mailbox is bound after its close");
   std::shared_ptr<Node> node = network.own_node();
   if (!node->bind(Protocol::mailbox, port, *this)) return Status::address_in_use;
   node_ = std::move(node);

@@ -10,8 +10,8 @@ SenderCore::SenderCore(Network& network, const Address& address, std::size_t win
       address_(address),
       link_(node_->link_to(address.robot)),
       room_(window) {
-  WAITPOINT_CHECK(window > 0 && window <= letters_max,
-                  "a mailbox sender's window holds at least one letter and at most 65536");
+  WAITPOINT_REQUIRE(window > 0 && window <= letters_max,
+                    "a mailbox sender's window holds at least one letter and at most 65536");
   node_->take_socket();
 }
 

@@ -31,7 +31,7 @@ class SenderCore : public Channel, public std::enable_shared_from_this<SenderCor
   Status status_ = Status::ok;  // the mailbox's answer to letters that will never be received
 };
 
-/// Copies share their window. A letter of a type other than the mailbox's is a bug.
+/// Copies share their window. A letter of a type other than the mailbox's is a misuse.
 template <Sendable T>
 class mailbox_sender {
  public:
@@ -48,7 +48,7 @@ class mailbox_sender {
     if (status != Status::ok) return status;
     core->send(wire_bytes(letter), hash_of(letter), [letter](Channel& channel, Receipt receipt) {
       auto* const box = dynamic_cast<mailbox<T>*>(&channel);
-      WAITPOINT_CHECK(box != nullptr, "a letter is sent to a mailbox of another type");
+      WAITPOINT_REQUIRE(box != nullptr, "a letter is sent to a mailbox of another type");
       box->arrive(letter, std::move(receipt));
     });
     return Status::ok;

@@ -28,7 +28,7 @@ Duration time_on_air(const Medium& medium, std::uint64_t bytes) {
   if (medium.bandwidth_bit_s == 0) return Duration();
   using Wide = unsigned __int128;
   const Wide ns = (Wide{bytes} * 8 * 1'000'000'000 + medium.bandwidth_bit_s - 1) / medium.bandwidth_bit_s;
-  WAITPOINT_CHECK(ns <= static_cast<Wide>(Duration::max().ns()), "virtual time overflows");
+  WAITPOINT_REQUIRE(ns <= static_cast<Wide>(Duration::max().ns()), "virtual time overflows");
   return Duration::from_ns(static_cast<std::int64_t>(ns));
 }
 

@@ -51,14 +51,15 @@ Channel* Node::find(Protocol protocol, const std::string& port) const {
 }
 
 bool Node::bind(Protocol protocol, const std::string& port, Channel& channel) {
-  WAITPOINT_CHECK(!port.empty() && port.find(':') == std::string::npos, "a name to bind is empty or contains a colon");
+  WAITPOINT_REQUIRE(!port.empty() && port.find(':') == std::string::npos,
+                    "a name to bind is empty or contains a colon");
   return ports_.try_emplace({protocol, port}, &channel).second;
 }
 
 bool Node::has_room() const { return sockets_ < network_.limits_.sockets_max; }
 
 void Node::take_socket() {
-  WAITPOINT_CHECK(has_room(), "a robot has more sockets than NetworkLimits::sockets_max");
+  WAITPOINT_REQUIRE(has_room(), "a robot has more sockets than NetworkLimits::sockets_max");
   ++sockets_;
 }
 
@@ -72,11 +73,11 @@ Network::~Network() {
   // open.
   if (kernel::running == nullptr || scheduler_.unwinding()) return;
   for (const auto& [name, node] : nodes_)
-    WAITPOINT_CHECK(node->sockets() == 0, "a network is destroyed before its sockets");
+    WAITPOINT_REQUIRE(node->sockets() == 0, "a network is destroyed before its sockets");
 }
 
 void Network::begin_declaring(const Medium& medium) {
-  WAITPOINT_CHECK(!has_traffic_, "a medium is declared after robots have sent to each other");
+  WAITPOINT_REQUIRE(!has_traffic_, "a medium is declared after robots have sent to each other");
   check(medium);
   scheduler_.declare_latency(medium.latency_least);
 }
@@ -108,7 +109,7 @@ LinkStatistics Network::statistics(const std::string& from, const std::string& t
 
 std::shared_ptr<Node> Network::own_node() {
   const kernel::Robot& robot = *sync::running_task().robot;
-  WAITPOINT_CHECK(robot.scheduler == &scheduler_, "a network of another run is used");
+  WAITPOINT_REQUIRE(robot.scheduler == &scheduler_, "a network of another run is used");
   return node(robot.name);
 }
 

@@ -38,7 +38,7 @@ struct Address {
 /// "ada:door".
 std::string to_string(const Address& address);
 
-/// Bounds on what a program can make grow; exceeding one is reported as a bug.
+/// Bounds on what a program can make grow; exceeding one is reported as a misuse.
 struct NetworkLimits {
   std::size_t sockets_max = 4096;     ///< of one robot, connections and mailbox senders included
   std::size_t in_flight_max = 65536;  ///< messages in transit from one robot to another
@@ -65,7 +65,7 @@ class Node {
   /// False if the name is in use.
   bool bind(Protocol protocol, const std::string& port, Channel& channel);
   void release(Protocol protocol, const std::string& port) { ports_.erase({protocol, port}); }
-  /// Counts one more socket; beyond NetworkLimits::sockets_max is a bug.
+  /// Counts one more socket; beyond NetworkLimits::sockets_max is a misuse.
   void take_socket();
   void release_socket() { --sockets_; }
   std::size_t sockets() const { return sockets_; }

@@ -4,7 +4,7 @@
 namespace waitpoint::io {
 
 Pipe::Pipe(std::size_t capacity, std::string label) : Channel("pipe", std::move(label)), bytes_(capacity) {
-  WAITPOINT_CHECK(capacity > 0 && capacity <= buffer_max, "a pipe holds at least one byte and at most 64 MiB");
+  WAITPOINT_REQUIRE(capacity > 0 && capacity <= buffer_max, "a pipe holds at least one byte and at most 64 MiB");
 }
 
 Result<std::size_t> Pipe::read(std::span<std::byte> buffer, const Deadline& deadline) {

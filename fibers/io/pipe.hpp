@@ -41,7 +41,7 @@ class Pipe : public Channel {
   bool writing_ = true;
 };
 
-/// A copyable handle to one end. Any use but assignment after its close() is a bug.
+/// A copyable handle to one end. Any use but assignment after its close() is a misuse.
 class PipeHandle {
  public:
   bool is_open() const { return end_ != nullptr; }
@@ -66,7 +66,7 @@ class PipeHandle {
   };
   // A reference of its own, which keeps the end open during a call.
   std::shared_ptr<End> use() const {
-    WAITPOINT_CHECK(end_ != nullptr, "an end of a pipe is used after its close");
+    WAITPOINT_REQUIRE(end_ != nullptr, "an end of a pipe is used after its close");
     return end_;
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The result of a communication, as a value: all outcomes that a correct program must expect. Misuse (a handle used
-// after its close, a second name for one socket, an object of another robot) is reported as a bug instead.
+// after its close, a second name for one socket, an object of another robot) is reported as a misuse instead.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class [[nodiscard]] Result {
   explicit operator bool() const { return status_ == Status::ok; }
   const T& value() const { return value_; }
   T& operator*() {
-    WAITPOINT_CHECK(status_ == Status::ok, "the value of a communication that failed is used");
+    WAITPOINT_REQUIRE(status_ == Status::ok, "the value of a communication that failed is used");
     return value_;
   }
   T* operator->() { return &**this; }

@@ -5,7 +5,7 @@ namespace waitpoint::io {
 
 Listener::Listener(Network& network, const ListenOptions& options)
     : Channel("stream listener", ""), node_(network.own_node()), options_(options) {
-  WAITPOINT_CHECK(options.backlog > 0, "the backlog of a listener must be at least 1");
+  WAITPOINT_REQUIRE(options.backlog > 0, "the backlog of a listener must be at least 1");
   node_->take_socket();
 }
 
@@ -13,7 +13,7 @@ Listener::~Listener() { node_->release_socket(); }
 
 Status Listener::listen(const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
-  WAITPOINT_CHECK(port_.empty(), "a stream listener listens a second time");
+  WAITPOINT_REQUIRE(port_.empty(), "a stream listener listens a second time");
   if (!node_->bind(Protocol::stream, port, *this)) return Status::address_in_use;
   port_ = port;
   set_label(node_->name() + ":" + port);
@@ -29,7 +29,7 @@ std::shared_ptr<Stream> Listener::accept_request(Link& back) {
 
 Result<std::shared_ptr<Stream>> Listener::accept(const Deadline& deadline) {
   if (!begin(kernel::Operation::accept, receiving_)) return Status::closed;
-  WAITPOINT_CHECK(!port_.empty(), "a listener accepts before it listens");
+  WAITPOINT_REQUIRE(!port_.empty(), "a listener accepts before it listens");
   const Status status = wait(receiving_, deadline, [&] { return closed_ || !backlog_.empty(); });
   if (status != Status::ok) return status;
   if (closed_) return Status::closed;

@@ -36,7 +36,7 @@ class Listener : public Channel {
   bool closed_ = false;
 };
 
-/// Movable; closed by its destructor, with the connections not yet accepted. Any other use after close() is a bug.
+/// Movable; closed by its destructor, with the connections not yet accepted. Any other use after close() is a misuse.
 class stream_listener {
  public:
   stream_listener() = default;  ///< closed
@@ -47,7 +47,7 @@ class stream_listener {
   stream_listener& operator=(stream_listener&& other) noexcept;
   ~stream_listener();
 
-  /// Binds a name on this robot: ok or address_in_use. A second name for one listener is a bug.
+  /// Binds a name on this robot: ok or address_in_use. A second name for one listener is a misuse.
   Status listen(const std::string& port) { return use()->listen(port); }
   /// The connection that has waited longest; closed if the listener is closed meanwhile.
   Result<stream_socket> accept(const Deadline& deadline = {});
@@ -58,7 +58,7 @@ class stream_listener {
 
  private:
   std::shared_ptr<Listener> use() const {
-    WAITPOINT_CHECK(core_ != nullptr, "a stream listener is used after its close");
+    WAITPOINT_REQUIRE(core_ != nullptr, "a stream listener is used after its close");
     return core_;
   }
   std::shared_ptr<Listener> core_;

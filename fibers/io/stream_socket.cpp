@@ -5,8 +5,8 @@ namespace waitpoint::io {
 
 Stream::Stream(std::shared_ptr<Node> node, Link& link, const StreamOptions& options, const std::string& label)
     : Channel("stream socket", label), node_(std::move(node)), link_(link), received_(options.buffer_bytes) {
-  WAITPOINT_CHECK(options.buffer_bytes > 0 && options.buffer_bytes <= buffer_max,
-                  "a stream's buffer holds at least one byte and at most 64 MiB");
+  WAITPOINT_REQUIRE(options.buffer_bytes > 0 && options.buffer_bytes <= buffer_max,
+                    "a stream's buffer holds at least one byte and at most 64 MiB");
   node_->take_socket();
 }
 
@@ -72,7 +72,7 @@ void Stream::peer_gone() {
 
 Result<std::size_t> Stream::write(std::span<const std::byte> data, const Deadline& deadline) {
   if (!begin(kernel::Operation::send, sending_)) return Status::closed;
-  WAITPOINT_CHECK(!finished_, "a stream socket is written to after shutdown_write()");
+  WAITPOINT_REQUIRE(!finished_, "a stream socket is written to after shutdown_write()");
   Digest sent;
   std::size_t written = 0;
   Status status = Status::ok;
@@ -103,7 +103,7 @@ void Stream::room_again(std::size_t bytes) {
 
 void Stream::shutdown_write() {
   if (!begin_release(kernel::Operation::close, sending_)) return;
-  WAITPOINT_CHECK(!finished_, "a stream socket's writing is shut down twice");
+  WAITPOINT_REQUIRE(!finished_, "a stream socket's writing is shut down twice");
   finished_ = true;
   tell_peer(0, [](Stream& there) { there.peer_finished(); });
 }

@@ -78,7 +78,7 @@ class Stream : public Channel, public std::enable_shared_from_this<Stream> {
   bool peer_gone_ = false;
 };
 
-/// Movable; closed by its destructor. Any other use after close() is a bug.
+/// Movable; closed by its destructor. Any other use after close() is a misuse.
 class stream_socket {
  public:
   stream_socket() = default;  ///< closed
@@ -109,7 +109,7 @@ class stream_socket {
 
  private:
   std::shared_ptr<Stream> use() const {
-    WAITPOINT_CHECK(stream_ != nullptr, "a stream socket is used after its close");
+    WAITPOINT_REQUIRE(stream_ != nullptr, "a stream socket is used after its close");
     return stream_;
   }
   std::shared_ptr<Stream> stream_;

@@ -2,7 +2,9 @@
 #include "fibers/kernel/fault_reports.hpp"
 
 #include <sys/syscall.h>
+#include <sys/uio.h>
 #include <sys/wait.h>
+#include <ucontext.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -23,7 +25,10 @@ namespace {
 alignas(64) char handler_stack[1024 * 1024];
 
 FaultReports* innermost = nullptr;
-PostMortem post_mortem = nullptr;
+PostMortem post_mortem = nullptr, call_stack_writer = nullptr;
+ucontext_t* fault_context = nullptr;  // of the signal that is handled
+const char* replay_line = nullptr;    // outside of tasks
+bool is_dying = false;
 // A bug and an overrun stack were reported before their SIGABRT.
 bool is_described = false;
 // The task that overran its stack, or null. Usually the running one; but a task that overruns its stack while it hands
@@ -48,38 +53,70 @@ struct Cause {
 constexpr Cause causes[] = {
     {SIGSEGV, SEGV_MAPERR, "the process dies of SIGSEGV (a bad address)"},
     {SIGSEGV, SEGV_ACCERR, "the process dies of SIGSEGV (an address without permission)"},
+    {SIGSEGV, SI_TKILL, "the process dies of SIGSEGV (the process sent it itself)"},
     {SIGSEGV, 0, "the process dies of SIGSEGV (a bad address)"},
     {SIGBUS, BUS_ADRALN, "the process dies of SIGBUS (a misaligned address)"},
-    {SIGBUS, BUS_ADRERR, "the process dies of SIGBUS (an address behind the end of its file)"},
+    {SIGBUS, BUS_ADRERR, "the process dies of SIGBUS (an address beyond the end of its file)"},
     {SIGBUS, 0, "the process dies of SIGBUS"},
+    {SIGILL, SI_TKILL, "the process dies of SIGILL (the process sent it itself)"},
     {SIGILL, 0, "the process dies of SIGILL (an illegal instruction)"},
     {SIGFPE, FPE_INTDIV, "the process dies of SIGFPE (integer division by zero)"},
     {SIGFPE, FPE_INTOVF, "the process dies of SIGFPE (integer overflow)"},
     {SIGFPE, 0, "the process dies of SIGFPE"},
     {SIGABRT, 0, "the process dies of SIGABRT (abort() was called)"},
+    {SIGTRAP, 0, "the process dies of SIGTRAP"},
+    {SIGSYS, 0, "the process dies of SIGSYS (a forbidden system call)"},
 };
 
 const char* text_of(const siginfo_t& info) {
+  const int code = info.si_code <= 0 ? SI_TKILL : info.si_code;  // raise(), or kill()
   for (const Cause& cause : causes)
-    if (cause.signal == info.si_signo && (cause.code == info.si_code || cause.code == 0)) return cause.text;
+    if (cause.signal == info.si_signo && (cause.code == code || cause.code == 0)) return cause.text;
   return "the process dies of a signal";
 }
 
-// In the forked copy, whose own death is nobody's business.
-[[noreturn]] void die_after(PostMortem function, const char* reason) {
+// A call through a bad pointer: the address that it returns to is on top of the stack. The unwinder would read the code
+// at the bad address.
+void leave_bad_code(ucontext_t& context) {
+  greg_t* const registers = context.uc_mcontext.gregs;
+  char byte = 0;
+  const iovec to{&byte, 1}, from{reinterpret_cast<void*>(registers[REG_RIP]), 1};
+  if (process_vm_readv(getpid(), &to, 1, &from, 1, 0) == 1) return;
+  registers[REG_RIP] = *reinterpret_cast<greg_t*>(registers[REG_RSP]);
+  registers[REG_RSP] += sizeof(greg_t);
+}
+
+[[noreturn]] void act_in_copy(PostMortem function, const char* reason) {
   constexpr unsigned time_limit_s = 20;
-  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(signal, SIG_DFL);
+  for (const int signal : FaultReports::signals) std::signal(signal, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   alarm(time_limit_s);
+  if (fault_context != nullptr) leave_bad_code(*fault_context);
   function(reason);
   syscall(SYS_exit_group, 0);
   __builtin_unreachable();
 }
 
+// In a forked copy: its own death costs what it had to do, and no more.
+void act(PostMortem function, const char* reason, const char* if_it_dies) {
+  if (function == nullptr) return;
+  const pid_t copy = _Fork();
+  if (copy == 0) act_in_copy(function, reason);
+  int status = 0;
+  while (copy > 0 && waitpid(copy, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (copy > 0 && status == 0) return;
+  SignalSafeText text;
+  text.add("  ").add(if_it_dies).add("\n").write();
+}
+
+bool is_simulating(const FaultReports& reports) { return reports.thread() == __builtin_thread_pointer(); }
+
 // At exit(): a caller such as a CI would take its status for the run's.
-void refuse_exit_in_task() { refuse_exit("exit() is called in a task"); }
+void refuse_exit_by_exit() { refuse_exit("exit()"); }
+void refuse_exit_by_quick_exit() { refuse_exit("quick_exit()"); }
 
 }  // namespace
 
@@ -101,42 +138,55 @@ void report_overflow(const Task& task) {
   std::abort();
 }
 
+void set_call_stack_writer(PostMortem function) { call_stack_writer = function; }
 PostMortem set_post_mortem(PostMortem function) { return std::exchange(post_mortem, function); }
 
-void report(const char* reason, PostMortem function) {
+ReplayLine::ReplayLine(const char* line) : outer_(std::exchange(replay_line, line)) {}
+ReplayLine::~ReplayLine() { replay_line = outer_; }
+
+void report(const char* reason) {
+  const bool elsewhere = innermost != nullptr && !is_simulating(*innermost);
   if (!is_described) {
     SignalSafeText text;
-    text.add("waitpoint: ").add(reason).add("\n").write();
-    if (running != nullptr) describe_run(*running);
+    text.add("waitpoint: ").add(reason).add(elsewhere ? ", in a thread of the operating system\n" : "\n").write();
+    if (running != nullptr && !elsewhere) describe_run(*running);
   }
   const char* const doing = Doing::present();
-  if (running == nullptr && doing != nullptr) {
+  if (running == nullptr && doing != nullptr && !elsewhere) {
     SignalSafeText where;
-    where.add("  while ").add(doing).add("\n").write();
+    where.add("  while ").add(doing).add("\n");
+    if (replay_line != nullptr) where.add("  replay: ").add(replay_line).add("\n");
+    where.write();
   }
-  if (function == nullptr) return;
-  const pid_t copy = _Fork();
-  if (copy == 0) die_after(function, reason);
-  int status = 0;
-  while (copy > 0 && waitpid(copy, &status, 0) < 0 && errno == EINTR) {
-  }
+  act(call_stack_writer, reason, "its call stack cannot be read");
 }
 
-void report_death(const char* reason) { report(reason, post_mortem); }
+void report_death(const char* reason) {
+  is_dying = true;
+  report(reason);
+  act(post_mortem, reason, "the outputs are lost");
+}
 
-void refuse_exit(const char* reason) {
-  if (running == nullptr || innermost == nullptr || innermost->process() != getpid()) return;
+void refuse_exit(const char* function) {
+  const bool is_model_code = running != nullptr || Doing::present() != nullptr;
+  if (is_dying || !is_model_code || innermost == nullptr || innermost->process() != getpid()) return;
   std::fflush(nullptr);
+  static char reason[64];
+  std::snprintf(reason, sizeof reason, "%s is called in a %s", function, running != nullptr ? "task" : "module");
   report_death(reason);
   syscall(SYS_exit_group, 1);
 }
 
-FaultReports::FaultReports(const Scheduler* scheduler) : outer_(innermost), scheduler_(scheduler), process_(getpid()) {
+FaultReports::FaultReports(const Scheduler* scheduler)
+    : outer_(innermost), scheduler_(scheduler), thread_(__builtin_thread_pointer()), process_(getpid()) {
   if (sanitizer::present) return;
   innermost = this;
   if (outer_ != nullptr) return;
-  static const int registered = std::atexit(refuse_exit_in_task);
-  static_cast<void>(registered);
+  static bool is_registered = false;
+  if (!std::exchange(is_registered, true)) {
+    std::atexit(refuse_exit_by_exit);
+    at_quick_exit(refuse_exit_by_quick_exit);
+  }
   stack_t stack{};
   stack.ss_sp = handler_stack;
   stack.ss_size = sizeof handler_stack;
@@ -161,13 +211,15 @@ FaultReports::~FaultReports() {
 }
 
 void FaultReports::handle(int signal, siginfo_t* info, void* context) {
-  // A signal sent by a process (si_code <= 0) has no address; abort() sends its own.
-  const bool is_own = info->si_code > 0 || (signal == SIGABRT && info->si_pid == getpid());
+  // A signal that a process sends (si_code <= 0) has no address; abort() and raise() send their own.
+  const bool is_fault = info->si_code > 0, is_own = is_fault || info->si_pid == getpid();
   if (innermost != nullptr && is_own) {
-    if (signal == SIGSEGV && innermost->scheduler_ != nullptr)
+    if (signal == SIGSEGV && is_fault && innermost->scheduler_ != nullptr)
       if (const Task* task = overflowed(*innermost->scheduler_, static_cast<const char*>(info->si_addr)))
         report_overflow(*task);
-    if (running != nullptr || Doing::present() != nullptr) report_death(text_of(*info));
+    fault_context = static_cast<ucontext_t*>(context);
+    if (running != nullptr || Doing::present() != nullptr || !is_simulating(*innermost)) report_death(text_of(*info));
+    fault_context = nullptr;
   }
   pass_on(signal, info, context);
 }

@@ -36,37 +36,55 @@ class FaultReports {
   FaultReports(const FaultReports&) = delete;
   FaultReports& operator=(const FaultReports&) = delete;
 
+  static constexpr int signals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP, SIGSYS};
+
   /// The process that made it: not the one that a task forked.
   pid_t process() const { return process_; }
+  /// The thread that runs the tasks, by its thread pointer.
+  const void* thread() const { return thread_; }
 
  private:
-  static constexpr int signals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
-
   static void handle(int signal, siginfo_t* info, void* context);
   static void pass_on(int signal, siginfo_t* info, void* context);
 
   FaultReports* outer_;
   const Scheduler* scheduler_;
+  const void* thread_;
   pid_t process_;
   struct sigaction previous_[std::size(signals)]{};
   stack_t previous_stack_{};
   bool has_stack_ = false;
 };
 
-/// Called in the forked copy, with the reason: "the process dies of SIGFPE (integer division by zero)".
+/// Called in a forked copy of the process, with the reason: "the process dies of SIGFPE (integer division by zero)".
+/// Two copies, one after the other: a call stack that cannot be read does not cost the outputs.
 using PostMortem = void (*)(const char* reason);
-/// Sets the function, and returns the previous one; null: none, and no copy is forked.
+/// Sets the function that writes the interrupted call stack to the error stream; null: none.
+void set_call_stack_writer(PostMortem function);
+/// Sets the function that completes the outputs, and returns the previous one; null: none.
 PostMortem set_post_mortem(PostMortem function);
 
-/// Writes `reason` and the running task to the error stream, then calls `function` in a forked copy of the process and
-/// waits for it; null: no copy. Async-signal-safe.
-void report(const char* reason, PostMortem function);
-/// The same with the post mortem that is set: the process must end after it.
+/// While it exists, reports of deaths outside of tasks show this line as the run's replay; inside of tasks it is their
+/// scheduler's. The text must outlive the object.
+class ReplayLine {
+ public:
+  explicit ReplayLine(const char* line);
+  ~ReplayLine();
+  ReplayLine(const ReplayLine&) = delete;
+  ReplayLine& operator=(const ReplayLine&) = delete;
+
+ private:
+  const char* outer_;
+};
+
+/// Writes `reason`, the running task and its call stack to the error stream. Async-signal-safe.
+void report(const char* reason);
+/// The same, then the post mortem: the process must end after it.
 void report_death(const char* reason);
 
-/// If a task of this process's own run is running: reports its call of exit() or the like, and ends the process with
-/// status 1.
-void refuse_exit(const char* reason);
+/// If a task or a module's constructor or destructor of this process runs: reports its call of `function` ("exit()"),
+/// and ends the process with status 1.
+void refuse_exit(const char* function);
 
 /// Reports that `task` overran its stack, and aborts.
 [[noreturn]] void report_overflow(const Task& task);

@@ -32,7 +32,7 @@ void consume(Task& task, Duration cost) {
 }
 
 void access_hardware(Task& task, Duration latency) {
-  WAITPOINT_CHECK(latency >= Duration(), "an access to hardware has a negative latency");
+  WAITPOINT_REQUIRE(latency >= Duration(), "an access to hardware has a negative latency");
   if (latency == Duration() || task.scheduler->unwinding()) return;
   const Time after = local_time(task) + latency;
   if (task.seat != nullptr) {
@@ -44,8 +44,8 @@ void access_hardware(Task& task, Duration latency) {
 }
 
 void compute(Task& task, Duration least, Duration greatest) {
-  WAITPOINT_CHECK(least >= Duration(), "a computing time is negative");
-  WAITPOINT_CHECK(least <= greatest, "the ends of an interval of computing times are swapped");
+  WAITPOINT_REQUIRE(least >= Duration(), "a computing time is negative");
+  WAITPOINT_REQUIRE(least <= greatest, "the ends of an interval of computing times are swapped");
   if (task.scheduler->unwinding()) return;
   if (task.clock == nullptr)
     consume(task, choose_cost(task, least, greatest));

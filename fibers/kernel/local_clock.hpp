@@ -57,7 +57,7 @@ void compute(Task& task, Duration least, Duration greatest);
 /// Declares a known cost.
 inline void compute(Task& task, Duration cost) {
   if (__builtin_expect(task.attention != 0, 0)) return compute(task, cost, cost);
-  WAITPOINT_CHECK(cost >= Duration(), "a computing time is negative");
+  WAITPOINT_REQUIRE(cost >= Duration(), "a computing time is negative");
   consume(task, cost);
 }
 

@@ -139,8 +139,8 @@ bool use_processor(Task& task, Duration cost) {
 
 void hold(Task& task, PriorityLock& lock) {
   if (task.seat == nullptr) return;
-  WAITPOINT_CHECK(lock.protocol != LockProtocol::ceiling || task.seat->own_priority <= lock.ceiling,
-                  "a task holds a mutex whose priority ceiling is below its own priority");
+  WAITPOINT_REQUIRE(lock.protocol != LockProtocol::ceiling || task.seat->own_priority <= lock.ceiling,
+                    "a task holds a mutex whose priority ceiling is below its own priority");
   lock.next = task.seat->held;
   task.seat->held = &lock;
   reconsider_priority(&task);

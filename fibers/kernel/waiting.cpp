@@ -41,7 +41,7 @@ void Scheduler::adopt(Object& object) {
     return stay(Wake::unwinding);
   }
   Task& task = *running;
-  WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
+  WAITPOINT_REQUIRE((task.attention & attention::timer) == 0, "a timer's callback waits");
   fast_path_.close();
   if (sanitizer::present) sanitizer::release(&object);
   append_waiter(object, task);
@@ -145,7 +145,7 @@ void Scheduler::deliver(EventNode& node, Time time, Robot& sender) {
 }
 
 void Scheduler::declare_latency(Duration least) {
-  WAITPOINT_CHECK(least > Duration(), "a link between robots has no latency");
+  WAITPOINT_REQUIRE(least > Duration(), "a link between robots has no latency");
   if (least < lookahead_) lookahead_ = least;
 }
 

@@ -141,7 +141,7 @@ Fiber& Scheduler::dispatch() {
   Task& task = *running;
   fast_path_.close();
   if (needs_attention(task)) {
-    WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
+    WAITPOINT_REQUIRE((task.attention & attention::timer) == 0, "a timer's callback waits");
     if (!end_segment(task)) return stay(Wake::unwinding);
     if (task.seat != nullptr && time > task.local_time) leave_processor(task);
   }
@@ -155,7 +155,7 @@ bool Scheduler::yield() {
   Task& task = *running;
   fast_path_.close();
   if (needs_attention(task)) {
-    WAITPOINT_CHECK((task.attention & attention::timer) == 0, "a timer's callback waits");
+    WAITPOINT_REQUIRE((task.attention & attention::timer) == 0, "a timer's callback waits");
     if (!end_segment(task)) return false;
     if (task.seat != nullptr) leave_processor(task);
   }

@@ -63,7 +63,7 @@ STATUS taskDelay(int ticks) {
     return OK;
   }
   const Ticks& clock = Ticks::here();
-  WAITPOINT_CHECK(clock.running(), "a delay in ticks, but h2initGlob() started no clock");
+  WAITPOINT_REQUIRE(clock.running(), "a delay in ticks, but h2initGlob() started no clock");
   this_thread::sleep_for(clock.span(ticks));
   return OK;
 }

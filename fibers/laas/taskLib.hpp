@@ -43,7 +43,7 @@ const char* taskName(long tid);
 long taskNameToId(const char* name);
 
 /// Sleeps for the duration of `ticks` from now (not aligned to ticks, as pocolibs on POSIX does); 0 yields to the other
-/// tasks of this instant. A negative number is EINVAL, a positive one without a clock a bug.
+/// tasks of this instant. A negative number is EINVAL, a positive one without a clock a misuse.
 STATUS taskDelay(int ticks);
 
 /// Suspends the caller until another task resumes it. Suspending another task is not implemented, as in pocolibs.

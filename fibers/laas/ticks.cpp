@@ -26,7 +26,7 @@ Duration Ticks::span(std::int64_t ticks) const { return period_->tick(ticks); }
 Time Ticks::deadline(int ticks) const {
   if (ticks == WAIT_FOREVER) return Time::max();
   if (ticks == NO_WAIT) return Time();
-  WAITPOINT_CHECK(running(), "a time-out in ticks, but h2initGlob() started no clock");
+  WAITPOINT_REQUIRE(running(), "a time-out in ticks, but h2initGlob() started no clock");
   return time_of(now() + ticks + 1);
 }
 

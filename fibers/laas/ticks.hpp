@@ -47,7 +47,7 @@ class Ticks : public sync::RobotState {
   /// The duration of `ticks`.
   Duration span(std::int64_t ticks) const;
   /// The end of a time-out of `ticks`: the n+1st tick, since pocolibs checks at each tick for more than `ticks` since
-  /// the call. WAIT_FOREVER never ends, NO_WAIT is past. A finite one without a clock is a bug.
+  /// the call. WAIT_FOREVER never ends, NO_WAIT is past. A finite one without a clock is a misuse.
   Time deadline(int ticks) const;
 
   /// Schedules `item` at tick `due`, which must be in the future; replaces its earlier schedule.

@@ -74,7 +74,7 @@ STATUS wdStart(WDOG_ID wdId, int delay, std::function<void(long)> pRoutine, long
   wdId->routine = std::move(pRoutine);
   wdId->parameter = parameter;
   Ticks& ticks = wdId->ticks;
-  WAITPOINT_CHECK(ticks.running(), "a watchdog is started, but h2initGlob() started no clock");
+  WAITPOINT_REQUIRE(ticks.running(), "a watchdog is started, but h2initGlob() started no clock");
   ticks.list(*wdId, ticks.now() + delay, wdId->rank);
   return OK;
 }

@@ -2,7 +2,8 @@
 // Watchdogs: a routine called once, at a tick, unless it is cancelled before.
 //
 // Routines run between tasks, as in pocolibs' clock interrupt: they may give semaphores, signal events, start and
-// cancel watchdogs and timers, and must not wait (a bug). Those of one tick are called with the latest created first.
+// cancel watchdogs and timers, and must not wait (a misuse). Those of one tick are called with the latest created
+// first.
 #pragma once
 
 #include <functional>
@@ -24,7 +25,7 @@ using WDOG_ID = wdog*;
 WDOG_ID wdCreate();
 STATUS wdDelete(WDOG_ID wdId);
 /// Schedules `pRoutine(parameter)` at the `delay`th tick from now; a delay below 1 is EINVAL. Restarts a watchdog that
-/// is started. Without a clock it is a bug.
+/// is started. Without a clock it is a misuse.
 STATUS wdStart(WDOG_ID wdId, int delay, std::function<void(long)> pRoutine, long parameter);
 STATUS wdCancel(WDOG_ID wdId);
 

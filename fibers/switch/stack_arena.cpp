@@ -17,7 +17,7 @@ constexpr std::uint32_t shifts = 53;
 constexpr int madv_guard_install = 102;
 // A process may have 65 530 mappings by default, and every mprotect-ed page splits one into three.
 constexpr std::uint32_t protected_pages_max = 25000;
-constexpr std::uint32_t slots_max[stack_sizes] = {1u << 20, 1u << 17, 1u << 14, 1u << 15};
+constexpr std::uint32_t slots_max[stack_sizes] = {1u << 20, 1u << 18, 1u << 14, 1u << 15};
 
 // The free list's link, at the high end, in a page that is in use anyway.
 std::uint32_t& link(const Stack& stack) { return reinterpret_cast<std::uint32_t*>(stack.high)[-1]; }

@@ -98,13 +98,13 @@ class atomic {
   bool is_lock_free() const noexcept { return true; }
 
   T load(memory_order order = memory_order_seq_cst) const {
-    WAITPOINT_CHECK(sync::can_load(order), "an atomic load with a release order");
+    WAITPOINT_REQUIRE(sync::can_load(order), "an atomic load with a release order");
     before_looking(kernel::Operation::load);
     return get();
   }
   operator T() const { return load(); }
   void store(T value, memory_order order = memory_order_seq_cst) {
-    WAITPOINT_CHECK(sync::can_store(order), "an atomic store with an acquire order");
+    WAITPOINT_REQUIRE(sync::can_store(order), "an atomic store with an acquire order");
     before_changing(kernel::Operation::store);
     put(value);
   }
@@ -117,7 +117,7 @@ class atomic {
     return put(value);
   }
   bool compare_exchange_strong(T& expected, T desired, memory_order, memory_order failure) {
-    WAITPOINT_CHECK(sync::can_load(failure), "a compare-exchange with a release order for its failure");
+    WAITPOINT_REQUIRE(sync::can_load(failure), "a compare-exchange with a release order for its failure");
     return compare_exchange_strong(expected, desired);
   }
   bool compare_exchange_strong(T& expected, T desired, memory_order = memory_order_seq_cst) {
@@ -175,7 +175,7 @@ class atomic {
 
   /// Blocks until a notification finds the value different from `old`; returns at once if it differs already.
   void wait(T old, memory_order order = memory_order_seq_cst) const {
-    WAITPOINT_CHECK(sync::can_load(order), "an atomic load with a release order");
+    WAITPOINT_REQUIRE(sync::can_load(order), "an atomic load with a release order");
     (void)wait_before(old, Time::max());
   }
   /// As wait(); false if the value is still `old` at the deadline. The standard has no timed waits here.

@@ -14,7 +14,7 @@ void BarrierCore::refresh() {
 BarrierCore::Arrival BarrierCore::arrive(std::ptrdiff_t count, std::ptrdiff_t dropped) {
   refresh();
   if (!before_releasing(kernel::Operation::arrive, object_)) return {phase_, false};
-  WAITPOINT_CHECK(count > 0 && count <= missing_, about(object_, "more arrivals at a barrier than it expects"));
+  WAITPOINT_REQUIRE(count > 0 && count <= missing_, about(object_, "more arrivals at a barrier than it expects"));
   expected_ -= dropped;
   missing_ -= count;
   return {phase_, missing_ == 0};
@@ -34,8 +34,8 @@ bool BarrierCore::wait_before(std::uint64_t phase, Time deadline) {
   refresh();
   const auto operation = deadline <= running_task().local_time ? kernel::Operation::try_wait : kernel::Operation::wait;
   if (!before_blocking(operation, object_)) return true;
-  WAITPOINT_CHECK(phase == phase_ || phase + 1 == phase_,
-                  about(object_, "a task waits for an outdated phase of a barrier"));
+  WAITPOINT_REQUIRE(phase == phase_ || phase + 1 == phase_,
+                    about(object_, "a task waits for an outdated phase of a barrier"));
   if (phase != phase_) return true;
   if (deadline <= kernel::running->local_time) return false;
   return block(object_, deadline);

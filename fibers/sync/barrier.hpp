@@ -25,17 +25,17 @@ struct NoCompletion {
 class BarrierCore {
  public:
   constexpr BarrierCore(std::ptrdiff_t expected, const char* label) : object_("barrier", label), initial_(expected) {
-    WAITPOINT_CHECK(expected >= 0, "a barrier expects a negative count");
+    WAITPOINT_REQUIRE(expected >= 0, "a barrier expects a negative count");
   }
 
   struct Arrival {
     std::uint64_t phase;
     bool was_last;
   };
-  /// More arrivals than the phase expects are a bug. The last arrival must call end_phase().
+  /// More arrivals than the phase expects are a misuse. The last arrival must call end_phase().
   Arrival arrive(std::ptrdiff_t count, std::ptrdiff_t dropped);
   void end_phase();
-  /// False if `phase` does not end before the deadline. A phase earlier than the previous one is a bug.
+  /// False if `phase` does not end before the deadline. A phase earlier than the previous one is a misuse.
   bool wait_before(std::uint64_t phase, Time deadline);
 
  private:
@@ -72,7 +72,7 @@ class barrier {
     std::uint64_t phase_;
   };
 
-  /// A negative count is a bug. `label` is shown in reports; it must outlive the barrier.
+  /// A negative count is a misuse. `label` is shown in reports; it must outlive the barrier.
   constexpr explicit barrier(std::ptrdiff_t expected, Completion completion = Completion(), const char* label = "")
       : core_(expected, label), completion_(std::move(completion)) {}
   barrier(const barrier&) = delete;
@@ -80,7 +80,7 @@ class barrier {
 
   static constexpr std::ptrdiff_t max() noexcept { return PTRDIFF_MAX; }
 
-  /// A count below one, or above the number still expected in the phase, is a bug.
+  /// A count below one, or above the number still expected in the phase, is a misuse.
   [[nodiscard]] arrival_token arrive(std::ptrdiff_t count = 1) { return arrive(count, 0); }
   void wait(arrival_token&& arrival) const { (void)wait_before(arrival, Time::max()); }
   void arrive_and_wait() { wait(arrive()); }
@@ -108,7 +108,7 @@ class barrier {
     return arrival_token(this, arrival.phase);
   }
   bool wait_before(arrival_token& arrival, Time deadline) const {
-    WAITPOINT_CHECK(arrival.of_ == this, "a task waits at a barrier where it did not arrive");
+    WAITPOINT_REQUIRE(arrival.of_ == this, "a task waits at a barrier where it did not arrive");
     if (!core_.wait_before(arrival.phase_, deadline)) return false;
     arrival.of_ = nullptr;
     return true;

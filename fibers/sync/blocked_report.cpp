@@ -91,6 +91,19 @@ std::string describe_deadlock(kernel::Scheduler& scheduler, Places places) {
   return text + describe_each(waiting, places, describe_wait);
 }
 
+std::string describe_idle(kernel::Scheduler& scheduler, Time since, Places places) {
+  std::vector<Task*> idle;
+  for (Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
+    const bool waits = task->state == kernel::TaskState::blocked && !task->finite_wait && task->local_time <= since;
+    if (waits && (!task->service || task->work.what != nullptr)) idle.push_back(task);
+  }
+  return describe_each(idle, places, [](const Task& task) {
+    std::string text = describe_wait(task) + ", since " + to_string(task.local_time) + " s";
+    if (task.work.what != nullptr) text += std::string(", in ") + task.work.what + " of " + task.work.of;
+    return text;
+  });
+}
+
 std::string describe_spinning(kernel::Scheduler& scheduler, Places places) {
   const std::string text =
       "no progress: virtual time stands still at " + to_string(scheduler.global_time()) + " s while ";

@@ -21,4 +21,9 @@ std::string describe_spinning(kernel::Scheduler& scheduler, Places places);
 /// After a run that reached the end of virtual time: the tasks that sleep without end.
 std::string describe_endless(kernel::Scheduler& scheduler, Places places);
 
+/// Between windows: the tasks that have waited without a timeout since `since` or longer, a line each, all beginning
+/// with a line break; empty if there are none. Services count only within a codel (kernel::Work): they wait for
+/// requests by their nature.
+std::string describe_idle(kernel::Scheduler& scheduler, Time since, Places places);
+
 }  // namespace waitpoint::sync

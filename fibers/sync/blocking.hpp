@@ -19,7 +19,7 @@ namespace waitpoint::sync {
 struct Unwind {};
 
 inline kernel::Task& running_task() {
-  WAITPOINT_CHECK(kernel::running != nullptr, "a simulated primitive is used outside a simulated task");
+  WAITPOINT_REQUIRE(kernel::running != nullptr, "a simulated primitive is used outside a simulated task");
   return *kernel::running;
 }
 

@@ -8,7 +8,7 @@
 //   negative duration, time point in the past        as in the standard: try once, do not wait
 //   duration or time point beyond the range of Time  no timeout: hours::max() is not an error
 //   fraction of a nanosecond                         rounded up: no call returns early
-//   not a number                                     a bug
+//   not a number                                     a misuse
 #pragma once
 
 #include <chrono>
@@ -73,13 +73,13 @@ namespace sync {
 /// A deadline in the past at any time.
 inline constexpr Time long_past = Time::from_ns(std::numeric_limits<std::int64_t>::min());
 
-/// `span` in nanoseconds, rounded up, saturated to the range. NaN is a bug.
+/// `span` in nanoseconds, rounded up, saturated to the range. NaN is a misuse.
 template <class Rep, class Ratio>
 constexpr std::int64_t ns_within_range(const std::chrono::duration<Rep, Ratio>& span) {
   using Limits = std::numeric_limits<std::int64_t>;
   if constexpr (std::chrono::treat_as_floating_point_v<Rep>) {
     const double ns = std::chrono::duration<double, std::nano>(span).count();
-    WAITPOINT_CHECK(ns == ns, "a duration or a time is not a number");
+    WAITPOINT_REQUIRE(ns == ns, "a duration or a time is not a number");
     if (ns >= 0x1p63) return Limits::max();
     if (ns <= -0x1p63) return Limits::min();
     const std::int64_t whole = static_cast<std::int64_t>(ns);
@@ -134,7 +134,7 @@ Time until(const std::chrono::time_point<Clock, Span>& deadline) {
 
 /// Declares the cost of the caller's computation, between `least` and `greatest`: its local virtual time advances by
 /// it, which delays its next operations. This is not a waitpoint, except on a shared processor, for which the caller
-/// waits. The chooser picks the cost: the greatest in the default order. Negative or swapped costs are a bug.
+/// waits. The chooser picks the cost: the greatest in the default order. Negative or swapped costs are a misuse.
 inline void compute(Duration least, Duration greatest) { kernel::compute(sync::running_task(), least, greatest); }
 inline void compute(Duration cost) { kernel::compute(sync::running_task(), cost); }
 

@@ -11,10 +11,10 @@ void condition_variable::notify_all() {
 
 condition_variable::Start condition_variable::start_waiting(std::unique_lock<mutex>& lock) {
   if (!sync::before_blocking(kernel::Operation::wait, object_)) return Start::over;
-  WAITPOINT_CHECK(lock.owns_lock() && lock.mutex()->core_.is_owned_by_caller(),
-                  sync::about(object_, "a task waits on a condition variable without holding the lock"));
-  WAITPOINT_CHECK(object_.first_waiter == nullptr || mutex_ == lock.mutex(),
-                  sync::about(object_, "tasks wait on a condition variable with different mutexes"));
+  WAITPOINT_REQUIRE(lock.owns_lock() && lock.mutex()->core_.is_owned_by_caller(),
+                    sync::about(object_, "a task waits on a condition variable without holding the lock"));
+  WAITPOINT_REQUIRE(object_.first_waiter == nullptr || mutex_ == lock.mutex(),
+                    sync::about(object_, "tasks wait on a condition variable with different mutexes"));
   mutex_ = lock.mutex();
   // An unlock without a waitpoint of its own.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&lock.mutex()->core_.object());

@@ -2,7 +2,7 @@
 // Condition variable, in the names and semantics of std::condition_variable, over waitpoint::mutex.
 //
 // Releasing the mutex and starting to wait are one atomic step. Spurious wake-ups occur only where exploration chooses
-// one. It is a bug to wait without the mutex, to wait with a mutex other than the present waiters', or to destroy it
+// one. It is a misuse to wait without the mutex, to wait with a mutex other than the present waiters', or to destroy it
 // while tasks wait; as in the standard, it may be destroyed as soon as all waiters are notified.
 #pragma once
 

@@ -3,10 +3,13 @@
 
 #include <charconv>
 
+#include "core/printable_line.hpp"
+
 namespace waitpoint {
 namespace {
 
 constexpr std::string_view first_line = "waitpoint durations 1";
+constexpr std::string_view cut_off_word = "# cut off: ";
 
 /// Splits a text into lines, or a line into words, from left to right.
 std::string_view take_until(std::string_view& rest, char separator) {
@@ -60,7 +63,8 @@ std::string to_text(const DurationRecord& record) {
     }
     text += std::to_string(entry.task + 1) + " " + std::to_string(entry.ns) + "\n";
   }
-  return text + "end " + std::to_string(record.entries.size()) + "\n";
+  text += "end " + std::to_string(record.entries.size()) + "\n";
+  return record.cut_off.empty() ? text : text + std::string(cut_off_word) + printable_line(record.cut_off) + "\n";
 }
 
 DurationRecord parse_duration_record(const std::string& file, std::string_view text) {
@@ -76,19 +80,20 @@ DurationRecord parse_duration_record(const std::string& file, std::string_view t
   std::string_view run = next_line();
   if (take_until(run, ' ') != "run" || run.empty()) throw bad("expected 'run' and the run of the record");
   record.run = run;
-  for (;;) {
-    std::string_view line = next_line();
-    if (!line.starts_with("end")) {
-      if (!read_line(line, record)) throw bad("expected a task and its duration, found '" + std::string(line) + "'");
-      continue;
-    }
-    std::size_t count = 0;
-    take_until(line, ' ');
-    if (!read(line, count) || count != record.entries.size())
-      throw bad("the record says that it has " + std::string(line) + " durations, but " +
-                std::to_string(record.entries.size()) + " are there");
-    return record;
-  }
+  std::string_view line = next_line();
+  for (; !line.starts_with("end"); line = next_line())
+    if (!read_line(line, record)) throw bad("expected a task and its duration, found '" + std::string(line) + "'");
+  std::size_t count = 0;
+  take_until(line, ' ');
+  if (!read(line, count) || count != record.entries.size())
+    throw bad("the record says that it has " + std::string(line) + " durations, but " +
+              std::to_string(record.entries.size()) + " are there");
+  if (text.empty()) return record;
+  line = next_line();
+  if (!line.starts_with(cut_off_word) || line.size() == cut_off_word.size() || !text.empty())
+    throw bad("expected nothing after 'end' but '" + std::string(cut_off_word) + "' and a reason");
+  record.cut_off = printable_line(line.substr(cut_off_word.size()));
+  return record;
 }
 
 DurationRecorder::DurationRecorder(Simulation& simulation, std::string run) {
@@ -119,6 +124,7 @@ Duration DurationReplay::next(const kernel::Task& task) {
   std::string wrong;
   if (next_ == record_.entries.size()) {
     wrong = "ends early: the run continues after its " + std::to_string(next_) + " durations";
+    if (!record_.cut_off.empty()) wrong += ", as its own was cut off: " + record_.cut_off;
   } else if (const auto& entry = record_.entries[next_]; record_.tasks[entry.task].id != task.id) {
     wrong = "belongs to another run: its duration " + std::to_string(next_ + 1) + " is of task '" +
             record_.tasks[entry.task].name + "', but the next is of '" + task.robot->name + "." + task.name + "'";

@@ -10,6 +10,7 @@
 //   1 15322                             of task 1: 15 322 ns
 //   1 900
 //   end 2                               the number of durations; a record without this line is truncated
+//   # cut off: ...                      the run died, for this reason: it is repeated up to there
 #pragma once
 
 #include <cstdint>
@@ -38,6 +39,7 @@ struct DurationRecord {
   std::string run;  ///< identifies the run of the record, in one line
   std::vector<TaskName> tasks;
   std::vector<Entry> entries;
+  std::string cut_off;  ///< empty: of a run that ended
 
   friend bool operator==(const DurationRecord&, const DurationRecord&) = default;
 };

@@ -10,8 +10,8 @@ void latch::refresh() {
 void latch::count_down(std::ptrdiff_t by) {
   refresh();
   if (!sync::before_releasing(kernel::Operation::count_down, object_)) return;
-  WAITPOINT_CHECK(by >= 0, sync::about(object_, "a latch is counted down by a negative number"));
-  WAITPOINT_CHECK(by <= count_, sync::about(object_, "a latch is counted down below zero"));
+  WAITPOINT_REQUIRE(by >= 0, sync::about(object_, "a latch is counted down by a negative number"));
+  WAITPOINT_REQUIRE(by <= count_, sync::about(object_, "a latch is counted down below zero"));
   count_ -= by;
   if (count_ == 0) kernel::running->scheduler->wake_all(object_);
 }

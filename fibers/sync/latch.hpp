@@ -14,17 +14,17 @@ namespace waitpoint {
 
 class latch {
  public:
-  /// A negative count is a bug. `label` is shown in reports; it must outlive the latch.
+  /// A negative count is a misuse. `label` is shown in reports; it must outlive the latch.
   constexpr explicit latch(std::ptrdiff_t expected, const char* label = "")
       : object_("latch", label), expected_(expected) {
-    WAITPOINT_CHECK(expected >= 0, "a latch expects a negative count");
+    WAITPOINT_REQUIRE(expected >= 0, "a latch expects a negative count");
   }
   latch(const latch&) = delete;
   latch& operator=(const latch&) = delete;
 
   static constexpr std::ptrdiff_t max() noexcept { return PTRDIFF_MAX; }
 
-  /// A negative argument, or a count that falls below zero, is a bug.
+  /// A negative argument, or a count that falls below zero, is a misuse.
   void count_down(std::ptrdiff_t by = 1);
   bool try_wait();
   void wait() { wait_before(Time::max()); }

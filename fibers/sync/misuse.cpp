@@ -2,7 +2,10 @@
 #include "fibers/sync/misuse.hpp"
 
 #include "core/error.hpp"
+#include "fibers/kernel/fault_reports.hpp"
+#include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/object_names.hpp"
+#include "fibers/sync/post_mortem.hpp"
 
 namespace waitpoint::sync {
 
@@ -17,8 +20,8 @@ void check_destroyed(const kernel::Object& object) {
   if (kernel::running == nullptr) return;
   const kernel::Scheduler& scheduler = *kernel::running->scheduler;
   if (scheduler.unwinding() || !scheduler.has_entered(object)) return;
-  WAITPOINT_CHECK(object.owner == nullptr && object.holder_count == 0, about(object, "destroyed while it is held"));
-  WAITPOINT_CHECK(object.users == 0, about(object, "destroyed while tasks wait for it"));
+  WAITPOINT_REQUIRE(object.owner == nullptr && object.holder_count == 0, about(object, "destroyed while it is held"));
+  WAITPOINT_REQUIRE(object.users == 0, about(object, "destroyed while tasks wait for it"));
 }
 
 void drain_woken_waiters(const kernel::Object& object) {
@@ -29,8 +32,16 @@ void drain_woken_waiters(const kernel::Object& object) {
 }
 
 void check_holds_nothing(const kernel::Task& task) {
-  WAITPOINT_CHECK(task.held == nullptr, about(*task.held, "a thread ends while it holds a lock"));
-  WAITPOINT_CHECK(task.held_shared == 0, "a thread ends while it holds a lock together with others");
+  WAITPOINT_REQUIRE(task.held == nullptr, about(*task.held, "a thread ends while it holds a lock"));
+  WAITPOINT_REQUIRE(task.held_shared == 0, "a thread ends while it holds a lock together with others");
 }
 
 }  // namespace waitpoint::sync
+
+extern "C" void waitpoint_describe_caller() {
+  using namespace waitpoint;
+  // A task's stack may be too small: the handler of the abort has one of its own. With a sanitizer there is no handler,
+  // and all stacks are large.
+  if (kernel::running == nullptr || kernel::sanitizer::present) return sync::write_call_stack("");
+  kernel::set_call_stack_writer(sync::write_call_stack);
+}

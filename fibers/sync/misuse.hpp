@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Misuse of a primitive is reported as a bug with the operation, the object and its holders.
+// Misuse of a primitive is reported with the operation, the object and its holders.
 //
-//   WAITPOINT_CHECK(owner == running, sync::about(object, "a task unlocks a mutex that it does not hold"));
+//   WAITPOINT_REQUIRE(owner == running, sync::about(object, "a task unlocks a mutex that it does not hold"));
 #pragma once
 
 #include "fibers/kernel/scheduler.hpp"
@@ -16,7 +16,7 @@ const char* about(const kernel::Object& object, const char* message);
 /// turn to leave.
 void drain_woken_waiters(const kernel::Object& object);
 
-/// Called at the end of a thread: holding a lock then is a bug.
+/// Called at the end of a thread: holding a lock then is a misuse.
 void check_holds_nothing(const kernel::Task& task);
 
 }  // namespace waitpoint::sync

@@ -2,9 +2,9 @@
 // Mutual exclusion, in the names and semantics of std::mutex and std::timed_mutex.
 //
 // An unlock with waiters hands the mutex to one of them: the first in the default order, else the chooser's choice.
-// Relocking a mutex that the caller holds is reported as a self-deadlock. Undefined behaviour in the standard is a bug
-// here: try_lock() by the holder, unlock() by another task, ending a thread that holds the mutex, destroying it while
-// it is held or waited for.
+// Relocking a mutex that the caller holds is reported as a self-deadlock. Undefined behaviour in the standard is a
+// misuse here: try_lock() by the holder, unlock() by another task, ending a thread that holds the mutex, destroying it
+// while it is held or waited for.
 #pragma once
 
 #include "fibers/sync/mutex_core.hpp"

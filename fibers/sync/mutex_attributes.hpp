@@ -9,7 +9,7 @@ namespace waitpoint {
 struct mutex_attributes {
   kernel::LockProtocol protocol = kernel::LockProtocol::inherit;
   int ceiling = 0;         ///< of `ceiling`: must be at least the priority of every thread that locks the mutex; a
-                           ///< lower one is a bug
+                           ///< lower one is a misuse
   const char* label = "";  ///< shown in reports; must outlive the mutex
 };
 

@@ -29,7 +29,7 @@ class MutexCore {
     return acquire_here(deadline);
 #endif
   }
-  /// Hands the lock over; it is a bug not to own it.
+  /// Hands the lock over; it is a misuse not to own it.
   [[gnu::always_inline]] void release() {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
     if (__builtin_expect(is_owned_by_caller(), 1)) return release_here();

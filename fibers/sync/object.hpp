@@ -6,7 +6,7 @@
 
 namespace waitpoint::sync {
 
-/// Destroying an object that a task of the current run holds or waits for is a bug. Objects left by an earlier or
+/// Destroying an object that a task of the current run holds or waits for is a misuse. Objects left by an earlier or
 /// finished run, and destruction outside any task, are not checked.
 void check_destroyed(const kernel::Object& object);
 

@@ -14,7 +14,7 @@ void priority_mutex::lock() {
 
 bool priority_mutex::lock_before(Time deadline) {
   if (!sync::before_blocking(deadline <= now() ? Operation::try_lock : Operation::lock, object_)) return true;
-  WAITPOINT_CHECK(object_.owner != running, sync::about(object_, "a task tries to lock a mutex that it holds"));
+  WAITPOINT_REQUIRE(object_.owner != running, sync::about(object_, "a task tries to lock a mutex that it holds"));
   return acquire(deadline);
 }
 
@@ -30,7 +30,7 @@ bool priority_mutex::acquire(Time deadline) {
 
 void priority_mutex::unlock() {
   if (!sync::before_releasing(Operation::unlock, object_)) return;
-  WAITPOINT_CHECK(object_.owner == running, sync::about(object_, "a task unlocks a mutex that it does not hold"));
+  WAITPOINT_REQUIRE(object_.owner == running, sync::about(object_, "a task unlocks a mutex that it does not hold"));
   kernel::let_go(*running, lock_);
   kernel::disown(object_);
   kernel::Task* const next = kernel::wake_most_urgent(*running->scheduler, object_);

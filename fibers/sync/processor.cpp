@@ -7,7 +7,7 @@ namespace waitpoint {
 
 processor::~processor() {
   if (kernel::running == nullptr || kernel::running->scheduler->unwinding()) return;
-  WAITPOINT_CHECK(!kernel::is_shared(core_), sync::about(core_.object, "destroyed while threads share it"));
+  WAITPOINT_REQUIRE(!kernel::is_shared(core_), sync::about(core_.object, "destroyed while threads share it"));
 }
 
 }  // namespace waitpoint

@@ -12,8 +12,8 @@ bool SemaphoreCore::pass(kernel::Operation operation) {
 
 void SemaphoreCore::release_slow(std::ptrdiff_t units) {
   if (!pass(kernel::Operation::release)) return;
-  WAITPOINT_CHECK(units >= 0, about(object_, "a semaphore is released by a negative number"));
-  WAITPOINT_CHECK(units <= most_ - count_, about(object_, "a semaphore is released beyond its greatest count"));
+  WAITPOINT_REQUIRE(units >= 0, about(object_, "a semaphore is released by a negative number"));
+  WAITPOINT_REQUIRE(units <= most_ - count_, about(object_, "a semaphore is released beyond its greatest count"));
   for (; units > 0 && object_.first_waiter != nullptr; --units) kernel::running->scheduler->wake_one(object_);
   count_ += units;
 }

@@ -24,7 +24,7 @@ class SemaphoreCore {
  public:
   constexpr SemaphoreCore(std::ptrdiff_t initial, std::ptrdiff_t most, const char* label)
       : object_("semaphore", label), initial_(initial), most_(most) {
-    WAITPOINT_CHECK(initial >= 0 && initial <= most, "a semaphore begins with a count out of its range");
+    WAITPOINT_REQUIRE(initial >= 0 && initial <= most, "a semaphore begins with a count out of its range");
   }
 
   [[gnu::always_inline]] void release(std::ptrdiff_t units) {
@@ -85,7 +85,7 @@ class counting_semaphore {
 
   static constexpr std::ptrdiff_t max() noexcept { return LeastMax; }
 
-  /// Adds units; a sum above max() is a bug.
+  /// Adds units; a sum above max() is a misuse.
   [[gnu::always_inline]] void release(std::ptrdiff_t units = 1) { core_.release(units); }
   [[gnu::always_inline]] void acquire() { core_.acquire_before(Time::max()); }
   bool try_acquire() { return core_.try_acquire(); }

@@ -30,8 +30,8 @@ void shared_mutex::lock() {
 bool shared_mutex::lock_before(Time deadline) {
   refresh();
   if (!sync::before_blocking(deadline <= now() ? Operation::try_lock : Operation::lock, object_)) return true;
-  WAITPOINT_CHECK(object_.owner != running && !is_reader(*running),
-                  sync::about(object_, "a task tries to lock a shared mutex that it holds"));
+  WAITPOINT_REQUIRE(object_.owner != running && !is_reader(*running),
+                    sync::about(object_, "a task tries to lock a shared mutex that it holds"));
   return acquire(deadline);
 }
 
@@ -52,8 +52,8 @@ bool shared_mutex::acquire(Time deadline) {
 
 void shared_mutex::unlock() {
   if (!sync::before_releasing(Operation::unlock, object_)) return;
-  WAITPOINT_CHECK(object_.owner == running,
-                  sync::about(object_, "a task unlocks a shared mutex that it does not hold as a writer"));
+  WAITPOINT_REQUIRE(object_.owner == running,
+                    sync::about(object_, "a task unlocks a shared mutex that it does not hold as a writer"));
   kernel::disown(object_);
   hand_over(true);
 }
@@ -63,7 +63,7 @@ void shared_mutex::unlock() {
 void shared_mutex::lock_shared() {
   refresh();
   if (!sync::before_blocking(Operation::lock_shared, object_)) return;
-  WAITPOINT_CHECK(!is_reader(*running), sync::about(object_, "a reader locks a shared mutex again"));
+  WAITPOINT_REQUIRE(!is_reader(*running), sync::about(object_, "a reader locks a shared mutex again"));
   acquire_shared(Time::max());
 }
 
@@ -71,8 +71,8 @@ bool shared_mutex::lock_shared_before(Time deadline) {
   refresh();
   if (!sync::before_blocking(deadline <= now() ? Operation::try_lock_shared : Operation::lock_shared, object_))
     return true;
-  WAITPOINT_CHECK(object_.owner != running && !is_reader(*running),
-                  sync::about(object_, "a task tries to lock a shared mutex that it holds"));
+  WAITPOINT_REQUIRE(object_.owner != running && !is_reader(*running),
+                    sync::about(object_, "a task tries to lock a shared mutex that it holds"));
   return acquire_shared(deadline);
 }
 
@@ -92,8 +92,8 @@ bool shared_mutex::acquire_shared(Time deadline) {
 void shared_mutex::unlock_shared() {
   refresh();
   if (!sync::before_releasing(Operation::unlock_shared, object_)) return;
-  WAITPOINT_CHECK(is_reader(*running),
-                  sync::about(object_, "a task unlocks a shared mutex that it does not hold as a reader"));
+  WAITPOINT_REQUIRE(is_reader(*running),
+                    sync::about(object_, "a task unlocks a shared mutex that it does not hold as a reader"));
   remove_reader(*running);
   if (readers_.empty()) hand_over(false);
 }

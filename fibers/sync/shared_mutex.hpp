@@ -11,7 +11,7 @@
 // In other orders the chooser picks the next holder at an unlock: one of the writers, or all readers together.
 //
 // Relocking is reported as a self-deadlock: lock() by a reader or by the writer, lock_shared() by the writer. Other
-// undefined behaviour of the standard is a bug here: the same by try_lock(), a second lock_shared() by a reader,
+// undefined behaviour of the standard is a misuse here: the same by try_lock(), a second lock_shared() by a reader,
 // unlocking without holding it, ending a thread that holds it, destroying it while it is held or waited for.
 #pragma once
 

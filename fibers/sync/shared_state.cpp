@@ -56,7 +56,7 @@ void SharedState::store(Ready when) {
   stored_ = true;
   if (when == Ready::now) return publish();
   ThreadState* thread = thread_of(running_task());
-  WAITPOINT_CHECK(thread != nullptr, "a result is to be made ready at the exit of a task that is not a thread");
+  WAITPOINT_REQUIRE(thread != nullptr, "a result is to be made ready at the exit of a task that is not a thread");
   thread->at_end.push_back([self = shared_from_this()] {
     if (before_releasing(kernel::Operation::make_ready, self->object_)) self->publish();
   });

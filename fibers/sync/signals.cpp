@@ -37,7 +37,7 @@ TaskSignals& signals_of(ThreadState& state) {
 
 ThreadState& running_thread() {
   ThreadState* state = thread_of(running_task());
-  WAITPOINT_CHECK(state != nullptr, "a task that is not a thread has no signals");
+  WAITPOINT_REQUIRE(state != nullptr, "a task that is not a thread has no signals");
   return *state;
 }
 
@@ -59,7 +59,7 @@ void handle(kernel::Task& task, TaskSignals& signals, int signal) {
   // A copy: the handler may replace itself.
   signal_handler handler = slot(signals.handlers, signal);
   if (!handler) handler = slot(state_of<RobotSignals>(*task.robot).handlers, signal);
-  WAITPOINT_CHECK(handler, "a signal is delivered to a task that has no handler for it");
+  WAITPOINT_REQUIRE(handler, "a signal is delivered to a task that has no handler for it");
   static constexpr std::uint64_t delivered = 0x7369676E616C;  // "signal"
   task.scheduler->record_output(delivered, static_cast<std::uint64_t>(signal));
   handler(signal);
@@ -93,14 +93,14 @@ void deliver_signals(kernel::Task& task) {
 }  // namespace sync
 
 signal_sent send_signal(const thread& to, int signal) {
-  WAITPOINT_CHECK(to.state_ != nullptr, "a signal is sent through an empty thread handle");
-  WAITPOINT_CHECK(signal >= 1 && signal <= signals_max, "no signal has this number");
+  WAITPOINT_REQUIRE(to.state_ != nullptr, "a signal is sent through an empty thread handle");
+  WAITPOINT_REQUIRE(signal >= 1 && signal <= signals_max, "no signal has this number");
   if (!sync::before_releasing(kernel::Operation::signal, to.state_->ended)) return signal_sent::task_ended;
   return sync::post(*to.state_, signal);
 }
 
 signal_sent send_signal(thread::id to, int signal) {
-  WAITPOINT_CHECK(signal >= 1 && signal <= signals_max, "no signal has this number");
+  WAITPOINT_REQUIRE(signal >= 1 && signal <= signals_max, "no signal has this number");
   kernel::Scheduler& scheduler = *sync::running_task().scheduler;
   if (!scheduler.waitpoint(kernel::Operation::signal, nullptr)) return signal_sent::task_ended;
   for (kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next)
@@ -112,19 +112,19 @@ signal_sent send_signal(thread::id to, int signal) {
 }
 
 void handle_robot_signal(int signal, signal_handler handler) {
-  WAITPOINT_CHECK(signal >= 1 && signal <= signals_max, "no signal has this number");
+  WAITPOINT_REQUIRE(signal >= 1 && signal <= signals_max, "no signal has this number");
   sync::slot(sync::state_of<sync::RobotSignals>(*sync::running_task().robot).handlers, signal) = std::move(handler);
 }
 
 namespace this_thread {
 
 void handle_signal(int signal, signal_handler handler) {
-  WAITPOINT_CHECK(signal >= 1 && signal <= signals_max, "no signal has this number");
+  WAITPOINT_REQUIRE(signal >= 1 && signal <= signals_max, "no signal has this number");
   sync::slot(sync::signals_of(sync::running_thread()).handlers, signal) = std::move(handler);
 }
 
 void raise_signal(int signal) {
-  WAITPOINT_CHECK(signal >= 1 && signal <= signals_max, "no signal has this number");
+  WAITPOINT_REQUIRE(signal >= 1 && signal <= signals_max, "no signal has this number");
   sync::ThreadState& self = sync::running_thread();
   sync::post(self, signal);
   sync::before_blocking(kernel::Operation::signal, self.ended);

@@ -6,7 +6,8 @@
 //     before the waitpoint's operation, with its own signal blocked.
 //   * Blocking calls are not interrupted: the handler runs after the wake-up or timeout, before the call returns.
 //   * Pending signals do not queue. Of several pending signals, the least number is delivered first.
-//   * A signal without a handler is a bug: there is no process to kill. To ignore a signal, give it an empty function.
+//   * A signal without a handler is a misuse: there is no process to kill. To ignore a signal, give it an empty
+//   function.
 //   * Signals still pending at the end of a task are discarded.
 //
 // An exception that escapes from a handler ends the run, like one that escapes from a task.
@@ -53,7 +54,7 @@ class signal_set {
     return set;
   }
   static constexpr std::uint64_t bit(int signal) {
-    WAITPOINT_CHECK(signal >= 1 && signal <= signals_max, "no signal has this number");
+    WAITPOINT_REQUIRE(signal >= 1 && signal <= signals_max, "no signal has this number");
     return std::uint64_t{1} << (signal - 1);
   }
   std::uint64_t bits_ = 0;

@@ -12,15 +12,16 @@
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/object_names.hpp"
 #include "fibers/sync/signals.hpp"
+#include "fibers/sync/system_calls.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint {
 namespace {
 
-// Checked before the scheduler's constructor, which could report a failure only as a bug.
+// Checked before the scheduler's constructor, which could report a failure only as a bug of ours.
 SimulationOptions checked(SimulationOptions options) {
-  WAITPOINT_CHECK(options.most_tasks >= 1 && options.most_tasks <= kernel::tasks_max,
-                  "a run may have from 1 to 2^20 tasks at once");
+  WAITPOINT_REQUIRE(options.most_tasks >= 1 && options.most_tasks <= kernel::tasks_max,
+                    "a run may have from 1 to 2^20 tasks at once");
   if (!kernel::Scheduler::has_address_space())
     throw std::system_error(std::make_error_code(std::errc::not_enough_memory),
                             "no address space for the run's tables (a limit such as ulimit -v)");
@@ -71,10 +72,10 @@ void Simulation::restart(std::uint64_t seed) {
 }
 
 kernel::Robot& Simulation::add_robot(const std::string& name) {
-  WAITPOINT_CHECK(name.size() < kernel::name_size, "a robot's name is too long");
+  WAITPOINT_REQUIRE(name.size() < kernel::name_size, "a robot's name is too long");
   kernel::Robot& robot = robots_.emplace_back();
   add(robot, name.c_str());
-  WAITPOINT_CHECK(names_.insert(robot.name).second, "two robots of one name");
+  WAITPOINT_REQUIRE(names_.insert(robot.name).second, "two robots of one name");
   return robot;
 }
 
@@ -89,6 +90,7 @@ void Simulation::spawn(kernel::Robot& robot, const kernel::SpawnOptions& options
 
 RunEnd Simulation::run_before(Time until) {
   const kernel::FaultReports reports(&scheduler_);
+  const sync::SystemCalls calls;
   const kernel::RunState state = scheduler_.run_before(until);
   if (failure_ != nullptr) std::rethrow_exception(failure_);
   const bool was_told = state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::requested;
@@ -154,7 +156,10 @@ void Simulation::fail(std::exception_ptr failure, const char* how) {
   if (failure_ == nullptr) {
     failure_ = std::move(failure);
     trouble_ = std::string(how) + " task " + sync::describe(*kernel::running) + " at " +
-               to_string(kernel::running->local_time) + " s: " + what(failure_);
+               to_string(kernel::running->local_time) + " s";
+    if (const kernel::Work& work = kernel::running->work; work.what != nullptr)
+      trouble_ += std::string(", in ") + work.what + " of " + work.of;
+    trouble_ += ": " + what(failure_);
   }
   scheduler_.stop(kernel::StopCause::requested);
 }

@@ -70,7 +70,7 @@ ThreadState* thread_of(const kernel::Task& task) {
 
 LocalValues& values_of_running_task() {
   ThreadState* thread = thread_of(running_task());
-  WAITPOINT_CHECK(thread != nullptr, "a task that is not a thread has no thread-local values");
+  WAITPOINT_REQUIRE(thread != nullptr, "a task that is not a thread has no thread-local values");
   return thread->locals;
 }
 
@@ -102,7 +102,7 @@ std::shared_ptr<sync::ThreadState> thread::start(const thread_attributes& attrib
 }
 
 thread& thread::operator=(thread&& other) noexcept {
-  WAITPOINT_CHECK(!joinable(), "a thread that is joinable is assigned to");
+  WAITPOINT_REQUIRE(!joinable(), "a thread that is joinable is assigned to");
   state_ = std::move(other.state_);
   return *this;
 }
@@ -111,7 +111,7 @@ thread::~thread() {
   if (!joinable()) return;
   // Outside any task, a thread that ended with its run is detached already.
   const bool let_go = kernel::running != nullptr ? kernel::running->scheduler->unwinding() : state_->task == nullptr;
-  WAITPOINT_CHECK(let_go, "a thread that is joinable is destroyed");
+  WAITPOINT_REQUIRE(let_go, "a thread that is joinable is destroyed");
 }
 
 namespace {
@@ -123,7 +123,7 @@ bool run_is_over() { return kernel::running != nullptr && kernel::running->sched
 
 void thread::join() {
   if (run_is_over()) return sync::unwind();
-  WAITPOINT_CHECK(joinable(), "a thread that is not joinable is joined");
+  WAITPOINT_REQUIRE(joinable(), "a thread that is not joinable is joined");
   if (sync::before_blocking(kernel::Operation::join, state_->ended) && state_->task != nullptr) {
     state_->ended.owner = state_->task;
     sync::block(state_->ended);
@@ -136,7 +136,7 @@ bool thread::join_before(Time deadline) {
     sync::unwind();
     return false;
   }
-  WAITPOINT_CHECK(joinable(), "a thread that is not joinable is joined");
+  WAITPOINT_REQUIRE(joinable(), "a thread that is not joinable is joined");
   if (!sync::before_blocking(kernel::Operation::join, state_->ended)) return false;
   if (state_->task != nullptr) {
     if (deadline <= now()) return false;
@@ -158,7 +158,7 @@ void thread::await_end() noexcept {
 }
 
 void thread::detach() {
-  WAITPOINT_CHECK(run_is_over() || joinable(), "a thread that is not joinable is detached");
+  WAITPOINT_REQUIRE(run_is_over() || joinable(), "a thread that is not joinable is detached");
   state_ = nullptr;
 }
 

@@ -3,7 +3,7 @@
 //
 // A thread belongs to the robot of the task that makes it. An exception that escapes its function ends the run and is
 // rethrown by the call that runs it. Joining oneself is reported as a self-deadlock; joining or detaching a thread that
-// is not joinable is a bug.
+// is not joinable is a misuse.
 #pragma once
 
 #include <functional>
@@ -70,7 +70,7 @@ std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::
 
 /// The state of the thread of `task`; null once its function has returned, and for tasks that are not threads.
 ThreadState* thread_of(const kernel::Task& task);
-/// The values of the running task; calling it outside a thread is a bug.
+/// The values of the running task; calling it outside a thread is a misuse.
 LocalValues& values_of_running_task();
 
 }  // namespace sync

@@ -3,7 +3,7 @@
 
 namespace waitpoint {
 
-timer::~timer() { WAITPOINT_CHECK(!firing_, "a timer is destroyed by its own callback"); }
+timer::~timer() { WAITPOINT_REQUIRE(!firing_, "a timer is destroyed by its own callback"); }
 
 void timer::start_at(Time time) {
   if (!sync::before_releasing(kernel::Operation::timer_start, object_)) return;

@@ -21,9 +21,9 @@ class timer {
  public:
   explicit timer(std::function<void()> callback, const char* label = "")
       : object_("timer", label), callback_(std::move(callback)), event_(&timer::fire, this) {
-    WAITPOINT_CHECK(callback_ != nullptr, "a timer without a callback");
+    WAITPOINT_REQUIRE(callback_ != nullptr, "a timer without a callback");
   }
-  /// Stops it. Destruction by its own callback is a bug.
+  /// Stops it. Destruction by its own callback is a misuse.
   ~timer();
   timer(const timer&) = delete;
   timer& operator=(const timer&) = delete;

@@ -80,7 +80,7 @@ void TimerEvent::fire(kernel::EventNode& node) {
   try {
     self.function_(self.of_);
   } catch (...) {
-    WAITPOINT_CHECK(false, "an exception escapes from a timer's callback");
+    WAITPOINT_REQUIRE(false, "an exception escapes from a timer's callback");
   }
   // Later stops or starts of the timer happen after the callback.
   kernel::sanitizer::release(timer);

@@ -3,7 +3,7 @@
 // Timers and watchdogs are built on it.
 //
 // The function runs as its robot's timer task, a pseudo-task with a robot and a time but no stack, so it cannot block;
-// a blocking call is a bug. Releasing and waking calls are allowed, and are not waitpoints then.
+// a blocking call is a misuse. Releasing and waking calls are allowed, and are not waitpoints then.
 //
 // Timers do not keep a run alive. While the event list holds only timers, only a timer can wake a task; after
 // `idle_firings_max` consecutive firings without a wake-up the timers are dropped, and the run is reported as a

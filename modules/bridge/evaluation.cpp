@@ -15,12 +15,16 @@ void Evaluation::connect(const genom::NameSpace& names) {
   odometry_ = dynamic_cast<const genom::Poster<posters::Odometry>*>(names.find_poster("rflex.odometry"));
 }
 
-void Evaluation::sample(std::vector<DatedPose>& path, Time date, const Pose& pose) {
-  if (path.empty() || date - path.back().date >= sampling) path.push_back({date, pose});
+void Evaluation::sample(PathKind kind, Time date, const Pose& pose) {
+  if (path_sinks_.empty()) return;
+  std::optional<Time>& last = sampled_[kind];
+  if (last && date - *last < sampling) return;
+  last = date;
+  for (PathSink* sink : path_sinks_) sink->add(kind, {date, pose});
 }
 
 void Evaluation::observe(Time now, const world::BodyState& truth) {
-  sample(true_path_, now, truth.pose);
+  sample(PathKind::truth, now, truth.pose);
   if (fused_ == nullptr && odometry_ == nullptr) return;  // nothing to compare
   truth_.add(now, truth.pose);
   const auto error_m = [this](const posters::PositionEstimate& estimate) {
@@ -33,7 +37,7 @@ void Evaluation::observe(Time now, const world::BodyState& truth) {
     ++fused_count_;
     fused_error_sum_m_ += error;
     fused_error_max_m_ = std::max(fused_error_max_m_, error);
-    sample(fused_path_, fused_date_, fused->position.pose);
+    sample(PathKind::estimate, fused_date_, fused->position.pose);
   }
   // Without a localised position there is no common frame for the odometry.
   if (const auto odometry = odometry_ != nullptr ? odometry_->look() : std::nullopt;
@@ -41,7 +45,7 @@ void Evaluation::observe(Time now, const world::BodyState& truth) {
     odometry_date_ = odometry->position.date;
     odometry_error_m_ = error_m(odometry->position);
     odometry_error_max_m_ = std::max(odometry_error_max_m_, odometry_error_m_);
-    sample(odometry_path_, odometry_date_, odometry->position.pose);
+    sample(PathKind::odometry, odometry_date_, odometry->position.pose);
   }
 }
 
@@ -50,9 +54,8 @@ void Evaluation::write(RobotResult& result) const {
   result.position_error_max_m = fused_error_max_m_;
   result.odometry_error_max_m = odometry_error_max_m_;
   result.odometry_error_end_m = odometry_error_m_;
-  result.true_path = true_path_;
-  result.estimated_path = fused_path_;
-  result.odometry_path = odometry_path_;
+  result.present.position = fused_count_ > 0;
+  result.present.odometry = odometry_date_ != Time();
 }
 
 }  // namespace waitpoint::bridge

@@ -2,10 +2,11 @@
 // Localisation errors of a robot: its posters compared with the true state, observed from outside the run.
 //
 // Observation makes no event: the run is the same with and without it. Each position is compared with the true one at
-// its own date.
+// its own date. Paths are given to whom asked for them; nothing is kept here.
 #pragma once
 
 #include "fibers/kernel/fetch.hpp"
+#include "modules/bridge/path.hpp"
 #include "modules/bridge/run_result.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/posters/odometry_trail.hpp"
@@ -22,20 +23,22 @@ class alignas(64) Evaluation {
   /// Call after each step of the world; `now` is the time of the step.
   void observe(Time now, const world::BodyState& truth);
 
-  /// Prefetch the memory that observe() touches: first the object, then the end of the path.
-  void fetch_itself() const { kernel::fetch(this); }
-  void fetch_path() const { kernel::fetch(true_path_.data() + true_path_.size()); }
+  /// Before the first observe(): `sink`, which must outlive the last one, receives the paths.
+  void add_path_sink(PathSink& sink) { path_sinks_.push_back(&sink); }
+
+  /// Prefetches the memory that observe() touches.
+  void fetch() const { kernel::fetch(this); }
 
   /// Maximum error of the fused position so far.
   double position_error_max_m() const { return fused_error_max_m_; }
-  /// Writes errors and paths to the result.
+  /// Writes the errors to the result.
   void write(RobotResult& result) const;
 
  private:
-  void sample(std::vector<DatedPose>& path, Time date, const Pose& pose);
+  void sample(PathKind kind, Time date, const Pose& pose);
 
   // First the members that a step touches even without a position.
-  std::vector<DatedPose> true_path_;
+  std::vector<PathSink*> path_sinks_;
   const genom::Poster<posters::FusedPosition>* fused_ = nullptr;
   const genom::Poster<posters::Odometry>* odometry_ = nullptr;
   posters::OdometryTrail truth_;
@@ -43,7 +46,7 @@ class alignas(64) Evaluation {
   std::uint64_t fused_count_ = 0;
   double fused_error_sum_m_ = 0, fused_error_max_m_ = 0;
   double odometry_error_max_m_ = 0, odometry_error_m_ = 0;
-  std::vector<DatedPose> fused_path_, odometry_path_;
+  PerPath<std::optional<Time>> sampled_;  // dates of the last samples
 };
 
 }  // namespace waitpoint::bridge

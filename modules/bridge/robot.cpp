@@ -82,6 +82,8 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
       throw module.written.bad(error.what());
     } catch (const std::exception& error) {
       throw std::runtime_error(doing + " threw an exception: " + error.what());
+    } catch (...) {
+      throw std::runtime_error(doing + " threw an exception of unknown type");
     }
     modules_.push_back(std::move(made));
     module_scenarios_.push_back(&module);
@@ -93,6 +95,11 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   parameters.planning.robot_radius_m = radius_m(scenario_.body.shape);
   genom::Settings settings(scenario_.executive);
   settings.read(parameters);
+  settings.check_not_negative(parameters);
+  constexpr double leg_least_m = 0.05;
+  settings.check_least("planning.leg_m_max", parameters.planning.leg_m_max, leg_least_m);
+  constexpr double escape_most_m = 100;  // it is searched cell by cell
+  settings.check_most("planning.escape_m_max", parameters.planning.escape_m_max, escape_most_m);
   computing_ = genom::read_computing(settings, "", names_, {});
   settings.check_all_used();
   std::vector<Point> goals;
@@ -132,11 +139,23 @@ void Robot::set_watch(genom::ModuleWatch* watch) {
   for (const auto& module : modules_) module->set_watch(watch);
 }
 
-std::size_t Robot::goals_reached() const {
-  if (!executive_) return 0;
-  const auto& goals = executive_->goals();
-  return static_cast<std::size_t>(
-      std::count_if(goals.begin(), goals.end(), [](auto& g) { return g.state == executive::GoalState::reached; }));
+void Robot::keep_paths() {
+  WAITPOINT_CHECK(!kept_paths_, "a robot's paths are kept twice");
+  add_path_sink(kept_paths_.emplace());
+}
+
+std::uint64_t Robot::goals() const {
+  std::uint64_t count = 0;
+  if (executive_)
+    for (const executive::GoalRecord& goal : executive_->goals()) count += goal.visits;
+  return count;
+}
+
+std::uint64_t Robot::goals_reached() const {
+  std::uint64_t count = 0;
+  if (executive_)
+    for (const executive::GoalRecord& goal : executive_->goals()) count += goal.times_reached;
+  return count;
 }
 
 std::optional<Duration> Robot::least_period() const {
@@ -153,18 +172,25 @@ RobotResult Robot::result() const {
   result.shape = scenario_.body.shape;
   for (std::size_t i = 0; i < scenario_.goals.size(); ++i) {
     const executive::GoalRecord& record = executive_->goals()[i];
-    result.goals.push_back({scenario_.goals[i].position, scenario_.goals[i].name,
-                            record.state == executive::GoalState::reached, record.date, report_text(record)});
+    result.goals.push_back({scenario_.goals[i].position, scenario_.goals[i].name, record.visits, record.times_reached,
+                            record.date, report_text(record)});
   }
   const world::BodyState& body = world_.body(body_);
   result.collisions = body.collisions;
   result.distance_m = body.travelled_m;
+  result.present.motion = std::any_of(scenario_.bridge.begin(), scenario_.bridge.end(),
+                                      [](const auto& row) { return row.device.starts_with("base."); });
   if (scenario_.body.battery) {
     const world::BatteryState battery = world_.battery(body_);
     result.battery = {.charge = battery.charge, .volts = battery.volts};
     if (battery.empty_at) result.battery->empty_at = Time() + *battery.empty_at;
   }
   evaluation_.write(result);
+  if (kept_paths_) {
+    result.true_path = kept_paths_->samples(PathKind::truth);
+    result.estimated_path = kept_paths_->samples(PathKind::estimate);
+    result.odometry_path = kept_paths_->samples(PathKind::odometry);
+  }
   for (const auto& module : modules_)
     for (const genom::ExecutionTask& task : module->tasks())
       if (task.missed_deadlines() > 0)

@@ -12,6 +12,7 @@
 
 #include "core/occupancy_grid.hpp"
 #include "modules/bridge/evaluation.hpp"
+#include "modules/bridge/kept_paths.hpp"
 #include "modules/bridge/robot_bridge.hpp"
 #include "modules/bridge/run_result.hpp"
 #include "modules/genom/module_type.hpp"
@@ -42,9 +43,9 @@ class Robot {
         io::Network* network, std::uint64_t seed);
   ~Robot();
 
-  /// The body of the robot's main task: starts the modules, then drives the round of goals, if any.
+  /// The body of the robot's main task: starts the modules, then drives the rounds of goals, if any.
   void run();
-  /// Called from another task: aborts the round and stops the robot.
+  /// Called from another task: aborts the rounds and stops the robot.
   void stop();
   /// After run(), from a task: ends the modules. A module that does not end is a bug.
   void end_modules();
@@ -56,17 +57,23 @@ class Robot {
   /// Compares the robot's estimates with the true state. Call after a step of the world.
   void observe(Time now) { evaluation_.observe(now, world_.body(body_)); }
 
-  /// Prefetch the memory that observe() touches, in two steps.
-  void fetch_evaluation() const { evaluation_.fetch_itself(); }
-  void fetch_path() const { evaluation_.fetch_path(); }
+  /// Prefetches the memory that observe() touches.
+  void fetch_evaluation() const { evaluation_.fetch(); }
+
+  /// Before the run: `sink`, which must outlive it, receives the robot's paths.
+  void add_path_sink(PathSink& sink) { evaluation_.add_path_sink(sink); }
+  /// Before the run: the paths will be in the result.
+  void keep_paths();
 
   double position_error_max_m() const { return evaluation_.position_error_max_m(); }
 
   const std::string& name() const { return scenario_.name; }
   genom::NameSpace& names() { return names_; }
   const genom::NameSpace& names() const { return names_; }
-  std::size_t goals() const { return scenario_.goals.size(); }
-  std::size_t goals_reached() const;
+  bool has_goals() const { return executive_ != nullptr; }
+  /// Visits to goals: those of all rounds, or in rounds without end those that have ended.
+  std::uint64_t goals() const;
+  std::uint64_t goals_reached() const;
   /// Clock and processor of the task of run(), from the scenario.
   const genom::TaskComputing& computing() const { return computing_; }
   /// The shortest period of all execution tasks; nothing if all are aperiodic.
@@ -89,6 +96,7 @@ class Robot {
   genom::TaskComputing computing_;
   std::unique_ptr<executive::Executive> executive_;  // null without goals
   Evaluation evaluation_;
+  std::optional<KeptPaths> kept_paths_;
 };
 
 /// The index of the robot named `name`; BadInput at `written` if there is none.

@@ -14,6 +14,7 @@
 #include "core/digest.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
+#include "modules/bridge/path.hpp"
 #include "world/description.hpp"
 
 namespace waitpoint::bridge {
@@ -35,18 +36,16 @@ constexpr std::string_view to_string(Outcome outcome) {
   return names[static_cast<std::size_t>(outcome)];
 }
 
-struct DatedPose {
-  Time date;
-  Pose pose;
-};
-
-/// The result for one goal.
+/// The result for one goal, over all rounds.
 struct GoalResult {
   Point position;
-  std::string name;  ///< may be empty
-  bool reached = false;
+  std::string name;          ///< may be empty
+  std::uint64_t visits = 1;  ///< one per round; in rounds without end, those that have ended
+  std::uint64_t times_reached = 0;
   Time date;           ///< of the report
-  std::string report;  ///< "reached", "no way", ...; empty while there is none
+  std::string report;  ///< of the last visit that missed it, or else the last: "reached", "no way", ...
+
+  bool reached() const { return times_reached > 0 && times_reached == visits; }
 };
 
 struct Line {
@@ -75,27 +74,41 @@ struct ProgramResult {
   std::optional<int> exit_status;  ///< none while it runs
 };
 
+/// The figures that mean something: others are 0.
+struct FiguresPresent {
+  bool motion = true;    ///< distance and collisions: of a robot with a base
+  bool position = true;  ///< errors of the fused position: it was compared with the true one
+  bool odometry = true;  ///< likewise
+};
+
 struct RobotResult {
   std::string name;
   Digest digest;
   world::Shape shape;  ///< of the body, in its own frame
 
   std::vector<GoalResult> goals;  ///< all of them, in the order of the round
+  FiguresPresent present;
   std::uint64_t collisions = 0;
-  double distance_m = 0;             ///< true distance driven
-  double position_error_mean_m = 0;  ///< of the fused position
-  double position_error_max_m = 0;   ///< of the fused position
-  double odometry_error_max_m = 0;   ///< of the odometry alone
-  double odometry_error_end_m = 0;   ///< of the odometry alone, at the end
-  std::vector<DatedPose> true_path, estimated_path, odometry_path;
-  std::vector<LateTask> late_tasks;      ///< in the order of the modules
-  std::optional<BatteryResult> battery;  ///< if the robot has one that is simulated
-  std::vector<ProgramResult> programs;   ///< in the order of the scenario
-  std::vector<Line> segments;            ///< the map built by localisation
+  double distance_m = 0;                                            ///< true distance driven
+  double position_error_mean_m = 0;                                 ///< of the fused position
+  double position_error_max_m = 0;                                  ///< of the fused position
+  double odometry_error_max_m = 0;                                  ///< of the odometry alone
+  double odometry_error_end_m = 0;                                  ///< of the odometry alone, at the end
+  std::vector<DatedPose> true_path, estimated_path, odometry_path;  ///< if they were kept
+  std::vector<LateTask> late_tasks;                                 ///< in the order of the modules
+  std::optional<BatteryResult> battery;                             ///< if the robot has one that is simulated
+  std::vector<ProgramResult> programs;                              ///< in the order of the scenario
+  std::vector<Line> segments;                                       ///< the map built by localisation
 
-  std::size_t goals_reached() const {
-    std::size_t count = 0;
-    for (const GoalResult& goal : goals) count += goal.reached ? 1 : 0;
+  /// Visits to goals, and those that reached one.
+  std::uint64_t goal_visits() const {
+    std::uint64_t count = 0;
+    for (const GoalResult& goal : goals) count += goal.visits;
+    return count;
+  }
+  std::uint64_t goals_reached() const {
+    std::uint64_t count = 0;
+    for (const GoalResult& goal : goals) count += goal.times_reached;
     return count;
   }
 };
@@ -113,19 +126,21 @@ struct RunResult {
   Outcome outcome = Outcome::finished;
   std::string trouble;                ///< the report of a deadlock or of no progress, several lines; otherwise empty
   std::vector<std::string> warnings;  ///< one line each
+  std::string idle;  ///< a line for each task that waits without a timeout, with its places; may be empty
   std::uint64_t events = 0;
   Duration simulated;
   double wall_s = 0, real_time_factor = 0;
   std::optional<Lag> lag;  ///< of a paced run
 };
 
-/// Figures over all robots: sums of counts and distances, maxima of maxima, means of means.
+/// Figures over all robots that have them: sums of counts and distances, maxima of maxima, means of means.
 struct RunTotals {
-  std::size_t goals = 0, goals_reached = 0;
+  std::uint64_t goals = 0, goals_reached = 0;  ///< of all visits
   std::uint64_t collisions = 0;
   double distance_m = 0;
   double position_error_mean_m = 0, position_error_max_m = 0;
   double odometry_error_max_m = 0, odometry_error_end_m = 0;
+  FiguresPresent present;
 };
 RunTotals totals(const RunResult& result);
 

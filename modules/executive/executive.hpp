@@ -43,7 +43,7 @@ class Executive {
 
   /// Connects its posters. A missing module, or a missing poster or one of another type, is BadInput.
   void connect();
-  /// The body of the task: starts the modules' activities, visits the goals, stops the robot.
+  /// The body of the task: starts the modules' activities, visits the goals, round by round, stops the robot.
   void run();
   /// From another task: run() stops the robot and returns soon, even with goals left.
   void stop() { stopping_ = true; }

@@ -23,7 +23,6 @@ FreeSpace::FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningPara
     cost_[square] = static_cast<std::uint8_t>(
         std::nearbyint(least_cell_cost + static_cast<double>(greatest_cell_cost - least_cell_cost) * lack * lack));
   }
-  clearance_ = known_->clearances().data();
 }
 
 std::uint16_t FreeSpace::square_of(double distance_m) const {
@@ -61,11 +60,8 @@ bool FreeSpace::clear_line(CellIndex a, CellIndex b, std::uint16_t least_square)
 void FreeSpace::mark(std::span<const Point> echoes) {
   for (const Point echo : echoes) {
     const std::optional<CellIndex> c = map().cell_at(echo);
-    if (!c || known_->clearances()[index(*c)] < explained_square_ || clearance_[index(*c)] == 0) continue;
-    if (marked_.empty()) {
-      marked_ = known_->clearances();
-      clearance_ = marked_.data();
-    }
+    if (!c || known_->clearances()[index(*c)] < explained_square_ || clearance_square(*c) == 0) continue;
+    if (!marked()) marks_ = {map().width(), map().height(), square_half_cells_max};
     push_away(*c);
   }
 }
@@ -80,15 +76,12 @@ void FreeSpace::push_away(CellIndex obstacle) {
   for (std::int32_t row = low.y; row <= high.y; ++row) {
     for (std::int32_t column = low.x; column <= high.x; ++column) {
       const std::int32_t dx = edge(column - obstacle.x), dy = edge(row - obstacle.y);
-      std::uint16_t& square = marked_[index({column, row})];
+      std::uint16_t& square = marks_(column, row);
       square = static_cast<std::uint16_t>(std::min<std::int32_t>(square, dx * dx + dy * dy));
     }
   }
 }
 
-void FreeSpace::forget() {
-  marked_.clear();
-  clearance_ = known_->clearances().data();
-}
+void FreeSpace::forget() { marks_ = {}; }
 
 }  // namespace waitpoint::executive

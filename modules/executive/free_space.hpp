@@ -11,6 +11,7 @@
 // the centre but are not inflated. Beyond `hard` the cost of a cell falls until the preferred clearance is reached.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@
 #include "core/occupancy_grid.hpp"
 #include "modules/executive/distance_transform.hpp"
 #include "modules/executive/known_space.hpp"
+#include "modules/executive/tiled_grid.hpp"
 
 namespace waitpoint::executive {
 
@@ -57,7 +59,11 @@ class FreeSpace {
 
   /// Squared distance from a cell's centre to the nearest obstacle, in half cells; 0 for occupied or unknown cells, and
   /// outside the map.
-  std::uint16_t clearance_square(CellIndex c) const { return map().contains(c) ? clearance_[index(c)] : 0; }
+  std::uint16_t clearance_square(CellIndex c) const {
+    if (!map().contains(c)) return 0;
+    const std::uint16_t known = known_->clearances()[index(c)];
+    return marked() ? std::min(known, marks_(c.x, c.y)) : known;
+  }
   /// The distance from a cell's centre to the nearest obstacle, capped at 127 cells.
   double clearance_m(CellIndex c) const;
   /// A distance in metres as a squared clearance in half cells, rounded up.
@@ -75,7 +81,7 @@ class FreeSpace {
   void mark(std::span<const Point> echoes);
   /// Deletes all marks.
   void forget();
-  bool marked() const { return !marked_.empty(); }
+  bool marked() const { return !marks_.empty(); }
 
  private:
   std::size_t index(CellIndex c) const {
@@ -86,9 +92,8 @@ class FreeSpace {
   std::shared_ptr<const KnownSpace> known_;
   PlanningParameters parameters_;
   std::uint16_t hard_square_ = 0, preferred_square_ = 0, explained_square_ = 0;
-  std::vector<std::uint16_t> marked_;         // clearances including marks; empty without marks
-  const std::uint16_t* clearance_ = nullptr;  // marked_ or the map's
-  std::vector<std::uint8_t> cost_;            // by squared clearance, up to preferred_square_
+  TiledGrid<std::uint16_t> marks_;  // squared clearances from marks; empty without marks
+  std::vector<std::uint8_t> cost_;  // by squared clearance, up to preferred_square_
 };
 
 }  // namespace waitpoint::executive

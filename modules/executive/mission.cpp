@@ -12,6 +12,7 @@ Mission::Mission(RoutePlanner& planner, const MissionParameters& parameters, con
   for (const Point goal : goals) {
     goals_.emplace_back();
     goals_.back().goal = goal;
+    goals_.back().visits = parameters.rounds;
   }
 }
 
@@ -46,13 +47,13 @@ const Order& Mission::blocked(Time now, Point robot, std::span<const Point> echo
 }
 
 const Order& Mission::make_for_goal(Time now, Point robot) {
-  for (; current_ < goals_.size(); leave_goal(now, GoalState::no_route)) {
+  for (std::size_t left = 0; current_ < goals_.size(); leave_goal(now, GoalState::no_route)) {
+    if (left++ == goals_.size()) return wait(now);  // rounds of goals without routes take time, too
     planner_.plan(robot, goals_[current_].goal, plan_);
     if (plan_.outcome != PlanOutcome::found && planner_.space().marked()) {
       planner_.space().forget();
       planner_.plan(robot, goals_[current_].goal, plan_);
     }
-    goals_[current_].outcome = plan_.outcome;
     if (plan_.outcome == PlanOutcome::found) return drive();
   }
   order_.kind = Order::Kind::finished;
@@ -77,9 +78,22 @@ const Order& Mission::wait(Time now) {
 }
 
 void Mission::leave_goal(Time now, GoalState state) {
-  goals_[current_].state = state;
-  goals_[current_].date = now;
-  ++current_;
+  GoalRecord& goal = goals_[current_];
+  if (parameters_.rounds == 0) ++goal.visits;
+  if (state == GoalState::reached) ++goal.times_reached;
+  const bool is_missed_before = goal.state == GoalState::no_route || goal.state == GoalState::given_up;
+  if (state != GoalState::reached || !is_missed_before) {
+    goal.state = state;
+    goal.outcome = plan_.outcome;
+    goal.date = now;
+  }
+  if (++current_ == goals_.size() && rounds_begun_ != parameters_.rounds) begin_next_round();
+}
+
+void Mission::begin_next_round() {
+  if (parameters_.rounds > 0) ++rounds_begun_;
+  current_ = 0;
+  for (GoalRecord& goal : goals_) goal.tries = 0;
 }
 
 }  // namespace waitpoint::executive

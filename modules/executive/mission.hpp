@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A round of goals as a state machine: the next order, from the reports of the motion.
+// Rounds of goals as a state machine: the next order, from the reports of the motion.
 //
 //            start            blocked: mark the echoes, plan again -> drive
 //              |              no detour: delete the marks --------> wait, then plan again
 //   [goal] -> plan -> drive --arrived--> next goal
 //              |                tries used up --> abandon the goal, next goal
-//              no route: note the reason, next goal
+//              no route: note the reason, next goal; no route to any goal -> wait, then next goal
+//
+// After the last goal of a round comes the first of the next. Memory does not grow with the rounds.
 //
 // It is independent of tasks and clocks: the executive provides dates, positions and echoes, and executes the orders.
 // Waits are drawn from the robot's own random stream, so that robots that block each other do not retry in step.
@@ -17,12 +19,14 @@
 namespace waitpoint::executive {
 
 struct MissionParameters {
-  std::uint32_t tries_max = 8;  ///< per goal, before it is abandoned
+  std::uint32_t rounds = 1;     ///< number of visits to each goal; 0: without end
+  std::uint32_t tries_max = 8;  ///< per visit, before the goal is abandoned
   double wait_s_min = 2, wait_s_max = 8;
   double detour_max = 3;     ///< a detour longer by this factor is not taken at first: wait instead
   double detour_m_min = 15;  ///< unless it is no longer than this
 
   static void fields(auto field) {
+    field("rounds", &MissionParameters::rounds);
     field("tries_max", &MissionParameters::tries_max);
     field("wait_s_min", &MissionParameters::wait_s_min);
     field("wait_s_max", &MissionParameters::wait_s_max);
@@ -40,9 +44,12 @@ enum class GoalState : std::uint8_t {
 
 struct GoalRecord {
   Point goal;
+  std::uint32_t tries = 0;   ///< plans executed in this round
+  std::uint64_t visits = 0;  ///< of all rounds; in rounds without end, those that have ended
+  std::uint64_t times_reached = 0;
+  // Of the last visit that missed it, or else of the last that has ended.
   GoalState state = GoalState::ahead;
-  PlanOutcome outcome = PlanOutcome::found;  ///< of the last plan
-  std::uint32_t tries = 0;                   ///< plans executed
+  PlanOutcome outcome = PlanOutcome::found;  ///< of its last plan
   Time date;                                 ///< of reaching or abandoning it
 };
 
@@ -79,12 +86,14 @@ class Mission {
   const Order& drive();
   const Order& wait(Time now);
   void leave_goal(Time now, GoalState state);
+  void begin_next_round();
 
   RoutePlanner& planner_;
   MissionParameters parameters_;
   std::vector<GoalRecord> goals_;
   RandomStream random_;
   std::size_t current_ = 0;
+  std::uint32_t rounds_begun_ = 1;
   std::uint64_t draws_ = 0;
   Plan plan_;
   Order order_;

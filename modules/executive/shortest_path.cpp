@@ -38,9 +38,16 @@ std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIn
                 bucket_count);
   WAITPOINT_CHECK(space.passable(start) && space.passable(goal), "a way from or to a cell that is not passable");
   path.clear();
-  nodes_.begin(space.map().width(), space.map().height(), {unreachable, none, false});
-  for (auto& bucket : buckets_) bucket.clear();
+  nodes_ = {space.map().width(), space.map().height(), {unreachable, none, false}};
+  const std::uint32_t cost = search(space, start, goal, path);
+  nodes_ = {};
+  buckets_ = {};
   opened_ = 0;
+  return cost;
+}
+
+std::uint32_t ShortestPath::search(const FreeSpace& space, CellIndex start, CellIndex goal,
+                                   std::vector<CellIndex>& path) {
   node(start).cost = 0;
   std::uint32_t priority = least_cost(start, goal);
   open(priority, start);

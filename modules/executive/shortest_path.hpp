@@ -3,14 +3,15 @@
 //
 // A straight step costs 5, a diagonal one 7 times the cost of the cell entered. Entries of equal priority are taken in
 // a fixed order, so the path is a function of the map alone. The open list is a ring of buckets (Dial 1969): priorities
-// never decrease, and a step increases them by less than the ring's size. Its memory is kept for the next search.
+// never decrease, and a step increases them by less than the ring's size. A search leaves no memory allocated: the
+// robots of a day's run would each come to hold that of their greatest search.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "modules/executive/free_space.hpp"
-#include "modules/executive/search_grid.hpp"
+#include "modules/executive/tiled_grid.hpp"
 
 namespace waitpoint::executive {
 
@@ -33,11 +34,12 @@ class ShortestPath {
   static constexpr std::uint8_t none = 255;
 
   void open(std::uint32_t priority, CellIndex cell) { buckets_[priority % bucket_count].push_back(cell), ++opened_; }
+  std::uint32_t search(const FreeSpace& space, CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
   void expand(const FreeSpace& space, CellIndex cell, CellIndex goal);
   void walk_back(CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
   Node& node(CellIndex cell) { return nodes_(cell.x, cell.y); }
 
-  SearchGrid<Node> nodes_;
+  TiledGrid<Node> nodes_;
   std::array<std::vector<CellIndex>, bucket_count> buckets_;
   std::size_t opened_ = 0;
 };

@@ -2,7 +2,10 @@
 #include "modules/genom/settings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
@@ -15,10 +18,38 @@ namespace {
                  "expected '" + setting.key + "' to be " + expected + ", found '" + setting.text + "'");
 }
 
-double parse_double(const Setting& setting, const char* expected) {
+struct Unit {
+  std::string_view ending;
+  double most;
+};
+// The longest endings first. Within these the modules' and the world's angles, positions and times are in range.
+constexpr Unit units[] = {{"_rad_s2", 1e6}, {"_m_s2", 1e6}, {"_rad_s", 1e4}, {"_m_s", 1e4}, {"_deg", 3600},
+                          {"_rad", 1e3},    {"_m", 1e5},    {"_s", 1e9},     {"_v", 1e5}};
+constexpr double most_of_others = 1e12, least_nonzero = 1e-12;
+
+/// The greatest amount of a number with this key, by the unit at its end or before "_max" or "_min". A quotient of
+/// units ("units_per_m") is a number like any other.
+double most_of(std::string_view key) {
+  for (const std::string_view bound : {"_max", "_min"})
+    if (key.ends_with(bound)) key.remove_suffix(bound.size());
+  if (key.find("_per_") != std::string_view::npos) return most_of_others;
+  const auto unit =
+      std::find_if(std::begin(units), std::end(units), [&](const Unit& u) { return key.ends_with(u.ending); });
+  return unit == std::end(units) ? most_of_others : unit->most;
+}
+
+std::string number_text(double number) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.12g", number);
+  return digits.data();
+}
+
+double parse_double(const Setting& setting, double most, const char* expected) {
   double value = 0;
   if (!parse_number(setting.text, value) || !std::isfinite(value)) refuse(setting, expected);
-  if (std::fabs(value) > 1e12) refuse(setting, std::string(expected) + " of at most 1e12");
+  if (std::fabs(value) > most || (value != 0 && std::fabs(value) < least_nonzero)) {
+    refuse(setting, std::string(expected) + " of at most " + number_text(most) + ", and 0 or at least 1e-12");
+  }
   return value;
 }
 
@@ -49,8 +80,16 @@ void Settings::reject(const std::string& key, const std::string& expected) const
   refuse(*at, expected);
 }
 
+void Settings::check_least(const std::string& key, double value, double least) const {
+  if (value < least) reject(key, number_text(least) + " or more");
+}
+
+void Settings::check_most(const std::string& key, double value, double most) const {
+  if (value > most) reject(key, number_text(most) + " or less");
+}
+
 void Settings::read_one(const std::string& key, double& value) {
-  if (const Setting* s = take(key)) value = parse_double(*s, "a number");
+  if (const Setting* s = take(key)) value = parse_double(*s, most_of(key), "a number");
 }
 
 void Settings::read_one(const std::string& key, bool& value) {
@@ -68,7 +107,7 @@ void Settings::read_one(const std::string& key, Duration& value) {
   const Setting* s = take(key);
   if (s == nullptr) return;
   const double unit_s = key.ends_with("_us") ? 1e-6 : key.ends_with("_ms") ? 1e-3 : 1.0;
-  const double seconds = parse_double(*s, "a duration as a number") * unit_s;
+  const double seconds = parse_double(*s, most_of_others, "a duration as a number") * unit_s;
   if (seconds < 0 || seconds > 1e9) refuse(*s, "a duration that is not negative, at most 1e9 s");
   value = Duration::from_seconds(seconds);
 }

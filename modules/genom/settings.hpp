@@ -3,7 +3,9 @@
 //
 // A field's name is its key and ends in its unit: "gain", "v_max_m_s"; a Duration's ends in _s, _ms or _us. Elements of
 // arrays, points and poses have keys of their own: "gains.0", "via.2.x", "pose.heading" (radians). Unknown keys are
-// BadInput, with the nearest known key as a hint.
+// BadInput, with the nearest known key as a hint. Numbers are bounded by their unit: metres by 1e5, radians by 1000,
+// degrees by 3600, metres or radians per second by 1e4, their accelerations by 1e6, seconds by 1e9, volts by 1e5, and
+// others by 1e12. A module checks what it expects beyond that.
 #pragma once
 
 #include <string>
@@ -29,6 +31,22 @@ class Settings {
   bool has(const std::string& key) const;
   /// Throws BadInput "expected KEY to be `expected`, found ..." at a setting, which must be set.
   [[noreturn]] void reject(const std::string& key, const std::string& expected) const;
+
+  /// Throws BadInput at a setting that made a number of `values` negative; `prefix` as in read().
+  template <HasFields T>
+  void check_not_negative(const T& values, const std::string& prefix = "") const {
+    for_each_field(values, [&](std::string_view name, const auto& member) {
+      using Member = std::remove_cvref_t<decltype(member)>;
+      const std::string key = prefix + std::string(name);
+      if constexpr (HasFields<Member>)
+        check_not_negative(member, key + ".");
+      else if constexpr (std::is_same_v<Member, double>)
+        check_least(key, member, 0);
+    });
+  }
+  /// Throws BadInput at the setting `key` that made `value` less than `least`, or greater than `most`.
+  void check_least(const std::string& key, double value, double least) const;
+  void check_most(const std::string& key, double value, double most) const;
 
   /// Throws BadInput for the first unread setting.
   void check_all_used() const;

@@ -12,6 +12,7 @@ using namespace std::chrono_literals;
 Parameters Ndd::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
+  settings.check_not_negative(parameters);
   return parameters;
 }
 

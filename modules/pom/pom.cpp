@@ -12,6 +12,7 @@ template <class Parameters>
 Parameters Pom::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
+  if constexpr (std::is_same_v<Parameters, FusionParameters>) settings.check_not_negative(parameters);
   return parameters;
 }
 

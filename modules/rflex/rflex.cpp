@@ -24,6 +24,10 @@ void check(const InfraredCalibration& of) {
 Parameters Rflex::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
+  settings.check_not_negative(parameters.noise, "noise.");
+  constexpr double units_least = 1e-3;
+  settings.check_least("units_per_m", parameters.units_per_m, units_least);
+  settings.check_least("units_per_rad", parameters.units_per_rad, units_least);
   check(parameters.infrared);
   return parameters;
 }

@@ -18,12 +18,6 @@
 namespace waitpoint::run {
 namespace {
 
-scenario::GoalPlace place_on(const OccupancyGrid& map, Point goal) {
-  const std::optional<CellIndex> cell = map.cell_at(goal);
-  if (!cell || map[*cell] == Cell::unknown) return scenario::GoalPlace::outside_map;
-  return map[*cell] == Cell::occupied ? scenario::GoalPlace::inside_obstacle : scenario::GoalPlace::free;
-}
-
 /// The map of each robot, shared by robots with the same range of heights.
 class KnownMaps {
  public:
@@ -56,9 +50,9 @@ Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::Mo
     description.meshes.insert(description.meshes.end(), file->meshes.begin(), file->meshes.end());
   }
   KnownMaps maps(scenario, file.get());
-  scenario::check_goals(scenario, [&](const scenario::RobotScenario& robot, Point goal) {
-    return place_on(maps.of(robot)->map(), goal);
-  });
+  scenario::check_on_map(
+      scenario, [&](const scenario::RobotScenario& robot) -> const OccupancyGrid& { return maps.of(robot)->map(); },
+      file != nullptr && file->grid);
   scenario::check_starts(scenario, world::start_overlaps(description));
   make_world(description, seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)

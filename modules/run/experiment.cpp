@@ -2,8 +2,11 @@
 #include "modules/run/experiment.hpp"
 
 #include <algorithm>
+#include <string>
+#include <system_error>
 
 #include "core/error.hpp"
+#include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/threads.hpp"
 #include "modules/run/heap_pages.hpp"
@@ -83,7 +86,7 @@ Experiment::Experiment(const scenario::Scenario& scenario, std::span<const genom
       simulation_.environment(),
       {.name = "world", .stack = kernel::StackSize::large, .phase = kernel::Phase::world, .service = true},
       [this] { run_world(); });
-  for (const auto& robot : robots()) spawn(*robot);
+  spawn_robots(scenario);
   if (scenario.medium) programs_.set_network(*network_);
   for (std::size_t i = 0; i < lanes_.size(); ++i)
     for (const scenario::ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
@@ -115,6 +118,17 @@ const world::BodyState* Experiment::body_of(const std::string& robot) const {
   return nullptr;
 }
 
+void Experiment::spawn_robots(const scenario::Scenario& scenario) {
+  for (std::size_t i = 0; i < robots().size(); ++i) {
+    try {
+      spawn(*robots()[i]);
+    } catch (const std::system_error& full) {
+      throw scenario.robots[i].start_written.bad("expected at most " + std::to_string(i) +
+                                                 " such robots: " + full.what());
+    }
+  }
+}
+
 // A robot with goals keeps the run alive until its executive ends; one without does not.
 void Experiment::spawn(bridge::Robot& robot) {
   kernel::Robot& lane = simulation_.add_robot(robot.name());
@@ -122,8 +136,10 @@ void Experiment::spawn(bridge::Robot& robot) {
   simulation_.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true},
                     [&robot] { robot.bridge().run(); });
   const genom::TaskComputing& computing = robot.computing();
+  // Planning needs a large stack, of which there are 16 384; crowds of more have no goals.
+  const kernel::StackSize stack = robot.has_goals() ? kernel::StackSize::large : kernel::StackSize::medium;
   sync::start_thread(simulation_.scheduler(), lane,
-                     {.name = "executive", .stack = kernel::StackSize::large, .service = robot.goals() == 0},
+                     {.name = "executive", .stack = stack, .service = !robot.has_goals()},
                      sync::make_call([&robot] { robot.run(); }), {computing.clock, computing.on, computing.priority});
 }
 
@@ -135,8 +151,7 @@ void Experiment::run_world() {
     for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
     constexpr std::size_t ahead = 6;  // a crowd does not fit into the cache
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
-      if (i + 2 * ahead < lanes_.size()) robots()[i + 2 * ahead]->fetch_evaluation();
-      if (i + ahead < lanes_.size()) robots()[i + ahead]->fetch_path();
+      if (i + ahead < lanes_.size()) robots()[i + ahead]->fetch_evaluation();
       if (!lanes_[i]->ended) robots()[i]->observe(now());
       robots()[i]->bridge().stepped();
     }
@@ -174,6 +189,12 @@ Time Experiment::intervene(Intervention intervention, std::optional<Time> date) 
   const Time at = date ? Time() + step * steps : next;
   operator_->add(at, std::move(intervention));
   return at;
+}
+
+std::string Experiment::idle(Duration least) {
+  const Duration run = simulation_.global_time().since_start();
+  if (run < least) return "";
+  return sync::describe_idle(simulation_.scheduler(), Time() + (run - least), sync::Places::told);
 }
 
 bridge::RunTotals Experiment::figures() const {

@@ -60,6 +60,8 @@ class Experiment {
   std::size_t goals_reached() const { return assembly_->goals_reached(); }
   std::size_t goals() const { return assembly_->goals(); }
 
+  /// The tasks that have waited without a timeout for `least` of virtual time (sync::describe_idle), for people.
+  std::string idle(Duration least);
   /// The figures so far that expectations refer to; cheap.
   bridge::RunTotals figures() const;
   /// The result so far.
@@ -68,6 +70,7 @@ class Experiment {
  private:
   void make_network(const scenario::Scenario& scenario);
   const world::BodyState* body_of(const std::string& robot) const;
+  void spawn_robots(const scenario::Scenario& scenario);
   void spawn(bridge::Robot& robot);
   void run_world();
 

@@ -4,16 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
+#include "core/file_contents.hpp"
 #include "core/number_text.hpp"
+#include "core/printable_line.hpp"
 #include "modules/scenario/words.hpp"
 
 namespace waitpoint::run {
 namespace {
 
 constexpr std::string_view first_line = "waitpoint journal 1";
+constexpr std::string_view cut_off_word = "# cut off: ";
+constexpr std::size_t bytes_max = std::size_t{64} << 20;
 constexpr std::size_t decimals = 9;
 constexpr std::size_t seconds_digits_max = 9;
 
@@ -31,10 +33,8 @@ std::string shown(std::string_view line) {
 /// The lines of a file, with line numbers.
 class Lines {
  public:
-  explicit Lines(const std::filesystem::path& file) : at_{file.string(), 0} {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file)) throw at_.bad("cannot be read");
-    text_.assign(std::istreambuf_iterator<char>(stream), {});
+  explicit Lines(const std::filesystem::path& file)
+      : at_{file.string(), 0}, text_(given_file_contents(file, bytes_max)) {
     rest_ = text_;
   }
 
@@ -108,6 +108,10 @@ std::string to_text(const JournalEnd& end) {
   return "end " + to_string(end.time) + " after " + std::to_string(end.events) + " events " + end.digest + "\n";
 }
 
+std::string cut_off_line(const std::string& reason) {
+  return std::string(cut_off_word) + printable_line(reason) + "\n";
+}
+
 Journal read_journal(const std::filesystem::path& file, const JournalHead& head) {
   Lines lines(file);
   lines.expect(first_line, "this is no journal");
@@ -118,6 +122,11 @@ Journal read_journal(const std::filesystem::path& file, const JournalHead& head)
   std::string_view line;
   while (lines.next(line)) {
     if (journal.end) throw lines.at().bad("expected nothing after 'end'");
+    if (!journal.cut_off.empty()) throw lines.at().bad("expected nothing after '# cut off'");
+    if (line.starts_with(cut_off_word) && line.size() > cut_off_word.size()) {
+      journal.cut_off = printable_line(line.substr(cut_off_word.size()));
+      continue;
+    }
     const std::string word = scenario::take_word(line, lines.at());
     if (word == "end") {
       journal.end = read_end(line, lines.at());

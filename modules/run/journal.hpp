@@ -8,7 +8,10 @@
 //   at 12.340000000 move rackham 20 5 90            see intervention.hpp
 //   end 30.000000000 after 123456 events wp1:...    time, number of events and digest at the end of the run
 //
-// Lines are written at once: the journal of a run that crashes is complete up to the crash, but has no end.
+// Lines are written at once: the journal of a run that crashes is complete up to the crash, but has no end. Its last
+// line may say why:
+//
+//   # cut off: the process dies of SIGFPE (integer division by zero)
 #pragma once
 
 #include <cstdint>
@@ -49,12 +52,15 @@ struct DatedIntervention {
 struct Journal {
   std::vector<DatedIntervention> interventions;  ///< in the order of the file
   std::optional<JournalEnd> end;                 ///< none: the run was cut off
+  std::string cut_off;                           ///< the reason, if known
 };
 
 /// Lines of a journal, including newlines.
 std::string to_text(const JournalHead& head);
 std::string to_text(Time date, const Intervention& intervention);
 std::string to_text(const JournalEnd& end);
+/// The last line of a run that is cut off.
+std::string cut_off_line(const std::string& reason);
 
 /// Reads the journal of the run identified by `head`. Throws BadInput with file and line for a file that is no journal,
 /// a malformed or truncated line, or the journal of another scenario, seed or order.

@@ -18,6 +18,12 @@ using Kind = world::BaseDescription::Kind;
 constexpr Kind kinds[] = {Kind::differential, Kind::synchro,    Kind::omni,
                           Kind::ackermann,    Kind::skid_steer, Kind::aerial};
 
+constexpr NumberRange volts{0, 1e5, "a number of volts from 0 to 100000"};
+constexpr NumberRange electrical{0, 1e6, "a number from 0 to 1000000"};
+constexpr NumberRange battery_number{1e-6, 1e6, "a number from 0.000001 to 1000000"};
+constexpr NumberRange battery_range{1e-3, 1e9, "a number of metres from 0.001 to 1e9"};
+constexpr NumberRange force{1e-3, 1e9, "a number of newtons from 0.001 to 1e9"};
+
 bool has_two_sides(Kind kind) { return kind == Kind::differential || kind == Kind::skid_steer; }
 
 /// Rejects keys for other kinds of bases, which would have no effect.
@@ -45,14 +51,14 @@ world::OdometryErrors read_odometry(const YamlNode& node, Kind kind) {
   map.read("slips_per_m", errors.slips_per_m, slips);
   map.read("slip_m", errors.slip_m, length_error);
   map.read("slip_turn_rad", errors.slip_turn_rad, angle_error);
-  map.read("units_per_m", errors.units_per_m, positive_number);
-  map.read("units_per_rad", errors.units_per_rad, positive_number);
+  map.read("units_per_m", errors.units_per_m, units);
+  map.read("units_per_rad", errors.units_per_rad, units);
   only_for(map, has_two_sides(kind), "differential or skid_steer",
            {"wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
   map.read("wheel_diameter_ratio", errors.wheel_diameter_ratio, factor);
   map.read("wheel_base_ratio", errors.wheel_base_ratio, factor);
   map.read("wheel_noise_m_per_sqrt_m", errors.wheel_noise_m_per_sqrt_m, length_error);
-  map.read("wheel_ticks_per_m", errors.wheel_ticks_per_m, positive_number);
+  map.read("wheel_ticks_per_m", errors.wheel_ticks_per_m, units);
   return errors;
 }
 
@@ -63,14 +69,15 @@ void read_kind(const YamlMap& map, world::BaseDescription& base) {
   only_for(map, base.kind == Kind::skid_steer, "skid_steer", {"effective_axle_ratio"});
   only_for(map, base.kind == Kind::ackermann, "ackermann", {"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"});
   only_for(map, base.kind == Kind::aerial, "aerial", {"climb_max_m_s", "climb_acceleration_m_s2"});
-  constexpr NumberRange longer{1, 1e9, "a number of at least 1"};
+  constexpr NumberRange longer{1, 1e3, "a number from 1 to 1000"};
   map.read("effective_axle_ratio", base.effective_axle_ratio, longer);
-  map.read("wheelbase_m", base.wheelbase_m, positive_number);
+  map.read("wheelbase_m", base.wheelbase_m, length_number);
   constexpr NumberRange steering{least_nonzero, 89, "degrees above 0, at most 89"};
   map.read_degrees("steering_max_deg", base.steering_max_rad, steering);
-  map.read_degrees("steering_rate_deg_s", base.steering_rate_rad_s, positive_number);
+  constexpr NumberRange steering_rate{1e-3, 1e6, "degrees per second from 0.001 to 1000000"};
+  map.read_degrees("steering_rate_deg_s", base.steering_rate_rad_s, steering_rate);
   map.read("climb_max_m_s", base.climb_max_m_s, rate);
-  map.read("climb_acceleration_m_s2", base.climb_acceleration_m_s2, positive_number);
+  map.read("climb_acceleration_m_s2", base.climb_acceleration_m_s2, acceleration);
 }
 
 world::BaseDescription read_base(const YamlNode& node, world::BaseDescription base) {
@@ -99,18 +106,18 @@ world::BaseDescription read_base(const YamlNode& node, world::BaseDescription ba
   read_kind(map, base);
   map.read("v_max_m_s", base.v_max_m_s, rate);
   map.read("w_max_rad_s", base.w_max_rad_s, rate);
-  map.read("v_acceleration_m_s2", base.v_acceleration_m_s2, positive_number);
-  map.read("w_acceleration_rad_s2", base.w_acceleration_rad_s2, positive_number);
+  map.read("v_acceleration_m_s2", base.v_acceleration_m_s2, acceleration);
+  map.read("w_acceleration_rad_s2", base.w_acceleration_rad_s2, acceleration);
   map.read("mass_kg", base.mass_kg, mass_number);
-  map.read("drive_force_n", base.drive_force_n, positive_number);
-  map.read("grip", base.grip, positive_number);
-  map.read("axle_m", base.axle_m, positive_number);
+  map.read("drive_force_n", base.drive_force_n, force);
+  map.read("grip", base.grip, friction_number);
+  map.read("axle_m", base.axle_m, length_number);
   map.read("watchdog_ms", base.watchdog, 1ms);
   if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry, base.kind);
-  map.read("battery_volts_full", base.battery_volts_full, positive_number);
-  map.read("battery_volts_empty", base.battery_volts_empty, positive_number);
-  map.read("battery_capacity_s", base.battery_capacity_s, positive_number);
-  map.read("battery_capacity_m", base.battery_capacity_m, positive_number);
+  map.read("battery_volts_full", base.battery_volts_full, volts);
+  map.read("battery_volts_empty", base.battery_volts_empty, volts);
+  map.read("battery_capacity_s", base.battery_capacity_s, time_constant);
+  map.read("battery_capacity_m", base.battery_capacity_m, battery_range);
   return base;
 }
 
@@ -129,23 +136,23 @@ world::BatteryDescription read_battery(const YamlNode& node) {
       {"volts_full", "volts_empty", "resistance_ohm", "resolution_v", "capacity_ah", "rated_h", "peukert", "charge",
        "off_v", "idle_a", "drive_a_per_m_s", "turn_a_per_rad_s", "climb_a_per_m_s", "stalled_a"});
   world::BatteryDescription battery;
-  map.read("volts_full", battery.volts_full, positive_number);
-  map.read("volts_empty", battery.volts_empty, number_from_zero);
+  map.read("volts_full", battery.volts_full, volts);
+  map.read("volts_empty", battery.volts_empty, volts);
   if (battery.volts_empty > battery.volts_full) throw node.written.bad("expected volts_empty to be at most volts_full");
-  map.read("resistance_ohm", battery.resistance_ohm, number_from_zero);
-  map.read("resolution_v", battery.resolution_v, number_from_zero);
-  map.read("capacity_ah", battery.capacity_ah, positive_number);
-  map.read("rated_h", battery.rated_h, positive_number);
+  map.read("resistance_ohm", battery.resistance_ohm, electrical);
+  map.read("resolution_v", battery.resolution_v, resolution);
+  map.read("capacity_ah", battery.capacity_ah, battery_number);
+  map.read("rated_h", battery.rated_h, battery_number);
   constexpr NumberRange exponent{1, 2, "a number from 1 to 2"};
   map.read("peukert", battery.peukert, exponent);
   constexpr NumberRange part{least_nonzero, 1, "a part above 0, at most 1"};
   map.read("charge", battery.charge, part);
-  map.read("off_v", battery.off_v, number_from_zero);
-  map.read("idle_a", battery.idle_a, number_from_zero);
-  map.read("drive_a_per_m_s", battery.drive_a_per_m_s, number_from_zero);
-  map.read("turn_a_per_rad_s", battery.turn_a_per_rad_s, number_from_zero);
-  map.read("climb_a_per_m_s", battery.climb_a_per_m_s, number_from_zero);
-  map.read("stalled_a", battery.stalled_a, number_from_zero);
+  map.read("off_v", battery.off_v, volts);
+  map.read("idle_a", battery.idle_a, electrical);
+  map.read("drive_a_per_m_s", battery.drive_a_per_m_s, electrical);
+  map.read("turn_a_per_rad_s", battery.turn_a_per_rad_s, electrical);
+  map.read("climb_a_per_m_s", battery.climb_a_per_m_s, electrical);
+  map.read("stalled_a", battery.stalled_a, electrical);
   return battery;
 }
 

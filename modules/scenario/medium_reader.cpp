@@ -39,7 +39,8 @@ io::Medium read_medium(const YamlNode& node) {
   medium.latency_per_metre = Duration::from_seconds(latency_us_per_m * 1e-6);
   map.read("bandwidth_bit_s", medium.bandwidth_bit_s, 1, 1'000'000'000'000);
   map.read("queue_bytes", medium.queue_bytes, 0, 1'000'000'000);
-  map.read("range_m", medium.range_m, positive_number);
+  constexpr NumberRange range{1e-3, 1e9, "a number of metres from 0.001 to 1e9"};
+  map.read("range_m", medium.range_m, range);
   map.read("range_check_ms", medium.range_check, 1ms);
   map.read("loss", medium.loss, {0, 1, "a probability from 0 to 1"});
   return medium;

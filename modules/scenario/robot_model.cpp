@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/exact_math.hpp"
+#include "core/file_contents.hpp"
 #include "core/nearest_name.hpp"
-#include "world/formats/file_contents.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/upright.hpp"
 
@@ -17,7 +17,7 @@ std::optional<RobotModel> read_robot_model(const YamlMap& robot) {
   const std::string file = named->written.resolve(read_text(*named, "urdf")).string();
   world::LeftOut left_out;
   RobotModel model;
-  model.robot = world::parse_urdf(world::file_contents(file, "a URDF", world::tree_bytes_max), file, left_out);
+  model.robot = world::parse_urdf(file_contents(file, "a URDF", world::tree_bytes_max), file, left_out);
   model.warnings = left_out.warnings();
   return model;
 }
@@ -33,6 +33,7 @@ void mount_at_frame(const YamlNode& laser, const std::optional<RobotModel>& mode
   const auto found = std::find_if(frames.begin(), frames.end(), [&](const auto& link) { return link.link == name; });
   if (found == frames.end()) {
     std::vector<std::string_view> names;
+    names.reserve(frames.size());
     for (const world::UrdfFrame& link : frames) names.push_back(link.link);
     throw frame->written.bad("there is no link '" + name + "' in the urdf" + did_you_mean(name, names));
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/confinement.hpp"
 #include "core/nearest_name.hpp"
 #include "modules/scenario/body_reader.hpp"
 #include "modules/scenario/shape_reader.hpp"
@@ -76,7 +77,8 @@ std::vector<BridgeRow> read_bridge(const YamlNode& node) {
   for (const YamlNode& item : read_list(node, "bridge")) {
     const YamlMap map(item, "a row of the bridge", {"poster", "device", "latency_us"});
     BridgeRow row{read_dotted(map, "poster"), read_dotted(map, "device"), Duration(), item.written};
-    if (map.has("latency_us")) row.latency = Duration::from_seconds(map.number("latency_us", number_from_zero) * 1e-6);
+    constexpr NumberRange latency{0, 3.6e9, "a number from 0 to 3600000000"};
+    if (map.has("latency_us")) row.latency = Duration::from_seconds(map.number("latency_us", latency) * 1e-6);
     for (const BridgeRow& other : rows) {
       const bool twice = other.poster == row.poster || other.device == row.device;
       if (!twice) continue;
@@ -106,10 +108,11 @@ std::vector<ProgramScenario> read_programs(const YamlNode& node) {
     program.written = item.written;
     program.name = read_name(map.require("name"), "the name of a program");
     const YamlNode& file = map.require("file");
+    if (Confinement::exists()) throw item.written.bad("programs are not loaded with --confined");
     program.file = file.written.resolve(read_text(file, "file"));
     if (const YamlNode* arguments = map.find("arguments"))
       for (const YamlNode& argument : read_list(*arguments, "arguments"))
-        program.arguments.push_back(read_text(argument, "an argument"));
+        program.arguments.push_back(read_lines(argument, "an argument"));
     for (const ProgramScenario& other : programs)
       if (other.name == program.name)
         throw item.written.bad("there are two programs called '" + program.name + "', the first at " +
@@ -194,7 +197,7 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   if (const YamlNode* height = own.find("start_height_m")) {
     if (robot.body.base.kind != world::BaseDescription::Kind::aerial)
       throw height->written.bad("expected no start_height_m: " + title + " does not fly");
-    own.read("start_height_m", robot.body.start_height_m, number_from_zero);
+    own.read("start_height_m", robot.body.start_height_m, height_number);
   }
   if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
   return robot;

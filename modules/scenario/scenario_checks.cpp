@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/scenario/scenario_checks.hpp"
 
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
 namespace waitpoint::scenario {
 namespace {
 
@@ -28,20 +32,42 @@ std::string goal_title(const RobotScenario& robot, std::size_t index) {
          "'";
 }
 
+/// "which lies between (0.00, 0.00) and (40.20, 30.20)", by the smallest upright box about the map.
+std::string extent(const OccupancyGrid& map) {
+  const double length_m = map.width() * map.resolution_m(), width_m = map.height() * map.resolution_m();
+  Point low = transform(map.origin(), {0, 0}), high = low;
+  for (const Point corner : {Point{length_m, 0}, Point{0, width_m}, Point{length_m, width_m}}) {
+    const Point p = transform(map.origin(), corner);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  char text[160];
+  std::snprintf(text, sizeof text, "which lies between (%.2f, %.2f) and (%.2f, %.2f)", low.x, low.y, high.x, high.y);
+  return text;
+}
+
+void check_goal(const RobotScenario& robot, std::size_t index, const OccupancyGrid& map) {
+  const Goal& goal = robot.goals[index];
+  const std::optional<CellIndex> cell = map.cell_at(goal.position);
+  if (!cell)
+    throw goal.written.bad(goal_title(robot, index) + " is outside the map, " + extent(map) +
+                           "; expected a free place on it");
+  if (map[*cell] == Cell::occupied)
+    throw goal.written.bad(goal_title(robot, index) + " is inside an obstacle, expected a free place");
+  if (map[*cell] == Cell::unknown)
+    throw goal.written.bad(goal_title(robot, index) + " is in an unknown part of the map, expected a free place");
+}
+
 }  // namespace
 
-void check_goals(const Scenario& scenario, const std::function<GoalPlace(const RobotScenario&, Point)>& place) {
+void check_on_map(const Scenario& scenario, const MapOf& map_of, bool has_edge) {
   for (const RobotScenario& robot : scenario.robots) {
-    for (std::size_t i = 0; i < robot.goals.size(); ++i) {
-      const Goal& goal = robot.goals[i];
-      switch (place(robot, goal.position)) {
-        case GoalPlace::free: break;
-        case GoalPlace::inside_obstacle:
-          throw goal.written.bad(goal_title(robot, i) + " is inside an obstacle, expected a free place");
-        case GoalPlace::outside_map:
-          throw goal.written.bad(goal_title(robot, i) + " is outside the map, expected a free place on it");
-      }
-    }
+    if (robot.goals.empty() && !has_edge) continue;
+    const OccupancyGrid& map = map_of(robot);
+    if (!map.cell_at(robot.body.start.position()))
+      throw robot.start_written.bad("robot '" + robot.name + "' starts outside the map, " + extent(map) +
+                                    "; expected a free place on it");
+    for (std::size_t i = 0; i < robot.goals.size(); ++i) check_goal(robot, i, map);
   }
 }
 

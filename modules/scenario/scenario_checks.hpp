@@ -6,20 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "core/occupancy_grid.hpp"
 #include "modules/scenario/scenario.hpp"
 #include "world/kinematic/start_check.hpp"
 
 namespace waitpoint::scenario {
 
-/// The state of a goal's position.
-enum class GoalPlace {
-  free,             ///< not necessarily reachable
-  inside_obstacle,  ///< occupied by a known obstacle
-  outside_map,      ///< unknown or beyond the map's edge
-};
+/// The map on which a robot plans its routes.
+using MapOf = std::function<const OccupancyGrid&(const RobotScenario&)>;
 
-/// Throws BadInput for the first goal that is not free.
-void check_goals(const Scenario& scenario, const std::function<GoalPlace(const RobotScenario&, Point)>& place);
+/// Throws BadInput for the first goal that is not free, or start beyond the edge of the map. A robot without goals may
+/// start anywhere, unless the world `has_edge`: a map of cells ends where its image does.
+void check_on_map(const Scenario& scenario, const MapOf& map_of, bool has_edge);
 
 /// Throws BadInput for the first overlap, at the robot's start, with the place of the other body or obstacle.
 void check_starts(const Scenario& scenario, const std::vector<world::StartOverlap>& overlaps);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/scenario/scenario_document.hpp"
 
+#include "core/confinement.hpp"
 #include "modules/scenario/yaml_override.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
@@ -38,10 +39,14 @@ YamlNode load_floor(const std::filesystem::path& file) {
   return world;
 }
 
-/// The path of an `include`; BadInput if the file does not exist.
+/// The path of an `include`; BadInput if it does not exist, or is a pipe or device, which may never end.
 std::filesystem::path included_file(const YamlNode& include) {
   std::filesystem::path file = include.written.resolve(read_text(include, "include"));
+  if (!Confinement::allows(file))
+    throw include.written.bad("'" + file.string() + "' lies outside of the folders that --confined allows");
   if (!std::filesystem::exists(file)) throw include.written.bad("there is no file '" + file.string() + "' to include");
+  if (!std::filesystem::is_regular_file(file))
+    throw include.written.bad("expected a file to include, found '" + file.string() + "', which is no regular file");
   return file;
 }
 
@@ -49,17 +54,7 @@ std::filesystem::path included_file(const YamlNode& include) {
 YamlNode joined_shapes(const YamlNode& floor, const YamlNode& own) {
   if (floor.kind != YamlNode::Kind::list || own.kind != YamlNode::Kind::list) return own;
   YamlNode shapes = floor;
-  for (const YamlNode& shape : own.items) {
-    YamlNode* same = nullptr;
-    for (YamlNode& other : shapes.items) {
-      if (!name_of(shape).empty() && name_of(other) == name_of(shape)) same = &other;
-    }
-    if (same != nullptr) {
-      *same = laid_over(*same, shape);
-    } else {
-      shapes.items.push_back(shape);
-    }
-  }
+  lay_elements_over(shapes, own);
   return shapes;
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <map>
 
+#include "core/printable_line.hpp"
 #include "modules/scenario/map_robots.hpp"
 #include "modules/scenario/medium_reader.hpp"
 #include "modules/scenario/robot_reader.hpp"
@@ -46,7 +47,7 @@ MapFile read_map(const YamlNode& node) {
   const YamlMap map(node, "the map", {"file", "height_m"});
   const YamlNode& file = map.require("file");
   MapFile result = {.file = file.written.resolve(read_text(file, "file")), .written = file.written};
-  if (map.has("height_m")) result.height_m = map.number("height_m", positive_number);
+  if (map.has("height_m")) result.height_m = map.number("height_m", length_number);
   return result;
 }
 
@@ -84,18 +85,18 @@ void read_world(const YamlNode& node, Scenario& scenario) {
   if (const YamlNode* engine = map.find("engine")) scenario.engine_written = engine->written;
   if (const YamlNode* map_file = map.find("map")) scenario.map = read_map(*map_file);
   double height_m = height_default_m;
-  map.read("shape_height_m", height_m, positive_number);
+  map.read("shape_height_m", height_m, length_number);
   if (const YamlNode* shapes = map.find("shapes")) read_shapes(*shapes, height_m, scenario);
 }
 
 void read_robots(const YamlNode& list, const YamlNode* types, Scenario& scenario) {
   if (read_list(list, "robots").empty()) throw list.written.bad("expected at least one robot");
+  std::map<std::string, Location> names;
   for (const YamlNode& item : list.items) {
     RobotScenario robot = read_robot(item, types);
-    for (const RobotScenario& other : scenario.robots) {
-      if (other.name != robot.name) continue;
-      throw item.written.bad("there are two robots called '" + robot.name + "', the first at " + other.written.text());
-    }
+    const auto [first, is_new] = names.emplace(robot.name, robot.written);
+    if (!is_new)
+      throw item.written.bad("there are two robots called '" + robot.name + "', the first at " + first->second.text());
     scenario.robots.push_back(std::move(robot));
   }
 }
@@ -126,8 +127,9 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   Scenario scenario;
   scenario.file = file.string();
   scenario.fingerprint = fingerprint(document);
-  scenario.name = map.text("name", file.stem().string());
-  scenario.description = map.text("description", "");
+  scenario.name = map.text("name", printable_line(file.stem().string()));
+  if (const YamlNode* description = map.find("description"))
+    scenario.description = read_lines(*description, "description");
   if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);
   map.read("until_s", scenario.until, 1s);
   if (const YamlNode* world = map.find("world")) read_world(*world, scenario);

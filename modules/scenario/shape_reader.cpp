@@ -38,9 +38,9 @@ void read_about_centre(const YamlMap& map, bool centre_needed, Shape& shape) {
   shape.pose = {centre.x, centre.y, read_heading(map)};
   if (map.has("radius_m")) {
     shape.kind = Shape::Kind::cylinder;
-    shape.radius_m = map.number("radius_m", positive_number);
+    shape.radius_m = map.number("radius_m", length_number);
   } else {
-    const std::vector<double> size = read_numbers(map.require("size_m"), "size_m", 2, 2, positive_number);
+    const std::vector<double> size = read_numbers(map.require("size_m"), "size_m", 2, 2, length_number);
     shape.length_m = size[0];
     shape.width_m = size[1];
   }
@@ -53,8 +53,8 @@ Shape read_shape(const YamlMap& map, bool of_world, std::optional<double> height
   } else {
     read_about_centre(map, of_world, shape);
   }
-  map.read("low_m", shape.z_low_m, number_from_zero);
-  shape.z_high_m = height_m && !map.has("height_m") ? *height_m : map.number("height_m", positive_number);
+  map.read("low_m", shape.z_low_m, height_number);
+  shape.z_high_m = height_m && !map.has("height_m") ? *height_m : map.number("height_m", length_number);
   if (shape.z_high_m <= shape.z_low_m) {
     throw map.node().written.bad("expected height_m of " + map.what() + " to be above its low_m");
   }
@@ -90,7 +90,7 @@ world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t
   map.read("mass_kg", obstacle.mass_kg, mass_number);
   if (const YamlNode* friction = map.find("friction")) {
     if (!obstacle.loose()) throw friction->written.bad("expected no friction: " + map.what() + " has no mass_kg");
-    map.read("friction", obstacle.friction, number_from_zero);
+    map.read("friction", obstacle.friction, friction_number);
   }
   return obstacle;
 }

@@ -14,6 +14,7 @@
 
 namespace waitpoint::scenario {
 
+inline constexpr NumberRange friction_number{0, 1e3, "a number from 0 to 1000"};
 inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
 
 /// A robot's body in its own frame: `centre_m` is optional, `height_m` is not.

@@ -8,7 +8,7 @@
 namespace waitpoint::scenario {
 namespace {
 
-constexpr NumberRange scale_number{1e-9, 1e9, "a positive number"};
+constexpr NumberRange scale_number{1e-6, 1e6, "a number from 0.000001 to 1000000"};
 
 std::string resolved(const YamlNode& file, std::string_view what) {
   return file.written.resolve(read_text(file, what)).string();

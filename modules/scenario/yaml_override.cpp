@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <vector>
 
 #include "core/nearest_name.hpp"
@@ -77,16 +78,25 @@ YamlNode laid_over(const YamlNode& base, const YamlNode& over) {
   }
   const bool lists = base.kind == YamlNode::Kind::list && over.kind == YamlNode::Kind::list;
   if (lists && !over.items.empty() && all_have_names(base.items) && all_have_names(over.items)) {
-    for (const YamlNode& item : over.items) {
-      if (YamlNode* below = element_named(result, name_of(item))) {
-        *below = laid_over(*below, item);
-      } else {
-        result.items.push_back(item);
-      }
-    }
+    lay_elements_over(result, over);
     return result;
   }
   return over;
+}
+
+void lay_elements_over(YamlNode& base, const YamlNode& over) {
+  std::map<std::string, std::size_t, std::less<>> places;
+  for (std::size_t i = 0; i < base.items.size(); ++i) places.emplace(name_of(base.items[i]), i);
+  for (const YamlNode& item : over.items) {
+    const std::string name(name_of(item));
+    const auto [same, is_new] = places.emplace(name, base.items.size());
+    if (is_new || name.empty()) {
+      base.items.push_back(item);
+    } else {
+      YamlNode& below = base.items[same->second];
+      below = laid_over(below, item);
+    }
+  }
 }
 
 Assignment::Assignment(const std::string& text) {

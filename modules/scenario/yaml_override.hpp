@@ -12,6 +12,8 @@ namespace waitpoint::scenario {
 /// `base` overridden by `over`. Maps are merged by key, and lists by element name if all their elements have names (new
 /// names at the end); any other value of `over` replaces that of `base`.
 YamlNode laid_over(const YamlNode& base, const YamlNode& over);
+/// The same of two lists: elements of `over` override those of `base` with their names; others are appended.
+void lay_elements_over(YamlNode& base, const YamlNode& over);
 
 /// A parsed option `--set path=value`. `path` has keys, and indices or names of list elements, joined by dots; `value`
 /// is YAML located at the option. Throws BadInput for other text.

@@ -8,6 +8,7 @@
 #include "core/exact_math.hpp"
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "core/printable_line.hpp"
 
 namespace waitpoint::scenario {
 namespace {
@@ -36,7 +37,7 @@ double read_number(const YamlNode& node, std::string_view what, const NumberRang
   double number = 0;
   // Negated to reject "nan", too.
   if (!parse(node, number) || !(number >= range.low && number <= range.high) ||
-      (number != 0 && std::fabs(number) < least_nonzero)) {
+      (number != 0 && std::fabs(number) < range.least)) {
     refuse(node, what, std::string(range.phrase));
   }
   return number;
@@ -57,8 +58,14 @@ bool read_truth(const YamlNode& node, std::string_view what) {
   refuse(node, what, "true or false");
 }
 
-std::string read_text(const YamlNode& node, std::string_view what) {
+std::string read_lines(const YamlNode& node, std::string_view what) {
   if (node.kind != YamlNode::Kind::scalar || node.text.empty()) refuse(node, what, "a text");
+  return node.text;
+}
+
+std::string read_text(const YamlNode& node, std::string_view what) {
+  read_lines(node, what);
+  if (!is_printable_line(node.text)) refuse(node, what, "a text of one line without control characters");
   return node.text;
 }
 
@@ -138,9 +145,9 @@ void YamlMap::read(std::string_view key, bool& value) const {
 void YamlMap::read(std::string_view key, Duration& value, Duration unit) const {
   if (!has(key)) return;
   const double seconds = number(key, {1e-6, 1e9, "a positive number"}) * unit.seconds();
-  const Duration duration = Duration::from_seconds(seconds);
-  if (duration <= Duration()) refuse(*find(key), key, "at least a nanosecond");
-  value = duration;
+  constexpr double least_s = 1e-6;  // a shorter period would be a hang
+  if (seconds < least_s * (1 - 1e-9)) refuse(*find(key), key, "at least a microsecond");
+  value = Duration::from_seconds(seconds);
 }
 
 void YamlMap::read_degrees(std::string_view key, double& value_rad, const NumberRange& range) const {

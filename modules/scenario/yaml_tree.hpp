@@ -2,8 +2,9 @@
 // A YAML document as plain values with their places in the input, so that every error can name file and line, and
 // documents can be combined (a robot type with overrides, an included floor, --set) before they are read.
 //
-// Keys are unique within a map and keep their order. Aliases are copies of their anchors; depth and size are bounded,
-// so that a short document cannot expand without limit.
+// Keys are unique within a map and keep their order. Aliases are copies of their anchors, `<<` is carried out; depth
+// and size are bounded, so that a short document cannot expand without limit: yaml_builder.hpp. A file has at most 64
+// MiB.
 #pragma once
 
 #include <cstdint>

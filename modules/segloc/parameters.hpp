@@ -89,7 +89,7 @@ struct Parameters {
 /// Throws BadInput for invalid values.
 inline void check(const Parameters& p) {
   if (p.landmarks_max < 1 || p.landmarks_max > 1000) throw BadInput("landmarks_max", "expected 1 to 1000");
-  if (p.matches_max < 1) throw BadInput("matches_max", "expected 1 or more");
+  if (p.matches_max < 1 || p.matches_max > 1000) throw BadInput("matches_max", "expected 1 to 1000");
   if (!(p.angle_floor_rad > 0 && p.offset_floor_m > 0)) {
     throw BadInput("angle_floor_rad, offset_floor_m", "expected more than 0");
   }

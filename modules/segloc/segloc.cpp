@@ -15,6 +15,7 @@ constexpr std::uint32_t scans_per_map = 20;
 Parameters Segloc::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
+  settings.check_not_negative(parameters);
   check(parameters);
   return parameters;
 }

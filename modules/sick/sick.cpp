@@ -11,6 +11,7 @@ using namespace std::chrono_literals;
 Parameters Sick::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
+  settings.check_not_negative(parameters.segments, "segments.");
   check(parameters.segments);
   return parameters;
 }

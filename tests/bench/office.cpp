@@ -13,6 +13,7 @@
 #include "modules/run/experiment.hpp"
 #include "tests/bench/floors.hpp"
 #include "tests/bench/program.hpp"
+#include "tests/bench/status_line.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tools/papers_modules.hpp"
 
@@ -88,13 +89,14 @@ Speed carry_out(const scenario::Scenario& scenario, const std::string& what, Cos
   const std::int64_t wall_ns = clock_ns(CLOCK_MONOTONIC), processor_ns = clock_ns(CLOCK_PROCESS_CPUTIME_ID);
   const Time until = Time() + scenario.until;
   RunEnd end = RunEnd::time_reached;
+  StatusLine status(is_terminal());
   for (Time reached; end == RunEnd::time_reached && reached < until;) {
     reached = std::min(until, reached + std::chrono::seconds(1));
     end = experiment.run_before(reached);
-    fmt::print(stderr, "\r{}: {} s simulated, {} of {} goals ", what, to_string(reached), experiment.goals_reached(),
-               experiment.goals());
+    status.show(fmt::format("{}: {} s simulated, {} of {} goals", what, to_string(reached), experiment.goals_reached(),
+                            experiment.goals()));
   }
-  fmt::print(stderr, "\r{:70}\r", "");
+  status.show("");
   return {experiment.simulation().global_time().seconds(),
           1e-9 * static_cast<double>(clock_ns(CLOCK_MONOTONIC) - wall_ns),
           1e-9 * static_cast<double>(clock_ns(CLOCK_PROCESS_CPUTIME_ID) - processor_ns)};

@@ -106,7 +106,7 @@ class Unrepeatable(Installed):
   differs in        values recorded by the robot since its previous event
   previous event    [0-9.]+ s, robot gambler, task unrepeatable\.main: .*
 (?P<threads>(?:  OS thread         .*
-)*)  replay            waitpoint run .*unrepeatable.yaml --seed 1 --set 'robots.0.modules.unrepeatable.source=\w+' --check
+)*)  replay            \S*unrepeatable run .*unrepeatable.yaml --seed 1 --set 'robots.0.modules.unrepeatable.source=\w+' --check
 """, output)
         self.assertIsNotNone(told, output)
         self.assertIn(told["run"], runs)

@@ -32,6 +32,16 @@ class Headers(Installed):
             cwd=source.parent)
 
 
+# The functions of the C library that waitpoint and waitpoint-robots stand before: docs/failures.md names them.
+BEFORE_THE_C_LIBRARY = {
+    "libwaitpoint": set(
+        """pthread_create fork nanosleep clock_nanosleep usleep sleep poll select pthread_cond_wait pthread_cond_timedwait
+        pthread_cond_clockwait sem_wait pthread_mutex_lock pthread_rwlock_rdlock pthread_rwlock_wrlock syscall""".split()
+    ),
+    "libwaitpoint-robots": {"_exit", "_Exit", "execl", "execv", "execve", "execvp"},
+}
+
+
 class Libraries(Installed):
     """The shared libraries, as they are installed."""
 
@@ -45,9 +55,7 @@ class Libraries(Installed):
             self.assertTrue(names)
             ours = ("waitpoint_", "__sanitizer_cov_")
             foreign = [name for name in names if "9waitpoint" not in name and not name.startswith(ours)]
-            if "robots" in library.name:  # in place of the C library's: docs/determinism.md names them
-                foreign = [name for name in foreign if name not in ("_exit", "_Exit")]
-            self.assertEqual(foreign, [], library.name)
+            self.assertEqual(set(foreign), BEFORE_THE_C_LIBRARY.get(library.name.split(".")[0], set()), library.name)
 
     def test_have_their_debugging_information_in_files_beside_them(self):
         for library in self.shared():
@@ -73,6 +81,48 @@ class Libraries(Installed):
         self.assertEqual([path for path in self.prefix.rglob("test-*")], [])
 
 
+class Scenarios(Installed):
+    """An installed scenario is named without its folder."""
+
+    def waitpoint(self, *words, folder=None):
+        done = subprocess.run([self.prefix / "bin/waitpoint", *words], capture_output=True, text=True, timeout=120,
+                              cwd=folder or self.folder)
+        return done.returncode, done.stdout + done.stderr
+
+    def digest(self, *words, **options):
+        status, output = self.waitpoint(*words, **options)
+        self.assertIn(status, (0, 1), output)
+        return re.search(r"wp1:[0-9a-f]{16}", output)[0]
+
+    def test_is_found_by_every_command(self):
+        here = self.prefix / "share/waitpoint/scenarios/office.yaml"
+        digest = self.digest("run", here, "--until", "2")
+        self.assertEqual(self.digest("run", "office.yaml", "--until", "2"), digest)
+        self.assertEqual(self.digest("run", "office.yaml", "--until", "2", "--check"), digest)
+        self.assertEqual(self.waitpoint("check", "office.yaml"), self.waitpoint("check", here))
+        status, output = self.waitpoint("explore", "office.yaml", "--until", "1", "--iterations", "2")
+        self.assertEqual(status, 0, output)
+
+    def test_is_named_with_its_folder_in_replay_lines(self):
+        status, output = self.waitpoint("run", "office.yaml", "--until", "2", "--set", "expect.goals_reached=9")
+        found = self.waitpoint("explore", "office.yaml", "--until", "1", "--iterations", "1", "--property", "goals_reached=9")
+        self.assertEqual((status, found[0]), (1, 1), output + found[1])
+        line = re.search(r"(?m)^replay: (.*)$", found[1])[1]
+        self.assertIn(f"{self.prefix}/share/waitpoint/scenarios/office.yaml", line)
+
+    def test_a_file_of_that_name_here_is_preferred(self):
+        folder = self.folder / "with office"
+        folder.mkdir()
+        (folder / "office.yaml").write_text("format: 2\n")
+        status, output = self.waitpoint("run", "office.yaml", folder=folder)
+        self.assertEqual(status, 2)
+        self.assertTrue(output.startswith("waitpoint: office.yaml:1: "), output)
+
+    def test_another_name_is_not_found(self):
+        self.assertEqual(self.waitpoint("run", "offices.yaml")[0], 2)
+        self.assertEqual(self.waitpoint("run", "scenarios/office.yaml")[0], 2)
+
+
 class Blinker(Installed):
     """A user's own modules, in a robot without other modules, base and goals."""
 
@@ -82,6 +132,7 @@ class Blinker(Installed):
         lines = outputs[0].splitlines()
         self.assertEqual([line.split(": ")[1] for line in lines if "the lamp is" in line], ["the lamp is on", "the lamp is off"] * 3)
         self.assertIn("final reply: ok", outputs[0])
+        self.assertEqual([line for line in lines if re.match("  (goals|distance|collisions|position|odometry)", line)], [])
         digests = [re.findall(r"wp1:[0-9a-f]{16}", output) for output in outputs]
         self.assertTrue(digests[0])
         self.assertEqual(digests[0], digests[1])

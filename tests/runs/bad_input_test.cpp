@@ -2,6 +2,7 @@
 // Bad input to the program: an error of one line with file, line and the expected value, exit status 2, no partial
 // output.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -49,6 +50,7 @@ class BadInputTest : public testing::Test {
   std::string complaint(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "waitpoint");
     std::vector<const char*> argv;
+    argv.reserve(arguments.size());
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
@@ -141,6 +143,13 @@ TEST_F(BadInputTest, AGoalInsideAnObstacle) {
   EXPECT_TRUE(says(complaint_of_run(), {at("office.yaml", line), "goal"}));
 }
 
+TEST_F(BadInputTest, ARobotThatStartsOutsideTheMap) {
+  const int line = edit("office.yaml", "start: [20, 4, 90]", "start: [220, 4, 90]");
+  EXPECT_TRUE(says(complaint_of_run(), {at("office.yaml", line),
+                                        "robot 'rackham' starts outside the map, which lies "
+                                        "between (0.00, 0.00) and (40.00, 30.00)"}));
+}
+
 TEST_F(BadInputTest, ARobotThatStartsInsideAWall) {
   const int line = edit("office.yaml", "start: [20, 4, 90]", "start: [0.1, 4, 90]");
   EXPECT_TRUE(says(complaint_of_run(), {at("office.yaml", line), "rackham"}));
@@ -211,6 +220,84 @@ TEST_F(BadInputTest, AGoalThatIsFreeButOutOfReachIsNoBadInputButAReport) {
   std::ifstream in(summary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   EXPECT_TRUE(says(text, {"no way leads to the goal"}));
+}
+
+TEST_F(BadInputTest, AWrongFileIsNotPrintedWhole) {
+  write("secret.yaml", std::string(3000, 's'));
+  edit("office.yaml", "include: office-floor.yaml", "include: secret.yaml");
+  const std::string text = complaint_of_run();
+  EXPECT_TRUE(says(text, {std::string(60, 's')}));
+  EXPECT_LT(text.size(), 600U);
+}
+
+TEST_F(BadInputTest, AFileOutsideOfAConfinedScenariosFolders) {
+  const std::string inside = path("inside/office.yaml"), outside = path("rackham.yaml");
+  fs::create_directory(path("inside"));
+  for (const char* file : {"office.yaml", "office-floor.yaml"})
+    fs::copy_file(path(file), path("inside/" + std::string(file)));
+  const int line = edit("inside/office.yaml", "include: rackham.yaml", "include: ../rackham.yaml");
+  const std::string place = at("inside/office.yaml", line);
+  for (const char* command : {"run", "check", "explore"})
+    EXPECT_TRUE(says(complaint({command, inside, "--confined"}), {place, "rackham.yaml", "--confined"})) << command;
+  // A value of the command line is confined, too.
+  EXPECT_TRUE(
+      says(complaint({"check", inside, "--confined", "--allow", path(""), "--set", "world.include=/etc/passwd"}),
+           {"/etc/passwd", "--confined"}));
+  const char* allowed[] = {"waitpoint", "check", inside.c_str(), "--confined", "--allow", folder_.c_str()};
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(waitpoint::main(6, allowed), 0);
+  testing::internal::GetCapturedStdout();
+}
+
+TEST_F(BadInputTest, ANameThatIsNoPrintableLine) {
+  for (const char* name : {R"(\e]0;pwn\a)", R"(ok\n\n  digest  wp1:0)", R"(\u009b31m)", R"(\u202eoffice)"}) {
+    const std::string assignment = std::string("name=\"") + name + "\"";
+    for (const char* command : {"run", "check"})
+      EXPECT_TRUE(says(complaint({command, path("office.yaml"), "--set", assignment}), {"expected name to be a text"}));
+    EXPECT_TRUE(says(complaint({"check", path("office.yaml"), "--set",
+                                std::string("robots.rackham.goals=[{x_m: 2, y_m: 12, name: \"") + name + "\"}]"}),
+                     {"expected name to be a text"}));
+  }
+}
+
+TEST_F(BadInputTest, APipeToInclude) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const int line = edit("office.yaml", "include: office-floor.yaml", "include: pipe");
+  EXPECT_TRUE(says(complaint_of_run(), {at("office.yaml", line), "no regular file"}));
+}
+
+TEST_F(BadInputTest, AJournalWithoutEnd) {
+  EXPECT_TRUE(says(complaint({"run", path("office.yaml"), "--replay-journal", "/dev/zero"}), {"/dev/zero", "64 MiB"}));
+}
+
+TEST_F(BadInputTest, AMeshOutsideOfAConfinedScenariosFoldersIsNotSoughtThere) {
+  fs::create_directory(path("inside"));
+  write("there.stl", "solid s\nendsolid s\n");
+  const auto complaint_about = [&](const std::string& file, const std::string& uri) {
+    write("inside/w.world",
+          "<sdf version='1.6'><world name='w'><model name='m'><static>true</static><link name='l'><collision name='c'>"
+          "<geometry><mesh><uri>" +
+              uri + "</uri></mesh></geometry></collision></link></model></world></sdf>");
+    write("inside/r.urdf", "<robot name='r'><link name='base'><collision><geometry><mesh filename='" + uri +
+                               "'/></geometry></collision></link></robot>");
+    write("inside/sdf.yaml",
+          "format: 1\nworld: {map: w.world}\nrobots: [{name: r, start: [0, 0, 0], "
+          "shape: {radius_m: 0.2, height_m: 0.5}}]\n");
+    write("inside/urdf.yaml", "format: 1\nrobots: [{name: r, start: [0, 0, 0], urdf: r.urdf}]\n");
+    std::string text = complaint({"check", path("inside/" + file), "--confined"});
+    EXPECT_TRUE(says(text, {uri.substr(3), "--confined"}));
+    text.replace(text.find(uri.substr(3)), uri.size() - 3, "MESH");
+    return text;
+  };
+  for (const char* file : {"sdf.yaml", "urdf.yaml"})
+    EXPECT_EQ(complaint_about(file, "../there.stl"), complaint_about(file, "../gone.stl")) << file;
+}
+
+TEST_F(BadInputTest, AProgramInAConfinedScenario) {
+  write("program.yaml",
+        "format: 1\nname: program\nuntil_s: 1\nrobots:\n  - name: r\n    shape: {radius_m: 0.2, height_m: 0.5}\n"
+        "    start: [0, 0, 0]\n    programs:\n      - {name: any, file: any.so}\n");
+  EXPECT_TRUE(says(complaint({"check", path("program.yaml"), "--confined"}), {at("program.yaml", 9), "--confined"}));
 }
 
 }  // namespace

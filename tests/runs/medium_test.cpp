@@ -111,7 +111,7 @@ robots:
   - {name: far, type: scout, start: [500, 0, 0]}
 )";
 
-struct Outcome {
+struct Transmission {
   Heard heard;
   io::Status told = io::Status::ok;  // to robot one, for its last message
   io::LinkStatistics statistics;
@@ -127,7 +127,7 @@ T last(const run::Experiment& experiment, std::size_t robot, const std::string& 
 }
 
 // Ten seconds, in which robot one drives 5 m less the distance lost while accelerating.
-Outcome transmit(const std::string& medium, std::uint64_t seed = 1, const std::string& without = "") {
+Transmission transmit(const std::string& medium, std::uint64_t seed = 1, const std::string& without = "") {
   const tools::Folder folder;
   folder.write("s.yaml", text + medium);
   scenario::Scenario scenario = scenario::read_scenario(folder / "s.yaml");
@@ -135,7 +135,7 @@ Outcome transmit(const std::string& medium, std::uint64_t seed = 1, const std::s
   const std::vector<genom::ModuleType> types = {genom::module_type<Beacon>("beacon")};
   run::Experiment experiment(scenario, types, {seed, kernel::Order::fifo, ""});
   experiment.run_before(Time() + Duration(10s));
-  Outcome outcome;
+  Transmission outcome;
   outcome.heard = last<Heard>(experiment, 1, "beacon.heard");
   outcome.told = last<Told>(experiment, 0, "beacon.told").status;
   outcome.statistics = experiment.network().statistics("one", "two");
@@ -149,7 +149,7 @@ Outcome transmit(const std::string& medium, std::uint64_t seed = 1, const std::s
 }
 
 TEST(MediumOfAScenario, DelaysWhatRobotsTellEachOther) {
-  const Outcome outcome = transmit("medium: {latency_ms: 30}\n");
+  const Transmission outcome = transmit("medium: {latency_ms: 30}\n");
   EXPECT_EQ(outcome.lookahead, Duration(30ms));
   EXPECT_GT(outcome.statistics.sent, 490u);
   EXPECT_GE(outcome.heard.count + 3, outcome.statistics.sent);
@@ -158,13 +158,13 @@ TEST(MediumOfAScenario, DelaysWhatRobotsTellEachOther) {
 }
 
 TEST(MediumOfAScenario, LosesDatagrams) {
-  const Outcome outcome = transmit("medium: {latency_ms: [5, 15], loss: 0.3}\n");
+  const Transmission outcome = transmit("medium: {latency_ms: [5, 15], loss: 0.3}\n");
   EXPECT_NEAR(static_cast<double>(outcome.statistics.lost), 150, 45);
   EXPECT_GE(outcome.heard.count + outcome.statistics.lost + 2, outcome.statistics.sent);
 }
 
 TEST(MediumOfAScenario, EndsAtItsRangeByTheTrueDistance) {
-  const Outcome outcome = transmit("medium: {latency_ms: 5, range_m: 4}\n");
+  const Transmission outcome = transmit("medium: {latency_ms: 5, range_m: 4}\n");
   ASSERT_GT(outcome.distance_m, 6) << "robot one has not driven away";
   // 2 m at 0.5 m/s, and the time to accelerate.
   EXPECT_NEAR(outcome.heard.sent.seconds(), 4.3, 0.4);
@@ -172,7 +172,7 @@ TEST(MediumOfAScenario, EndsAtItsRangeByTheTrueDistance) {
 }
 
 TEST(MediumOfAScenario, WithoutOneRobotsCannotSend) {
-  const Outcome outcome = transmit("");
+  const Transmission outcome = transmit("");
   EXPECT_EQ(outcome.told, io::Status::no_route);
   EXPECT_EQ(outcome.heard.count, 0u);
   EXPECT_EQ(outcome.lookahead, Duration::max());
@@ -180,7 +180,7 @@ TEST(MediumOfAScenario, WithoutOneRobotsCannotSend) {
 
 TEST(MediumOfAScenario, TheSameSeedGivesTheSameDigestsAndAnotherOnlyOtherLosses) {
   const std::string medium = "medium: {latency_ms: [5, 60], loss: 0.3, bandwidth_bit_s: 100000}\n";
-  const Outcome first = transmit(medium), second = transmit(medium), other = transmit(medium, 2);
+  const Transmission first = transmit(medium), second = transmit(medium), other = transmit(medium, 2);
   EXPECT_EQ(second.digest, first.digest);
   EXPECT_EQ(second.heard.count, first.heard.count);
   EXPECT_NE(other.digest, first.digest);
@@ -188,7 +188,7 @@ TEST(MediumOfAScenario, TheSameSeedGivesTheSameDigestsAndAnotherOnlyOtherLosses)
 
 TEST(MediumOfAScenario, ARobotThatNobodyTalksToIsNotNoticed) {
   const std::string medium = "medium: {latency_ms: [5, 60], loss: 0.3}\n";
-  const Outcome all = transmit(medium), without = transmit(medium, 1, "far");
+  const Transmission all = transmit(medium), without = transmit(medium, 1, "far");
   ASSERT_EQ(all.digests.size(), 3u);
   EXPECT_EQ(std::vector<std::string>(all.digests.begin(), all.digests.begin() + 2), without.digests);
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "modules/genom/client.hpp"
 #include "modules/rflex/rflex.hpp"
@@ -49,8 +50,8 @@ scenario::Scenario circling(const std::string& rows, std::vector<std::string> mo
 
 class CirclingRun {
  public:
-  CirclingRun(const scenario::Scenario& scenario, int seconds, std::uint64_t seed = 1)
-      : experiment_(scenario, types(), {seed, kernel::Order::fifo, ""}) {
+  CirclingRun(scenario::Scenario scenario, int seconds, std::uint64_t seed = 1)
+      : scenario_(std::move(scenario)), experiment_(scenario_, types(), {seed, kernel::Order::fifo, ""}) {
     experiment_.run_before(Time() + Duration(std::chrono::seconds(seconds)));
   }
 
@@ -71,6 +72,7 @@ class CirclingRun {
     return types;
   }
 
+  scenario::Scenario scenario_;  // the experiment refers to it
   run::Experiment experiment_;
 };
 

@@ -66,8 +66,8 @@ TEST(OneProcessor, ByTheLengthsOfTheirPeriodsAllAreInTime) {
 Duration worst_response(const std::string& task, Duration period, Duration delay,
                         const std::vector<std::string>& assignments) {
   const std::vector<genom::ModuleType> types = tools::papers_modules();
-  run::Experiment experiment(shipped("office-one-processor.yaml", assignments), types,
-                             {usual_seed, kernel::Order::fifo, ""});
+  const scenario::Scenario scenario = shipped("office-one-processor.yaml", assignments);
+  run::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});
   ResponseTime response(task, period, delay);
   experiment.simulation().scheduler().set_watch(&response);
   experiment.run_before(Time() + Duration(10s));

@@ -109,13 +109,20 @@ Round draw_round(const std::filesystem::path& map, std::uint64_t seed) {
   return round;
 }
 
-// The robot's true position at its report.
-Point true_position_at(const bridge::RobotResult& robot, Time date) {
-  Point position;
-  for (const bridge::DatedPose& sample : robot.true_path)
-    if (sample.date <= date) position = sample.pose.position();
-  return position;
-}
+/// All samples of the true path.
+struct TruePath final : bridge::PathSink {
+  void add(bridge::PathKind kind, const bridge::DatedPose& sample) override {
+    if (kind == bridge::PathKind::truth) samples.push_back(sample);
+  }
+  Point position_at(Time date) const {
+    Point position;
+    for (const bridge::DatedPose& sample : samples)
+      if (sample.date <= date) position = sample.pose.position();
+    return position;
+  }
+
+  std::vector<bridge::DatedPose> samples;
+};
 
 class RealMap : public testing::TestWithParam<const char*> {};
 
@@ -130,15 +137,17 @@ TEST_P(RealMap, EveryGoalThatIsFreeAndConnectedIsReached) {
     const scenario::Scenario scenario = round.scenario();
     run::Experiment experiment(scenario, tools::papers_modules(),
                                {.seed = seed, .order = kernel::Order::fifo, .replay = ""});
+    TruePath path;
+    experiment.robots().at(0)->add_path_sink(path);
     EXPECT_EQ(experiment.run_before(Time() + scenario.until), RunEnd::ended) << "seed " << seed;
     const bridge::RunResult result = experiment.result();
     const bridge::RobotResult& robot = result.robots[0];
     EXPECT_EQ(robot.collisions, 0u) << "seed " << seed;
     for (const bridge::GoalResult& goal : robot.goals) {
-      EXPECT_TRUE(goal.reached) << "seed " << seed << ", goal (" << goal.position.x << ", " << goal.position.y
-                                << "): " << goal.report;
-      if (!goal.reached) continue;
-      EXPECT_LT(length(true_position_at(robot, goal.date) - goal.position), 0.3)
+      EXPECT_TRUE(goal.reached()) << "seed " << seed << ", goal (" << goal.position.x << ", " << goal.position.y
+                                  << "): " << goal.report;
+      if (!goal.reached()) continue;
+      EXPECT_LT(length(path.position_at(goal.date) - goal.position), 0.3)
           << "seed " << seed << ", goal (" << goal.position.x << ", " << goal.position.y << ")";
     }
     RecordProperty("position_error_max_m_" + std::to_string(seed), std::to_string(robot.position_error_max_m));

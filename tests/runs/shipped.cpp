@@ -14,6 +14,7 @@ scenario::Scenario shipped(const std::string& name, const std::vector<std::strin
 bridge::RunResult run(const scenario::Scenario& scenario, Duration until, std::uint64_t seed, kernel::Order order) {
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   run::Experiment experiment(scenario, types, {seed, order, ""});
+  for (const auto& robot : experiment.robots()) robot->keep_paths();
   experiment.run_before(Time() + until);
   return experiment.result();
 }

@@ -19,7 +19,7 @@ inline constexpr std::uint64_t usual_seed = 1;
 /// `scenarios/<name>`, with assignments as by `--set`.
 scenario::Scenario shipped(const std::string& name, const std::vector<std::string>& assignments = {});
 
-/// Runs a scenario with the paper's modules, in one window.
+/// Runs a scenario with the paper's modules, in one window; the result has the paths.
 bridge::RunResult run(const scenario::Scenario& scenario, Duration until = first_seconds,
                       std::uint64_t seed = usual_seed, kernel::Order order = kernel::Order::fifo);
 

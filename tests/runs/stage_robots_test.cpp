@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Worlds of Stage with their robots: the scenario supplies the software, the file everything else.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,6 +65,7 @@ class StageRobots : public testing::Test {
     std::vector<genom::ModuleType> types = tools::shipped_modules();
     types.push_back(genom::module_type<Driver>("driver"));
     run::Experiment experiment(scenario, types, {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
+    for (const auto& robot : experiment.robots()) robot->keep_paths();
     experiment.run_before(Time() + until);
     return experiment.result();
   }
@@ -84,12 +86,13 @@ TEST_F(StageRobots, FindTheirWayWithThePapersModules) {
                         "  velocity_bounds [-0.6 0.6 0 0 0 0 -80 80] acceleration_bounds [-1 1 0 0 0 0 -180 180]\n"
                         "  ranger( name \"laser\" pose [0.1 0 -0.1 0] sensor( samples 361 fov 180 range [0 20] ) ) )\n"
                         "rover( name \"one\" pose [2 1 0 90] )\nrover( name \"two\" pose [6 5 0 -90] )\n");
+  constexpr char one[] = "{model: one, type: rackham, goals: [[6.5, 1]]}";
+  constexpr char two[] = "{model: two, type: rackham, goals: [[2, 1.5]]}";
   const scenario::Scenario scenario = scenario::read_scenario(
       test::project_root() / "scenarios" / "office.yaml",
       {"world.shapes=[]", "world.map=" + map, "until_s=300",
        "robots=", "robot_types.rackham.shape=", "robot_types.rackham.base=", "robot_types.rackham.lasers=",
-       "robots_from_map=[{model: one, type: rackham, goals: [[6.5, 1]]}, {model: two, type: rackham, goals: [[2, "
-       "1.5]]}]"});
+       "robots_from_map=[" + std::string(one) + ", " + two + "]"});
   const bridge::RunResult result = run(scenario, scenario.until);
   ASSERT_EQ(result.robots.size(), 2u);
   for (const bridge::RobotResult& robot : result.robots) {
@@ -104,8 +107,7 @@ TEST_F(StageRobots, WanderWithoutGoalsAndWithoutCollisions) {
                     "define bot position( size [0.4 0.4 0.3] drive \"diff\"\n"
                     "  ranger( sensor( samples 181 fov 180 range [0 8] ) ) )\n";
   for (int i = 0; i < 6; ++i) {
-    const std::string x = std::to_string(1 + i % 2 * 5), y = std::to_string(1 + i / 2 * 2);
-    map += "bot( pose [" + x + " " + y + " 0 " + std::to_string(50 * i) + "] )\n";
+    map += fmt::format("bot( pose [{} {} 0 {}] )\n", 1 + i % 2 * 5, 1 + i / 2 * 2, 50 * i);
   }
   const bridge::RunResult result = run(wandering(write("six.world", map), "ranger_0"), std::chrono::seconds(60));
   ASSERT_EQ(result.robots.size(), 6u);

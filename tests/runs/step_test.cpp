@@ -15,7 +15,7 @@ TEST(WorldStep, TheOfficesGoalsAreReachedAtACoarseStepTooAndItIsTold) {
               std::vector<std::string>{"the world's step of " + to_string(scenario.step) +
                                        " s exceeds the least period of rackham's software, 0.020000000 s"});
     EXPECT_EQ(result.robots[0].collisions, 0u);
-    for (const bridge::GoalResult& goal : result.robots[0].goals) EXPECT_TRUE(goal.reached) << goal.report;
+    for (const bridge::GoalResult& goal : result.robots[0].goals) EXPECT_TRUE(goal.reached()) << goal.report;
   }
 }
 

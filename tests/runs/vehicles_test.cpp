@@ -170,7 +170,7 @@ TEST(AirAndGround, ShareAnOfficeAndReachAllTheirGoals) {
   EXPECT_TRUE(result.warnings.empty());
   for (const bridge::RobotResult& robot : result.robots) {
     EXPECT_EQ(robot.collisions, 0u);
-    for (const bridge::GoalResult& goal : robot.goals) EXPECT_TRUE(goal.reached) << robot.name << ": " << goal.report;
+    for (const bridge::GoalResult& goal : robot.goals) EXPECT_TRUE(goal.reached()) << robot.name << ": " << goal.report;
   }
   EXPECT_TRUE(above_the_table);
   EXPECT_NEAR(highest, 1.6, 0.02);

@@ -31,7 +31,7 @@ bridge::RunResult run(const scenario::Scenario& scenario) {
 void expect_all_reached(const bridge::RunResult& result) {
   const bridge::RobotResult& robot = result.robots[0];
   EXPECT_EQ(robot.collisions, 0u);
-  for (const bridge::GoalResult& goal : robot.goals) EXPECT_TRUE(goal.reached) << goal.report;
+  for (const bridge::GoalResult& goal : robot.goals) EXPECT_TRUE(goal.reached()) << goal.report;
 }
 
 class WorldFiles : public testing::Test {
@@ -128,7 +128,8 @@ TEST_F(WorldFiles, AHeightIsForWhatHasNone) {
   const std::string map = write("a.world", "model( size [1 1 1] )\n");
   const scenario::Scenario scenario = scenario_on("{file: " + map + ", height_m: 2}", "[2, 1, 90]", "[]");
   try {
-    run::Experiment(scenario, tools::papers_modules(), {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
+    const run::Experiment experiment(scenario, tools::papers_modules(),
+                                     {.seed = 1, .order = kernel::Order::fifo, .replay = ""});
     ADD_FAILURE() << "no BadInput";
   } catch (const BadInput& bad) {
     EXPECT_EQ(bad.what(), "--set world.map={file: " + map + ", height_m: 2}: expected no height_m: '" + map +

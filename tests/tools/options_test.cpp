@@ -172,5 +172,46 @@ TEST_F(CommandLine, two_files_of_one_name_are_refused) {
   EXPECT_EQ(message({"run", "a", "--summary", "out", "--events", "out.events"}), "");
 }
 
+TEST_F(CommandLine, the_three_files_of_a_trajectory_are_distinct_from_the_others) {
+  for (const char* name : {"a.tum", "a.estimated.tum", "a.odometry.tum"})
+    EXPECT_EQ(message({"run", "a", "--trajectory", "a.tum", "--events", name}),
+              "--events: '" + std::string(name) + "' is the file that --trajectory writes");
+  EXPECT_EQ(message({"run", "a", "--trajectory", "a.tum", "--events", "a.events.tum"}), "");
+  const RunOptions options = run({"run", "a", "--trajectory", "a.tum", "--events", "a.two.odometry.tum"});
+  const std::vector<std::string> robots = {"one", "two"};
+  EXPECT_THROW(check_files(options, robots), BadInput);
+  for (const char* name : {"-", "/dev/stdout"})
+    EXPECT_NE(message({"run", "a", "--trajectory", name}).find("it writes three files"), std::string::npos);
+}
+
+TEST_F(CommandLine, a_picture_has_no_name_of_another_format) {
+  for (const char* name : {"x.png", "x.PNG", "x.Jpg", "x.PDF"})
+    EXPECT_NE(message({"run", "a", "--picture", name}).find("ends in .svg"), std::string::npos) << name;
+  EXPECT_EQ(message({"run", "a", "--picture", "x.SVG"}), "");
+}
+
+TEST_F(CommandLine, standard_output_as_a_file_is_noticed) {
+  for (const char* option :
+       {"--summary", "--picture", "--record", "--digests", "--events", "--record-durations", "--journal"}) {
+    EXPECT_TRUE(run({"run", "a", option, "-"}).writes_standard_output()) << option;
+    EXPECT_FALSE(run({"run", "a", option, "file"}).writes_standard_output()) << option;
+  }
+}
+
+TEST_F(CommandLine, a_replay_line_is_read_back_by_a_shell) {
+  EXPECT_EQ(replay_line(run({"run", "a.yaml", "--set", "x=1", "--replay-journal", "j"}), 3),
+            "waitpoint run a.yaml --seed 3 --replay-journal j --set 'x=1'");
+  RunOptions options;
+  options.program = "./my robots";
+  options.scenario = "an office.yaml";
+  options.assignments = {"x=it's"};
+  options.confined_to = {"a", "b c"};
+  options.journal = "j;1";
+  options.replay_durations = "$d";
+  EXPECT_EQ(replay_line(options, 3),
+            "'./my robots' run 'an office.yaml' --seed 3 --replay-durations '$d' --replay-journal 'j;1' --confined "
+            "--allow 'b c' --set 'x=it'\\''s'");
+}
+
 }  // namespace
 }  // namespace waitpoint::tools

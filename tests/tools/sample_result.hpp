@@ -12,8 +12,8 @@ inline bridge::RobotResult sample_robot(const std::string& name) {
   robot.digest = Digest(name.size());
   robot.shape.kind = world::Shape::Kind::cylinder;
   robot.shape.radius_m = 0.26;
-  robot.goals = {{{3, 1}, "shelf", true, Time::from_ns(12'500'000'000), "reached"},
-                 {{5, 4}, "", false, Time::from_ns(40'000'000'000), "no way"}};
+  robot.goals = {{{3, 1}, "shelf", 1, 1, Time::from_ns(12'500'000'000), "reached"},
+                 {{5, 4}, "", 1, 0, Time::from_ns(40'000'000'000), "no way"}};
   robot.distance_m = 10.5;
   robot.position_error_mean_m = 0.03;
   robot.position_error_max_m = 0.125;

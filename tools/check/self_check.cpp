@@ -10,6 +10,7 @@
 
 #include "core/number_text.hpp"
 #include "fibers/sync/duration_record.hpp"
+#include "fibers/sync/system_calls.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/check/event_comparison.hpp"
@@ -48,7 +49,7 @@ std::string text_of(RunEnd end) {
   return "";
 }
 
-void line(const char* name, const std::string& text) { fmt::print("  {:<18}{}\n", name, text); }
+void line(const char* name, const std::string& text) { write_standard_output(fmt::format("  {:<18}{}\n", name, text)); }
 
 /// Wall clock limit of the perturbed process; generous, as its shuffled heap is slower and the machine may be loaded.
 double limit_s(double run_s) {
@@ -150,18 +151,17 @@ Carried SelfCheck::compared(EventComparison& comparison) {
 
 int SelfCheck::tell(const std::optional<Difference>& difference, const std::string& run) const {
   if (!difference) return 0;
-  fmt::print("{}, seed {}: not the same run: {} differs from the first\n{}", scenario_.name, options_.seed, run,
-             to_text(*difference));
+  write_standard_output(fmt::format("{}, seed {}: not the same run: {} differs from the first\n{}", scenario_.name,
+                                    options_.seed, run, to_text(*difference)));
   for (const std::string& thread : threads_.found())
     line("OS thread", thread + " was started during the run and is not repeatable");
   line("replay", replay_ + " --check");
-  std::fflush(stdout);
   return 1;
 }
 
 void SelfCheck::tell_same(const Carried& run, const SharedPage& seen) const {
-  fmt::print("{}, seed {}: the same run, twice in this process and once in a perturbed one\n", scenario_.name,
-             options_.seed);
+  write_standard_output(fmt::format("{}, seed {}: the same run, twice in this process and once in a perturbed one\n",
+                                    scenario_.name, options_.seed));
   line("events", fmt::format("{}, each compared with its robot's digest", run.events));
   line("digest", to_string(run.digest));
   if (run.end.starts_with("it failed")) line("ended", run.end);
@@ -186,6 +186,7 @@ int SelfCheck::perturbed(const PerturbedFiles& files) {
 int SelfCheck::all() {
   check_perturbed_process_possible();
   limit_s(0);  // bad input before anything is run
+  sync::tell_threads_outside();
   EventLog log;
   const Carried one = first(log);
   if (interrupted_()) return status_interrupted;
@@ -203,8 +204,9 @@ int SelfCheck::all() {
       run_perturbed_process({log.file(), durations}, limit_s(std::max(one.wall_s, two.wall_s)), interrupted_);
   if (durations >= 0) close(durations);
   if (interrupted_()) return status_interrupted;
-  if (end.status == 1 || end.status == status_interrupted) return *end.status;  // already reported
-  if (end.status == 0) {
+  const int status = end.status.value_or(-1);
+  if (status == 1 || status == status_interrupted) return status;  // already reported
+  if (status == 0) {
     tell_same(one, *shared.operator->());
     return 0;
   }
@@ -239,9 +241,7 @@ int self_check(const RunOptions& options, std::span<const genom::ModuleType> typ
   heed_signals();
   const std::string replay = replay_line(options, options.seed);
   SelfCheck check(options, scenario, types, replay, is_interrupted);
-  const int status = status_of(check);
-  flush_standard_output();
-  return status;
+  return status_of(check);
 }
 
 }  // namespace waitpoint::tools

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
+#include "tools/command/shell_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -17,12 +18,11 @@ std::vector<std::string> commands_of(const CLI::App& app) {
   return names;
 }
 
-/// One line for a word that CLI11 rejected, with the nearest known name.
-BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
+constexpr const char* where = "command line";
+
+/// One line for a word that is not known, with the nearest known name.
+BadInput unknown_word(const CLI::App& app, const std::vector<std::string>& extra) {
   const CLI::App* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
-  const std::string where = "command line";
-  const std::vector<std::string> extra = app.remaining(true);
-  if (extra.empty()) return BadInput(where, error.what());
   std::vector<std::string> names;
   for (const CLI::Option* option : command->get_options()) names.push_back(option->get_name());
   if (command == &app) {
@@ -33,6 +33,14 @@ BadInput bad_argument(const CLI::App& app, const CLI::ParseError& error) {
   const std::string hint = did_you_mean(word, known);
   const std::string kind = word.starts_with('-') ? "option" : command == &app ? "command" : "argument";
   return BadInput(where, "unknown " + kind + " '" + word + "'" + (hint.empty() ? "; --help lists them all" : hint));
+}
+
+/// One line for the words of a program without "--" before them, with the command line that has it.
+BadInput missing_dashes(const CLI::App& command, int argc, const char* const* argv) {
+  const std::vector<std::string> program = command.remaining();
+  const std::vector<std::string> options(argv + 1, argv + argc - program.size());
+  return BadInput(command.get_name(),
+                  "expected '--' before the program: waitpoint" + quoted(options) + " --" + quoted(program));
 }
 
 // Usually an unset variable of a script, where the default is not intended.
@@ -60,6 +68,8 @@ void Command::repeated(const char* name, std::vector<std::string>& values, const
 void Command::flag(const char* name, bool& value, const std::string& description) {
   app_->add_flag(name, value, description)->disable_flag_override();
 }
+
+void Command::takes_program() { app_->prefix_command(); }
 
 void Command::footer(const std::string& text) { app_->footer(text); }
 
@@ -93,9 +103,14 @@ std::optional<std::string> CommandLine::parse(int argc, const char* const* argv)
   } catch (const CLI::CallForVersion&) {
     return app_->version() + "\n";
   } catch (const CLI::ParseError& error) {
-    throw bad_argument(*app_, error);
+    const std::vector<std::string> extra = app_->remaining(true);
+    throw extra.empty() ? BadInput(where, error.what()) : unknown_word(*app_, extra);
   }
-  for (const CLI::App* command : app_->get_subcommands()) refuse_empty_words(*command);
+  for (const CLI::App* command : app_->get_subcommands()) {
+    refuse_empty_words(*command);
+    const std::vector<std::string> extra = command->remaining();
+    if (!extra.empty()) throw extra[0][0] == '-' ? unknown_word(*app_, extra) : missing_dashes(*command, argc, argv);
+  }
   return std::nullopt;
 }
 

@@ -14,4 +14,15 @@ std::filesystem::path find_part(const std::string& name) {
   throw BadInput("programs", "the library they need is not installed: expected " + installed.string());
 }
 
+std::filesystem::path find_scenario(const std::string& name) {
+  std::filesystem::path here = name;
+  std::error_code error;
+  if (here.empty() || here.has_parent_path() || std::filesystem::exists(here, error)) return here;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (const std::filesystem::path& data :
+       {program.parent_path() / "share/waitpoint", std::filesystem::path(data_folder)})
+    if (std::filesystem::path file = data / "scenarios" / here; std::filesystem::exists(file, error)) return file;
+  return here;
+}
+
 }  // namespace waitpoint::tools

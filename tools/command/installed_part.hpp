@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Libraries and programs that are located by name, relative to this program.
+// Libraries, programs and scenarios that are located by name, relative to this program or at the place of installation.
 #pragma once
 
 #include <filesystem>
@@ -9,5 +9,8 @@ namespace waitpoint::tools {
 
 /// The part of this name from the build folder or the installation. BadInput if it is missing.
 std::filesystem::path find_part(const std::string& name);
+
+/// The scenario's file: a name without a folder that is not here is that of an installed scenario, if there is one.
+std::filesystem::path find_scenario(const std::string& name);
 
 }  // namespace waitpoint::tools

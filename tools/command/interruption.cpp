@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <ctime>
+#include <initializer_list>
 
 namespace waitpoint::tools {
 namespace {
@@ -29,15 +30,31 @@ void note(int signal) {
   }
 }
 
+// Unlike SIG_IGN, a handler is not inherited by executed programs.
+void do_nothing(int) {}
+
 }  // namespace
 
 void heed_signals() {
   struct sigaction action {};
   action.sa_handler = note;
-  sigaddset(&action.sa_mask, SIGINT);
-  sigaddset(&action.sa_mask, SIGTERM);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  constexpr int ends[] = {SIGINT, SIGTERM, SIGHUP};
+  for (const int signal : ends) sigaddset(&action.sa_mask, signal);
+  for (const int signal : ends) {
+    struct sigaction previous {};
+    const bool is_ignored = sigaction(signal, nullptr, &previous) == 0 && previous.sa_handler == SIG_IGN;
+    if (signal != SIGHUP || !is_ignored) sigaction(signal, &action, nullptr);
+  }
+}
+
+void prefer_errors_to_signals() {
+  for (const int signal : {SIGXFSZ, SIGPIPE}) {
+    struct sigaction action {};
+    if (sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
+    action.sa_handler = do_nothing;
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
+  }
 }
 
 int interruption() { return noted; }

@@ -7,6 +7,9 @@
 
 namespace waitpoint::tools {
 
+/// The word in quotation marks.
+std::string in_quotation_marks(const std::string& word);
+
 /// The word, in quotation marks if a shell would not read it back unchanged.
 std::string quoted(const std::string& word);
 

@@ -22,6 +22,7 @@ ExecArguments::ExecArguments(CommandLine& line)
                   "write the actions of each thread, up to the end or the crash, as a trace for\n"
                   "Chrome and Perfetto");
   conditions_.add_to(command_);
+  command_.takes_program();
   command_.flag("--quiet", quiet_, "print no summary line, unless the run failed");
   command_.footer(
       "Several programs in one process, built as shared objects: exec -- a.so ARGUMENTS :: NAME=b.so ARGUMENTS\n"

@@ -27,10 +27,10 @@ bool read(pid_t process, const void* from, void* to, std::size_t size) {
 
 // The name of the program's running thread; empty if unknown.
 std::string running_thread(const posix::Record& record, pid_t process) {
-  const kernel::Task* task = nullptr;
+  const char* task = nullptr;
   char name[kernel::name_size] = {};
   if (!read(process, record.running, &task, sizeof task) || task == nullptr) return "";
-  if (!read(process, reinterpret_cast<const char*>(task) + offsetof(kernel::Task, name), name, sizeof name)) return "";
+  if (!read(process, task + offsetof(kernel::Task, name), name, sizeof name)) return "";
   name[sizeof name - 1] = '\0';
   return name;
 }

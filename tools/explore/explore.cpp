@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "fibers/sync/system_calls.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
@@ -54,13 +55,8 @@ class Files {
   std::optional<OutputFile> results_, schedule_, trace_;
 };
 
-void put(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw BadInput("standard output", "cannot be written");
-}
-
 void tell(const FailureReport& report, Files& files) {
-  put(report.text);  // even if the files cannot be written
+  write_standard_output(report.text);  // even if the files cannot be written
   files.write(report);
 }
 
@@ -84,6 +80,7 @@ int search(Target& target, Files& files) {
   std::optional<Finding> usual = run_apart(target, {.drawn = false}, {.profile = true});
   const double usual_s = progress.seconds() - usual_start_s;
   target.set_limit(target.options().schedule_limit_s.value_or(least_limit_s + usual_times_max * usual_s));
+  if (usual) std::fputs(usual->system_calls.c_str(), stderr);
   if (usual && !usual->passed() && !files.has_results()) {
     tell(report_default(target, *usual), files);
     return 1;
@@ -94,7 +91,7 @@ int search(Target& target, Files& files) {
   if (usual) search.run(files.has_results());
   const double seconds = progress.seconds() - start_s;
   files.write_results(target, search);
-  put(sum(target, search, seconds));
+  write_standard_output(sum(target, search, seconds));
   if (search.first()) tell(report(target, progress, *search.first()), files);
   return search.interrupted() || !usual ? 130 : search.first() ? 1 : 0;
 }
@@ -111,6 +108,7 @@ int explore(const ExploreOptions& options, std::span<const genom::ModuleType> ty
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   if (!options.replay.empty()) return replay(options, scenario, types);
+  sync::tell_threads_outside();
   Files files(options);
   Scene scene(scenario, types, options, replay_command(options));
   return search(scene, files);

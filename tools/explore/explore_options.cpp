@@ -13,6 +13,7 @@
 #include "modules/run/expectation.hpp"
 #include "modules/scenario/scenario.hpp"
 #include "tools/command/distinct_files.hpp"
+#include "tools/command/installed_part.hpp"
 #include "tools/command/option_values.hpp"
 #include "tools/explore/depth_first.hpp"
 
@@ -106,6 +107,7 @@ ExploreArguments::ExploreArguments(CommandLine& line)
   command_.option("--from", from_, "S",
                   "share one run in the default order up to virtual time S, in seconds (default: 0)");
   command_.repeated("--set", assignments_, "KEY=VALUE", "override a value of the scenario, as in waitpoint run");
+  confinement_.add(command_);
   command_.option("--shard", shard_, "I/N",
                   "run every N-th schedule from the I-th on, to split a search among machines");
   command_.option("--results", results_, "FILE", "run all schedules, and write number, digest and outcome of each");
@@ -148,6 +150,7 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
     check_program();
     if (words.empty())
       throw BadInput("explore", "expected a program: waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]");
+    if (confinement_.is_confined) throw BadInput("--confined", "expected a scenario, not --exec");
     options.program = words;
     options.conditions = conditions_.conditions(true);
   } else if (scenario_.empty()) {
@@ -155,7 +158,8 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   } else if (const std::string given = conditions_.first_given(); !given.empty()) {
     throw BadInput(given, "expected --exec and a program: for a scenario, its file sets this");
   }
-  options.scenario = scenario_;
+  options.scenario = find_scenario(scenario_);
+  options.confined_to = confinement_.folders(options.scenario);
   options.assignments = assignments_;
   options.properties = properties_;
   for (const std::string& property : properties_) options.assignments.push_back(assignment_of(property));

@@ -10,6 +10,7 @@
 
 #include "core/time.hpp"
 #include "tools/command/command_line.hpp"
+#include "tools/command/confinement_options.hpp"
 #include "tools/exec/program_conditions.hpp"
 
 namespace waitpoint::tools {
@@ -21,9 +22,10 @@ struct Shard {
 
 struct ExploreOptions {
   std::filesystem::path scenario;
-  std::vector<std::string> program;      ///< its words; instead of a scenario
-  std::vector<std::string> assignments;  ///< of --set, then of --property: "expect.collisions=0"
-  std::vector<std::string> properties;   ///< of --property: "collisions=0"
+  std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all
+  std::vector<std::string> program;                ///< its words; instead of a scenario
+  std::vector<std::string> assignments;            ///< of --set, then of --property: "expect.collisions=0"
+  std::vector<std::string> properties;             ///< of --property: "collisions=0"
   std::string strategy = "portfolio";
   std::uint64_t seed = 1;
   bool seed_is_asked = false;                   ///< given explicitly
@@ -62,6 +64,7 @@ class ExploreArguments {
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
   std::string results_, trace_, schedule_, replay_;
   std::vector<std::string> assignments_, properties_;
+  ConfinementArguments confinement_;
   ConditionArguments conditions_;
   bool is_program_ = false, keep_all_ = false;
 };

@@ -87,6 +87,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.parted);
   pass(finding.details);
   pass(finding.told);
+  pass(finding.system_calls);
   pass(finding.last_events);
   pass(finding.trace);
   pass(finding.log);

@@ -32,6 +32,7 @@ struct Finding {
   bool parted = false;                             ///< the plan did not fit the run
   std::string details;                      ///< for failures, if places are requested: lines specific to the kind
   std::string told;                         ///< if requested: the switches, a decision or an event, in words
+  std::string system_calls;                 ///< with the profile: warnings of calls that leave virtual time
   std::string last_events;                  ///< if requested, in words
   std::string trace;                        ///< if requested
   std::vector<exploration::DoneEvent> log;  ///< if requested

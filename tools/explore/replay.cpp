@@ -35,13 +35,12 @@ int replay(const ExploreOptions& asked, const scenario::Scenario& scenario, std:
   result.seed = options.seed;  // not the seed of the schedule's noise, which is derived from it
   result.wall_s = wall_clock_s() - start_s;
   result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
-  std::fputs(summary_text(result).c_str(), stdout);
+  write_standard_output(summary_text(result));
   if (trace) {
     trace->write(finding.trace);
     trace->commit();
   }
-  if (record.digest_bits > 0) std::puts("\nthe same run as in the record");
-  if (std::fflush(stdout) != 0) throw BadInput("standard output", "cannot be written");
+  if (record.digest_bits > 0) write_standard_output("\nthe same run as in the record\n");
   if (!finding.passed()) std::fprintf(stderr, "waitpoint: failed: %s\n", finding.words.c_str());
   return finding.passed() ? 0 : 1;
 }

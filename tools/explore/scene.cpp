@@ -13,6 +13,7 @@
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/kernel/visit.hpp"
 #include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/system_calls.hpp"
 #include "modules/run/expectation.hpp"
 
 namespace waitpoint::tools {
@@ -27,6 +28,7 @@ constexpr std::uint32_t steps_of_an_instant_max = 100'000;
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }
 
@@ -63,7 +65,9 @@ Scene::Scene(const scenario::Scenario& scenario, std::span<const genom::ModuleTy
       options_(options),
       replay_(std::move(replay)),
       judged_at_until_(options.limit(scenario.until) >= Time() + scenario.until ||
-                       std::any_of(options.properties.begin(), options.properties.end(), is_of_goals)) {}
+                       std::any_of(options.properties.begin(), options.properties.end(), is_of_goals)) {
+  sync::collect_system_calls();
+}
 
 Scene::~Scene() = default;
 
@@ -99,6 +103,7 @@ Finding Scene::run(const Plan& plan, const Request& request) {
   }
   stage_->strategy = exploration::begin_course(course, explorer, profile_);
   stage_->plan = plan;
+  sync::forget_started();
   explorer.begin(*stage_->strategy, {.switches = stage_->plan.switches, .deviations = stage_->plan.deviations});
   Finding finding;
   watch_and_carry_out(plan, request, finding);
@@ -126,6 +131,7 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
     scheduler.set_decisions(stage_->stop.emplace(scheduler, stage_->explorer, *request.stop_before));
   simulation.tell(request.places ? sync::Places::told : sync::Places::left_out);
   carry_out(plan.until, finding);
+  if (request.profile) finding.system_calls = sync::collected_system_calls();
   scheduler.set_watch(nullptr);
   scheduler.set_decisions(stage_->explorer);
   if (profiling) finding.profile.finish(stage_->explorer.steps());
@@ -158,6 +164,10 @@ void Scene::carry_out(Time until, Finding& finding) {
       end = experiment.run_before(reached);
       finding.words = joined(run::broken(scenario_.expect, experiment.figures()));
       if (!finding.words.empty()) finding.kind = Finding::Kind::unmet;
+      if (sync::has_started_outside_of_virtual_time()) {
+        finding.kind = Finding::Kind::exception;
+        finding.words = joined({sync::started_outside_of_virtual_time, sync::collected_system_calls()});
+      }
     }
     if (finding.passed()) judge(finding, end != RunEnd::time_reached || (judged_at_until_ && !is_cut));
     if (end == RunEnd::deadlock) finding.kind = Finding::Kind::deadlock;

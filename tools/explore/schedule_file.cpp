@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "core/error.hpp"
+#include "core/file_contents.hpp"
 #include "core/number_text.hpp"
 #include "tools/explore/finding.hpp"
 
@@ -21,15 +20,15 @@ using exploration::Switch;
 using kernel::Choice;
 
 constexpr std::string_view choices[] = {"task", "waiter", "spurious", "loss", "computing"};
+constexpr std::size_t bytes_max = std::size_t{64} << 20;
 constexpr std::size_t words_of_task = 5, words_of_other = 4;
 constexpr std::string_view digest_prefix = "wp1:";
 constexpr std::size_t digest_digits = 16;
 
 class Lines {
  public:
-  explicit Lines(const std::filesystem::path& file) : name_(file.string()), stream_(file) {
-    if (!stream_.is_open()) throw BadInput(name_, std::string("cannot be read: ") + std::strerror(errno));
-  }
+  explicit Lines(const std::filesystem::path& file)
+      : name_(file.string()), stream_(given_file_contents(file, bytes_max)) {}
   /// Splits the next line into words; false at the end.
   bool next() {
     std::string line;
@@ -63,7 +62,7 @@ class Lines {
 
  private:
   std::string name_;
-  std::ifstream stream_;
+  std::istringstream stream_;
   int number_ = 0;
 };
 

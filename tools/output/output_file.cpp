@@ -8,9 +8,10 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -19,17 +20,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The permissions of a new file; reading the mask requires setting it.
-mode_t usual_mode() {
-  const mode_t mask = umask(0);
-  umask(mask);
-  return 0666 & ~mask;
-}
+constexpr std::size_t buffer_size = std::size_t{64} * 1024;
 
 // A temporary file between its making and its lock has none either.
 constexpr std::chrono::seconds leftover_age_min(10);
 
 constexpr std::string_view mark = ".waitpoint-";
+
+// The forked copy that has taken over; not its own children, which have other numbers.
+pid_t heir = 0;
+
+/// Calls until no signal interrupts.
+template <class Call>
+auto retried(Call call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
+/// False with errno if not all could be written.
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = retried([&] { return ::write(descriptor, bytes.data(), bytes.size()); });
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// False with errno if the system reports an error of an earlier write. The descriptor is closed in any case, also when
+/// a signal interrupts.
+bool close_checked(int descriptor) { return close(descriptor) == 0 || errno == EINTR; }
 
 // True if no process writes the file any more.
 bool is_leftover(const fs::path& file) {
@@ -43,61 +64,123 @@ bool is_leftover(const fs::path& file) {
   return is_unlocked;
 }
 
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// PROCESS-NUMBER, the end of a temporary file's name.
+bool is_process_and_number(std::string_view text) {
+  const std::size_t dash = text.find('-');
+  return dash != std::string_view::npos && is_number(text.substr(0, dash)) && is_number(text.substr(dash + 1));
+}
+
 void remove_leftovers(const fs::path& target) {
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   const std::string prefix = target.filename().string() + std::string(mark);
   std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->path().filename().string().starts_with(prefix) && is_leftover(at->path())) unlink(at->path().c_str());
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (name.starts_with(prefix) && is_process_and_number(std::string_view(name).substr(prefix.size())) &&
+        is_leftover(at->path()))
+      unlink(at->path().c_str());
+  }
+}
+
+[[noreturn]] void fail_writing(const std::string& name) {
+  throw BadInput(name, std::string("cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace
 
-void OutputFile::fail() const {
-  throw BadInput(path_.string(), std::string("cannot be written: ") + std::strerror(errno));
+void OutputFile::fail() const { fail_writing(name_); }
+
+void OutputFile::take_over() { heir = getpid(); }
+
+bool OutputFile::is_own() const {
+  const pid_t self = getpid();
+  return self == process_ || self == heir;
 }
 
-OutputFile::OutputFile(const fs::path& path) : path_(path == "-" ? fs::path("/dev/stdout") : path), target_(path_) {
+OutputFile::OutputFile(const fs::path& path) : name_(path.string()), target_(path), process_(getpid()) {
+  if (is_standard_output(path)) {
+    name_ = "standard output";
+    descriptor_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (descriptor_ < 0) fail();
+    return;
+  }
   std::error_code error;
-  if (fs::is_directory(path_, error)) throw BadInput(path_.string(), "cannot be written: it is a folder");
-  if (fs::exists(path_, error)) {
-    if (access(path_.c_str(), W_OK) != 0) fail();
-    if (!fs::is_regular_file(path_, error)) {
-      stream_.reset(std::fopen(path_.c_str(), "we"));
-      if (!stream_) fail();
+  if (fs::is_directory(path, error)) throw BadInput(name_, "cannot be written: it is a folder");
+  if (fs::exists(path, error)) {
+    if (access(path.c_str(), W_OK) != 0) fail();
+    if (!fs::is_regular_file(path, error)) {
+      descriptor_ = retried([&] { return open(path.c_str(), O_WRONLY | O_CLOEXEC); });
+      if (descriptor_ < 0) fail();
       return;
     }
     // Through a link, the target is replaced, not the link.
-    target_ = fs::canonical(path_, error);
-    if (error) target_ = path_;
+    target_ = fs::canonical(path, error);
+    if (error) target_ = path;
   }
   remove_leftovers(target_);
-  std::string pattern = target_.string() + std::string(mark) + "XXXXXX";
-  const int descriptor = mkostemp(pattern.data(), O_CLOEXEC);
-  if (descriptor < 0) fail();
-  temporary_ = pattern;
-  flock(descriptor, LOCK_EX | LOCK_NB);
-  fchmod(descriptor, usual_mode());
-  stream_.reset(fdopen(descriptor, "w"));
-  if (!stream_) fail();
+  open_temporary();
 }
 
+// With the permissions of a new file. A name is taken if a process of the same number, of another machine or container,
+// writes there, too.
+void OutputFile::open_temporary() {
+  constexpr int attempts_max = 1000;
+  std::string name;
+  for (int attempt = 0; descriptor_ < 0 && attempt < attempts_max; ++attempt) {
+    name = target_.string() + std::string(mark) + std::to_string(getpid()) + "-" + std::to_string(attempt);
+    descriptor_ = retried([&] { return open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
+  if (descriptor_ < 0) fail();
+  temporary_ = name;
+  // On a file system without locks no leftovers are found either.
+  static_cast<void>(flock(descriptor_, LOCK_EX | LOCK_NB));
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : name_(std::move(other.name_)),
+      target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      buffer_(std::move(other.buffer_)),
+      process_(other.process_),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      error_(other.error_) {}
+
 OutputFile::~OutputFile() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  if (!temporary_.empty() && is_own()) unlink(temporary_.c_str());
+  if (descriptor_ >= 0) close(descriptor_);
 }
 
 void OutputFile::write(std::string_view text) {
-  WAITPOINT_CHECK(stream_ != nullptr, "a file is written after its commit");
-  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size()) fail();
+  WAITPOINT_CHECK(descriptor_ >= 0, "a file is written after its commit");
+  buffer_ += text;
+  if (buffer_.size() >= buffer_size) flush();
+}
+
+void OutputFile::flush() {
+  if (error_ == 0 && is_own() && !write_all(descriptor_, buffer_)) error_ = errno;
+  buffer_.clear();
 }
 
 void OutputFile::commit() {
-  WAITPOINT_CHECK(stream_ != nullptr, "a file is committed twice");
+  WAITPOINT_CHECK(descriptor_ >= 0, "a file is committed twice");
+  if (!is_own()) {
+    close(std::exchange(descriptor_, -1));
+    temporary_.clear();
+    return;
+  }
+  flush();
+  errno = error_;
+  if (error_ != 0) fail();
   // Some file systems report that they are full only at the closing. The lock is kept until the file has its name.
-  const int locked = dup(fileno(stream_.get()));
-  const bool is_written = std::fclose(stream_.release()) == 0;
-  const bool is_named = is_written && (temporary_.empty() || std::rename(temporary_.c_str(), target_.c_str()) == 0);
+  const int locked = temporary_.empty() ? -1 : fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+  const bool is_written = close_checked(std::exchange(descriptor_, -1));
+  const bool is_named = is_written && (temporary_.empty() ||
+                                       retried([&] { return std::rename(temporary_.c_str(), target_.c_str()); }) == 0);
   const int reason = errno;
   if (locked >= 0) close(locked);
   errno = reason;
@@ -105,8 +188,18 @@ void OutputFile::commit() {
   temporary_.clear();
 }
 
+bool is_standard_output(const fs::path& path) { return path == "-" || path == "/dev/stdout"; }
+
+void write_standard_output(std::string_view text) {
+  flush_standard_output();
+  if (!write_all(STDOUT_FILENO, text)) fail_writing("standard output");
+}
+
 void flush_standard_output() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw BadInput("standard output", "cannot be written");
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  if (errno != 0) fail_writing("standard output");
+  throw BadInput("standard output", "cannot be written");
 }
 
 }  // namespace waitpoint::tools

@@ -2,55 +2,69 @@
 // A file that is written completely or not at all.
 //
 // Opened before the run starts, so that an unwritable name is reported at once. Data goes to a temporary file beside
-// it, FILE.waitpoint-XXXXXX, which commit() renames; without commit() the temporary file is removed and the old file
-// stays. Its writer holds a lock on it: temporary files of FILE without one are leftovers of processes that were
+// it, FILE.waitpoint-PROCESS-NUMBER, which commit() renames; without commit() the temporary file is removed and the old
+// file stays. Its writer holds a lock on it: temporary files of FILE without one are leftovers of processes that were
 // killed, which the next writer removes. A name of a special file (/dev/null, a pipe) is written directly; "-" is
 // standard output.
+//
+// A file belongs to the process that made it. In a forked copy, such as the child of a task's fork(), nothing is
+// written, renamed or removed, unless the copy has taken the files over.
+//
+// Every error of the system is reported, also one of the closing; a write that a signal interrupts, or that takes only
+// a part of the data, is continued. Errors of writing are reported by commit(): files are written by the kernel's
+// watches, through which no exception may pass, and in a forked copy of a dying process.
 #pragma once
 
-#include <cstdio>
+#include <sys/types.h>
+
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace waitpoint::tools {
 
 class OutputFile {
  public:
+  /// In a forked copy: from now on it writes all its files in place of the process that made them, which is dying.
+  static void take_over();
+
   /// Throws BadInput if the file cannot be written.
   explicit OutputFile(const std::filesystem::path& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
-  OutputFile(OutputFile&& other) noexcept
-      : path_(std::move(other.path_)),
-        target_(std::move(other.target_)),
-        temporary_(std::exchange(other.temporary_, {})),
-        stream_(std::move(other.stream_)) {}
+  OutputFile(OutputFile&& other) noexcept;
 
-  const std::filesystem::path& path() const { return path_; }
   /// The file that commit() renames, for a library that opens files by name.
-  const std::filesystem::path& written_to() const { return temporary_.empty() ? path_ : temporary_; }
-  /// Appends. Throws BadInput if the medium is full.
+  const std::filesystem::path& written_to() const { return temporary_.empty() ? target_ : temporary_; }
+  /// Appends.
   void write(std::string_view text);
-  /// Renames the file; nothing can be written afterwards. Throws BadInput on failure.
+  /// Hands over to the system what was written so far, as write() does with larger parts.
+  void flush();
+  /// Renames the file; nothing can be written afterwards. Throws BadInput if it could not be written, also earlier.
   void commit();
 
  private:
-  struct Close {
-    void operator()(std::FILE* stream) const { std::fclose(stream); }
-  };
+  void open_temporary();
+  bool is_own() const;
   [[noreturn]] void fail() const;
 
-  std::filesystem::path path_;  ///< as requested
+  std::string name_;  ///< as requested, for messages
   std::filesystem::path target_;
   std::filesystem::path temporary_;  ///< empty for a special file, and once it has its name
-  std::unique_ptr<std::FILE, Close> stream_;
+  std::string buffer_;
+  pid_t process_;        ///< that made the file
+  int descriptor_ = -1;  ///< -1: committed
+  int error_ = 0;        ///< the first error of writing
 };
 
-/// Throws BadInput if earlier output could not be written.
+/// True for the names that OutputFile takes for standard output.
+bool is_standard_output(const std::filesystem::path& path);
+
+/// Writes the text to standard output, after earlier output of stdio. Throws BadInput if it cannot be written.
+void write_standard_output(std::string_view text);
+
+/// Throws BadInput if earlier output of stdio could not be written.
 void flush_standard_output();
 
 }  // namespace waitpoint::tools

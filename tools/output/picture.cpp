@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/polyline.hpp"
 #include "tools/output/picture_frame.hpp"
 #include "tools/output/svg.hpp"
 
@@ -78,9 +79,10 @@ void draw_floor(Svg& svg, const PictureFrame& frame, std::span<const Obstacle> o
 }
 
 void draw_path(Svg& svg, const PictureFrame& frame, std::span<const DatedPose> path, const std::string& style) {
-  std::vector<Point> points;
+  std::vector<Point> points, drawn;
   for (const DatedPose& at : path) points.push_back(frame.pixel(at.pose.position()));
-  svg.polyline(simplified(points, 0.25), style);
+  for (const std::size_t i : simplified(points, 0.25)) drawn.push_back(points[i]);
+  svg.polyline(drawn, style);
 }
 
 void draw_robot_at(Svg& svg, const PictureFrame& frame, const RobotResult& robot, const Pose& pose,
@@ -122,7 +124,7 @@ void draw_marks(Svg& svg, const PictureFrame& frame, const RobotResult& robot, c
   }
   for (std::size_t i = 0; i < robot.goals.size(); ++i) {
     const Point at = frame.pixel(robot.goals[i].position);
-    const bool reached = robot.goals[i].reached;
+    const bool reached = robot.goals[i].reached();
     svg.circle(
         at, 11,
         fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"2.2\"{}", reached ? pen.colour : std::string(paper),

@@ -5,7 +5,6 @@
 // Neither changes the run.
 #pragma once
 
-#include <exception>
 #include <string>
 
 #include "fibers/sync/simulation.hpp"
@@ -34,14 +33,13 @@ class EventRecorder : private kernel::Watch {
  public:
   explicit EventRecorder(const std::filesystem::path& path);
   void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
-  void finish();
+  void finish() { file_.commit(); }
   void cut_off(const std::string& reason);
 
  private:
   static void write(kernel::Watch& watch, const kernel::EventRecord& record);
 
   OutputFile file_;
-  std::exception_ptr failure_;
 };
 
 }  // namespace waitpoint::tools

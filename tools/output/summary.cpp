@@ -26,9 +26,11 @@ std::string unreached_goals(const RobotResult& robot) {
   std::string text;
   for (std::size_t i = 0; i < robot.goals.size(); ++i) {
     const GoalResult& goal = robot.goals[i];
-    if (goal.reached) continue;
+    if (goal.reached()) continue;
+    const std::string times =
+        goal.visits == 1 ? "" : fmt::format("reached {} of {} times; ", goal.times_reached, goal.visits);
     text += fmt::format(
-        "  {}: {}: {}\n", robot.name, goal_title(goal, i),
+        "  {}: {}: {}{}\n", robot.name, goal_title(goal, i), times,
         goal.report.empty() ? "not reached" : fmt::format("{} at {:.1f} s", goal.report, goal.date.seconds()));
   }
   return text;
@@ -61,36 +63,62 @@ std::string programs(const RobotResult& robot) {
   return text;
 }
 
+RunTotals figures_of(const RobotResult& robot) {
+  return {robot.goal_visits(),        robot.goals_reached(),       robot.collisions,
+          robot.distance_m,           robot.position_error_mean_m, robot.position_error_max_m,
+          robot.odometry_error_max_m, robot.odometry_error_end_m,  robot.present};
+}
+
+const std::string absent = "-";
+
+/// The columns that both a run and a robot have in a table.
+struct Columns {
+  explicit Columns(const RunTotals& figures) {
+    if (figures.goals > 0) goals = fmt::format("{}/{}", figures.goals_reached, figures.goals);
+    if (!figures.present.motion) return;
+    distance = fmt::format("{:.1f} m", figures.distance_m);
+    collisions = std::to_string(figures.collisions);
+  }
+
+  std::string goals = absent, distance = absent, collisions = absent;
+};
+
 std::string robot_table(const RunResult& result) {
   std::size_t width = 5;
   for (const RobotResult& robot : result.robots) width = std::max(width, robot.name.size());
   std::string text = fmt::format("\n  {:{}}  {:>7}  {:>9}  {:>10}  {:>20}  {:>18}  {}\n", "robot", width, "goals",
                                  "driven", "collisions", "position mean / max", "odometry max / end", "digest");
   for (const RobotResult& robot : result.robots) {
-    text += fmt::format("  {:{}}  {:>7}  {:>7.1f} m  {:>10}  {:>9.3f} / {:>6.3f} m  {:>7.2f} / {:>6.2f} m  {}\n",
-                        robot.name, width, fmt::format("{}/{}", robot.goals_reached(), robot.goals.size()),
-                        robot.distance_m, robot.collisions, robot.position_error_mean_m, robot.position_error_max_m,
-                        robot.odometry_error_max_m, robot.odometry_error_end_m, to_string(robot.digest));
+    const Columns columns(figures_of(robot));
+    const bool has_position = robot.present.position, has_odometry = robot.present.odometry;
+    text += fmt::format(
+        "  {:{}}  {:>7}  {:>9}  {:>10}  {:>20}  {:>18}  {}\n", robot.name, width, columns.goals, columns.distance,
+        columns.collisions,
+        has_position ? fmt::format("{:.3f} / {:>6.3f} m", robot.position_error_mean_m, robot.position_error_max_m)
+                     : absent,
+        has_odometry ? fmt::format("{:.2f} / {:>6.2f} m", robot.odometry_error_max_m, robot.odometry_error_end_m)
+                     : absent,
+        to_string(robot.digest));
   }
   return text;
 }
 
-/// Keys of both a run and each of its robots.
+/// Keys of both a run and each of its robots; figures that are not present are left out.
 void put_figures(Json& json, const RunTotals& figures) {
   json["goals"] = figures.goals;
   json["goals_reached"] = figures.goals_reached;
-  json["collisions"] = figures.collisions;
-  json["distance_m"] = figures.distance_m;
-  json["position_error_mean_m"] = figures.position_error_mean_m;
-  json["position_error_max_m"] = figures.position_error_max_m;
-  json["odometry_error_max_m"] = figures.odometry_error_max_m;
-  json["odometry_error_end_m"] = figures.odometry_error_end_m;
-}
-
-RunTotals figures_of(const RobotResult& robot) {
-  return {robot.goals.size(),         robot.goals_reached(),       robot.collisions,
-          robot.distance_m,           robot.position_error_mean_m, robot.position_error_max_m,
-          robot.odometry_error_max_m, robot.odometry_error_end_m};
+  if (figures.present.motion) {
+    json["collisions"] = figures.collisions;
+    json["distance_m"] = figures.distance_m;
+  }
+  if (figures.present.position) {
+    json["position_error_mean_m"] = figures.position_error_mean_m;
+    json["position_error_max_m"] = figures.position_error_max_m;
+  }
+  if (figures.present.odometry) {
+    json["odometry_error_max_m"] = figures.odometry_error_max_m;
+    json["odometry_error_end_m"] = figures.odometry_error_end_m;
+  }
 }
 
 Json json_of(const RobotResult& robot) {
@@ -104,7 +132,9 @@ Json json_of(const RobotResult& robot) {
     if (!goal.name.empty()) entry["name"] = goal.name;
     entry["x_m"] = goal.position.x;
     entry["y_m"] = goal.position.y;
-    entry["reached"] = goal.reached;
+    entry["reached"] = goal.reached();
+    entry["visits"] = goal.visits;
+    entry["times_reached"] = goal.times_reached;
     entry["report"] = goal.report;
     if (!goal.report.empty()) entry["time_s"] = goal.date.seconds();
     json["goal_reports"].push_back(std::move(entry));
@@ -157,6 +187,7 @@ Json json_of(const RunResult& result) {
          : result.outcome == bridge::Outcome::no_progress ? "no_progress"
                                                           : "deadlock"] = result.trouble;
   }
+  if (!result.idle.empty()) json["waiting"] = result.idle;
   json["robots"] = Json::array();
   for (const RobotResult& robot : result.robots) json["robots"].push_back(json_of(robot));
   return json;
@@ -171,13 +202,17 @@ std::string summary_text(const RunResult& result) {
   const RunTotals sum = totals(result);
   std::string text = fmt::format("{}, seed {}: {} after {:.1f} s simulated\n\n", result.scenario, result.seed,
                                  bridge::to_string(result.outcome), result.simulated.seconds());
-  text += fmt::format("  goals reached     {} of {}\n", sum.goals_reached, sum.goals);
-  text += fmt::format("  distance driven   {:.1f} m\n", sum.distance_m);
-  text += fmt::format("  collisions        {}\n", sum.collisions);
-  text += fmt::format("  position error    mean {:.3f} m, greatest {:.3f} m\n", sum.position_error_mean_m,
-                      sum.position_error_max_m);
-  text += fmt::format("  odometry alone    greatest {:.2f} m, at the end {:.2f} m\n", sum.odometry_error_max_m,
-                      sum.odometry_error_end_m);
+  if (sum.goals > 0) text += fmt::format("  goals reached     {} of {}\n", sum.goals_reached, sum.goals);
+  if (sum.present.motion) {
+    text += fmt::format("  distance driven   {:.1f} m\n", sum.distance_m);
+    text += fmt::format("  collisions        {}\n", sum.collisions);
+  }
+  if (sum.present.position)
+    text += fmt::format("  position error    mean {:.3f} m, greatest {:.3f} m\n", sum.position_error_mean_m,
+                        sum.position_error_max_m);
+  if (sum.present.odometry)
+    text += fmt::format("  odometry alone    greatest {:.2f} m, at the end {:.2f} m\n", sum.odometry_error_max_m,
+                        sum.odometry_error_end_m);
   text += fmt::format("  events            {}\n", result.events);
   text +=
       fmt::format("  speed             {:.1f} times real time ({:.2f} s)\n", result.real_time_factor, result.wall_s);
@@ -197,6 +232,7 @@ std::string summary_text(const RunResult& result) {
   for (const std::string& warning : result.warnings) text += "\nwarning: " + warning;
   if (!result.warnings.empty()) text += "\n";
   if (!result.trouble.empty()) text += "\n" + result.trouble + (result.trouble.back() == '\n' ? "" : "\n");
+  if (!result.idle.empty()) text += "\nwaiting without a timeout:" + result.idle + "\n";
   return text + "\n  digest            " + to_string(result.digest) + "\n";
 }
 
@@ -216,9 +252,11 @@ std::string seeds_head() {
 
 std::string seeds_row(const RunResult& result) {
   const RunTotals sum = totals(result);
-  return fmt::format("{:>10}  {:>11}  {:>7}  {:>7.1f} m  {:>10}  {:>10.3f} m  {:>10.2f} m  {:>8.1f}  {}\n", result.seed,
-                     bridge::to_string(result.outcome), fmt::format("{}/{}", sum.goals_reached, sum.goals),
-                     sum.distance_m, sum.collisions, sum.position_error_max_m, sum.odometry_error_max_m,
+  const Columns columns(sum);
+  return fmt::format("{:>10}  {:>11}  {:>7}  {:>9}  {:>10}  {:>12}  {:>12}  {:>8.1f}  {}\n", result.seed,
+                     bridge::to_string(result.outcome), columns.goals, columns.distance, columns.collisions,
+                     sum.present.position ? fmt::format("{:.3f} m", sum.position_error_max_m) : absent,
+                     sum.present.odometry ? fmt::format("{:.2f} m", sum.odometry_error_max_m) : absent,
                      result.real_time_factor, to_string(result.digest));
 }
 

@@ -3,17 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace waitpoint::tools {
 namespace {
-
-double distance_to_segment(Point p, Point a, Point b) {
-  const Point along = b - a;
-  const double squared = dot(along, along);
-  const double part = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0;
-  return length(p - (a + part * along));
-}
 
 std::string point_text(Point p) { return svg_number(p.x) + "," + svg_number(p.y); }
 
@@ -88,34 +79,6 @@ std::string xml_escaped(std::string_view text) {
     }
   }
   return escaped;
-}
-
-std::vector<Point> simplified(std::span<const Point> line, double tolerance) {
-  if (line.size() < 3) return {line.begin(), line.end()};
-  std::vector<bool> kept(line.size(), false);
-  kept.front() = kept.back() = true;
-  std::vector<std::pair<std::size_t, std::size_t>> open{{0, line.size() - 1}};
-  while (!open.empty()) {
-    const auto [first, last] = open.back();
-    open.pop_back();
-    std::size_t farthest = first;
-    double greatest = tolerance;
-    for (std::size_t i = first + 1; i < last; ++i) {
-      const double distance = distance_to_segment(line[i], line[first], line[last]);
-      if (distance <= greatest) continue;
-      greatest = distance;
-      farthest = i;
-    }
-    if (farthest == first) continue;
-    kept[farthest] = true;
-    open.push_back({first, farthest});
-    open.push_back({farthest, last});
-  }
-  std::vector<Point> result;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (kept[i]) result.push_back(line[i]);
-  }
-  return result;
 }
 
 }  // namespace waitpoint::tools

@@ -46,7 +46,4 @@ std::string svg_polygon(std::span<const Point> points);
 /// Text with characters reserved in XML escaped, and disallowed ones removed.
 std::string xml_escaped(std::string_view text);
 
-/// The line without the points closer than `tolerance` to the rest (Douglas and Peucker 1973).
-std::vector<Point> simplified(std::span<const Point> line, double tolerance);
-
 }  // namespace waitpoint::tools

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include <algorithm>
+
 #include "core/exact_math.hpp"
 
 namespace waitpoint::tools {
 namespace {
+
+constexpr std::size_t kinds = 3;
 
 /// out.tum with "NAME" -> out.NAME.tum; "" leaves it unchanged.
 std::filesystem::path with_part(const std::filesystem::path& path, const std::string& part) {
@@ -15,38 +18,55 @@ std::filesystem::path with_part(const std::filesystem::path& path, const std::st
   return path.parent_path() / (path.stem().string() + "." + part + path.extension().string());
 }
 
-void write_whole(OutputFile& file, std::span<const bridge::DatedPose> path, const std::string& end) {
-  file.write(tum_text(path));
-  file.write(end);
-  file.commit();
-}
-
 }  // namespace
 
-std::string tum_text(std::span<const bridge::DatedPose> path) {
-  std::string text;
-  for (const bridge::DatedPose& at : path) {
-    const auto [sin, cos] = exact::sincos(at.pose.heading / 2);
-    text += fmt::format("{} {} {} 0 0 0 {} {}\n", to_string(at.date), at.pose.x, at.pose.y, sin, cos);
+std::string tum_line(const bridge::DatedPose& at) {
+  const auto [sin, cos] = exact::sincos(at.pose.heading / 2);
+  return fmt::format("{} {} {} 0 0 0 {} {}\n", to_string(at.date), at.pose.x, at.pose.y, sin, cos);
+}
+
+std::vector<std::filesystem::path> trajectory_names(const std::filesystem::path& path,
+                                                    std::span<const std::string> robots) {
+  std::vector<std::filesystem::path> names;
+  for (std::size_t i = 0; i < std::max<std::size_t>(robots.size(), 1); ++i) {
+    const std::filesystem::path own = with_part(path, robots.size() > 1 ? robots[i] : "");
+    for (const char* const part : {"", "estimated", "odometry"}) names.push_back(with_part(own, part));
   }
-  return text;
+  return names;
 }
 
 TrajectoryFiles::TrajectoryFiles(const std::filesystem::path& path, std::span<const std::string> robots) {
-  for (const std::string& robot : robots) {
-    const std::filesystem::path own = with_part(path, robots.size() > 1 ? robot : "");
-    robots_.push_back(
-        {OutputFile(own), OutputFile(with_part(own, "estimated")), OutputFile(with_part(own, "odometry"))});
+  const std::vector<std::filesystem::path> names = trajectory_names(path, robots);
+  for (std::size_t i = 0; i < robots.size(); ++i) robots_.emplace_back(std::span(names).subspan(i * kinds, kinds));
+}
+
+void TrajectoryFiles::finish() {
+  for (OfRobot& robot : robots_) robot.finish("");
+}
+
+void TrajectoryFiles::cut_off(const std::string& reason) {
+  for (OfRobot& robot : robots_) robot.finish("# cut off: " + reason + "\n");
+}
+
+TrajectoryFiles::OfRobot::OfRobot(std::span<const std::filesystem::path> names) {
+  for (const std::filesystem::path& name : names) files_.emplace_back(name);
+}
+
+// An exception here would end a task of the run: a failure is reported at the end.
+void TrajectoryFiles::OfRobot::add(bridge::PathKind kind, const bridge::DatedPose& sample) {
+  if (failure_ != nullptr) return;
+  try {
+    file(kind).write(tum_line(sample));
+  } catch (...) {
+    failure_ = std::current_exception();
   }
 }
 
-void TrajectoryFiles::write(const bridge::RunResult& result) {
-  WAITPOINT_CHECK(result.robots.size() == robots_.size(), "a run ended with other robots than it began with");
-  const std::string end = result.outcome == bridge::Outcome::crashed ? "# cut off: " + result.trouble + "\n" : "";
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
-    write_whole(robots_[i].truth, result.robots[i].true_path, end);
-    write_whole(robots_[i].estimate, result.robots[i].estimated_path, end);
-    write_whole(robots_[i].odometry, result.robots[i].odometry_path, end);
+void TrajectoryFiles::OfRobot::finish(const std::string& end) {
+  if (failure_ != nullptr) std::rethrow_exception(failure_);
+  for (OutputFile& file : files_) {
+    file.write(end);
+    file.commit();
   }
 }
 

@@ -16,7 +16,7 @@ std::string ending(Time time, const std::string& robot) {
 }  // namespace
 
 CarmenRecording::CarmenRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
-    : scenario_(scenario), file_(path) {
+    : Recording(path), scenario_(scenario), file_(path) {
   file_.write("# CARMEN Logfile\n");
 }
 

@@ -15,7 +15,7 @@ std::uint16_t number_of(McapFile& file, const foxglove::Schema& schema) {
 }  // namespace
 
 McapRecording::McapRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
-    : ViewerRecording(scenario),
+    : ViewerRecording(path, scenario),
       file_(path),
       transform_(number_of(file_, foxglove::frame_transform())),
       scan_(number_of(file_, foxglove::laser_scan())),

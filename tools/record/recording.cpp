@@ -22,7 +22,7 @@ void Recording::finish(const bridge::RunResult& result) {
   } catch (const BadInput&) {
     throw;
   } catch (const std::exception& failure) {
-    throw BadInput("--record", std::string("the recording cannot be written: ") + failure.what());
+    throw BadInput(path_.string(), std::string("cannot be written: ") + failure.what());
   }
 }
 

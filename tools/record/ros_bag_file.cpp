@@ -12,6 +12,10 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
 
 namespace waitpoint::tools {
 namespace {
@@ -56,26 +60,47 @@ boost::array<double, 36> of(const RosBagFile::Covariance& covariance) {
 
 }  // namespace
 
+// A bag that could not be written or closed is leaked: its destructor would write again, to a file that may be closed
+// already, and throw.
 struct RosBagFile::Bag {
-  rosbag::Bag bag;
+  rosbag::Bag* bag = new rosbag::Bag;
+
+  Bag() = default;
+  Bag(const Bag&) = delete;
+  Bag& operator=(const Bag&) = delete;
+  ~Bag() {
+    try {
+      if (bag != nullptr) call([](rosbag::Bag& open) { open.close(); });
+    } catch (const std::runtime_error&) {
+    }
+    delete bag;
+  }
+
+  /// The library's exceptions do not name the system's error.
+  template <class Call>
+  void call(Call make_call) {
+    rosbag::Bag* const called = std::exchange(bag, nullptr);
+    if (called == nullptr) throw std::runtime_error("an earlier error");
+    errno = 0;
+    try {
+      make_call(*called);
+    } catch (const std::exception& failure) {
+      const int reason = errno;
+      throw std::runtime_error(reason != 0 ? std::strerror(reason) : failure.what());
+    }
+    bag = called;
+  }
 };
 
-RosBagFile::RosBagFile(const std::string& path) : bag_(std::make_unique<Bag>()) {
-  bag_->bag.open(path, rosbag::bagmode::Write);
+RosBagFile::RosBagFile(const std::string& path) : path_(path), bag_(std::make_unique<Bag>()) {
+  bag_->call([&](rosbag::Bag& bag) { bag.open(path, rosbag::bagmode::Write); });
 }
 
-// A bag that cannot be closed, as the disk is full, is leaked: its destructor would try again and throw.
-RosBagFile::~RosBagFile() {
-  try {
-    bag_->bag.close();
-  } catch (const std::exception&) {
-    static_cast<void>(bag_.release());
-  }
-}
+RosBagFile::~RosBagFile() = default;
 
 template <class Message>
 void RosBagFile::write(const std::string& topic, const Message& message) {
-  bag_->bag.write(topic, std::max(time_of(now_ns_), ros::TIME_MIN), message);
+  bag_->call([&](rosbag::Bag& bag) { bag.write(topic, std::max(time_of(now_ns_), ros::TIME_MIN), message); });
 }
 
 void RosBagFile::write_clock() {
@@ -166,6 +191,16 @@ void RosBagFile::write_log(const std::string& topic, std::int64_t time_ns, const
   write(topic, log);
 }
 
-void RosBagFile::close() { bag_->bag.close(); }
+void RosBagFile::close() {
+  bag_->call([](rosbag::Bag& bag) { bag.close(); });
+  // The library overlooks failures of ftello(), after which its index points elsewhere.
+  try {
+    Bag written;
+    written.call([&](rosbag::Bag& bag) { bag.open(path_, rosbag::bagmode::Read); });
+    written.call([](rosbag::Bag& bag) { bag.close(); });
+  } catch (const std::runtime_error&) {
+    throw std::runtime_error("its index cannot be read back");
+  }
+}
 
 }  // namespace waitpoint::tools

@@ -58,6 +58,7 @@ class RosBagFile {
   template <class Message>
   void write(const std::string& topic, const Message& message);
 
+  std::string path_;
   std::unique_ptr<Bag> bag_;
   std::int64_t now_ns_ = 0;
 };

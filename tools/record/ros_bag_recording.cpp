@@ -25,7 +25,7 @@ RosBagFile::Solid solid(const world::Shape& shape, const std::string& frame) {
 }  // namespace
 
 RosBagRecording::RosBagRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
-    : ViewerRecording(scenario), file_(path) {
+    : ViewerRecording(path, scenario), file_(path) {
   try {
     bag_ = std::make_unique<RosBagFile>(file_.written_to().string());
   } catch (const std::exception& failure) {
@@ -35,6 +35,7 @@ RosBagRecording::RosBagRecording(const std::filesystem::path& path, const scenar
 
 void RosBagRecording::write_obstacles(const std::vector<world::Shape>& shapes) {
   std::vector<RosBagFile::Solid> solids;
+  solids.reserve(shapes.size());
   for (const world::Shape& shape : shapes) solids.push_back(solid(shape, root));
   bag_->write_solids("/world", solids);
 }

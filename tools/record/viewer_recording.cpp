@@ -10,6 +10,7 @@ constexpr Duration sampling = std::chrono::milliseconds(100);
 
 std::vector<world::Shape> shapes_of(const std::vector<world::Obstacle>& obstacles) {
   std::vector<world::Shape> shapes;
+  shapes.reserve(obstacles.size());
   for (const world::Obstacle& obstacle : obstacles) shapes.push_back(obstacle.shape);
   return shapes;
 }

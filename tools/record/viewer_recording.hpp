@@ -26,7 +26,8 @@ class ViewerRecording : public Recording {
 
   static constexpr const char* root = "world";  ///< the root frame
 
-  explicit ViewerRecording(const scenario::Scenario& scenario) : scenario_(scenario) {}
+  ViewerRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
+      : Recording(path), scenario_(scenario) {}
 
  private:
   void record(const run::Experiment& experiment, Time now) final;

@@ -3,21 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include "core/file_contents.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(file)), {});
-  if (!file.is_open() || file.bad())
-    throw BadInput(path.string(), std::string("cannot be read: ") + std::strerror(errno));
-  return text;
-}
+// Several million blocks of computation.
+constexpr std::size_t record_bytes_max = std::size_t{256} << 20;
 
 /// The run that durations belong to: the scenario's content, regardless of its path, the seed and the order.
 std::string name_of_run(const RunOptions& options, const scenario::Scenario& scenario) {
@@ -36,15 +28,24 @@ DurationFiles::DurationFiles(const RunOptions& options, const scenario::Scenario
   }
   if (options.replay_durations) {
     const std::string name = options.replay_durations->string();
-    record_ = parse_duration_record(name, read_file(name));
+    record_ = parse_duration_record(name, given_file_contents(name, record_bytes_max));
     replay_.emplace(experiment.simulation(), record_, run, name);
   }
 }
 
-void DurationFiles::finish(bool ended) {
+void DurationFiles::check(bool ended) const {
   if (replay_ && ended) replay_->check_used_up();
-  if (!file_) return;
+}
+
+void DurationFiles::finish() {
   file_->write(to_text(recorder_->record()));
+  file_->commit();
+}
+
+void DurationFiles::cut_off(const std::string& reason) {
+  DurationRecord record = recorder_->record();
+  record.cut_off = reason;
+  file_->write(to_text(record));
   file_->commit();
 }
 

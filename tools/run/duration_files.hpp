@@ -18,8 +18,13 @@ class DurationFiles {
   /// cannot be written or read, is not a record, or belongs to another scenario, seed or order.
   DurationFiles(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment);
 
-  /// Writes the record after the run. BadInput if a run that `ended` by itself did not use up the replayed record.
-  void finish(bool ended);
+  /// Throws BadInput if a run that `ended` by itself did not use up the replayed record.
+  void check(bool ended) const;
+  /// Writes and names the record after the run.
+  void finish();
+  bool are_written() const { return file_.has_value(); }
+  /// The same with a comment as last line: the process dies for `reason`.
+  void cut_off(const std::string& reason);
 
  private:
   std::optional<OutputFile> file_;

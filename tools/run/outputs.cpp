@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/sync/post_mortem.hpp"
 #include "modules/run/plan.hpp"
 #include "tools/output/picture.hpp"
 #include "tools/output/summary.hpp"
@@ -27,85 +26,102 @@ std::string picture_of(const run::Experiment& experiment, const bridge::RunResul
 
 }  // namespace
 
-Outputs::Outputs(const RunOptions& options, const scenario::Scenario& scenario) : seed_(options.seed) {
+Outputs::Outputs(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment)
+    : experiment_(experiment), seed_(options.seed), process_(getpid()) {
+  std::vector<std::string> names;
+  for (const scenario::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
+  check_files(options, names);
+  durations_.emplace(options, scenario, experiment);
+  if (options.journal) journal_.emplace(*options.journal);
   if (options.summary) summary_.emplace(*options.summary);
   if (options.picture) picture_.emplace(*options.picture);
   if (options.digests) digests_.emplace(*options.digests);
   if (options.events) events_.emplace(*options.events);
   if (options.record) recording_ = make_recording(*options.record, scenario);
-  if (!options.trajectory) return;
-  std::vector<std::string> names;
-  for (const scenario::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
-  trajectory_.emplace(*options.trajectory, names);
+  if (options.trajectory) trajectory_.emplace(*options.trajectory, names);
 }
 
 Outputs::~Outputs() {
+  try {
+    if (is_running_ && journal_) journal_->cut_off("the run failed");
+  } catch (const BadInput&) {  // the run's failure is reported
+  }
   if (of_this_run != this) return;
   of_this_run = nullptr;
-  kernel::set_post_mortem(sync::write_call_stack);
+  kernel::set_post_mortem(nullptr);
 }
 
-void Outputs::watch(run::Experiment& experiment) {
-  experiment_ = &experiment;
+void Outputs::watch() {
+  is_running_ = true;
   of_this_run = this;
   kernel::set_post_mortem(complete_after_death);
-  if (events_) events_->watch(experiment.simulation());
+  if (events_) events_->watch(experiment_.simulation());
+  for (std::size_t i = 0; i < experiment_.robots().size(); ++i) {
+    if (picture_) experiment_.robots()[i]->keep_paths();
+    if (trajectory_) experiment_.robots()[i]->add_path_sink(trajectory_->sink(i));
+  }
   if (!recording_) return;
-  recording_->begin(experiment);
-  experiment.set_observer([this, &experiment](Time now) { recording_->observe(experiment, now); });
+  recording_->begin(experiment_);
+  // A library that writes bags knows nothing of forked copies.
+  experiment_.set_observer([this](Time now) {
+    if (getpid() == process_) recording_->observe(experiment_, now);
+  });
 }
 
-void Outputs::write(run::Experiment& experiment, const bridge::RunResult& result) {
-  if (summary_) {
-    summary_->write(summary_json(result));
-    summary_->commit();
-  }
-  if (picture_) {
-    picture_->write(picture_of(experiment, result));
-    picture_->commit();
-  }
-  if (trajectory_) trajectory_->write(result);
-  if (recording_) recording_->finish(result);
-  if (digests_) digests_->finish();
-  if (events_) events_->finish();
+// Each file is completed by a call of `attempt`, if it is requested. An empty `cut_off`: the run ended.
+template <class Attempt>
+void Outputs::complete(const bridge::RunResult& result, const std::string& cut_off, Attempt attempt) {
+  const bool is_cut = !cut_off.empty();
+  attempt(journal_, [&](JournalFile& file) { is_cut ? file.cut_off(cut_off) : file.commit(); });
+  if (durations_->are_written())
+    attempt(durations_, [&](DurationFiles& file) { is_cut ? file.cut_off(cut_off) : file.finish(); });
+  attempt(summary_, [&](OutputFile& file) {
+    file.write(summary_json(result));
+    file.commit();
+  });
+  attempt(picture_, [&](OutputFile& file) {
+    file.write(picture_of(experiment_, result));
+    if (is_cut) file.write("<!-- cut off: " + cut_off + " -->\n");
+    file.commit();
+  });
+  attempt(trajectory_, [&](TrajectoryFiles& files) { is_cut ? files.cut_off(cut_off) : files.finish(); });
+  attempt(recording_, [&](Recording& file) { file.finish(result); });
+  attempt(digests_, [&](DigestRecorder& file) { is_cut ? file.cut_off(cut_off) : file.finish(); });
+  attempt(events_, [&](EventRecorder& file) { is_cut ? file.cut_off(cut_off) : file.finish(); });
 }
 
-void Outputs::complete_after_death(const char* reason) {
-  sync::write_call_stack(reason);
-  of_this_run->cut_off(reason);
+void Outputs::write(const bridge::RunResult& result) {
+  is_running_ = false;
+  complete(result, "", [](auto& file, auto finish) {
+    if (file) finish(*file);
+  });
 }
 
-// In the forked copy. A file that cannot be completed must not cost the others theirs.
+void Outputs::complete_after_death(const char* reason) { of_this_run->cut_off(reason); }
+
+// In the forked copy of a process that dies, or after an exception. A file that cannot be completed must not cost the
+// others theirs; its destructor removes what there is of it.
 void Outputs::cut_off(const std::string& reason) {
+  is_running_ = false;
+  if (getpid() != process_ && getppid() != process_) return;  // a task's child is dying, not the run
+  OutputFile::take_over();
+  bridge::RunResult result = experiment_.result();
+  result.outcome = bridge::Outcome::crashed;
+  result.trouble = reason;
+  result.seed = seed_;
+  result.simulated = experiment_.simulation().global_time().since_start();
   int kept = 0, lost = 0;
-  const auto attempt = [&](auto&& complete) {
+  complete(result, reason, [&](auto& file, auto finish) {
+    if (!file) return;
     try {
-      complete();
+      finish(*file);
       ++kept;
     } catch (const std::exception& failure) {
       ++lost;
       dprintf(STDERR_FILENO, "waitpoint: %s\n", failure.what());
+      file.reset();
     }
-  };
-  bridge::RunResult result = experiment_->result();
-  result.outcome = bridge::Outcome::crashed;
-  result.trouble = reason;
-  result.seed = seed_;
-  result.simulated = experiment_->simulation().global_time().since_start();
-  if (summary_)
-    attempt([&] {
-      summary_->write(summary_json(result));
-      summary_->commit();
-    });
-  if (picture_)
-    attempt([&] {
-      picture_->write(picture_of(*experiment_, result) + "<!-- cut off: " + reason + " -->\n");
-      picture_->commit();
-    });
-  if (trajectory_) attempt([&] { trajectory_->write(result); });
-  if (recording_) attempt([&] { recording_->finish(result); });
-  if (digests_) attempt([&] { digests_->cut_off(reason); });
-  if (events_) attempt([&] { events_->cut_off(reason); });
+  });
   if (kept > 0) dprintf(STDERR_FILENO, "  the outputs up to here are kept, marked as cut off\n");
   if (lost > 0) dprintf(STDERR_FILENO, "  %d of the outputs are lost\n", lost);
 }

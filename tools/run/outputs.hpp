@@ -3,9 +3,12 @@
 //
 // If the process dies in a task, a forked copy of it completes them (kernel/fault_reports.hpp): they have their names,
 // what was known by then, and a mark that they are cut off: the outcome "crashed" in the summary, a last comment or log
-// message in the others.
+// message in the others. The journal is also kept if the run fails by an exception.
 #pragma once
 
+#include <sys/types.h>
+
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,37 +18,51 @@
 #include "tools/output/recorders.hpp"
 #include "tools/output/trajectory.hpp"
 #include "tools/record/recording.hpp"
+#include "tools/run/duration_files.hpp"
+#include "tools/run/journal_file.hpp"
 #include "tools/run/run_options.hpp"
 
 namespace waitpoint::tools {
 
 class Outputs {
  public:
-  /// Throws BadInput if a file cannot be written. Both must outlive the outputs.
-  Outputs(const RunOptions& options, const scenario::Scenario& scenario);
+  /// Throws BadInput if a file cannot be written, or for a record of durations of another run. The experiment has not
+  /// begun; it and the scenario outlive the outputs.
+  Outputs(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment);
   ~Outputs();
   Outputs(const Outputs&) = delete;
   Outputs& operator=(const Outputs&) = delete;
 
-  /// Before the run; the experiment must outlive the outputs' last use.
-  void watch(run::Experiment& experiment);
-  void second(const Simulation& simulation, std::int64_t second) {
-    if (digests_) digests_->record(simulation, second);
+  /// The requested journal, or null. write() names it.
+  JournalFile* journal() { return journal_ ? &*journal_ : nullptr; }
+  /// Call before the run.
+  void watch();
+  void second(std::int64_t second) {
+    if (digests_) digests_->record(experiment_.simulation(), second);
   }
-  /// Writes and names all files. Throws BadInput if one cannot be written; the others are as before.
-  void write(run::Experiment& experiment, const bridge::RunResult& result);
+  /// Throws BadInput if the run is not that of --replay-durations.
+  void check(const bridge::RunResult& result) const { durations_->check(result.outcome == bridge::Outcome::finished); }
+  /// Writes and names all files. Throws BadInput if one cannot be written; those not yet named are as before.
+  void write(const bridge::RunResult& result);
+  /// Completes all files with what is known, marked as cut off: the run failed. Nothing is thrown.
+  void cut_off(const std::string& reason);
 
  private:
   static void complete_after_death(const char* reason);
-  void cut_off(const std::string& reason);
+  template <class Attempt>
+  void complete(const bridge::RunResult& result, const std::string& cut_off, Attempt attempt);
 
+  run::Experiment& experiment_;
+  std::optional<JournalFile> journal_;
+  std::optional<DurationFiles> durations_;
   std::optional<OutputFile> summary_, picture_;
   std::optional<TrajectoryFiles> trajectory_;
   std::optional<DigestRecorder> digests_;
   std::optional<EventRecorder> events_;
   std::unique_ptr<Recording> recording_;
-  run::Experiment* experiment_ = nullptr;
   std::uint64_t seed_;
+  pid_t process_;  // of the run
+  bool is_running_ = false;
 };
 
 }  // namespace waitpoint::tools

@@ -28,6 +28,7 @@ constexpr const char* help_text = R"(  step [N]                     execute the 
   speed X                      set the speed to X simulated seconds per second; 0: unthrottled
   status                       show the run's time and the state of its robots
   tasks                        list all tasks, with their local times
+  idle [S]                     list tasks that have waited without a timeout for S seconds of virtual time (60)
   [at TIME] INTERVENTION       intervene at the world's next step, or at the first one from TIME on:
     request ROBOT MODULE REQUEST [FIELD=VALUE ...]
     move ROBOT X Y [HEADING_DEG]
@@ -54,6 +55,7 @@ const Prompt::Named Prompt::commands[] = {
     {"continue", &Prompt::run_to, false}, {"go", &Prompt::go, false},      {"until", &Prompt::until, false},
     {"pause", &Prompt::pause, true},      {"speed", &Prompt::speed, true}, {"status", &Prompt::status, true},
     {"tasks", &Prompt::tasks, true},      {"at", &Prompt::at, true},       {"quit", &Prompt::quit, true},
+    {"idle", &Prompt::idle, true},
 };
 
 bool Prompt::run() {
@@ -209,6 +211,17 @@ void Prompt::tasks(std::string_view rest) {
       fmt::print(" {}#{} {}", at->kind, at->number, at->label);
     std::puts("");
   }
+}
+
+void Prompt::idle(std::string_view rest) {
+  constexpr double usual_s = 60, most_s = 1e9;
+  double least_s = usual_s;
+  if (const std::string word = scenario::take_word(rest, written_);
+      !word.empty() && (!parse_number(word, least_s) || !(least_s >= 0 && least_s <= most_s)))
+    throw written_.bad("expected seconds, found '" + word + "'");
+  scenario::require_end(rest, written_);
+  const std::string tasks = session_.experiment().idle(Duration::from_seconds(least_s));
+  std::puts(tasks.empty() ? "  none" : tasks.c_str() + 1);
 }
 
 void Prompt::at(std::string_view rest) {

@@ -45,6 +45,7 @@ class Prompt {
   void speed(std::string_view rest);
   void status(std::string_view rest);
   void tasks(std::string_view rest);
+  void idle(std::string_view rest);
   void at(std::string_view rest);
   void quit(std::string_view rest);
 

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <system_error>
 
+#include "core/printable_line.hpp"
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/sync/post_mortem.hpp"
+#include "fibers/sync/system_calls.hpp"
 #include "modules/run/expectation.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/run/journal.hpp"
@@ -27,6 +29,34 @@
 namespace waitpoint::tools {
 namespace {
 
+/// Standard output, whose failure must not cost the files theirs: it is reported after them. Standard error in its
+/// place if an output file has standard output.
+class Printed {
+ public:
+  explicit Printed(const RunOptions& options) : to_standard_error_(options.writes_standard_output()) {}
+
+  void print(const std::string& text) {
+    if (to_standard_error_) {
+      std::fputs(text.c_str(), stderr);
+      return;
+    }
+    try {
+      if (!failure_) write_standard_output(text);
+    } catch (const BadInput& failure) {
+      failure_ = failure;
+    }
+  }
+  /// Throws BadInput if a text could not be written.
+  void check() const {
+    if (failure_) throw BadInput(*failure_);
+    flush_standard_output();
+  }
+
+ private:
+  bool to_standard_error_;
+  std::optional<BadInput> failure_;
+};
+
 bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool interrupted) {
   bridge::RunResult result = session.result();
   result.seed = seed;
@@ -35,14 +65,14 @@ bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool int
 }
 
 Session session_of(const RunOptions& options, run::Experiment& experiment, Outputs& outputs, Time until) {
-  outputs.watch(experiment);
-  return {experiment, until, options.speed,
-          [&](std::int64_t second) { outputs.second(experiment.simulation(), second); }};
+  outputs.watch();
+  return {experiment, until, options.speed, [&](std::int64_t second) { outputs.second(second); }};
 }
 
 bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario& scenario, std::uint64_t seed,
-                            run::Experiment& experiment, Outputs& outputs, JournalFile* journal) {
+                            run::Experiment& experiment, Outputs& outputs) {
   Session session = session_of(options, experiment, outputs, options.limit(scenario.until));
+  JournalFile* const journal = outputs.journal();
   if (journal != nullptr) session.keep(*journal);
   bool interrupted = false;
   if (options.interactive)
@@ -57,7 +87,7 @@ bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario&
 
 // Replays a journal to its end; `same` tells if the run ended with the journal's event count and digest.
 bridge::RunResult repeat(const RunOptions& options, const scenario::Scenario& scenario, const run::Journal& journal,
-                         run::Experiment& experiment, Outputs& outputs, JournalFile* kept, bool& same) {
+                         run::Experiment& experiment, Outputs& outputs, bool& same) {
   const std::optional<run::JournalEnd> end = options.until ? std::nullopt : journal.end;
   // The run may have been left between two events of an instant: the number of events says where.
   const Time until = end ? end->time + Duration::from_ns(1) : options.limit(scenario.until);
@@ -73,7 +103,7 @@ bridge::RunResult repeat(const RunOptions& options, const scenario::Scenario& sc
   const bool interrupted = stop == Session::Stop::interrupted;
   const run::JournalEnd here = session.here();
   same = interrupted || !end || (here.events == end->events && here.digest == end->digest);
-  if (kept != nullptr) kept->write(run::to_text(here));
+  if (outputs.journal() != nullptr) outputs.journal()->write(run::to_text(here));
   bridge::RunResult result = result_of(session, options.seed, interrupted);
   if (end && !interrupted && result.outcome == bridge::Outcome::time_limit) {
     result.simulated = end->time.since_start();
@@ -90,11 +120,36 @@ int status(const scenario::Scenario& scenario, const bridge::RunResult& result) 
   return unmet.empty() ? 0 : 1;
 }
 
-void tell_of(const run::Journal& journal, bool same) {
-  if (!journal.end) std::fputs("waitpoint: the journal has no end: the run that wrote it did not finish\n", stderr);
-  if (same) return;
+// Before the run, which may end like that of the journal.
+void tell_of_cut(const run::Journal& journal) {
+  if (!journal.cut_off.empty())
+    std::fprintf(stderr, "waitpoint: the journal has no end: its run was cut off: %s\n", journal.cut_off.c_str());
+  else if (!journal.end)
+    std::fputs("waitpoint: the journal has no end: the run that wrote it did not finish\n", stderr);
+}
+
+void tell_of_difference(const run::Journal& journal) {
   std::fprintf(stderr, "waitpoint: this is not the run of the journal, which ended with %s after %llu events\n",
                journal.end->digest.c_str(), static_cast<unsigned long long>(journal.end->events));
+}
+
+// The series ends with it: the next seed's run would fail likewise.
+int report_failure(const std::exception& failure, const std::string& replay, Outputs* outputs) {
+  const std::string reason = printable_message(failure.what());
+  std::fflush(stdout);
+  std::fprintf(stderr, "waitpoint: the run failed: %s\n  replay: %s\n", reason.c_str(), replay.c_str());
+  if (outputs != nullptr) outputs->cut_off(reason);
+  return 1;
+}
+
+/// One run of a series; what it printed is in the table.
+bridge::RunResult run_seed(const RunOptions& options, const scenario::Scenario& scenario,
+                           std::span<const genom::ModuleType> types, std::uint64_t seed, const std::string& replay) {
+  run::Experiment experiment(scenario, types, {seed, options.order, replay});
+  RunOptions single = options;
+  single.summary.reset();
+  Outputs none(single, scenario, experiment);
+  return carry_out(options, scenario, seed, experiment, none);
 }
 
 int run_seeds(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
@@ -102,15 +157,21 @@ int run_seeds(const RunOptions& options, const scenario::Scenario& scenario, std
   if (options.summary) summary.emplace(*options.summary);
   std::vector<bridge::RunResult> results;
   int worst = 0;
-  std::fputs(seeds_head().c_str(), stdout);
+  Printed printed(options);
+  printed.print(seeds_head());
   for (std::uint64_t seed = options.seeds->first; interruption() == 0; ++seed) {
-    run::Experiment experiment(scenario, types, {seed, options.order, replay_line(options, seed)});
-    RunOptions single = options;
-    single.summary.reset();
-    Outputs none(single, scenario);
-    results.push_back(carry_out(options, scenario, seed, experiment, none, nullptr));
-    std::fputs(seeds_row(results.back()).c_str(), stdout);
-    std::fflush(stdout);
+    const std::string replay = replay_line(options, seed);
+    const kernel::ReplayLine outside_of_tasks(replay.c_str());
+    try {
+      results.push_back(run_seed(options, scenario, types, seed, replay));
+    } catch (const BadInput&) {
+      throw;
+    } catch (const std::system_error&) {
+      throw;
+    } catch (const std::exception& failure) {
+      return report_failure(failure, replay, nullptr);
+    }
+    printed.print(seeds_row(results.back()));
     worst = std::max(worst, status(scenario, results.back()));
     if (seed == options.seeds->last) break;
   }
@@ -118,8 +179,36 @@ int run_seeds(const RunOptions& options, const scenario::Scenario& scenario, std
     summary->write(summary_json(results));
     summary->commit();
   }
-  flush_standard_output();
+  printed.check();
   return interruption() != 0 ? 130 : worst;
+}
+
+int run_once(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment,
+             std::optional<Outputs>& outputs) {
+  const run::JournalHead head = run::journal_head(scenario, options.seed, options.order);
+  std::string lines = to_text(head);
+  std::optional<run::Journal> journal;
+  if (options.replay_journal) {
+    journal = run::read_journal(*options.replay_journal, head);
+    tell_of_cut(*journal);
+    for (const auto& [date, intervention] : journal->interventions)
+      lines += to_text(experiment.intervene(intervention, date), intervention);
+  }
+  sync::tell_threads_outside();
+  outputs.emplace(options, scenario, experiment);
+  if (outputs->journal() != nullptr) outputs->journal()->write(lines);
+  bool same = true;
+  bridge::RunResult result = journal ? repeat(options, scenario, *journal, experiment, *outputs, same)
+                                     : carry_out(options, scenario, options.seed, experiment, *outputs);
+  if (options.idle > Duration() && result.outcome != bridge::Outcome::deadlock)
+    result.idle = experiment.idle(options.idle);
+  outputs->check(result);
+  Printed printed(options);
+  printed.print(summary_text(result));
+  outputs->write(result);
+  printed.check();
+  if (!same) tell_of_difference(*journal);
+  return same ? status(scenario, result) : 1;
 }
 
 }  // namespace
@@ -128,33 +217,22 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   heed_signals();
-  kernel::set_post_mortem(sync::write_call_stack);
   const RunWatchdog watchdog(options.watchdog_s);
   if (options.seeds) return run_seeds(options, scenario, types);
-  run::Experiment experiment(scenario, types, {options.seed, options.order, replay_line(options, options.seed)});
-  const run::JournalHead head = run::journal_head(scenario, options.seed, options.order);
-  std::string lines = to_text(head);
-  std::optional<run::Journal> journal;
-  if (options.replay_journal) {
-    journal = run::read_journal(*options.replay_journal, head);
-    for (const auto& [date, intervention] : journal->interventions)
-      lines += to_text(experiment.intervene(intervention, date), intervention);
+  const std::string replay = replay_line(options, options.seed);
+  const kernel::ReplayLine outside_of_tasks(replay.c_str());
+  std::optional<run::Experiment> experiment;
+  std::optional<Outputs> outputs;
+  try {
+    experiment.emplace(scenario, types, run::ExperimentOptions{options.seed, options.order, replay});
+    return run_once(options, scenario, *experiment, outputs);
+  } catch (const BadInput&) {
+    throw;
+  } catch (const std::system_error&) {
+    throw;  // no memory or process for the run: another attempt may succeed
+  } catch (const std::exception& failure) {
+    return report_failure(failure, replay, outputs ? &*outputs : nullptr);
   }
-  Outputs outputs(options, scenario);
-  DurationFiles durations(options, scenario, experiment);
-  std::optional<JournalFile> kept;
-  if (options.journal) kept.emplace(*options.journal).write(lines);
-  JournalFile* const keep = kept ? &*kept : nullptr;
-  bool same = true;
-  const bridge::RunResult result = journal ? repeat(options, scenario, *journal, experiment, outputs, keep, same)
-                                           : carry_out(options, scenario, options.seed, experiment, outputs, keep);
-  durations.finish(result.outcome == bridge::Outcome::finished);
-  std::fputs(summary_text(result).c_str(), options.summary == "-" ? stderr : stdout);
-  std::fflush(stdout);
-  outputs.write(experiment, result);
-  flush_standard_output();
-  if (journal) tell_of(*journal, same);
-  return same ? status(scenario, result) : 1;
 }
 
 }  // namespace waitpoint::tools

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/run/run_options.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <initializer_list>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
-#include "tools/command/data_folder.hpp"
 #include "tools/command/distinct_files.hpp"
+#include "tools/command/installed_part.hpp"
+#include "tools/command/shell_words.hpp"
+#include "tools/output/output_file.hpp"
+#include "tools/output/trajectory.hpp"
 #include "tools/run/pacing.hpp"
 
 namespace waitpoint::tools {
@@ -22,29 +26,56 @@ void check_not_together(const char* option, const Given& others) {
   }
 }
 
+/// A picture's format does not follow from its name: a viewer would take it for another.
+void check_picture(const std::string& name) {
+  std::string kind = std::filesystem::path(name).extension();
+  std::transform(kind.begin(), kind.end(), kind.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (kind == ".png" || kind == ".jpg" || kind == ".pdf")
+    refuse("--picture", "a name that ends in .svg, the format of pictures", name);
+}
+
 }  // namespace
 
+bool RunOptions::writes_standard_output() const {
+  for (const auto* file : {&summary, &picture, &record, &digests, &events, &record_durations, &journal})
+    if (*file && is_standard_output(**file)) return true;
+  return false;
+}
+
+void check_files(const RunOptions& options, std::span<const std::string> robots) {
+  const auto name = [](const std::optional<std::filesystem::path>& file) { return file ? file->string() : ""; };
+  std::vector<NamedFile> files = {{"--summary", name(options.summary)}, {"--picture", name(options.picture)}};
+  if (options.trajectory)
+    for (const std::filesystem::path& path : trajectory_names(*options.trajectory, robots))
+      files.push_back({"--trajectory", path.string()});
+  files.insert(files.end(), {{"--record", name(options.record)},
+                             {"--digests", name(options.digests)},
+                             {"--events", name(options.events)},
+                             {"--record-durations", name(options.record_durations)},
+                             {"--journal", name(options.journal)},
+                             {"--replay-journal", name(options.replay_journal), NamedFile::Use::read},
+                             {"--replay-durations", name(options.replay_durations), NamedFile::Use::read}});
+  check_distinct(files);
+}
+
 std::string replay_line(const RunOptions& options, std::uint64_t seed) {
-  std::string line = options.program + " run " + options.scenario.string() + " --seed " + std::to_string(seed);
+  std::string line =
+      quoted(options.program) + " run " + quoted(options.scenario.string()) + " --seed " + std::to_string(seed);
   if (options.order == kernel::Order::seeded) line += " --order seeded";
-  if (options.replay_durations) line += " --replay-durations " + options.replay_durations->string();
+  if (options.replay_durations) line += " --replay-durations " + quoted(options.replay_durations->string());
   // A replay has to read the journal that this run writes.
   if (const auto& journal = options.journal ? options.journal : options.replay_journal)
-    line += " --replay-journal " + journal->string();
-  for (const std::string& assignment : options.assignments) line += " --set '" + assignment + "'";
+    line += " --replay-journal " + quoted(journal->string());
+  if (!options.confined_to.empty()) line += " --confined";
+  for (std::size_t i = 1; i < options.confined_to.size(); ++i)
+    line += " --allow " + quoted(options.confined_to[i].string());
+  for (const std::string& assignment : options.assignments) line += " --set " + in_quotation_marks(assignment);
   return line;
 }
 
 void ScenarioArguments::add_file(Command& command) {
   command.argument("SCENARIO", file, "the scenario file", Command::Presence::required);
-}
-
-std::filesystem::path ScenarioArguments::path() const {
-  const std::filesystem::path here = file;
-  std::error_code error;
-  if (here.has_parent_path() || std::filesystem::exists(here, error)) return here;
-  const std::filesystem::path installed = std::filesystem::path(data_folder) / "scenarios" / here;
-  return std::filesystem::exists(installed, error) ? installed : here;
 }
 
 void ScenarioArguments::add_set(Command& command) {
@@ -54,6 +85,7 @@ void ScenarioArguments::add_set(Command& command) {
                    "named here is relative to the current directory. For example:\n"
                    "  robots.0.goals=[[1,2],[3,4]]\n"
                    "  robot_types.rackham.modules.segloc.enabled=false");
+  confinement.add(command);
 }
 
 RunArguments::RunArguments(CommandLine& line)
@@ -71,6 +103,9 @@ RunArguments::RunArguments(CommandLine& line)
   command_.option("--watchdog", watchdog_, "S",
                   "report a task that reaches no event for S seconds of the wall clock, and end\n"
                   "the run after six times that; 0: never (default: 10)");
+  command_.option("--idle", idle_, "S",
+                  "at the end, list tasks that have waited without a timeout for S seconds of\n"
+                  "virtual time; 0: none (default: 60)");
   command_.flag("--interactive", interactive_,
                 "read commands from standard input: step, stop at a time or a condition, change\n"
                 "the speed, send requests, move robots and obstacles; help lists them");
@@ -128,7 +163,8 @@ void RunArguments::check_alone() const {
 
 RunOptions RunArguments::options() const {
   RunOptions options;
-  options.scenario = scenario_.path();
+  options.scenario = find_scenario(scenario_.file);
+  options.confined_to = scenario_.confinement.folders(options.scenario);
   options.assignments = scenario_.assignments;
   const char* const environment = std::getenv("WAITPOINT_SEED");
   if (!seed_.empty()) {
@@ -153,16 +189,7 @@ RunOptions RunArguments::options() const {
   if (!watchdog_.empty() &&
       (!parse_number(watchdog_, options.watchdog_s) || !(options.watchdog_s >= 0 && options.watchdog_s <= 1e6)))
     refuse("--watchdog", "seconds from 0 to 1000000", watchdog_);
-  check_distinct({{"--summary", summary_},
-                  {"--picture", picture_},
-                  {"--trajectory", trajectory_},
-                  {"--record", record_},
-                  {"--digests", digests_},
-                  {"--events", events_},
-                  {"--record-durations", record_durations_},
-                  {"--journal", journal_},
-                  {"--replay-journal", replay_journal_, NamedFile::Use::read},
-                  {"--replay-durations", replay_durations_, NamedFile::Use::read}});
+  if (!idle_.empty()) options.idle = idle_ == "0" ? Duration() : *positive_seconds("--idle", idle_);
   const auto file = [](const std::string& name) {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
   };
@@ -171,9 +198,9 @@ RunOptions RunArguments::options() const {
   options.replay_journal = file(replay_journal_);
   if (options.interactive && options.replay_journal)
     throw BadInput("--replay-journal", "cannot be used together with --interactive");
-  if (const std::string kind = std::filesystem::path(picture_).extension();
-      kind == ".png" || kind == ".jpg" || kind == ".pdf")
-    refuse("--picture", "a name that ends in .svg, the format of pictures", picture_);
+  check_picture(picture_);
+  if (is_standard_output(trajectory_))
+    refuse("--trajectory", "a name that ends in .tum: it writes three files", trajectory_);
   options.summary = file(summary_);
   options.picture = file(picture_);
   options.trajectory = file(trajectory_);
@@ -182,6 +209,7 @@ RunOptions RunArguments::options() const {
   options.events = file(events_);
   options.record_durations = file(record_durations_);
   options.replay_durations = file(replay_durations_);
+  check_files(options, {});
   if (options.record_durations && options.replay_durations)
     throw BadInput("--record-durations", "cannot be used together with --replay-durations");
   return options;

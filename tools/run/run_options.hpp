@@ -5,26 +5,31 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/time.hpp"
 #include "fibers/kernel/chooser.hpp"
 #include "tools/command/command_line.hpp"
+#include "tools/command/confinement_options.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/run/run_watchdog.hpp"
 
 namespace waitpoint::tools {
 
 struct RunOptions {
   std::string program = "waitpoint";  ///< for replay lines
   std::filesystem::path scenario;
-  std::vector<std::string> assignments;  ///< of --set, in their order: "world.step_ms=5"
+  std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all
+  std::vector<std::string> assignments;            ///< of --set, in their order: "world.step_ms=5"
   std::uint64_t seed = 1;
   std::optional<SeedRange> seeds;  ///< instead of `seed`
   std::optional<Duration> until;   ///< instead of the scenario's
   kernel::Order order = kernel::Order::fifo;
-  double speed = 0;        ///< simulated seconds per second; 0: unthrottled
-  double watchdog_s = 10;  ///< of the wall clock, without an event; 0: unlimited
+  double speed = 0;                          ///< simulated seconds per second; 0: unthrottled
+  Duration idle = std::chrono::seconds(60);  ///< of a wait without a timeout, to be listed at the end; 0: none are
+  double watchdog_s = RunWatchdog::usual_limit_s;  ///< of the wall clock, without an event; 0: unlimited
   bool interactive = false;
   std::optional<std::filesystem::path> journal;         ///< to write
   std::optional<std::filesystem::path> replay_journal;  ///< to repeat
@@ -34,20 +39,25 @@ struct RunOptions {
 
   /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
+  /// True if one of the output files is standard output, where no other text may be then.
+  bool writes_standard_output() const;
 };
 
-/// The command that repeats the run of this seed.
+/// Throws BadInput unless all files are distinct, including those that --trajectory derives from the names of `robots`
+/// (if none are given: of a single robot).
+void check_files(const RunOptions& options, std::span<const std::string> robots);
+
+/// The command that repeats the run of this seed, for a shell.
 std::string replay_line(const RunOptions& options, std::uint64_t seed);
 
 /// The scenario's file and --set, shared by the commands that read a scenario.
 struct ScenarioArguments {
+  ConfinementArguments confinement;
   std::string file;
   std::vector<std::string> assignments;
 
   void add_file(Command& command);
   void add_set(Command& command);
-  /// The scenario's file; a name without a folder that is not here may be one of the installed scenarios.
-  std::filesystem::path path() const;
 };
 
 /// The arguments as text.
@@ -68,7 +78,7 @@ class RunArguments {
 
   Command command_;
   ScenarioArguments scenario_;
-  std::string seed_, seeds_, order_, until_, speed_, watchdog_, journal_, replay_journal_;
+  std::string seed_, seeds_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
   std::string summary_, picture_, trajectory_, record_, digests_, events_;
   std::string record_durations_, replay_durations_;
   bool interactive_ = false, check_ = false;

@@ -15,9 +15,8 @@
 #include <fstream>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/doing.hpp"
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/sync/post_mortem.hpp"
 #include "tools/command/interruption.hpp"
 
 namespace waitpoint::tools {
@@ -35,7 +34,7 @@ struct Place {
 
 Place last;
 std::uint64_t ticks = 0, ticks_max = 0;
-char too_long[96], end_of_patience[96];
+char too_long[96], too_long_elsewhere[96], end_of_patience[96];
 
 [[noreturn]] void end(const char* reason, int status) {
   kernel::report_death(reason);
@@ -46,18 +45,26 @@ char too_long[96], end_of_patience[96];
 void tick(int) {
   const int number = errno;
   const kernel::Task* const task = kernel::running;
-  const Place place = task == nullptr ? Place() : Place{task->id, task->sequence, task->local_time};
-  if (task == nullptr || place != last) {
+  const bool is_elsewhere = task == nullptr && Doing::present() != nullptr;
+  const Place place = task != nullptr ? Place{task->id, task->sequence, task->local_time}
+                      : is_elsewhere  ? Place{0, Doing::count(), Time()}
+                                      : Place();
+  if ((task == nullptr && !is_elsewhere) || place != last) {
     last = place;
     ticks = 0;
   } else {
     ++ticks;
-    if (interruption() != 0) end("the run is interrupted while a task does not reach its next event", 130);
-    if (ticks == ticks_max) kernel::report(too_long, sync::write_call_stack);
+    if (interruption() != 0)
+      end(is_elsewhere ? "the run is interrupted while a module's constructor or destructor runs"
+                       : "the run is interrupted while a task does not reach its next event",
+          130);
+    if (ticks == ticks_max) kernel::report(is_elsewhere ? too_long_elsewhere : too_long);
     if (ticks_max > 0 && ticks == patience * ticks_max) end(end_of_patience, 1);
   }
   errno = number;
 }
+
+}  // namespace
 
 bool is_traced() {
   std::ifstream status("/proc/self/status");
@@ -66,14 +73,14 @@ bool is_traced() {
   return false;
 }
 
-}  // namespace
-
 RunWatchdog::RunWatchdog(double limit_s) {
   if (is_traced()) return;
   last = Place();
   ticks = 0;
   ticks_max = static_cast<std::uint64_t>(std::ceil(limit_s * 1e9 / tick_ns));
   std::snprintf(too_long, sizeof too_long, "no event for %g s: a task does not reach its next waitpoint", limit_s);
+  std::snprintf(too_long_elsewhere, sizeof too_long_elsewhere, "no event for %g s: a module's code does not return",
+                limit_s);
   std::snprintf(end_of_patience, sizeof end_of_patience, "no event for %g s: the run is ended",
                 static_cast<double>(patience) * limit_s);
   struct sigaction action {};

@@ -12,8 +12,14 @@
 
 namespace waitpoint::tools {
 
+/// True in a process that a debugger traces.
+bool is_traced();
+
 class RunWatchdog {
  public:
+  /// Of commands that have no option for it.
+  static constexpr double usual_limit_s = 10;
+
   /// `limit_s` 0: reports nothing, but still ends an interrupted run. Not in a process that a debugger traces.
   explicit RunWatchdog(double limit_s);
   ~RunWatchdog();

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/run/session.hpp"
 
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "tools/command/interruption.hpp"
+#include "tools/output/output_file.hpp"
+#include "tools/run/run_watchdog.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -24,7 +28,8 @@ Session::Session(run::Experiment& experiment, Time until, double speed, Second s
       until_(until),
       second_(std::move(second)),
       progress_(stderr, isatty(STDERR_FILENO) != 0, until.since_start()),
-      pacing_(speed) {}
+      pacing_(speed),
+      process_(getpid()) {}
 
 Session::Stop Session::carry_on(Time target, const Enough& enough, const Heed& heed) {
   pacing_.restart(now(), pacing_.speed());
@@ -41,6 +46,7 @@ Session::Stop Session::carry_on_in_windows(Time target, const Enough& enough, co
     if (interruption() != 0) return Stop::interrupted;
     const Time next = std::min(target, Time() + window * (reached_.since_start() / window + 1));
     end_ = enough ? experiment_.run_before(next, enough) : experiment_.run_before(next);
+    end_forked_copy();
     if (experiment_.paused()) return Stop::enough;
     close_window(next);
     bool asked = false;
@@ -48,6 +54,19 @@ Session::Stop Session::carry_on_in_windows(Time target, const Enough& enough, co
     if (!over() && (asked || (heed && heed()))) return Stop::asked;
   }
   return over() ? Stop::over : Stop::target;
+}
+
+// The run, its terminal and its files are the parent's: exit handlers and buffers must not reach them. But a checkpoint
+// of a debugger is the run.
+void Session::end_forked_copy() {
+  if (getpid() == process_) return;
+  if (is_traced()) {
+    process_ = getpid();
+    OutputFile::take_over();
+    return;
+  }
+  dprintf(STDERR_FILENO, "waitpoint: a process that a task forked returned into the run: it ends here\n");
+  syscall(SYS_exit_group, 1);
 }
 
 void Session::close_window(Time end) {

@@ -3,6 +3,8 @@
 // and accepts commands. The windows do not affect the run.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -59,6 +61,7 @@ class Session {
  private:
   Stop carry_on_in_windows(Time target, const Enough& enough, const Heed& heed);
   void close_window(Time end);
+  void end_forked_copy();
   void tell_outcomes();
 
   run::Experiment& experiment_;
@@ -70,6 +73,7 @@ class Session {
   RunEnd end_ = RunEnd::time_reached;
   Time reached_;
   double wall_s_ = 0;
+  pid_t process_;         // of the run
   std::size_t told_ = 0;  // outcomes of interventions
 };
 

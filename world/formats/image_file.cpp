@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/file_contents.hpp"
 #include "core/occupancy_grid.hpp"
-#include "world/formats/file_contents.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/pgm.hpp"
 
@@ -42,7 +42,8 @@ class PngReader {
     // By default libpng takes 16-bit images as linear, and 8-bit images as sRGB.
     image_.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     image_.format = has_colours() ? PNG_FORMAT_RGBA : PNG_FORMAT_GA;
-    std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image_));
+    const std::size_t channels = has_colours() ? 4 : 2;
+    std::vector<std::uint8_t> pixels(channels * image_.width * image_.height);
     png_image_finish_read(&image_, nullptr, pixels.data(), 0, nullptr);
     check();
     return pixels;

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/confinement.hpp"
 #include "core/error.hpp"
-#include "world/formats/file_contents.hpp"
+#include "core/file_contents.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -22,6 +23,7 @@ IncludedFiles::IncludedFiles(const std::string& file, const std::string& content
     : open_{canonical(file)}, bytes_(contents.size()), bytes_max_(bytes_max) {}
 
 std::string IncludedFiles::enter(const std::string& file, const std::string& from, int line) {
+  Confinement::require_allowed(file);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     throw BadInput(from, line, "there is no file '" + file + "' to include");

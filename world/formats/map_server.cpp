@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/file_contents.hpp"
 #include "core/nearest_name.hpp"
-#include "world/formats/file_contents.hpp"
+#include "world/formats/beside.hpp"
 #include "world/formats/image_file.hpp"
 #include "world/formats/limits.hpp"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "world/formats/file_contents.hpp"
+#include "core/file_contents.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/obj.hpp"
 #include "world/formats/stl.hpp"

@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/file_contents.hpp"
 #include "core/number_text.hpp"
-#include "world/formats/file_contents.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/line_words.hpp"
 

@@ -10,8 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "core/confinement.hpp"
 #include "core/error.hpp"
-#include "world/formats/file_contents.hpp"
+#include "world/formats/beside.hpp"
 #include "world/formats/included_files.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/mesh_file.hpp"
@@ -250,11 +251,13 @@ class SdfReader {
     if (!uri.starts_with(model_scheme)) {
       const std::string path = uri.starts_with(file_scheme) ? uri.substr(file_scheme.size()) : uri;
       const std::string file = beside(xml_->file(), path);
+      Confinement::require_allowed(file);
       return fs::is_directory(file, error) ? (fs::path(file) / "model.sdf").string() : file;
     }
     const std::string model = uri.substr(model_scheme.size());
     for (const char* folder : {"", "models", "../models", ".."}) {
       const fs::path path = beside(xml_->file(), (fs::path(folder) / model).string());
+      if (!Confinement::allows(path)) continue;
       if (fs::is_regular_file(path, error)) return path.string();
       if (fs::is_regular_file(path / "model.sdf", error)) return (path / "model.sdf").string();
     }

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "world/formats/file_contents.hpp"
+#include "world/formats/beside.hpp"
 #include "world/formats/image_file.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/merged_cells.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
-#include "world/formats/file_contents.hpp"
+#include "world/formats/beside.hpp"
 #include "world/formats/included_files.hpp"
 #include "world/formats/limits.hpp"
 

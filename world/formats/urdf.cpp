@@ -11,8 +11,9 @@
 #include <string_view>
 #include <utility>
 
+#include "core/confinement.hpp"
 #include "core/exact_math.hpp"
-#include "world/formats/file_contents.hpp"
+#include "world/formats/beside.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/mesh_file.hpp"
 #include "world/formats/upright.hpp"
@@ -225,13 +226,18 @@ class UrdfReader {
   std::string found_file(const std::string& uri) const {
     namespace fs = std::filesystem;
     constexpr std::string_view file_scheme = "file://", package_scheme = "package://";
-    if (uri.starts_with(file_scheme)) return beside(xml_.file(), uri.substr(file_scheme.size()));
-    if (!uri.starts_with(package_scheme)) return beside(xml_.file(), uri);
+    if (!uri.starts_with(package_scheme)) {
+      const std::string path = uri.starts_with(file_scheme) ? uri.substr(file_scheme.size()) : uri;
+      std::string file = beside(xml_.file(), path);
+      Confinement::require_allowed(file);
+      return file;
+    }
     const fs::path wanted = uri.substr(package_scheme.size());
     std::error_code error;
     fs::path folder = fs::absolute(xml_.file(), error).parent_path();
     for (int up = 0; up < folders_up_max && !folder.empty(); ++up, folder = folder.parent_path()) {
-      if (fs::is_regular_file(folder / wanted, error)) return (folder / wanted).string();
+      const bool may_read = Confinement::allows(folder / wanted);
+      if (may_read && fs::is_regular_file(folder / wanted, error)) return (folder / wanted).string();
       if (folder == folder.root_path()) break;
     }
     return "";

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "world/formats/file_contents.hpp"
+#include "core/file_contents.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/map_server.hpp"
 #include "world/formats/merged_cells.hpp"

@@ -14,7 +14,7 @@
 namespace waitpoint::world {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view xml_blanks = " \t\r\n";
 
 std::string in_brackets(const char* name) { return "<" + std::string(name) + ">"; }
 
@@ -55,9 +55,9 @@ const XmlReader::Element& XmlReader::required(const Element& holder, const char*
 std::string XmlReader::text_or_nothing(const Element& element) {
   const char* given = element.GetText();
   const std::string_view view = given == nullptr ? "" : given;
-  const std::size_t first = view.find_first_not_of(blanks);
+  const std::size_t first = view.find_first_not_of(xml_blanks);
   if (first == view.npos) return "";
-  return std::string(view.substr(first, view.find_last_not_of(blanks) + 1 - first));
+  return std::string(view.substr(first, view.find_last_not_of(xml_blanks) + 1 - first));
 }
 
 std::string XmlReader::text(const Element& element) const {
@@ -99,8 +99,8 @@ void XmlReader::read_numbers(const Element& element, const std::string& text, co
                              std::span<double> values) const {
   std::string_view rest = text;
   const auto next_word = [&] {
-    rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
-    const std::string_view word = rest.substr(0, rest.find_first_of(blanks));
+    rest.remove_prefix(std::min(rest.find_first_not_of(xml_blanks), rest.size()));
+    const std::string_view word = rest.substr(0, rest.find_first_of(xml_blanks));
     rest.remove_prefix(word.size());
     return word;
   };

@@ -40,7 +40,7 @@ std::string to_text(const Trail& trail) {
 }
 
 bool read_trail(std::string_view text, Trail& trail) {
-  if (text.size() % 2 != 1 || text.size() > 1 + 2 * Trail::marks_max) return false;
+  if (text.size() < 3 || text.size() % 2 != 1 || text.size() > 1 + 2 * Trail::marks_max) return false;
   if (text.find_first_not_of(letters) != std::string_view::npos) return false;
   const auto number = [&](std::size_t at) { return static_cast<std::uint32_t>(letters.find(text[at])); };
   trail.log_spacing = number(0);

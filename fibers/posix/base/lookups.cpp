@@ -54,9 +54,13 @@ dlsym:
 
 extern "C" {
 
+// Of threads/thread.cpp.
+[[gnu::visibility("hidden")]] int waitpoint_own_pthread_create(pthread_t* id, const pthread_attr_t* attributes,
+                                                               void* (*start)(void*), void* argument) noexcept;
+
 [[gnu::visibility("hidden"), gnu::used]] void* waitpoint_ours_behind(void* where, const char* name) {
   if (where != RTLD_NEXT || name == nullptr || std::strcmp(name, "pthread_create") != 0) return nullptr;
-  return reinterpret_cast<void*>(&pthread_create);
+  return reinterpret_cast<void*>(&waitpoint_own_pthread_create);
 }
 
 // dlvsym() finds it by its version, without a call to dlsym().

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/guests/guests.hpp"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "fibers/posix/links/robot_links.hpp"
 #include "fibers/posix/links/stream_links.hpp"
 #include "fibers/posix/members/members.hpp"
+#include "fibers/posix/program/allocator.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/threads/deadlock.hpp"
@@ -35,8 +37,18 @@ namespace {
 alignas(Record) char own_record[sizeof(Record)];
 static_assert(sizeof(Guest) % alignof(char*) == 0, "a guest's words are behind it");
 
+void find_allocator() {
+  void* const allocate = dlsym(RTLD_DEFAULT, "malloc");
+  if (allocate == reinterpret_cast<void*>(of_c_library(&std::malloc, "malloc"))) return;
+  dl_find_object library{};
+  if (_dl_find_object(allocate, &library) != 0) return;
+  allocator_code = {reinterpret_cast<std::uintptr_t>(library.dlfo_map_start),
+                    reinterpret_cast<std::uintptr_t>(library.dlfo_map_end)};
+}
+
 [[gnu::constructor(101)]] void begin() {
   record = new (own_record) Record();
+  find_allocator();
   leave_preload();
 }
 

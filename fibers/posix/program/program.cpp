@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/program/program.hpp"
 
+#include "fibers/posix/program/allocator.hpp"
+
 namespace waitpoint::posix {
 
 Record* record = nullptr;
+constinit AllocatorCode allocator_code;
 
 kernel::Task* first_task() {
   if (kernel::running != nullptr) return kernel::running->scheduler->first_task();

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/allocator.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
 #include "fibers/posix/sync/shared_mutex.hpp"
@@ -248,15 +249,18 @@ WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept 
 // Before main() there is one thread: a lock is always free.
 WAITPOINT_INTERPOSED int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
   if (lock_at_once(*mutex)) return 0;
+  if (is_allocator(__builtin_return_address(0))) return WAITPOINT_NEXT(pthread_mutex_lock)(mutex);
   return is_simulated() ? lock_before(mutex, Time::max(), true) : 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
+  if (is_allocator(__builtin_return_address(0))) return WAITPOINT_NEXT(pthread_mutex_trylock)(mutex);
   return is_simulated() ? try_lock(mutex) : 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_mutex_unlock(pthread_mutex_t* mutex) noexcept {
   if (unlock_at_once(*mutex)) return 0;
+  if (is_allocator(__builtin_return_address(0))) return WAITPOINT_NEXT(pthread_mutex_unlock)(mutex);
   return is_simulated() ? unlock(mutex) : 0;
 }
 

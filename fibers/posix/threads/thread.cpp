@@ -363,6 +363,11 @@ WAITPOINT_INTERPOSED int pthread_create(pthread_t* id, const pthread_attr_t* att
   return create(id, attributes, {.posix = start}, false, argument);
 }
 
+// The same for lookups.cpp, where the plain name would be the definition of a host, which asks for the next one.
+extern "C" [[gnu::visibility("hidden"), gnu::alias("pthread_create"), gnu::nonnull(1, 3)]] int
+waitpoint_own_pthread_create(pthread_t* id, const pthread_attr_t* attributes, void* (*start)(void*),
+                             void* argument) noexcept;
+
 WAITPOINT_INTERPOSED int pthread_join(pthread_t id, void** result) { return join(id, result, Time::max()); }
 
 // Time() is no deadline: the call does not wait.

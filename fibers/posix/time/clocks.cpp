@@ -10,6 +10,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/allocator.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 
@@ -121,7 +122,7 @@ extern "C" [[gnu::visibility("hidden")]] int __wrap_clock_gettime(clockid_t cloc
 }
 
 WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept {
-  if (is_host_code()) return WAITPOINT_NEXT(clock_gettime)(clock, time);
+  if (is_host_code() || is_allocator(__builtin_return_address(0))) return WAITPOINT_NEXT(clock_gettime)(clock, time);
   // In Linux only these clocks need a system call, which checks the address.
   if ((clock == CLOCK_PROCESS_CPUTIME_ID || clock == CLOCK_THREAD_CPUTIME_ID) && !can_be_written(time))
     return fail(EFAULT);
@@ -152,7 +153,7 @@ WAITPOINT_INTERPOSED int clock_getres(clockid_t clock, timespec* resolution) noe
 }
 
 WAITPOINT_INTERPOSED int gettimeofday(timeval* __restrict time, void* __restrict zone) noexcept {
-  if (is_host_code()) return WAITPOINT_NEXT(gettimeofday)(time, zone);
+  if (is_host_code() || is_allocator(__builtin_return_address(0))) return WAITPOINT_NEXT(gettimeofday)(time, zone);
   const timespec read = to_timespec(reading_ns(CLOCK_REALTIME, posix::now()));
   // The header declares it nonnull, Linux accepts null.
   timeval* const volatile asked = time;

@@ -11,6 +11,7 @@
 #include "tests/bench/kernel/cases.hpp"
 #include "tests/bench/kernel/measured.hpp"
 #include "tests/bench/program.hpp"
+#include "tests/bench/status_line.hpp"
 #include "tests/bench/surroundings.hpp"
 
 namespace waitpoint::bench {
@@ -62,7 +63,7 @@ class Bench {
     const int repeats = of.tasks <= 100'000 ? options_.repeats : 1;
     for (int i = 1; i <= repeats; ++i)
       for (Figure& figure : figures) measure(of, figure, i, repeats);
-    fmt::print(stderr, "\r{:78}\r", "");
+    status_.show("");
     std::erase_if(figures, [](const Figure& f) { return f.best.end == Measured::End::declined; });
     print(of, figures);
   }
@@ -79,8 +80,7 @@ class Bench {
 
   void measure(const Case& of, Figure& figure, int number, int repeats) {
     if (number > 1 && figure.best.end != Measured::End::answered) return;
-    fmt::print(stderr, "\r{:<78}",
-               fmt::format("{}: {} of {}, {}", case_name(of), number, repeats, figure.subject->name));
+    status_.show(fmt::format("{}: {} of {}, {}", case_name(of), number, repeats, figure.subject->name));
     keep_best(figure.best, measure_once(program(*figure.subject), of.workload, of.tasks, options_.budget_ms,
                                         figure.hooks, options_.limit_s));
   }
@@ -170,6 +170,7 @@ class Bench {
   std::filesystem::path folder_;
   std::vector<const Subject*> present_;
   std::vector<Row> rows_;
+  StatusLine status_{is_terminal()};
   int musts_ = 0, musts_met_ = 0, aims_ = 0, aims_met_ = 0;
 };
 

@@ -122,7 +122,8 @@ TEST(ExploreDeathTest, AnEnvironmentThatIsWrongEndsTheProgramWithALineAndStatusT
 TEST(Explore, OptionsInCodeThatAreWrongAreTheTestsOwnFailure) {
   EXPECT_THROW(explore([] {}, {.strategy = "pcd"}), BadInput);
   EXPECT_THROW(explore([] {}, {.replay = "wx1.nonsense"}), BadInput);
-  const ExploreReport report = explore([] {}, {.replay = "wx1.3.00000001.="});
+  EXPECT_THROW(explore([] {}, {.replay = "wx1.1.9f3a2c1b-6.=20-2"}), BadInput) << "a trail without marks";
+  const ExploreReport report = explore([] {}, {.replay = "wx1.4.00000001.="});
   EXPECT_FALSE(report.passed);
   EXPECT_TRUE(report.text.starts_with("the token belongs to another run: it had ")) << report;
   EXPECT_FALSE(contains(report.text, "\n")) << report;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies that end the process, or never end: the messages and actions of the supervising process.
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -63,6 +67,30 @@ TEST(Explore, AReplayThatDoesNotEndIsEndedWithItsToken) {
   EXPECT_EXIT(compute_for_ever(), ended,
               "^waitpoint: the replayed schedule exceeded the limit of 2 s: process terminated\n"
               "replay: WAITPOINT_REPLAY=wx1.1.01234567.=3-1 .*\n$");
+}
+
+// As in a chroot. In a mount namespace of the calling process, which needs the rights of root.
+bool hide_proc() {
+  return unshare(CLONE_NEWNS) == 0 && mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+         mount("none", "/proc", "tmpfs", 0, nullptr) == 0;
+}
+
+TEST(Explore, AScheduleThatComputesForEverIsEndedWithoutProc) {
+  const pid_t child = fork();
+  if (child == 0) _exit(hide_proc() ? 0 : 1);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  if (status != 0) GTEST_SKIP() << "/proc cannot be hidden here";
+  const auto compute_for_ever = [] {
+    hide_proc();
+    explore(
+        [] {
+          for (;;) asm volatile("");
+        },
+        {.schedule_limit_s = 2, .replay = "wx1.1.01234567.=3-1"});
+    std::exit(0);
+  };
+  EXPECT_EXIT(compute_for_ever(), ended, "the replayed schedule exceeded the limit of 2 s: process terminated\n");
 }
 
 TEST(Explore, AScheduleThatWaitsForWhatIsNotSimulatedIsEndedWithItsToken) {

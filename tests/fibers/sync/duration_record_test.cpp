@@ -101,6 +101,11 @@ TEST(DurationRecord, OneOfAnotherRunIsANamedError) {
                                           std::to_string(cut.entries.size()) + " durations, at "),
             std::string::npos)
       << error_of_replay(cut, 20);
+  cut.cut_off = "the process dies";
+  EXPECT_EQ(parse_duration_record("f", to_text(cut)), cut);
+  EXPECT_NE(error_of_replay(cut, 20).find(" durations, as its own was cut off: the process dies, at "),
+            std::string::npos)
+      << error_of_replay(cut, 20);
   DurationRecord moved = record;
   for (std::size_t i = 0; i + 1 < moved.entries.size(); ++i)
     if (moved.entries[i].task != moved.entries[i + 1].task) {
@@ -126,6 +131,7 @@ TEST(DurationRecord, ATextThatIsNoneIsRefusedWithItsLine) {
   EXPECT_EQ(error("end 3\n", ""),
             "f:8: the record of durations ends early: expected its last line, 'end' and a number");
   EXPECT_EQ(error("1 0\nend 3\n", "1 "), "f:7: expected a task and its duration, found '1 '");
+  EXPECT_EQ(error("end 3\n", "end 3\n1 0\n"), "f:9: expected nothing after 'end' but '# cut off: ' and a reason");
   EXPECT_EQ(error("end 3", "end 4"), "f:8: the record says that it has 4 durations, but 3 are there");
   for (const char* bad : {"3 7", "0 7", "2 -7", "2 7 7", "2", "", "2 x", "task 2 2f", "task 4 2f r.u", "task 2 xx r.u"})
     EXPECT_NE(error("2 7", bad).find("f:6: expected a task and its duration"), std::string::npos) << bad;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each misuse of a lock is a bug with a report, and so is ending or destroying an object in use.
+// Each misuse of a lock is reported, and so is ending or destroying an object in use.
 #include <gtest/gtest.h>
 
 #include <memory>

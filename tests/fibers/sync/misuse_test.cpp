@@ -1,18 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each misuse of a primitive is a bug with a report, not undefined behaviour.
+// Each misuse of a primitive ends the process with a report, and is not undefined behaviour.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
+#include "fibers/kernel/call_stack.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/periodic_timer.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/simulation.hpp"
+#include "fibers/sync/source_lines.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint {
 namespace {
 
 using namespace std::chrono_literals;
+
+// The line of a misuse, in the innermost frame of this file. "" where frames have no lines.
+std::string at_line(int line) {
+  std::vector<sync::ReturnAddresses> stacks(1, sync::ReturnAddresses(4));
+  stacks[0].resize(kernel::capture_call_stack(stacks[0].data(), stacks[0].size()));
+  const auto lines = sync::user_source_lines(stacks, 1);
+  const bool has_lines = !lines[0].empty() && lines[0][0].find("misuse_test.cpp:") != std::string::npos;
+  return has_lines ? ".*misuse_test.cpp:" + std::to_string(line) + "\n" : "";
+}
+
+// The lock is not held in line_of_unlock; the thread is joinable in the last line of destroy_joinable().
+constexpr int line_of_unlock = __LINE__ + 1;
+void unlock(mutex& m) { m.unlock(); }
+void destroy_joinable() {
+  const thread worker({.name = "worker"}, [] { this_thread::sleep_for(1h); });
+  this_thread::sleep_for(3ms);
+}
+constexpr int line_of_destruction = __LINE__ - 1;
+
+TEST(MisuseDeathTest, IsReportedAtTheCallersLine) {
+  EXPECT_DEATH(
+      simulate([] {
+        mutex m("left");
+        unlock(m);
+      }),
+      "^waitpoint: misuse: a task unlocks a mutex that it does not hold: mutex #1 \"left\"\n"
+      "  at virtual time 0.000000000 s, in task main of environment, at its event [^\n]*\n(  replay[^\n]*\n)?" +
+          at_line(line_of_unlock));
+  EXPECT_DEATH(
+      simulate(destroy_joinable),
+      "^waitpoint: misuse: a thread that is joinable is destroyed\n"
+      "  at virtual time 0.003000000 s, in task main of environment, at its event [^\n]*\n(  replay[^\n]*\n)?" +
+          at_line(line_of_destruction));
+}
+
+TEST(MisuseDeathTest, OutsideOfTasksIsReportedAtTheCallersLine) {
+  mutex m;
+  EXPECT_DEATH(unlock(m), "^waitpoint: misuse: a simulated primitive is used outside a simulated task\n" +
+                              at_line(line_of_unlock));
+}
 
 TEST(MisuseDeathTest, UnlockingWhatOneDoesNotHold) {
   const char* message = "a task unlocks a mutex that it does not hold";

@@ -2,6 +2,7 @@
 // A stack overflow and a use of a bad address are reported with the task's name; earlier signal handlers for such
 // faults are still called.
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -110,8 +111,21 @@ TEST_F(StackOverflowDeathTest, AnotherFaultGoesToTheProgramsOwnHandler) {
       testing::ExitedWithCode(43), "in task wild");
 }
 
-TEST_F(StackOverflowDeathTest, ASignalThatAProcessSentIsNoFault) {
-  EXPECT_EXIT(simulate([] { kill(getpid(), SIGSEGV); }), testing::KilledBySignal(SIGSEGV), "^$");
+TEST_F(StackOverflowDeathTest, ASignalThatAnotherProcessSentIsNoFault) {
+  const auto let_a_child_send = [] {
+    const pid_t own = getpid();
+    if (_Fork() == 0) {
+      kill(own, SIGSEGV);
+      syscall(SYS_exit_group, 0);
+    }
+    for (;;) pause();
+  };
+  EXPECT_EXIT(simulate(let_a_child_send), testing::KilledBySignal(SIGSEGV), "^$");
+}
+
+TEST_F(StackOverflowDeathTest, ASignalThatATaskSendsIsItsFault) {
+  EXPECT_EXIT(simulate([] { kill(getpid(), SIGSEGV); }), testing::KilledBySignal(SIGSEGV),
+              "^waitpoint: the process dies of SIGSEGV \\(the process sent it itself\\)\n.*in task main");
 }
 
 TEST_F(StackOverflowDeathTest, AfterARunTheHandlersAreThoseOfBefore) {

@@ -180,8 +180,9 @@ TEST(Timer, WhatItDoesIsPartOfTheDigestAndRepeats) {
 }
 
 TEST(Timer, StartsAfreshInAnotherRun) {
-  static int fired = 0;
+  static int fired;
   static timer kept([] { ++fired; });
+  fired = 0;
   for (int repeat = 0; repeat < 3; ++repeat) {
     Simulation simulation;
     simulation.spawn(simulation.environment(), {}, [] {

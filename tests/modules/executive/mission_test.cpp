@@ -82,7 +82,7 @@ TEST_F(MissionTest, GivesUpAfterTheTriesAllowed) {
   parameters.tries_max = 4;
   Mission mission(narrow_planner, parameters, {{5, 2.3}, {1, 1}}, random);
   mission.start(seconds(0), {1, 2.3});
-  int blocked = 0;
+  std::int64_t blocked = 0;
   while (mission.current() == 0 && blocked < 20) {
     ++blocked;
     const Order& order = mission.blocked(seconds(10 * blocked), {2, 2.3}, in_the_upper_door);
@@ -111,6 +111,62 @@ TEST_F(MissionTest, MarksThatLeaveNoWayAreForgotten) {
   planner.space().mark(std::vector<Point>{{3.02, 0.4}, {3.02, 0.65}, {3.02, 0.9}});
   EXPECT_EQ(mission.start(seconds(0), {1, 2.3}).kind, Order::Kind::drive);
   EXPECT_FALSE(planner.space().marked());
+}
+
+TEST_F(MissionTest, VisitsItsGoalsAsOftenAsThereAreRounds) {
+  parameters.rounds = 2;
+  Mission mission(planner, parameters, {{1, 1}, {5, 2}}, random);
+  EXPECT_EQ(mission.start(seconds(0), {2, 2}).via_points.back(), (Point{1, 1}));
+  EXPECT_EQ(mission.arrived(seconds(1), {1, 1}).via_points.back(), (Point{5, 2}));
+  EXPECT_EQ(mission.arrived(seconds(2), {5, 2}).via_points.back(), (Point{1, 1}));
+  EXPECT_EQ(mission.goals()[0].visits, 2u);
+  EXPECT_EQ(mission.goals()[0].times_reached, 1u);
+  EXPECT_EQ(mission.arrived(seconds(3), {1, 1}).via_points.back(), (Point{5, 2}));
+  EXPECT_EQ(mission.arrived(seconds(4), {5, 2}).kind, Order::Kind::finished);
+  EXPECT_EQ(mission.goals()[1].times_reached, 2u);
+  EXPECT_EQ(mission.goals()[1].date, seconds(4));
+}
+
+TEST_F(MissionTest, RoundsWithoutEndRememberTheVisitThatMissed) {
+  parameters.rounds = 0;
+  parameters.tries_max = 1;
+  Mission mission(planner, parameters, {{1, 1}, {5, 2}}, random);
+  mission.start(seconds(0), {2, 2});
+  for (std::int64_t round = 0; round < 1000; ++round) {
+    ASSERT_EQ(mission.arrived(seconds(2 * round), {1, 1}).via_points.back(), (Point{5, 2}));
+    const Order& order = round == 500 ? mission.blocked(seconds(2 * round + 1), {2, 2}, {})
+                                      : mission.arrived(seconds(2 * round + 1), {5, 2});
+    ASSERT_EQ(order.via_points.back(), (Point{1, 1}));
+  }
+  EXPECT_EQ(mission.goals()[0].visits, 1000u);
+  EXPECT_EQ(mission.goals()[0].times_reached, 1000u);
+  EXPECT_EQ(mission.goals()[1].visits, 1000u);
+  EXPECT_EQ(mission.goals()[1].times_reached, 999u);
+  EXPECT_EQ(mission.goals()[1].state, GoalState::given_up);
+  EXPECT_EQ(mission.goals()[1].date, seconds(1001));
+}
+
+TEST_F(MissionTest, EveryRoundHasItsTries) {
+  parameters.rounds = 0;
+  parameters.tries_max = 2;
+  Mission mission(planner, parameters, {{5, 2.3}}, random);
+  mission.start(seconds(0), {1, 2.3});
+  for (int round = 0; round < 4; ++round) {
+    ASSERT_EQ(mission.blocked(seconds(9), {2, 2.3}, in_the_upper_door).kind, Order::Kind::drive);
+    mission.arrived(seconds(30), {5, 2.3});
+  }
+  EXPECT_EQ(mission.goals()[0].times_reached, 4u);
+}
+
+TEST_F(MissionTest, RoundsOfGoalsWithoutARouteTakeTime) {
+  parameters.rounds = 0;
+  Mission mission(planner, parameters, {{0.1, 1}, {-5, 0}}, random);
+  const Order& order = mission.start(seconds(0), {2, 2});
+  ASSERT_EQ(order.kind, Order::Kind::wait);
+  EXPECT_GE(order.until, seconds(2));
+  EXPECT_EQ(mission.waited(order.until, {2, 2}).kind, Order::Kind::wait);
+  EXPECT_EQ(mission.goals()[0].visits, 2u);
+  EXPECT_EQ(mission.goals()[0].times_reached, 0u);
 }
 
 }  // namespace

@@ -8,27 +8,16 @@
 #include <vector>
 
 #include "modules/ndd/region_choice.hpp"
+#include "tests/modules/ndd/points.hpp"
 
 namespace waitpoint::ndd {
 namespace {
 
-constexpr double degree = exact::pi / 180;
 constexpr double robot_width = 0.52;
-
-Point polar(double distance, double degrees) {
-  const auto [s, c] = exact::sincos(degrees * degree);
-  return {distance * c, distance * s};
-}
 
 // Points at one distance over an arc, a degree apart.
 void add_arc(std::vector<Point>& points, double distance, double from_degrees, double to_degrees) {
   for (double a = from_degrees; a <= to_degrees; a += 1) points.push_back(polar(distance, a));
-}
-
-Diagram diagram_of(const std::vector<Point>& points) {
-  Diagram diagram;
-  diagram.build(points, 8);
-  return diagram;
 }
 
 TEST(Diagram, SectorsAreTwoDegreesAndWrap) {

@@ -7,25 +7,15 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/modules/ndd/points.hpp"
+
 namespace waitpoint::ndd {
 namespace {
 
-constexpr double degree = exact::pi / 180;
 constexpr double radius = 0.26, security = 0.4;
-
-Point polar(double distance, double degrees) {
-  const auto [s, c] = exact::sincos(degrees * degree);
-  return {distance * c, distance * s};
-}
 
 // A point at this hull distance.
 Point near(double hull_distance, double degrees) { return polar(radius + hull_distance, degrees); }
-
-Diagram diagram_of(const std::vector<Point>& points) {
-  Diagram diagram;
-  diagram.build(points, 8);
-  return diagram;
-}
 
 Choice towards_goal(double degrees) { return {true, true, {0, sector_count, true, true}, false, polar(3, degrees)}; }
 

@@ -12,7 +12,7 @@ bridge::RunResult result_with(std::size_t reached, std::size_t goals, std::uint6
   bridge::RunResult result;
   result.robots.resize(2);
   result.robots[0].goals.resize(goals);
-  for (std::size_t i = 0; i < reached; ++i) result.robots[0].goals[i].reached = true;
+  for (std::size_t i = 0; i < reached; ++i) result.robots[0].goals[i].times_reached = 1;
   result.robots[1].collisions = collisions;
   return result;
 }

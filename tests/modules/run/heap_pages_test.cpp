@@ -2,6 +2,7 @@
 #include "modules/run/heap_pages.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 
@@ -62,6 +63,7 @@ bool system_collapses_pages() {
 // Large pages at allocation are off: else the system could supply them before the call.
 TEST(HeapPages, WhatWasAllocatedIsOnLargePages) {
   if (!system_collapses_pages()) GTEST_SKIP() << "the system has no MADV_COLLAPSE";
+  malloc_trim(0);  // what earlier tests have freed may be on large pages already
   ASSERT_EQ(prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0), 0);
   const auto pieces = allocated_pieces();
   ASSERT_EQ(prctl(PR_SET_THP_DISABLE, 0, 0, 0, 0), 0);

@@ -38,6 +38,16 @@ TEST_F(JournalTest, WhatIsWrittenIsRead) {
   EXPECT_FALSE(read(to_text(head_)).end);
 }
 
+TEST_F(JournalTest, OfARunThatWasCutOffItHasTheReason) {
+  const std::string lines = to_text(head_) + "at 1 move rackham 1 2\n" + cut_off_line("the process dies\nof SIGFPE");
+  const Journal journal = read(lines);
+  EXPECT_EQ(journal.interventions.size(), 1u);
+  EXPECT_FALSE(journal.end);
+  EXPECT_EQ(journal.cut_off, "the process dies?of SIGFPE");
+  EXPECT_EQ(complaint(lines + "at 2 move rackham 1 2\n"), ":7: expected nothing after '# cut off'");
+  EXPECT_EQ(complaint(to_text(head_) + "# cut off: \n").substr(0, 3), ":5:") << "no reason";
+}
+
 TEST_F(JournalTest, LinesMayEndAsOnOtherSystems) {
   std::string text = to_text(head_) + "at 1 move rackham 1 2\nend 5 after 77 events wp1:00\n";
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 2))

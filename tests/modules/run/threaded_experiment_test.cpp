@@ -37,6 +37,7 @@ TEST(ThreadedExperiment, ReachesItsFirstGoal) {
   const scenario::Scenario scenario = office("[[22.4, 6.6]]");
   on_threads([&] {
     ThreadedExperiment experiment(scenario, papers_modules, 1);
+    experiment.robots().at(0)->keep_paths();
     experiment.run_for(100s);
     const bridge::RunResult result = experiment.result();
     EXPECT_EQ(result.outcome, bridge::Outcome::finished);

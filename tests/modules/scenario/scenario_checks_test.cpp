@@ -16,29 +16,67 @@ class ScenarioChecks : public ::testing::Test {
   Scenario scenario_ = read_scenario(file_);
 };
 
-TEST_F(ScenarioChecks, goals_in_free_places_pass) {
-  EXPECT_NO_THROW(check_goals(scenario_, [](const RobotScenario&, Point) { return GoalPlace::free; }));
+/// The message about a scenario on this map; "" if it has none.
+std::string complaint(const Scenario& scenario, const OccupancyGrid& map, bool has_edge = false) {
+  try {
+    check_on_map(
+        scenario, [&](const RobotScenario&) -> const OccupancyGrid& { return map; }, has_edge);
+  } catch (const BadInput& bad) {
+    return bad.what();
+  }
+  return "";
+}
+
+/// Robot one starts at (1, 1) and has goals at (3, 1) and (1, 4); robot two starts at (3, 2) and has none.
+OccupancyGrid floor(int width, int height) { return OccupancyGrid(width, height, 0.5, {0, 0, 0}, Cell::free); }
+
+TEST_F(ScenarioChecks, starts_and_goals_in_free_places_pass) {
+  EXPECT_EQ(complaint(scenario_, floor(8, 10)), "");
+  EXPECT_EQ(complaint(scenario_, floor(8, 10), true), "");
 }
 
 TEST_F(ScenarioChecks, a_goal_inside_an_obstacle_is_told_at_its_line) {
-  const auto place = [](const RobotScenario&, Point p) {
-    return p.y == 4 ? GoalPlace::inside_obstacle : GoalPlace::free;
-  };
-  EXPECT_EQ(message_of<BadInput>([&] { check_goals(scenario_, place); }),
+  OccupancyGrid map = floor(8, 10);
+  map[{2, 8}] = Cell::occupied;
+  EXPECT_EQ(complaint(scenario_, map),
             file_.string() + ":36: goal 2 'shelf' of robot 'one' is inside an obstacle, expected a free place");
 }
 
+TEST_F(ScenarioChecks, a_goal_in_an_unknown_part_of_the_map_is_told_at_its_line) {
+  OccupancyGrid map = floor(8, 10);
+  map[{6, 2}] = Cell::unknown;
+  EXPECT_EQ(complaint(scenario_, map),
+            file_.string() + ":35: goal 1 of robot 'one' is in an unknown part of the map, expected a free place");
+}
+
 TEST_F(ScenarioChecks, a_goal_outside_the_map_is_told_at_its_line) {
-  const auto place = [](const RobotScenario&, Point) { return GoalPlace::outside_map; };
-  EXPECT_EQ(message_of<BadInput>([&] { check_goals(scenario_, place); }),
-            file_.string() + ":35: goal 1 of robot 'one' is outside the map, expected a free place on it");
+  EXPECT_EQ(complaint(scenario_, floor(6, 10)),
+            file_.string() +
+                ":35: goal 1 of robot 'one' is outside the map, which lies between (0.00, 0.00) and "
+                "(3.00, 5.00); expected a free place on it");
 }
 
 TEST_F(ScenarioChecks, a_goal_of_an_option_is_told_by_the_option) {
   const Scenario scenario = read_scenario(file_, {"robots.0.goals=[[99,99]]"});
-  const auto place = [](const RobotScenario&, Point) { return GoalPlace::outside_map; };
-  EXPECT_EQ(message_of<BadInput>([&] { check_goals(scenario, place); }),
-            "--set robots.0.goals=[[99,99]]: goal 1 of robot 'one' is outside the map, expected a free place on it");
+  EXPECT_EQ(complaint(scenario, floor(8, 10)),
+            "--set robots.0.goals=[[99,99]]: goal 1 of robot 'one' is outside the map, which lies between (0.00, 0.00) "
+            "and (4.00, 5.00); expected a free place on it");
+}
+
+TEST_F(ScenarioChecks, a_start_outside_the_map_is_told_at_its_line) {
+  const OccupancyGrid turned(8, 10, 0.5, {9, 2, exact::pi / 2}, Cell::free);
+  EXPECT_EQ(complaint(scenario_, turned),
+            file_.string() +
+                ":33: robot 'one' starts outside the map, which lies between (4.00, 2.00) and "
+                "(9.00, 6.00); expected a free place on it");
+}
+
+TEST_F(ScenarioChecks, a_robot_without_goals_starts_anywhere_but_outside_a_map_of_cells) {
+  const Scenario scenario = read_scenario(file_, {"robots.1.start=[99,99]"});
+  EXPECT_EQ(complaint(scenario, floor(8, 10)), "");
+  EXPECT_EQ(complaint(scenario, floor(8, 10), true),
+            "--set robots.1.start=[99,99]: robot 'two' starts outside the map, which lies between (0.00, 0.00) and "
+            "(4.00, 5.00); expected a free place on it");
 }
 
 TEST_F(ScenarioChecks, a_robot_that_starts_inside_a_shape_is_told_with_both_lines) {

@@ -41,8 +41,8 @@ TEST_P(ShippedScenario, has_free_starts_and_goals_with_room) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenario, ShippedScenario,
-                         ::testing::Values("office.yaml", "office-10.yaml", "office-one-processor.yaml",
-                                           "office-measured.yaml", "yard.yaml"),
+                         ::testing::Values("office.yaml", "office-10.yaml", "office-20.yaml",
+                                           "office-one-processor.yaml", "office-measured.yaml", "yard.yaml"),
                          [](const auto& info) {
                            std::string name = info.param.substr(0, info.param.find('.'));
                            std::replace(name.begin(), name.end(), '-', '_');

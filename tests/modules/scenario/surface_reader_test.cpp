@@ -66,7 +66,8 @@ TEST_F(SurfaceReader, meshes_and_octrees_that_are_bad_are_told) {
   };
   EXPECT_EQ(says("{mesh: none.stl}", "none.stl: expected an STL mesh, found no file"), "");
   EXPECT_EQ(says("{mesh: bad.stl}", "bad.stl:2: expected STL"), "");
-  EXPECT_EQ(says("{mesh: wall.stl, scale: 0}", "expected scale to be a positive number, found '0'"), "");
+  EXPECT_EQ(says("{mesh: wall.stl, scale: 0}", "expected scale to be a number from 0.000001 to 1000000, found '0'"),
+            "");
   EXPECT_EQ(says("{mesh: wall.stl, scale: 1e6}", "wall.stl: expected a mesh within 100 km"), "");
   EXPECT_EQ(says("{mesh: wall.stl, mass_kg: 3}", "mass_kg"), "");
   EXPECT_EQ(says("{mesh: wall.stl, octomap: tree.bt}", "octomap"), "");

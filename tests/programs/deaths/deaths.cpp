@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A module that ends the process, or holds up the run, in its codel at 0.3 s: all ways in which `waitpoint run` must
 // still say what happened. The setting `end` selects one.
+#include <semaphore.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cassert>
@@ -10,6 +13,9 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <waitpoint/fibers/sync/condition_variable.hpp>
+#include <waitpoint/fibers/sync/mutex.hpp>
 #include <waitpoint/modules/genom/module.hpp>
 #include <waitpoint/tools/main.hpp>
 
@@ -25,6 +31,7 @@ std::mutex of_the_system;
 [[gnu::noinline]] void divide() { zero = 100 / zero; }
 [[gnu::noinline]] void write_nowhere() { *nowhere = 1; }
 [[gnu::noinline]] void throw_out_of_noexcept() noexcept { throw std::logic_error("nobody catches this"); }
+[[gnu::noinline]] void call_nothing() { reinterpret_cast<void (*)()>(nowhere)(); }
 [[gnu::noinline]] void spin() {
   while (zero == 0) {
   }
@@ -37,6 +44,36 @@ std::mutex of_the_system;
   std::free(next);
 }
 
+[[gnu::noinline]] void fork_once() {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+}
+/// The child goes on with the run, as a copy of this process; its exit status must be 1.
+[[gnu::noinline]] void fork_a_child_that_returns() {
+  const pid_t child = fork();
+  int status = 0;
+  if (child != 0 && (waitpid(child, &status, 0) != child || status != 1 << 8)) abort();
+}
+[[gnu::noinline]] void fork_a_child_that_crashes() {
+  const pid_t child = fork();
+  if (child == 0) write_nowhere();
+  waitpid(child, nullptr, 0);
+}
+[[gnu::noinline]] void wait_for_a_lost_notification() {
+  static waitpoint::mutex mutex("lost");
+  static waitpoint::condition_variable condition("data ready");
+  std::unique_lock lock(mutex);
+  condition.wait(lock);
+}
+
+// The setting comes too late for it.
+struct EarlyThread {
+  EarlyThread() {
+    if (std::getenv("EARLY_THREAD") != nullptr) std::thread([] {}).detach();
+  }
+} early_thread;
+
 void die(const std::string& way) {
   static const std::map<std::string, void (*)()> ways = {
       {"abort", [] { std::abort(); }},
@@ -48,8 +85,28 @@ void die(const std::string& way) {
       {"heap", free_twice},
       {"exit", [] { std::exit(0); }},
       {"_exit", [] { _exit(0); }},
+      {"quick_exit", [] { std::quick_exit(0); }},
+      {"exit_group", [] { syscall(SYS_exit_group, 0); }},
+      {"execl", [] { execl("/bin/true", "true", nullptr); }},
+      {"call", call_nothing},
+      {"raise", [] { raise(SIGSEGV); }},
+      {"trap", [] { raise(SIGTRAP); }},
+      {"die in a thread", [] { std::thread([] { write_nowhere(); }).join(); }},
+      {"throw a number", [] { throw 42; }},
       {"exception", [] { throw std::runtime_error("out of the codel"); }},
       {"loop", spin},
+      {"thread", [] { std::thread([] {}).detach(); }},
+      {"fork", fork_once},
+      {"fork returns", fork_a_child_that_returns},
+      {"fork crashes", fork_a_child_that_crashes},
+      {"sleep", [] { std::this_thread::sleep_for(1ms); }},
+      {"lost", wait_for_a_lost_notification},
+      {"block",
+       [] {
+         sem_t taken;
+         sem_init(&taken, 0, 0);
+         sem_wait(&taken);
+       }},
       {"lock",
        [] {
          of_the_system.lock();
@@ -70,7 +127,10 @@ class Mortal : public waitpoint::genom::Module {
       : Module(setup, 42), task_(add_task("main", {.period_ms = 100ms})) {
     setup.settings.read(parameters_);
     if (parameters_.end == "constructor throws") throw std::runtime_error("no such device");
+    if (parameters_.end == "constructor throws a number") throw 42;
     if (parameters_.end == "constructor crashes") write_nowhere();
+    if (parameters_.end == "constructor exits") std::exit(0);
+    if (parameters_.end == "constructor spins") spin();
     task_.set_permanent([this] {
       if (++periods_ == 3) die(parameters_.end);
     });

@@ -2,6 +2,10 @@
 #include "tools/output/output_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
 
 #include "core/error.hpp"
 #include "tests/tools/folder.hpp"
@@ -73,6 +77,93 @@ TEST(OutputFile, that_cannot_be_written_is_told_at_once) {
   EXPECT_EQ(message(folder / "no/such/out.txt"),
             (folder / "no/such/out.txt").string() + ": cannot be written: No such file or directory");
   EXPECT_EQ(message(folder / "."), (folder / ".").string() + ": cannot be written: it is a folder");
+}
+
+TEST(OutputFile, has_the_permissions_of_any_new_file) {
+  const Folder folder;
+  folder.write("usual", "");
+  OutputFile file(folder / "out.txt");
+  file.commit();
+  EXPECT_EQ(fs::status(folder / "out.txt").permissions(), fs::status(folder / "usual").permissions());
+}
+
+TEST(OutputFile, is_found_by_other_processes_once_it_is_flushed) {
+  const Folder folder;
+  OutputFile file(folder / "out.txt");
+  file.write("so far");
+  file.flush();
+  EXPECT_EQ(folder.read(file.written_to().filename()), "so far");
+}
+
+TEST(OutputFile, of_one_name_may_be_written_twice_at_once) {
+  const Folder folder;
+  OutputFile one(folder / "out.txt"), other(folder / "out.txt");
+  one.write("one");
+  other.write("other");
+  one.commit();
+  other.commit();
+  EXPECT_EQ(folder.read("out.txt"), "other");
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(OutputFile, removes_the_temporary_files_of_killed_processes_and_nothing_else) {
+  const Folder folder;
+  const std::vector<std::string> others = {"k.waitpoint-readme.txt", "k.waitpoint-1",    "k.waitpoint-1-",
+                                           "k.waitpoint-1-2.txt",    "k.waitpoint--1-2", "other.waitpoint-1-2"};
+  const auto write_old = [&](const std::string& name) {
+    folder.write(name, "");
+    fs::last_write_time(folder / name, fs::file_time_type::clock::now() - std::chrono::minutes(1));
+  };
+  for (const std::string& name : others) write_old(name);
+  write_old("k.waitpoint-12-3");
+  OutputFile(folder / "k").commit();
+  EXPECT_FALSE(fs::exists(folder / "k.waitpoint-12-3"));
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(folder / name)) << name;
+}
+
+/// The status of a forked copy of this process that calls the function; its exit handlers do not run.
+template <class Function>
+int status_of_copy(Function function) {
+  const pid_t copy = fork();
+  if (copy == 0) {
+    function();
+    _exit(0);
+  }
+  int status = -1;
+  waitpid(copy, &status, 0);
+  return status;
+}
+
+TEST(OutputFile, of_a_forked_copy_is_left_alone) {
+  const Folder folder;
+  OutputFile written(folder / "written"), given_up(folder / "given_up");
+  written.write("before ");
+  ASSERT_EQ(status_of_copy([&] {
+              OutputFile moved = std::move(given_up);
+              written.write(std::string(100'000, 'x'));
+              written.commit();
+            }),
+            0);
+  EXPECT_FALSE(fs::exists(folder / "written"));
+  for (OutputFile* file : {&written, &given_up}) {
+    file->write("after");
+    file->commit();
+  }
+  EXPECT_EQ(folder.read("written"), "before after");
+  EXPECT_EQ(folder.read("given_up"), "after");
+}
+
+TEST(OutputFile, is_completed_by_a_forked_copy_that_takes_it_over) {
+  const Folder folder;
+  OutputFile file(folder / "out.txt");
+  file.write("one ");
+  ASSERT_EQ(status_of_copy([&] {
+              OutputFile::take_over();
+              file.write("two");
+              file.commit();
+            }),
+            0);
+  EXPECT_EQ(folder.read("out.txt"), "one two");
 }
 
 TEST(OutputFile, on_a_full_medium_is_told) {

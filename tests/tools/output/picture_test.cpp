@@ -16,13 +16,9 @@ using world::Shape;
 std::vector<Obstacle> boxes(std::size_t count) {
   std::vector<Obstacle> obstacles(count);
   for (std::size_t i = 0; i < count; ++i) {
-    obstacles[i].shape = {Shape::Kind::box,
-                          {0.1 * static_cast<double>(i % 100), 0.1 * static_cast<double>(i / 100), 0},
-                          0.1,
-                          0.1,
-                          0,
-                          0,
-                          2};
+    const std::size_t row = i / 100;
+    obstacles[i].shape = {
+        Shape::Kind::box, {0.1 * static_cast<double>(i % 100), 0.1 * static_cast<double>(row), 0}, 0.1, 0.1, 0, 0, 2};
   }
   return obstacles;
 }
@@ -76,14 +72,6 @@ TEST(Svg, numbers_have_two_decimals_at_most) {
 
 TEST(Svg, reserved_characters_are_escaped_and_control_characters_left_out) {
   EXPECT_EQ(xml_escaped("a<b & \"c\">\x01é"), "a&lt;b &amp; &quot;c&quot;&gt;é");
-}
-
-TEST(Svg, a_line_keeps_its_corners_and_loses_what_lies_on_it) {
-  const std::vector<Point> corner = {{0, 0}, {1, 0.001}, {2, 0}, {3, -0.001}, {4, 0}, {4, 3}};
-  EXPECT_EQ(simplified(corner, 0.01), (std::vector<Point>{{0, 0}, {4, 0}, {4, 3}}));
-  EXPECT_EQ(simplified(corner, 0.0001).size(), 5u) << "(2, 0) lies on what remains";
-  const std::vector<Point> back_and_forth = {{0, 0}, {5, 0}, {1, 0}};
-  EXPECT_EQ(simplified(back_and_forth, 0.01), back_and_forth) << "a point beyond the ends is not on the line";
 }
 
 TEST(XmlCheck, finds_what_is_wrong) {

@@ -60,6 +60,55 @@ TEST(SummaryJson, has_the_batteries_that_count) {
   EXPECT_NE(text.find("second: battery empty at 7.2 s, off since then\n"), std::string::npos) << text;
 }
 
+TEST(Summary, leaves_out_figures_that_no_robot_has) {
+  bridge::RunResult result = sample_result(1);
+  result.robots[0].goals.clear();
+  result.robots[0].present = {.motion = false, .position = false, .odometry = false};
+  const std::string text = summary_text(result);
+  for (const char* title : {"goals", "distance", "collisions", "position", "odometry"})
+    EXPECT_EQ(text.find(title), std::string::npos) << text;
+  EXPECT_NE(text.find("events            12345\n"), std::string::npos) << text;
+  const Json json = Json::parse(summary_json(result));
+  for (const char* key : {"distance_m", "collisions", "position_error_mean_m", "position_error_max_m",
+                          "odometry_error_max_m", "odometry_error_end_m"}) {
+    EXPECT_FALSE(json.contains(key)) << key;
+    EXPECT_FALSE(json.at("robots").at(0).contains(key)) << key;
+  }
+  EXPECT_EQ(seeds_row(result),
+            "         7   time limit        -          -           -             -             -"
+            "      80.0  " +
+                to_string(Digest(1)) + "\n");
+}
+
+TEST(Summary, a_robot_without_base_and_position_does_not_count_in_means) {
+  bridge::RunResult result = sample_result(2);
+  bridge::RobotResult bystander;
+  bystander.name = "second";
+  bystander.present = {.motion = false, .position = false, .odometry = false};
+  result.robots[1] = bystander;
+  const std::string text = summary_text(result);
+  EXPECT_NE(text.find("distance driven   10.5 m\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("mean 0.030 m, greatest 0.125 m\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  second        -          -           -                     -                   -  wp1:"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(Json::parse(summary_json(result)).at("position_error_mean_m"), 0.03);
+}
+
+TEST(Summary, counts_the_visits_of_all_rounds) {
+  bridge::RunResult result = sample_result(1);
+  result.robots[0].goals = {{{3, 1}, "shelf", 50, 50, Time::from_ns(90'000'000'000), "reached"},
+                            {{5, 4}, "", 50, 49, Time::from_ns(40'000'000'000), "no way"}};
+  const std::string text = summary_text(result);
+  EXPECT_NE(text.find("99 of 100"), std::string::npos) << text;
+  EXPECT_NE(text.find("one: goal 2 at (5.00, 4.00): reached 49 of 50 times; no way at 40.0 s"), std::string::npos);
+  EXPECT_EQ(text.find("shelf"), std::string::npos) << "reached at every visit";
+  const Json goal = Json::parse(summary_json(result)).at("robots").at(0).at("goal_reports").at(1);
+  EXPECT_EQ(goal.at("visits"), 50);
+  EXPECT_EQ(goal.at("times_reached"), 49);
+  EXPECT_EQ(goal.at("reached"), false);
+}
+
 TEST(SummaryJson, of_several_runs_is_a_list) {
   const std::vector<bridge::RunResult> results = {sample_result(1), sample_result(2)};
   const Json json = Json::parse(summary_json(std::span<const bridge::RunResult>(results)));

@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "tests/tools/folder.hpp"
-#include "tests/tools/sample_result.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -19,14 +18,12 @@ std::size_t line_count(const std::string& text) {
 }
 
 TEST(Trajectory, a_line_has_time_position_and_quaternion) {
-  const std::vector<bridge::DatedPose> path = {{Time::from_ns(1'500'000'000), {1, -2.5, 0}}};
-  EXPECT_EQ(tum_text(path), "1.500000000 1 -2.5 0 0 0 0 1\n");
+  EXPECT_EQ(tum_line({Time::from_ns(1'500'000'000), {1, -2.5, 0}}), "1.500000000 1 -2.5 0 0 0 0 1\n");
 }
 
 TEST(Trajectory, the_quaternion_turns_by_the_heading) {
   for (const double heading : {0.3, -1.2, 3.0, exact::pi}) {
-    const std::vector<bridge::DatedPose> path = {{Time(), {0, 0, heading}}};
-    std::istringstream line(tum_text(path));
+    std::istringstream line(tum_line({Time(), {0, 0, heading}}));
     double t, x, y, z, qx, qy, qz, qw;
     line >> t >> x >> y >> z >> qx >> qy >> qz >> qw;
     ASSERT_TRUE(line);
@@ -35,15 +32,22 @@ TEST(Trajectory, the_quaternion_turns_by_the_heading) {
   }
 }
 
+/// Three samples of the true path, two of the estimated one, one of the odometry.
+void drive(bridge::PathSink& sink, double y) {
+  using enum bridge::PathKind;
+  for (const bridge::PathKind kind : {truth, truth, truth, estimate, estimate, odometry})
+    sink.add(kind, {Time(), {1, y, 0}});
+}
+
 TEST(Trajectory, one_robot_has_the_name_that_was_asked_for_and_two_beside_it) {
   const Folder folder;
   const std::vector<std::string> names = {"one"};
   TrajectoryFiles files(folder / "out.tum", names);
-  files.write(sample_result(1));
-  EXPECT_EQ(line_count(folder.read("out.tum")), 41u);
-  EXPECT_EQ(line_count(folder.read("out.estimated.tum")), 41u);
-  EXPECT_EQ(line_count(folder.read("out.odometry.tum")), 41u);
-  EXPECT_NE(folder.read("out.tum"), folder.read("out.odometry.tum"));
+  drive(files.sink(0), 2);
+  files.finish();
+  EXPECT_EQ(line_count(folder.read("out.tum")), 3u);
+  EXPECT_EQ(line_count(folder.read("out.estimated.tum")), 2u);
+  EXPECT_EQ(folder.read("out.odometry.tum"), "0.000000000 1 2 0 0 0 0 1\n");
   EXPECT_EQ(folder.count(), 3u);
 }
 
@@ -51,10 +55,30 @@ TEST(Trajectory, several_robots_have_files_of_their_own) {
   const Folder folder;
   const std::vector<std::string> names = {"one", "second"};
   TrajectoryFiles files(folder / "out.tum", names);
-  files.write(sample_result(2));
-  EXPECT_EQ(line_count(folder.read("out.second.tum")), 41u);
-  EXPECT_EQ(line_count(folder.read("out.one.estimated.tum")), 41u);
+  drive(files.sink(0), 2);
+  drive(files.sink(1), 3);
+  files.finish();
+  EXPECT_EQ(folder.read("out.one.odometry.tum"), "0.000000000 1 2 0 0 0 0 1\n");
+  EXPECT_EQ(folder.read("out.second.odometry.tum"), "0.000000000 1 3 0 0 0 0 1\n");
+  EXPECT_EQ(line_count(folder.read("out.second.tum")), 3u);
   EXPECT_EQ(folder.count(), 6u);
+}
+
+TEST(Trajectory, files_of_a_death_end_with_its_reason) {
+  const Folder folder;
+  const std::vector<std::string> names = {"one"};
+  TrajectoryFiles files(folder / "out.tum", names);
+  drive(files.sink(0), 2);
+  files.cut_off("killed");
+  EXPECT_EQ(folder.read("out.odometry.tum"), "0.000000000 1 2 0 0 0 0 1\n# cut off: killed\n");
+  EXPECT_TRUE(folder.read("out.tum").ends_with("\n# cut off: killed\n"));
+}
+
+TEST(Trajectory, a_medium_that_is_full_during_the_run_is_an_error_at_its_end) {
+  const std::vector<std::string> names = {"one"};
+  TrajectoryFiles files("/dev/full", names);
+  for (int i = 0; i < 1000; ++i) drive(files.sink(0), 2);
+  EXPECT_THROW(files.finish(), BadInput);
 }
 
 TEST(Trajectory, nothing_is_left_of_a_run_that_did_not_end) {

@@ -10,7 +10,7 @@ sys.dont_write_bytecode = True
 from dependencies import sources  # noqa: E402
 from functions import blank  # noqa: E402
 
-ASSERTION = re.compile(r"\b(WAITPOINT_CHECK|WAITPOINT_FAST_CHECK|static_assert)\s*\(")
+ASSERTION = re.compile(r"\b(WAITPOINT_CHECK|WAITPOINT_REQUIRE|WAITPOINT_FAST_CHECK|static_assert)\s*\(")
 
 
 def bounds(table):
