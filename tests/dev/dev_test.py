@@ -16,6 +16,7 @@ import unittest
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/dev"))
+import endurance  # noqa: E402
 import run_tests  # noqa: E402
 import wraps  # noqa: E402
 
@@ -328,6 +329,60 @@ class Counting(InATemporaryFolder):
 
     def test_a_program_without_cases_fails(self):
         self.assertEqual(self.run_program(self.xml("")).failed, ["the program: holds no case"])
+
+
+class Endurance(unittest.TestCase):
+    """The verdict on two runs of a day, from their summaries and memory."""
+
+    UNTIL_S = 86400
+
+    def runs(self):
+        goal = {"visits": 900, "times_reached": 900, "report": "reached", "time_s": 86390.0}
+        runs = []
+        for engine in endurance.ENGINES:
+            robots = [{"name": name, "goal_reports": [dict(goal), dict(goal)]} for name in ("s1", "n1")]
+            summary = {"robots": robots, "collisions": 0, "digest": "wp1:1"}
+            memory = {time_s: 70 + min(time_s, 1800) / 1000 for time_s in range(60, self.UNTIL_S + 1, 60)}
+            runs.append(endurance.Run(engine, memory, summary, 0))
+        return runs
+
+    def violations(self, change):
+        runs = self.runs()
+        change(runs[1])
+        return list(endurance.violations(runs, self.UNTIL_S))
+
+    def test_good_runs_pass(self):
+        self.assertEqual(list(endurance.violations(self.runs(), self.UNTIL_S)), [])
+
+    def test_each_fault_is_told(self):
+        def lose(run):
+            goal = run.summary["robots"][1]["goal_reports"][0]
+            goal.update(times_reached=899, report="the way stays blocked", time_s=5000)
+
+        def rest(run):
+            for goal in run.summary["robots"][0]["goal_reports"]:
+                goal["time_s"] = 80000
+
+        def grow(run):
+            run.memory_mb[self.UNTIL_S] += 5
+
+        for change, line in [
+            (lose, "slice: n1 lost goal 1 1 of 900 times, last at 5000 s: the way stays blocked"),
+            (rest, "slice: s1 reached no goal after 80000 s"),
+            (grow, "slice: memory grew by 5.0 MB, expected at most 4 MB"),
+            (lambda run: run.summary.update(collisions=2), "slice: 2 collisions"),
+            (lambda run: run.summary.update(digest="wp1:2"), "the digests differ: wp1:1, wp1:2"),
+            (lambda run: setattr(run, "status", 1), "slice: exit status 1: "),
+            (lambda run: setattr(run, "summary", None), "slice: no result, exit status 0: "),
+        ]:
+            with self.subTest(line=line):
+                self.assertEqual(self.violations(change), [line])
+
+    def test_growth_within_the_first_hour_is_no_fault(self):
+        def fill(run):
+            run.memory_mb.update({time_s: 50 for time_s in range(60, 3600, 60)})
+
+        self.assertEqual(self.violations(fill), [])
 
 
 if __name__ == "__main__":
