@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/printable_line.hpp"
+#include "world/formats/assimp_files.hpp"
 #include "world/formats/mesh_builder.hpp"
 #include "world/formats/mesh_file.hpp"
 
@@ -21,10 +22,13 @@ TriangleMesh read_mesh_by_assimp(const std::string& contents, const std::string&
   // COLLADA's up axis is ignored, as in other readers of robots' files.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  auto* const files = new AssimpFiles(file);
+  importer.SetIOHandler(files);  // which owns it from now on
   const std::string ending = file.substr(file.rfind('.') + 1);
   const aiScene* scene = importer.ReadFileFromMemory(
       contents.data(), contents.size(), aiProcess_Triangulate | aiProcess_PreTransformVertices | aiProcess_SortByPType,
       ending.c_str());
+  files->require_none_refused();
   if (scene == nullptr)
     throw BadInput(file, printable_line("expected a mesh, Assimp says: " + std::string(importer.GetErrorString())));
   MeshBuilder builder(file, left_out);
