@@ -101,6 +101,18 @@ void read_robots(const YamlNode& list, const YamlNode* types, Scenario& scenario
   }
 }
 
+/// The scenario's name, which stands in a line of every summary.
+std::string read_title(const YamlNode& node) {
+  constexpr std::ptrdiff_t letters_max = 200;
+  std::string title = read_text(node, "name");
+  const auto begins_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; };
+  const auto letters = std::count_if(title.begin(), title.end(), begins_letter);
+  if (letters > letters_max)
+    throw node.written.bad("expected name to have at most " + std::to_string(letters_max) + " characters, found " +
+                           std::to_string(letters));
+  return title;
+}
+
 }  // namespace
 
 void MapFile::read() {
@@ -127,7 +139,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   Scenario scenario;
   scenario.file = file.string();
   scenario.fingerprint = fingerprint(document);
-  scenario.name = map.text("name", printable_line(file.stem().string()));
+  scenario.name = map.has("name") ? read_title(map.require("name")) : printable_line(file.stem().string());
   if (const YamlNode* description = map.find("description"))
     scenario.description = read_lines(*description, "description");
   if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);

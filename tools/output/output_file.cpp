@@ -2,6 +2,7 @@
 #include "tools/output/output_file.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -38,12 +39,23 @@ auto retried(Call call) {
   return result;
 }
 
-/// False with errno if not all could be written.
+/// Waits until a descriptor that does not block takes data, or fails for another reason. False with errno.
+bool wait_writable(int descriptor) {
+  pollfd waiting{.fd = descriptor, .events = POLLOUT, .revents = 0};
+  return retried([&] { return poll(&waiting, 1, -1); }) >= 0;
+}
+
+/// False with errno if not all could be written. Waits where the descriptor does not: standard output may be shared
+/// with a process that made it so.
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = retried([&] { return ::write(descriptor, bytes.data(), bytes.size()); });
-    if (written < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written == 0) errno = EIO;  // no error by POSIX, yet no progress
+    if (written > 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written == 0 || (errno != EAGAIN && errno != EWOULDBLOCK) || !wait_writable(descriptor)) {
+      return false;
+    }
   }
   return true;
 }

@@ -356,5 +356,19 @@ TEST(ScenarioFile, without_robots_is_one_line) {
   EXPECT_EQ(message_of<BadInput>([&] { read_scenario(file); }), file.string() + ":2: expected at least one robot");
 }
 
+TEST(ScenarioFile, with_a_name_that_fills_screens_is_one_line) {
+  const TemporaryFolder folder;
+  std::string letters;
+  for (int i = 0; i < 200; ++i) letters += "\xc3\xa9";
+  const auto read_named = [&](const std::string& name) {
+    std::string text(valid_scenario);
+    const std::size_t begin = text.find("name: ");
+    return read_scenario(folder.write("s.yaml", text.replace(begin, text.find('\n', begin) - begin, "name: " + name)));
+  };
+  EXPECT_EQ(read_named(letters).name, letters);
+  EXPECT_EQ(message_of<BadInput>([&] { read_named(letters + "e"); }),
+            (folder.path() / "s.yaml").string() + ":2: expected name to have at most 200 characters, found 201");
+}
+
 }  // namespace
 }  // namespace waitpoint::scenario

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/output/output_file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <thread>
 
 #include "core/error.hpp"
 #include "tests/tools/folder.hpp"
@@ -171,6 +173,58 @@ TEST(OutputFile, on_a_full_medium_is_told) {
   OutputFile file("/dev/full");
   file.write("x");
   EXPECT_THROW(file.commit(), BadInput);
+}
+
+/// A pipe that does not block its writer, in place of standard output.
+class NonBlockingOutput {
+ public:
+  NonBlockingOutput() : saved_(dup(STDOUT_FILENO)) {
+    EXPECT_EQ(pipe2(ends_, O_CLOEXEC), 0);
+    EXPECT_EQ(fcntl(ends_[1], F_SETFL, O_NONBLOCK), 0);
+    std::fflush(stdout);
+    dup2(ends_[1], STDOUT_FILENO);
+    close(ends_[1]);
+  }
+  ~NonBlockingOutput() {
+    restore();
+    close(ends_[0]);
+  }
+  void restore() {
+    if (saved_ < 0) return;
+    dup2(saved_, STDOUT_FILENO);
+    close(std::exchange(saved_, -1));
+  }
+  /// Up to the end, after a while.
+  std::string read_later() const {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::string text, block(4096, ' ');
+    for (ssize_t size = 0; (size = ::read(ends_[0], block.data(), block.size())) > 0;)
+      text.append(block, 0, static_cast<std::size_t>(size));
+    return text;
+  }
+
+ private:
+  int ends_[2] = {-1, -1};
+  int saved_;
+};
+
+TEST(StandardOutput, that_does_not_block_is_waited_for) {
+  const std::string text(1 << 20, 'x');
+  std::string read, failure;
+  NonBlockingOutput output;
+  std::thread reader([&] { read = output.read_later(); });
+  try {
+    write_standard_output(text);
+    OutputFile file("-");
+    file.write(text);
+    file.commit();
+  } catch (const BadInput& error) {
+    failure = error.what();
+  }
+  output.restore();
+  reader.join();
+  EXPECT_EQ(failure, "");
+  EXPECT_TRUE(read == text + text) << read.size() << " bytes";
 }
 
 }  // namespace
