@@ -14,6 +14,7 @@
 
 #include "core/doing.hpp"
 #include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/death_text.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
 #include "fibers/switch/sanitizer.hpp"
 
@@ -27,7 +28,7 @@ alignas(64) char handler_stack[1024 * 1024];
 FaultReports* innermost = nullptr;
 PostMortem post_mortem = nullptr, call_stack_writer = nullptr;
 ucontext_t* fault_context = nullptr;  // of the signal that is handled
-const char* replay_line = nullptr;    // outside of tasks
+const char* unfinished = nullptr;     // the replay line of an unfinished run
 bool is_dying = false;
 // A bug and an overrun stack were reported before their SIGABRT.
 bool is_described = false;
@@ -46,35 +47,6 @@ const Task* overflowed(const Scheduler& scheduler, const char* address) {
   return nullptr;
 }
 
-struct Cause {
-  int signal, code;
-  const char* text;
-};
-constexpr Cause causes[] = {
-    {SIGSEGV, SEGV_MAPERR, "the process dies of SIGSEGV (a bad address)"},
-    {SIGSEGV, SEGV_ACCERR, "the process dies of SIGSEGV (an address without permission)"},
-    {SIGSEGV, SI_TKILL, "the process dies of SIGSEGV (the process sent it itself)"},
-    {SIGSEGV, 0, "the process dies of SIGSEGV (a bad address)"},
-    {SIGBUS, BUS_ADRALN, "the process dies of SIGBUS (a misaligned address)"},
-    {SIGBUS, BUS_ADRERR, "the process dies of SIGBUS (an address beyond the end of its file)"},
-    {SIGBUS, 0, "the process dies of SIGBUS"},
-    {SIGILL, SI_TKILL, "the process dies of SIGILL (the process sent it itself)"},
-    {SIGILL, 0, "the process dies of SIGILL (an illegal instruction)"},
-    {SIGFPE, FPE_INTDIV, "the process dies of SIGFPE (integer division by zero)"},
-    {SIGFPE, FPE_INTOVF, "the process dies of SIGFPE (integer overflow)"},
-    {SIGFPE, 0, "the process dies of SIGFPE"},
-    {SIGABRT, 0, "the process dies of SIGABRT (abort() was called)"},
-    {SIGTRAP, 0, "the process dies of SIGTRAP"},
-    {SIGSYS, 0, "the process dies of SIGSYS (a forbidden system call)"},
-};
-
-const char* text_of(const siginfo_t& info) {
-  const int code = info.si_code <= 0 ? SI_TKILL : info.si_code;  // raise(), or kill()
-  for (const Cause& cause : causes)
-    if (cause.signal == info.si_signo && (cause.code == code || cause.code == 0)) return cause.text;
-  return "the process dies of a signal";
-}
-
 // A call through a bad pointer: the address that it returns to is on top of the stack. The unwinder would read the code
 // at the bad address.
 void leave_bad_code(ucontext_t& context) {
@@ -89,6 +61,7 @@ void leave_bad_code(ucontext_t& context) {
 [[noreturn]] void act_in_copy(PostMortem function, const char* reason) {
   constexpr unsigned time_limit_s = 20;
   for (const int signal : FaultReports::signals) std::signal(signal, SIG_DFL);
+  std::signal(SIGALRM, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -139,10 +112,8 @@ void report_overflow(const Task& task) {
 }
 
 void set_call_stack_writer(PostMortem function) { call_stack_writer = function; }
+void set_unfinished_run(const char* replay_line) { unfinished = replay_line; }
 PostMortem set_post_mortem(PostMortem function) { return std::exchange(post_mortem, function); }
-
-ReplayLine::ReplayLine(const char* line) : outer_(std::exchange(replay_line, line)) {}
-ReplayLine::~ReplayLine() { replay_line = outer_; }
 
 void report(const char* reason) {
   const bool elsewhere = innermost != nullptr && !is_simulating(*innermost);
@@ -151,11 +122,10 @@ void report(const char* reason) {
     text.add("waitpoint: ").add(reason).add(elsewhere ? ", in a thread of the operating system\n" : "\n").write();
     if (running != nullptr && !elsewhere) describe_run(*running);
   }
-  const char* const doing = Doing::present();
-  if (running == nullptr && doing != nullptr && !elsewhere) {
+  if (running == nullptr || elsewhere) {
     SignalSafeText where;
-    where.add("  while ").add(doing).add("\n");
-    if (replay_line != nullptr) where.add("  replay: ").add(replay_line).add("\n");
+    if (!elsewhere && Doing::present() != nullptr) where.add("  while ").add(Doing::present()).add("\n");
+    if (unfinished != nullptr) where.add("  replay: ").add(unfinished).add("\n");
     where.write();
   }
   act(call_stack_writer, reason, "its call stack cannot be read");
@@ -167,12 +137,20 @@ void report_death(const char* reason) {
   act(post_mortem, reason, "the outputs are lost");
 }
 
+bool in_reporting_process() { return !is_dying && innermost != nullptr && innermost->process() == getpid(); }
+
+bool in_model_code() {
+  return in_reporting_process() && is_simulating(*innermost) && (running != nullptr || Doing::present() != nullptr);
+}
+
 void refuse_exit(const char* function) {
-  const bool is_model_code = running != nullptr || Doing::present() != nullptr;
-  if (is_dying || !is_model_code || innermost == nullptr || innermost->process() != getpid()) return;
+  if (!in_model_code() && !(in_reporting_process() && unfinished != nullptr)) return;
   std::fflush(nullptr);
-  static char reason[64];
-  std::snprintf(reason, sizeof reason, "%s is called in a %s", function, running != nullptr ? "task" : "module");
+  static char reason[80];
+  const char* const place = !in_model_code()     ? "before the end of the run"
+                            : running != nullptr ? "in a task"
+                                                 : "in a module";
+  std::snprintf(reason, sizeof reason, "%s is called %s", function, place);
   report_death(reason);
   syscall(SYS_exit_group, 1);
 }
@@ -213,12 +191,13 @@ FaultReports::~FaultReports() {
 void FaultReports::handle(int signal, siginfo_t* info, void* context) {
   // A signal that a process sends (si_code <= 0) has no address; abort() and raise() send their own.
   const bool is_fault = info->si_code > 0, is_own = is_fault || info->si_pid == getpid();
-  if (innermost != nullptr && is_own) {
+  if (innermost != nullptr && (is_own || unfinished != nullptr)) {
     if (signal == SIGSEGV && is_fault && innermost->scheduler_ != nullptr)
       if (const Task* task = overflowed(*innermost->scheduler_, static_cast<const char*>(info->si_addr)))
         report_overflow(*task);
     fault_context = static_cast<ucontext_t*>(context);
-    if (running != nullptr || Doing::present() != nullptr || !is_simulating(*innermost)) report_death(text_of(*info));
+    if (running != nullptr || Doing::present() != nullptr || !is_simulating(*innermost) || unfinished != nullptr)
+      report_death(death_text(*info));
     fault_context = nullptr;
   }
   pass_on(signal, info, context);
@@ -232,6 +211,7 @@ void FaultReports::pass_on(int signal, siginfo_t* info, void* context) {
     if (signals[i] == signal && installer != nullptr) previous = installer->previous_[i];
   if ((previous.sa_flags & static_cast<int>(SA_SIGINFO)) != 0) return previous.sa_sigaction(signal, info, context);
   if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) return previous.sa_handler(signal);
+  is_dying = true;
   // The faulting instruction is executed again, with the default action; a signal sent by a process is raised again.
   sigaction(signal, &previous, nullptr);
   if (info->si_code <= 0) raise(signal);

@@ -64,26 +64,22 @@ void set_call_stack_writer(PostMortem function);
 /// Sets the function that completes the outputs, and returns the previous one; null: none.
 PostMortem set_post_mortem(PostMortem function);
 
-/// While it exists, reports of deaths outside of tasks show this line as the run's replay; inside of tasks it is their
-/// scheduler's. The text must outlive the object.
-class ReplayLine {
- public:
-  explicit ReplayLine(const char* line);
-  ~ReplayLine();
-  ReplayLine(const ReplayLine&) = delete;
-  ReplayLine& operator=(const ReplayLine&) = delete;
-
- private:
-  const char* outer_;
-};
+/// From now on every end of the process is a death of this run, until a null pointer is set (unfinished_run.hpp).
+/// Reports outside of tasks show the replay line; those of tasks have their scheduler's.
+void set_unfinished_run(const char* replay_line);
 
 /// Writes `reason`, the running task and its call stack to the error stream. Async-signal-safe.
 void report(const char* reason);
 /// The same, then the post mortem: the process must end after it.
 void report_death(const char* reason);
 
-/// If a task or a module's constructor or destructor of this process runs: reports its call of `function` ("exit()"),
-/// and ends the process with status 1.
+/// True in the process that made the FaultReports, unless it is dying: not in one that a task forked.
+bool in_reporting_process();
+/// True in a task and in a module's constructor or destructor: not in other threads, nor in a process that a task
+/// forked, nor when the process is dying.
+bool in_model_code();
+/// In model code, and anywhere in an unfinished run: reports the call of `function` ("exit()"), and ends the process
+/// with status 1.
 void refuse_exit(const char* function);
 
 /// Reports that `task` overran its stack, and aborts.

@@ -2,10 +2,9 @@
 // Notices calls of the C library that take a task out of virtual time: threads of the operating system, fork(), waits
 // and sleeps in real time. The library's own definitions of these functions stand before the C library's:
 //
-//   pthread_create  fork                                         start what runs in real time: not repeatable
-//   nanosleep  clock_nanosleep  usleep  sleep  poll  select      hold up every task of the run
-//   pthread_cond_wait (and timed)  sem_wait  pthread_mutex_lock  the same, until a system thread acts
-//   pthread_rwlock_rdlock  pthread_rwlock_wrlock  futex waits
+//   pthread_create  fork  system  popen  posix_spawn              start what runs in real time: not repeatable
+//   sleeps, polls, joins, waits for conditions, children, sockets  hold up every task of the run
+//   semaphores, mutexes, rwlocks, futexes                          the same, until a system thread acts
 //
 // Outside of tasks they cost a comparison, and call the C library's. In a task, the first call from each place is noted
 // with its call stack; a lock that is free is no wait. std::thread, std::mutex and std::this_thread::sleep_for() are

@@ -26,9 +26,15 @@ DEATHS = {
     "quick_exit": (r"quick_exit\(\) is called in a task", "", 1),
     "exit_group": (r"the system call exit\(\) is called in a task", "", 1),
     "execl": (r"execve\(\) is called in a task", "", 1),
+    "execlp": (r"execvpe\(\) is called in a task", "", 1),
+    "execle": (r"execve\(\) is called in a task", "", 1),
+    "daemon": (r"daemon\(\) is called in a task", "", 1),
+    "pthread_exit": (r"misuse: a task calls pthread_exit\(\), which ends the thread that runs all tasks", "", -signal.SIGABRT),
+    "alarm": (r"the process dies of SIGALRM \(the process sent it itself\)", "", -signal.SIGALRM),
+    "default": (r"the process dies of SIGSEGV \(a bad address\)", "write_nowhere", -signal.SIGSEGV),
     "call": (r"the process dies of SIGSEGV \(a bad address\)", "call_nothing", -signal.SIGSEGV),
     "raise": (r"the process dies of SIGSEGV \(the process sent it itself\)", "", -signal.SIGSEGV),
-    "trap": (r"the process dies of SIGTRAP", "", -signal.SIGTRAP),
+    "trap": (r"the process dies of SIGTRAP \(the process sent it itself\)", "", -signal.SIGTRAP),
 }
 PLACE = r"""  at virtual time 0\.300000000 s, in task mortal\.main of doomed, at its event \d+ \(\w+\), seed 7
   in a permanent codel of main
@@ -133,9 +139,28 @@ class Deaths(OfMortalModules):
         died = self.run_to_its_death("die in a thread")
         self.assertEqual(died.returncode, -signal.SIGSEGV)
         self.assertRegex(died.stderr, r"(?m)^waitpoint: the process dies of SIGSEGV \(a bad address\), in a thread of the operating "
-                                      r"system\n  .*write_nowhere.* at .*deaths\.cpp:\d+$")
+                                      r"system\n  replay: .*\n  .*write_nowhere.* at .*deaths\.cpp:\d+$")
         self.assertNotIn("at virtual time", died.stderr)
         self.assertRegex(died.stderr, r"warning: task mortal\.main of doomed calls pthread_create\(\) at 0\.300000000 s")
+
+    def test_by_exit_in_a_thread_are_refused(self):
+        left = self.run_to_its_death("exit in a thread", "--events", self.outputs / "e")
+        self.assertEqual(left.returncode, 1)
+        self.assertRegex(left.stderr, r"^waitpoint: exit\(\) is called before the end of the run, in a thread of the operating system\n"
+                                      r"  replay: .*deaths run .*\n")
+        self.assertRegex((self.outputs / "e").read_text(), r"\n# cut off: exit\(\) is called")
+
+    def test_by_a_signal_of_another_process_have_a_last_word(self):
+        for sent in signal.SIGQUIT, signal.SIGABRT, signal.SIGXCPU:
+            target = self.outputs / sent.name
+            process = subprocess.Popen(self.command("loop", "--events", target), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                       text=True)
+            time.sleep(1)
+            process.send_signal(sent)
+            said = process.communicate(timeout=60)[1]
+            self.assertEqual(process.returncode, -sent)
+            self.assertRegex(said, rf"^waitpoint: the process dies of {sent.name} \(another process sent it\)\n{PLACE}  .*spin")
+            self.assertRegex(target.read_text(), r"\n# cut off: ")
 
     def test_of_a_constructor_or_destructor_name_module_and_robot(self):
         replay = r"\n  replay: .*deaths run .* --seed 7 --set 'robots\.0\.modules\.mortal\.end=.*'\n"
@@ -161,6 +186,9 @@ class SystemCalls(OfMortalModules):
     EFFECTS = {
         "thread": ("pthread_create", "it runs in real time, and the run is not repeatable"),
         "fork": ("fork", "it runs in real time, and the run is not repeatable"),
+        "system": ("system", "it runs in real time, and the run is not repeatable"),
+        "vfork": ("vfork", "it runs in real time, and the run is not repeatable"),
+        "timed": ("pthread_mutex_(timed|clock)lock", "it holds up all tasks of the run in real time"),
         "sleep": ("(clock_)?nanosleep", "it holds up all tasks of the run in real time"),
     }
 
@@ -172,6 +200,12 @@ class SystemCalls(OfMortalModules):
                     self.assertEqual(done.returncode, 0, done.stderr)
                     self.assertRegex(done.stderr, rf"(?m)^waitpoint: warning: task mortal\.main of doomed calls {function}\(\) at "
                                                   rf"0\.300000000 s: {effect}\n(    at .*\n)*    at .*deaths\.cpp:\d+$")
+
+    def test_in_a_constructor_are_named(self):
+        done = self.run_to_its_death("constructor forks")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"(?m)^waitpoint: warning: constructing module mortal of robot doomed calls fork\(\): "
+                                      r"it runs in real time, and the run is not repeatable\n(    at .*\n)*    at .*deaths\.cpp:\d+$")
 
     def test_that_fork_leave_the_outputs_to_the_run(self):
         names = {"--picture": "p.svg", "--trajectory": "t.tum", "--digests": "d", "--events": "e", "--record": "r.log",
@@ -263,8 +297,8 @@ class Hangs(OfMortalModules):
                 self.assertEqual(json.loads((self.outputs / f"{way}.json").read_text())["outcome"], "crashed")
 
     def test_are_ended_by_a_signal_at_once(self):
-        for sent in signal.SIGTERM, signal.SIGINT:
-            process = subprocess.Popen(self.command("loop"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        for way, sent in ("loop", signal.SIGTERM), ("loop", signal.SIGINT), ("blocked", signal.SIGTERM):
+            process = subprocess.Popen(self.command(way), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
             time.sleep(1.5)
             process.send_signal(sent)
             began = time.monotonic()

@@ -185,9 +185,10 @@ TEST_F(CommandLine, the_three_files_of_a_trajectory_are_distinct_from_the_others
 }
 
 TEST_F(CommandLine, a_picture_has_no_name_of_another_format) {
-  for (const char* name : {"x.png", "x.PNG", "x.Jpg", "x.PDF"})
+  for (const char* name : {"x.png", "x.PNG", "x.Jpg", "x.PDF", "x.jpeg", "x.gif", "x.webp", "x.tiff"})
     EXPECT_NE(message({"run", "a", "--picture", name}).find("ends in .svg"), std::string::npos) << name;
-  EXPECT_EQ(message({"run", "a", "--picture", "x.SVG"}), "");
+  for (const char* name : {"x.svg", "x.SVG", "x", "a.b/x", "x.picture", "-", "/dev/stdout"})
+    EXPECT_EQ(message({"run", "a", "--picture", name}), "") << name;
 }
 
 TEST_F(CommandLine, standard_output_as_a_file_is_noticed) {

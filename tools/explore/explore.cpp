@@ -110,7 +110,7 @@ int explore(const ExploreOptions& options, std::span<const genom::ModuleType> ty
   if (!options.replay.empty()) return replay(options, scenario, types);
   sync::tell_threads_outside();
   Files files(options);
-  Scene scene(scenario, types, options, replay_command(options));
+  Scene scene(scenario, types, options, "");  // a failure is reported with its token
   return search(scene, files);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// In place of the C library's _exit(): in a task of a run it would end the process without a word, with a status that a
-// CI takes for the run's; so would another program by exec(). exit() is seen by a handler of atexit()
+// In place of the C library's _exit(): in a run it would end the process without a word, with a status that a CI takes
+// for the run's; so would daemon(), and another program by exec(). exit() is seen by a handler of atexit()
 // (kernel/fault_reports.cpp).
 #include <dlfcn.h>
 #include <sys/syscall.h>
@@ -14,38 +14,88 @@
 #include "fibers/sync/system_calls.hpp"
 
 namespace {
+
 constexpr std::size_t words_max = 256;
+
+/// The C library's function.
+template <class Function>
+Function* next(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
+
+// Where robots' programs are simulated, the call may be theirs.
+void refuse_in_run(const char* function) {
+  if (!waitpoint::sync::has_program_layer()) waitpoint::kernel::refuse_exit(function);
+}
+
+/// The words of an argument list, to the null at its end.
+struct Words {
+  Words(const char* first, va_list* list) : all{const_cast<char*>(first)} {
+    for (std::size_t i = 0; all[i] != nullptr && i + 2 < words_max; ++i) all[i + 1] = va_arg(*list, char*);
+  }
+  char* all[words_max];
+};
+
+}  // namespace
 
 extern "C" {
 
 // The attribute of the C library's declaration: clang++ refuses the standard one here.
 __attribute__((noreturn)) void _exit(int status) {
-  if (waitpoint::sync::has_program_layer())  // it may be a program's
-    reinterpret_cast<void (*)(int)>(dlsym(RTLD_NEXT, "_exit"))(status);
-  waitpoint::kernel::refuse_exit("_exit()");
+  if (waitpoint::sync::has_program_layer()) next<void(int)>("_exit")(status);
+  refuse_in_run("_exit()");
   for (;;) syscall(SYS_exit_group, status);
 }
 
 __attribute__((noreturn)) void _Exit(int status) { _exit(status); }
 
+// Its parent would end by the C library's own _exit().
+int daemon(int no_chdir, int no_close) {
+  refuse_in_run("daemon()");
+  return next<decltype(daemon)>("daemon")(no_chdir, no_close);
+}
+
 // In place of the run another program would go on, with its own status.
 int execve(const char* path, char* const* words, char* const* environment) {
-  waitpoint::kernel::refuse_exit("execve()");
-  return reinterpret_cast<decltype(&execve)>(dlsym(RTLD_NEXT, "execve"))(path, words, environment);
+  refuse_in_run("execve()");
+  return next<decltype(execve)>("execve")(path, words, environment);
+}
+int execveat(int folder, const char* path, char* const* words, char* const* environment, int flags) {
+  refuse_in_run("execveat()");
+  return next<decltype(execveat)>("execveat")(folder, path, words, environment, flags);
+}
+int fexecve(int file, char* const* words, char* const* environment) {
+  refuse_in_run("fexecve()");
+  return next<decltype(fexecve)>("fexecve")(file, words, environment);
+}
+int execvpe(const char* file, char* const* words, char* const* environment) {
+  refuse_in_run("execvpe()");
+  return next<decltype(execvpe)>("execvpe")(file, words, environment);
 }
 int execv(const char* path, char* const* words) { return execve(path, words, environ); }
-int execvp(const char* file, char* const* words) {
-  waitpoint::kernel::refuse_exit("execvp()");
-  return reinterpret_cast<decltype(&execvp)>(dlsym(RTLD_NEXT, "execvp"))(file, words);
-}
+int execvp(const char* file, char* const* words) { return execvpe(file, words, environ); }
+
 int execl(const char* path, const char* word, ...) {
-  char* words[words_max] = {const_cast<char*>(word)};
   va_list list;
   va_start(list, word);
-  for (std::size_t i = 0; words[i] != nullptr && i + 2 < words_max; ++i) words[i + 1] = va_arg(list, char*);
+  const Words words(word, &list);
   va_end(list);
-  return execv(path, words);
+  return execve(path, words.all, environ);
+}
+int execlp(const char* file, const char* word, ...) {
+  va_list list;
+  va_start(list, word);
+  const Words words(word, &list);
+  va_end(list);
+  return execvpe(file, words.all, environ);
+}
+int execle(const char* path, const char* word, ...) {
+  va_list list;
+  va_start(list, word);
+  const Words words(word, &list);
+  char* const* const environment = va_arg(list, char* const*);
+  va_end(list);
+  return execve(path, words.all, environment);
 }
 
 }  // extern "C"

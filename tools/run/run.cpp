@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "core/printable_line.hpp"
-#include "fibers/kernel/fault_reports.hpp"
+#include "fibers/kernel/unfinished_run.hpp"
 #include "fibers/sync/system_calls.hpp"
 #include "modules/run/expectation.hpp"
 #include "modules/run/experiment.hpp"
@@ -161,7 +161,7 @@ int run_seeds(const RunOptions& options, const scenario::Scenario& scenario, std
   printed.print(seeds_head());
   for (std::uint64_t seed = options.seeds->first; interruption() == 0; ++seed) {
     const std::string replay = replay_line(options, seed);
-    const kernel::ReplayLine outside_of_tasks(replay.c_str());
+    const kernel::UnfinishedRun unfinished(replay.c_str());
     try {
       results.push_back(run_seed(options, scenario, types, seed, replay));
     } catch (const BadInput&) {
@@ -220,7 +220,7 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const RunWatchdog watchdog(options.watchdog_s);
   if (options.seeds) return run_seeds(options, scenario, types);
   const std::string replay = replay_line(options, options.seed);
-  const kernel::ReplayLine outside_of_tasks(replay.c_str());
+  const kernel::UnfinishedRun unfinished(replay.c_str());
   std::optional<run::Experiment> experiment;
   std::optional<Outputs> outputs;
   try {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <initializer_list>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -28,10 +30,12 @@ void check_not_together(const char* option, const Given& others) {
 
 /// A picture's format does not follow from its name: a viewer would take it for another.
 void check_picture(const std::string& name) {
+  constexpr std::string_view others[] = {".png", ".jpg",  ".jpeg", ".gif", ".webp", ".bmp",
+                                         ".tif", ".tiff", ".ppm",  ".pdf", ".ps",   ".eps"};
   std::string kind = std::filesystem::path(name).extension();
   std::transform(kind.begin(), kind.end(), kind.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  if (kind == ".png" || kind == ".jpg" || kind == ".pdf")
+  if (std::find(std::begin(others), std::end(others), kind) != std::end(others))
     refuse("--picture", "a name that ends in .svg, the format of pictures", name);
 }
 
@@ -71,6 +75,7 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   for (std::size_t i = 1; i < options.confined_to.size(); ++i)
     line += " --allow " + quoted(options.confined_to[i].string());
   for (const std::string& assignment : options.assignments) line += " --set " + in_quotation_marks(assignment);
+  if (options.interactive && !options.journal) line += "  # without the prompt's commands: --journal FILE records them";
   return line;
 }
 

@@ -60,6 +60,16 @@ std::mutex of_the_system;
   if (child == 0) write_nowhere();
   waitpid(child, nullptr, 0);
 }
+[[gnu::noinline]] void vfork_once() {
+  const pid_t child = vfork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+}
+[[gnu::noinline]] void lock_for_a_while() {
+  static std::timed_mutex mutex;
+  mutex.lock();
+  if (!mutex.try_lock_for(1ms)) mutex.unlock();
+}
 [[gnu::noinline]] void wait_for_a_lost_notification() {
   static waitpoint::mutex mutex("lost");
   static waitpoint::condition_variable condition("data ready");
@@ -88,6 +98,23 @@ void die(const std::string& way) {
       {"quick_exit", [] { std::quick_exit(0); }},
       {"exit_group", [] { syscall(SYS_exit_group, 0); }},
       {"execl", [] { execl("/bin/true", "true", nullptr); }},
+      {"execlp", [] { execlp("true", "true", nullptr); }},
+      {"execle", [] { execle("/bin/true", "true", nullptr, environ); }},
+      {"daemon", [] { (void)daemon(1, 1); }},
+      {"exit in a thread", [] { std::thread([] { std::exit(0); }).join(); }},
+      {"pthread_exit", [] { pthread_exit(nullptr); }},
+      {"alarm", [] { raise(SIGALRM); }},
+      {"default", [] { signal(SIGSEGV, SIG_DFL), write_nowhere(); }},
+      {"blocked",
+       [] {
+         sigset_t all;
+         sigfillset(&all);
+         pthread_sigmask(SIG_SETMASK, &all, nullptr);
+         spin();
+       }},
+      {"system", [] { (void)std::system("true"); }},
+      {"vfork", [] { vfork_once(); }},
+      {"timed", [] { lock_for_a_while(); }},
       {"call", call_nothing},
       {"raise", [] { raise(SIGSEGV); }},
       {"trap", [] { raise(SIGTRAP); }},
@@ -131,6 +158,7 @@ class Mortal : public waitpoint::genom::Module {
     if (parameters_.end == "constructor crashes") write_nowhere();
     if (parameters_.end == "constructor exits") std::exit(0);
     if (parameters_.end == "constructor spins") spin();
+    if (parameters_.end == "constructor forks") fork_once();
     task_.set_permanent([this] {
       if (++periods_ == 3) die(parameters_.end);
     });
