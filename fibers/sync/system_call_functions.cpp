@@ -42,6 +42,8 @@ Function* next(Function*& known, const char* name) {
 }  // namespace
 
 #define CALLER __builtin_return_address(0)
+// Types and names of functions.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define WAIT(RESULT, NAME, PARAMETERS, ARGUMENTS) \
   RESULT NAME PARAMETERS {                        \
     static decltype(NAME)* known;                 \
@@ -65,6 +67,7 @@ Function* next(Function*& known, const char* name) {
     }                                     \
     return next(known, #NAME)(lock);      \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 
 extern "C" {
 

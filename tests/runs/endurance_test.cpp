@@ -36,7 +36,7 @@ TEST(Endurance, twenty_robots_lose_no_goal_and_need_no_more_memory_in_later_roun
   const std::size_t early = peak_of_a_minute(experiment, 60s);
   const Digest beginning = experiment.simulation().digest();
   const std::size_t late = peak_of_a_minute(experiment, 240s);
-  EXPECT_LT(late, early + 256 * 1024);
+  EXPECT_LT(late, early + std::size_t{256} * 1024);
   for (const bridge::RobotResult& robot : experiment.result().robots) {
     EXPECT_EQ(robot.collisions, 0u) << robot.name;
     EXPECT_GE(robot.goals_reached(), 12u) << robot.name;
