@@ -96,12 +96,10 @@ bool is_in_task() {
 
 void note_start(const char* function, const void* place) {
   static constexpr char effect[] = "it runs in real time, and the run is not repeatable";
-  if (is_in_task()) {
-    has_started = true;
-    note(function, effect, place);
-  } else if (kernel::running == nullptr && kernel::in_model_code() && !has_program_layer()) {
-    note(function, effect, place);
-  }
+  const bool in_task = is_in_task();
+  has_started = has_started || in_task;
+  const bool in_module = kernel::running == nullptr && kernel::in_model_code() && !has_program_layer();
+  if (in_task || in_module) note(function, effect, place);
 }
 
 void note_thread(const void* place) {

@@ -3,7 +3,6 @@
 // In place of the C library's _exit(): in a run it would end the process without a word, with a status that a CI takes
 // for the run's; so would daemon(), and another program by exec(). exit() is seen by a handler of atexit()
 // (kernel/fault_reports.cpp).
-#include <dlfcn.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -12,16 +11,13 @@
 
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/system_calls.hpp"
+#include "tools/run/next_definition.hpp"
+
+using waitpoint::tools::next_definition;
 
 namespace {
 
 constexpr std::size_t words_max = 256;
-
-/// The C library's function.
-template <class Function>
-Function* next(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
-}
 
 // Where robots' programs are simulated, the call may be theirs.
 void refuse_in_run(const char* function) {
@@ -42,7 +38,7 @@ extern "C" {
 
 // The attribute of the C library's declaration: clang++ refuses the standard one here.
 __attribute__((noreturn)) void _exit(int status) {
-  if (waitpoint::sync::has_program_layer()) next<void(int)>("_exit")(status);
+  if (waitpoint::sync::has_program_layer()) next_definition<void(int)>("_exit")(status);
   refuse_in_run("_exit()");
   for (;;) syscall(SYS_exit_group, status);
 }
@@ -52,25 +48,25 @@ __attribute__((noreturn)) void _Exit(int status) { _exit(status); }
 // Its parent would end by the C library's own _exit().
 int daemon(int no_chdir, int no_close) {
   refuse_in_run("daemon()");
-  return next<decltype(daemon)>("daemon")(no_chdir, no_close);
+  return next_definition<decltype(daemon)>("daemon")(no_chdir, no_close);
 }
 
 // In place of the run another program would go on, with its own status.
 int execve(const char* path, char* const* words, char* const* environment) {
   refuse_in_run("execve()");
-  return next<decltype(execve)>("execve")(path, words, environment);
+  return next_definition<decltype(execve)>("execve")(path, words, environment);
 }
 int execveat(int folder, const char* path, char* const* words, char* const* environment, int flags) {
   refuse_in_run("execveat()");
-  return next<decltype(execveat)>("execveat")(folder, path, words, environment, flags);
+  return next_definition<decltype(execveat)>("execveat")(folder, path, words, environment, flags);
 }
 int fexecve(int file, char* const* words, char* const* environment) {
   refuse_in_run("fexecve()");
-  return next<decltype(fexecve)>("fexecve")(file, words, environment);
+  return next_definition<decltype(fexecve)>("fexecve")(file, words, environment);
 }
 int execvpe(const char* file, char* const* words, char* const* environment) {
   refuse_in_run("execvpe()");
-  return next<decltype(execvpe)>("execvpe")(file, words, environment);
+  return next_definition<decltype(execvpe)>("execvpe")(file, words, environment);
 }
 int execv(const char* path, char* const* words) { return execve(path, words, environ); }
 int execvp(const char* file, char* const* words) { return execvpe(file, words, environ); }

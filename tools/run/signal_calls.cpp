@@ -4,13 +4,15 @@
 // a run is watched, interrupted and reported, as a driver's thread does that blocks all signals at its beginning, nor
 // give those of faults their default effect, as libraries with crash handlers do. All else is as it was: handlers of
 // the model's own are installed, and other threads are not concerned.
-#include <dlfcn.h>
 #include <pthread.h>
 
 #include <csignal>
 
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/system_calls.hpp"
+#include "tools/run/next_definition.hpp"
+
+using waitpoint::tools::next_definition;
 
 namespace {
 
@@ -39,17 +41,12 @@ sigset_t blockable(sigset_t set) {
   return set;
 }
 
-template <class Function>
-Function* next(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
-}
-
 using SetMask = int(int, const sigset_t*, sigset_t*);
 
 int set_mask(const char* name, int how, const sigset_t* set, sigset_t* old) {
-  if (set == nullptr || how == SIG_UNBLOCK || !is_model_call()) return next<SetMask>(name)(how, set, old);
+  if (set == nullptr || how == SIG_UNBLOCK || !is_model_call()) return next_definition<SetMask>(name)(how, set, old);
   const sigset_t allowed = blockable(*set);
-  return next<SetMask>(name)(how, &allowed, old);
+  return next_definition<SetMask>(name)(how, &allowed, old);
 }
 
 }  // namespace
@@ -61,11 +58,12 @@ int pthread_sigmask(int how, const sigset_t* set, sigset_t* old) { return set_ma
 
 int sigaction(int number, const struct sigaction* action, struct sigaction* old) {
   const bool keeps = action != nullptr && is_kept(number, action->sa_handler);
-  return next<int(int, const struct sigaction*, struct sigaction*)>("sigaction")(number, keeps ? nullptr : action, old);
+  return next_definition<int(int, const struct sigaction*, struct sigaction*)>("sigaction")(
+      number, keeps ? nullptr : action, old);
 }
 
 sighandler_t signal(int number, sighandler_t handler) {
-  if (!is_kept(number, handler)) return next<sighandler_t(int, sighandler_t)>("signal")(number, handler);
+  if (!is_kept(number, handler)) return next_definition<sighandler_t(int, sighandler_t)>("signal")(number, handler);
   struct sigaction present {};
   sigaction(number, nullptr, &present);
   return present.sa_handler;
