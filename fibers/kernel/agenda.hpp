@@ -96,12 +96,16 @@ struct Agenda {
   /// True if the task's event, which is not in the list, sorts before `other`.
   bool precedes(const Task& task, const EventKey& other) {
     if (task.local_time != other.time) return task.local_time < other.time;
+    return key_in_turn(task).order <= other.order;
+  }
+  /// The key of the event of a task that is not in the list.
+  EventKey key_in_turn(const Task& task) {
     // First-in-first-out: at the present instant a task continues although others tie with it. At a later time it sorts
     // behind its ties, as an inserted event would: otherwise the order would depend on unrelated events in between.
     const std::uint64_t tie = chooser.order() == Order::seeded ? chooser.tie(task)
                               : task.local_time == now         ? 0
                                                                : tie_mask;
-    return make_order(task.phase, tie) <= other.order;
+    return {task.local_time, make_order(task.phase, tie)};
   }
 };
 

@@ -85,6 +85,17 @@ Time Scheduler::next_event_time() const {
   return agenda_.next_time();
 }
 
+EventKey Scheduler::next_key() {
+  if (paused_ != nullptr) return agenda_.key_in_turn(*paused_);
+  return agenda_.ready.empty() ? agenda_.next_key() : EventKey{agenda_.now, make_order(Phase::tasks, 0)};
+}
+
+void Scheduler::advance(Time time) {
+  WAITPOINT_CHECK(running == nullptr && agenda_.now <= time && time <= next_event_time(),
+                  "the global time moves back, or over an event");
+  agenda_.advance(time);
+}
+
 void Scheduler::attend(Task& task, std::uint8_t reason, bool needed) {
   task.attention = static_cast<std::uint8_t>(needed ? task.attention | reason : task.attention & ~reason);
   if (&task == running) fast_path_.close();

@@ -129,6 +129,18 @@ class Scheduler {
   void schedule(EventNode& node, Time time, const Object& timer, Phase phase = Phase::deliveries);
   void cancel(EventNode& node) { agenda_.events.remove(node); }
 
+  // --- one of several runs whose events have one common order: the processes of a program (posix/family) ---
+
+  /// Inserts a timer's event with a key of another run's.
+  void schedule(EventNode& node, const EventKey& key);
+  /// The key of the least event; EventKey::never() if there is none.
+  EventKey next_key();
+  /// Outside of tasks: moves the global time forward, before the next event.
+  void advance(Time time);
+  /// After a fork, in the child: the running task, the only one, continues with this id. Its robot's id and digest may
+  /// have been replaced.
+  void continue_as(std::uint64_t id);
+
   // --- messages between robots ---
 
   /// Inserts the arrival of a message of `sender`, ahead of the tasks of that instant and behind its timers. Arrivals

@@ -100,6 +100,16 @@ void Scheduler::end_in_place(Task& task) {
   roster_.count_end(task, agenda_.now);
 }
 
+void Scheduler::continue_as(std::uint64_t id) {
+  Task& task = *running;
+  WAITPOINT_CHECK(first_task() == &task && task.next == nullptr, "a child has tasks of its parent's");
+  task.maker = task.id;
+  task.id = id;
+  task.sequence = task.children = 0;
+  fast_path_.close();
+  hash_events_of(*task.robot);
+}
+
 void Scheduler::end_running_task() { end_task(*running); }
 
 // Refuses a call after the end of the run. A task that keeps calling would never end: it is abandoned.

@@ -140,6 +140,8 @@ void Scheduler::schedule(EventNode& node, Time time, const Object& timer, Phase 
   put(node, {time, make_order(phase, Chooser::tie(timer))});
 }
 
+void Scheduler::schedule(EventNode& node, const EventKey& key) { put(node, key); }
+
 void Scheduler::deliver(EventNode& node, Time time, Robot& sender) {
   put(node, {time, make_order(Phase::deliveries, Chooser::tie(sender, ++sender.messages))});
 }

@@ -14,6 +14,7 @@
 #include "fibers/sync/simulation.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/command/signal_words.hpp"
+#include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/exec/race_report.hpp"
 #include "tools/output/output_file.hpp"
@@ -28,12 +29,8 @@ std::string replay_line(const ExecOptions& options, std::uint64_t seed) {
 }
 
 void print_summary(const posix::Record& record, const std::string& program) {
-  const kernel::Scheduler& scheduler = record.scheduler;
-  std::fprintf(
-      stderr, "waitpoint: %s: %u threads, %u at once, %llu events, %llu switches, %s s of virtual time, digest %s\n",
-      program.c_str(), record.threads_made, record.threads_most, static_cast<unsigned long long>(scheduler.events()),
-      static_cast<unsigned long long>(scheduler.switches()), to_string(scheduler.global_time()).c_str(),
-      to_string(record.digest()).c_str());
+  std::fprintf(stderr, "waitpoint: %s: %s, digest %s\n", program.c_str(), counts_of(record).c_str(),
+               to_string(digest_of(record)).c_str());
 }
 
 // The report of a failed run.
@@ -82,7 +79,7 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     // Usually from the terminal: not a failure of the program.
     if (run.signal() == SIGINT || run.signal() == SIGTERM) end_by(run.signal());
     ++runs;
-    if (memory.record().began) digests.insert(memory.record().digest().value());
+    if (memory.record().began) digests.insert(digest_of(memory.record()).value());
     if (run.exit_status() != 0) {
       if (terminal) std::fprintf(stderr, "\r%40s\r", "");
       output.show();

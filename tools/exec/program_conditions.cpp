@@ -91,7 +91,7 @@ std::string ProgramConditions::words() const {
   if (isolate) all += " --isolate";
   if (trap_rdtsc) all += " --trap-rdtsc";
   if (trap_library) all += " --trap-libc";
-  if (children) all += " --children simulated";
+  if (!children) all += " --children native";
   return all;
 }
 
@@ -102,8 +102,8 @@ void ConditionArguments::add_to(Command& command) {
                  "compiled with -fsanitize-coverage=trace-pc), or measured, hence not repeatable: cpu[:xFACTOR],\n"
                  "proportional[:xFACTOR] (default: no cost)");
   command.option("--children", children_, "KIND",
-                 "mode of programs that it starts (exec, posix_spawn, system, popen): native, or\n"
-                 "simulated, each on its own; forked children are always simulated (default: native)");
+                 "mode of programs that it starts (exec, posix_spawn, system, popen): simulated, in one\n"
+                 "schedule with it as its forked children are, or native (default: simulated)");
   command.flag("--isolate", isolate_, "make calls fail that would leave this machine (EACCES)");
   command.flag("--trap-rdtsc", trap_rdtsc_,
                "show virtual time in the time-stamp counter, one nanosecond per tick, by trapping the\n"
@@ -130,11 +130,11 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
 }
 
 std::string ConditionArguments::first_given() const {
-  return !clock_.empty()         ? "--clock"
-         : isolate_              ? "--isolate"
-         : trap_rdtsc_           ? "--trap-rdtsc"
-         : children_ != "native" ? "--children"
-                                 : "";
+  return !clock_.empty()            ? "--clock"
+         : isolate_                 ? "--isolate"
+         : trap_rdtsc_              ? "--trap-rdtsc"
+         : children_ != "simulated" ? "--children"
+                                    : "";
 }
 
 }  // namespace waitpoint::tools

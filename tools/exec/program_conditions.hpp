@@ -18,7 +18,7 @@ struct ProgramConditions {
   bool isolate = false;                       ///< calls that would leave the machine fail
   bool trap_rdtsc = false;                    ///< the time-stamp counter shows virtual time
   bool trap_library = false;                  ///< the C library's internal waits are simulated
-  bool children = false;                      ///< programs that it starts are simulated, too
+  bool children = true;                       ///< programs that it starts are simulated, too
 
   void apply_to(posix::Settings& settings) const;
   /// BadInput if the conditions are impossible for a program with one of these files.
@@ -38,7 +38,7 @@ class ConditionArguments {
 
  private:
   std::string clock_;
-  std::string children_ = "native";
+  std::string children_ = "simulated";
   bool isolate_ = false, trap_rdtsc_ = false, trap_library_ = false;
 };
 

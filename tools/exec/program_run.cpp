@@ -2,6 +2,7 @@
 #include "tools/exec/program_run.hpp"
 
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "tools/exec/family_report.hpp"
 #include "tools/exec/watchdog.hpp"
 
 namespace waitpoint::tools {
@@ -48,8 +50,10 @@ int wait_for_end(Watchdog watchdog) {
 }  // namespace
 
 ProgramRun::ProgramRun(const ProgramFiles& files, const RunMemory& memory, int output) {
+  prctl(PR_SET_CHILD_SUBREAPER, 1);  // processes whose parents have ended are its own
   child = start_program(files, memory, output);
   status_ = wait_for_end(Watchdog(memory.record(), child));
+  end_others(memory.record());
 }
 
 int ProgramRun::exit_status() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }

@@ -24,17 +24,18 @@ RunMemory::RunMemory(const posix::Settings& settings, const ProgramList& program
     close(made);
   else
     descriptor_ = made;
-  if (descriptor_ < 0 || ftruncate(descriptor_, posix::record_bytes) != 0) no_memory();
-  void* const memory = mmap(reinterpret_cast<void*>(posix::record_address), posix::record_bytes, PROT_READ | PROT_WRITE,
+  if (descriptor_ < 0 || ftruncate(descriptor_, posix::run_bytes) != 0) no_memory();
+  void* const memory = mmap(reinterpret_cast<void*>(posix::record_address), posix::run_bytes, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_NORESERVE | MAP_FIXED_NOREPLACE, descriptor_, 0);
   if (memory == MAP_FAILED) no_memory();
   record_ = new (memory) posix::Record();
   record_->settings = settings;
+  record_->file = {getpid(), descriptor_};
   programs.write(*record_);
 }
 
 RunMemory::~RunMemory() {
-  munmap(record_, posix::record_bytes);
+  munmap(record_, posix::run_bytes);
   close(descriptor_);
 }
 

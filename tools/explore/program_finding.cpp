@@ -11,6 +11,7 @@
 #include "fibers/posix/exec/exploration.hpp"
 #include "fibers/posix/exec/race_log.hpp"
 #include "tools/command/signal_words.hpp"
+#include "tools/exec/family_report.hpp"
 #include "tools/exec/race_report.hpp"
 
 namespace waitpoint::tools {
@@ -112,7 +113,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   }
   if (record.explored == nullptr) return finding;
   const posix::Explored& explored = *record.explored;
-  finding.digest = record.digest().value();
+  finding.digest = digest_of(record).value();
   finding.end = record.scheduler.global_time();
   finding.events = record.scheduler.events();
   finding.take(explored.explorer);

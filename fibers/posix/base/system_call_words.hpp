@@ -11,11 +11,12 @@ namespace waitpoint::posix {
 
 template <class T>
 T as(long word) {
-  static_assert(sizeof(T) <= sizeof word, "an argument of a system call is a word");
-  if constexpr (std::is_pointer_v<T>)
+  if constexpr (std::is_pointer_v<T>) {
     return reinterpret_cast<T>(word);
-  else
+  } else {
+    static_assert(sizeof(T) <= sizeof word, "an argument of a system call is a word");
     return static_cast<T>(word);
+  }
 }
 
 /// A call's six arguments.

@@ -2,6 +2,8 @@
 #include "fibers/posix/descriptors/descriptors.hpp"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,7 +15,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -25,6 +27,7 @@ namespace {
 constexpr int known_max = known_descriptors_max;
 static_assert(known_max % 64 == 0, "the sets of descriptors are whole words");
 std::uint64_t inside[known_max / 64];
+ino_t inodes[known_max];                       // of the pipes and sockets inside; 0: not known yet
 std::uint64_t waited_in_vain[known_max / 64];  // for a reader
 const Program* owners[known_max];              // among several programs of a process
 int owned_end = 0;                             // one past the greatest ever owned
@@ -37,7 +40,6 @@ struct Waiter {
   bool outside;
   bool (*is_ready)(const void*) = nullptr;  // null: one of the descriptors
   const void* what = nullptr;
-  bool shared = false;  ///< on an object that another process of the family may change
   Waiter* next = nullptr;
   Waiter* previous = nullptr;
 };
@@ -45,7 +47,6 @@ Waiter* first = nullptr;
 Waiter* last = nullptr;
 int waiting_outside = 0;
 int waiting_for_no_descriptor = 0;  // these must be polled
-int waiting_for_family = 0;
 
 kernel::Object descriptors_object{"descriptor"};
 kernel::Object outside_object{"something outside"};
@@ -57,15 +58,19 @@ int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
   return ready;
 }
 
+// For the other processes of the family.
+void note_waits() {
+  if (family::own == nullptr) return;
+  family::own->listens = first != nullptr;
+  family::own->waits_outside = waiting_outside > 0;
+}
+
 void count_outside(const Waiter& waiter, int by) {
   waiting_outside += by;
   if (waiter.count == 0) waiting_for_no_descriptor += by;
   WAITPOINT_CHECK(waiting_for_no_descriptor >= 0 && waiting_outside >= waiting_for_no_descriptor,
                   "the counts of threads that wait outside disagree");
-  if (!waiter.shared) return;
-  waiting_for_family += by;
-  WAITPOINT_CHECK(waiting_for_family >= 0, "more waits for the family have ended than begun");
-  family::note_waiting(waiting_for_family > 0);
+  note_waits();
 }
 
 void add(Waiter& waiter) {
@@ -76,6 +81,7 @@ void add(Waiter& waiter) {
   (last == nullptr ? first : last->next) = &waiter;
   last = &waiter;
   if (waiter.outside) count_outside(waiter, 1);
+  note_waits();
 }
 
 void remove(Waiter& waiter) {
@@ -85,22 +91,7 @@ void remove(Waiter& waiter) {
   (waiter.previous == nullptr ? first : waiter.previous->next) = waiter.next;
   (waiter.next == nullptr ? last : waiter.next->previous) = waiter.previous;
   if (waiter.outside) count_outside(waiter, -1);
-}
-
-// Waits on shared objects are outside while the family has other processes, else inside: then a deadlock is possible.
-void take_shared_outside() {
-  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
-    if (!waiter->shared || waiter->outside) continue;
-    waiter->outside = true;
-    count_outside(*waiter, 1);
-  }
-}
-
-// After the other processes of the family have ended: threads waiting for them check again, and wait inside.
-void wake_shared() {
-  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
-    if (waiter->shared && waiter->outside && waiter->task->state == kernel::TaskState::blocked)
-      waiter->task->scheduler->wake(*waiter->task);
+  note_waits();
 }
 
 // Wakes the threads whose descriptors are ready.
@@ -108,7 +99,6 @@ bool wake_ready(bool outside_too) {
   bool any = false;
   for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
     if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too)) continue;
-    if (waiter->shared && !waiter->outside) continue;  // woken by the thread that changes the object
     const bool is_ready = waiter->is_ready != nullptr ? waiter->is_ready(waiter->what)
                                                       : poll_now(waiter->descriptors, waiter->count) != 0;
     if (!is_ready) continue;
@@ -163,6 +153,7 @@ void note_inside(int descriptor, bool is) {
   word = is ? word | bit : word & ~bit;
   waited_in_vain[descriptor / 64] &= ~bit;
   owners[descriptor] = nullptr;
+  inodes[descriptor] = 0;
   if (is) note_owner(descriptor);
 }
 
@@ -189,23 +180,83 @@ bool is_inside(int descriptor) {
   return descriptor >= 0 && descriptor < known_max && (inside[descriptor / 64] >> (descriptor % 64) & 1) != 0;
 }
 
-void note_start() {
-  const ErrorNumberKept kept;
-  for (int word = 0; word < known_max / 64; ++word)
-    for (std::uint64_t left = inside[word]; left != 0; left &= left - 1) {
-      const int descriptor = word * 64 + __builtin_ctzll(left);
-      if ((WAITPOINT_NEXT(fcntl)(descriptor, F_GETFD) & FD_CLOEXEC) == 0) note_inside(descriptor, false);
-    }
+namespace {
+
+/// The pipes and sockets inside, by their inodes: a table with open addressing.
+struct InsideFile {
+  ino_t inode;
+  int held;  ///< bytes in the pipe at the last check, by any process
+};
+constexpr std::size_t inside_files_max = 1 << 16;
+
+// The entry of this inode, or a free one for it; null if the table is full.
+InsideFile* place_of(ino_t inode) {
+  auto* const all =
+      static_cast<InsideFile*>(family::common(family::Part::inside_files, sizeof(InsideFile) * inside_files_max));
+  const std::size_t first = Digest::mix(inode) % inside_files_max;
+  for (std::size_t i = 0; all != nullptr && i < inside_files_max; ++i) {
+    InsideFile& each = all[(first + i) % inside_files_max];
+    if (each.inode == inode || each.inode == 0) return &each;
+  }
+  return nullptr;
 }
 
-void note_fork() {
-  std::memset(inside, 0, sizeof inside);
-  take_shared_outside();
+// 0 for other files.
+ino_t inode_of(int descriptor) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0) return 0;
+  return S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode) ? status.st_ino : 0;
+}
+
+template <class Visit>
+void for_each_inside(Visit visit) {
+  for (int word = 0; word < known_max / 64; ++word)
+    for (std::uint64_t left = inside[word]; left != 0; left &= left - 1) visit(word * 64 + __builtin_ctzll(left));
+}
+
+}  // namespace
+
+bool has_unnoticed_output() {
+  bool any = false;
+  for_each_inside([&any](int descriptor) {
+    ino_t& inode = inodes[descriptor];
+    if (inode == 0) inode = inode_of(descriptor);
+    int bytes = 0;
+    if (inode == 0 || WAITPOINT_NEXT(ioctl)(descriptor, FIONREAD, &bytes) != 0) return;
+    InsideFile* const file = place_of(inode);
+    if (file == nullptr || (file->inode == inode && file->held == bytes)) return;
+    *file = {inode, bytes};
+    any = true;
+  });
+  return any;
+}
+
+void note_start(bool is_native) {
+  const ErrorNumberKept kept;
+  for_each_inside([&](int descriptor) {
+    if (is_native) {
+      if ((WAITPOINT_NEXT(fcntl)(descriptor, F_GETFD) & FD_CLOEXEC) == 0) note_inside(descriptor, false);
+      return;
+    }
+    const ino_t inode = inode_of(descriptor);
+    InsideFile* const file = inode != 0 ? place_of(inode) : nullptr;
+    if (file != nullptr && file->inode != inode) *file = {inode, 0};
+  });
+}
+
+void inherit_inside() {
+  const ErrorNumberKept kept;
+  constexpr int most = 1024;
+  for (int descriptor = 0; descriptor < most; ++descriptor) {
+    const ino_t inode = inode_of(descriptor);
+    const InsideFile* const file = inode != 0 ? place_of(inode) : nullptr;
+    if (file != nullptr && file->inode == inode) note_inside(descriptor, true);
+  }
 }
 
 void forget_waiters() {
   first = last = nullptr;
-  waiting_outside = waiting_for_no_descriptor = waiting_for_family = 0;
+  waiting_outside = waiting_for_no_descriptor = 0;
 }
 
 void forget_waiter(const kernel::Task& task) {
@@ -244,11 +295,13 @@ int wait_for(int descriptor, short events, Time deadline, Restart restart) {
 
 WaitsOutside::WaitsOutside() {
   ++waiting_outside;
+  note_waits();
   kernel::running->scheduler->pause();
 }
 WaitsOutside::~WaitsOutside() {
   WAITPOINT_CHECK(waiting_outside > waiting_for_no_descriptor, "more waits for signals have ended than begun");
   --waiting_outside;
+  note_waits();
 }
 
 int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart) {
@@ -267,14 +320,12 @@ int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restar
 }
 
 Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(const void*), const void* what) {
-  kernel::Task& task = *kernel::running;
-  Waiter waiter{&task, nullptr, 0, family::has_others(), is_ready, what};
-  waiter.shared = true;
+  // Without other processes the thread that changes the object wakes the others; only the last change by a process that
+  // has ended may not have been seen.
+  if (is_ready(what)) return Wait::came;
+  Waiter waiter{kernel::running, nullptr, 0, false, is_ready, what};
   add(waiter);
-  if (waiter.outside) task.scheduler->pause();
-  // From here on other processes ring. Earlier changes are seen by is_ready(), also those by the last process that has
-  // ended, and its end.
-  const Wait ended = family::had_others() && is_ready(what) ? Wait::came : wait_on(object, deadline);
+  const Wait ended = wait_on(object, deadline);
   remove(waiter);
   return ended;
 }
@@ -300,6 +351,7 @@ bool wait_for_reader(int descriptor, int patience_ms) {
 void look_at_descriptors() {
   if (before_look != nullptr) before_look();
   if (first != nullptr) wake_ready(false);
+  family::ring();
 }
 
 bool wait_outside_for(Duration longest) {
@@ -311,10 +363,6 @@ bool look_outside(bool may_wait) {
   const bool came = take_in_signals_from_outside();
   if (wake_ready(true) || came) return true;
   if (!may_wait) return false;
-  if (waiting_for_family > 0 && !family::has_others()) {
-    wake_shared();
-    return true;
-  }
   if (waiting_outside == 0) return false;
   wait_really(Duration::max());
   take_in_signals_from_outside();

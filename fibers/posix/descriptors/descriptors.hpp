@@ -3,9 +3,10 @@
 // simulated are the waits, their duration and order: a call that would block its thread waits here until the descriptor
 // is ready, and is made then.
 //
-// A descriptor is inside while only this program has its ends: it becomes ready by an action of one of its threads, and
-// is checked after such actions. All others are outside: their state depends on real time, so they are checked only
-// when no thread can continue at the present instant, and waited for in real time only when none can continue at all.
+// A descriptor is inside while only this program, with the processes of its family, has its ends: it becomes ready by
+// an action of one of their threads, and is checked after such actions. All others are outside: their state depends on
+// real time, so they are checked only when no thread can continue at the present instant, and waited for in real time
+// only when none can continue at all.
 #pragma once
 
 #include <poll.h>
@@ -33,10 +34,11 @@ void note_owner(int descriptor);
 int next_owned(int from, const Program*& owner);
 /// Removes its owner.
 void disown(int descriptor);
-/// Before a fork: the child has copies, so that no descriptor is inside any more. Nor are waits on shared objects.
-void note_fork();
-/// Before a program is started: the same, but it has no copies of close-on-exec descriptors.
-void note_start();
+/// Before a program is started. A simulated one finds the pipes and sockets inside that were inside here; a native one
+/// makes those outside that it gets.
+void note_start(bool is_native);
+/// In a program that was started: see there.
+void inherit_inside();
 /// In the child: no thread waits.
 void forget_waiters();
 /// The task no longer exists.
@@ -66,12 +68,14 @@ extern void (*before_look)();
 /// After an action on a descriptor: wakes the threads whose descriptors are ready.
 void look_at_descriptors();
 
+/// True if a pipe inside holds another number of bytes than at the last call: the C library has written to it.
+bool has_unnoticed_output();
+
 /// The running thread waits for a condition outside that is no descriptor. 1 once `is_ready` is true; 0 if the thread
 /// was cancelled; -1 with EINTR if a signal interrupted the wait.
 int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart);
 
-/// As wait_on(). While the family has other processes, it also ends when `is_ready` is true: one of them may change the
-/// object.
+/// As wait_on(); it also ends when `is_ready` is true, as another process of the family may change the object.
 Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(const void*), const void* what);
 
 /// At the end of an instant, outside all threads: checks the conditions of waiting threads, and waits in real time if

@@ -21,7 +21,6 @@ namespace {
 
 pid_t* children = nullptr;
 std::size_t child_count = 0, child_room = 0;
-pid_t parent = 0;  // 0: none that is a simulation
 
 // A virtual time, and the real time that corresponds to it.
 Time virtual_begin;
@@ -63,7 +62,7 @@ void prepare_to_look() {
 
 }  // namespace
 
-void note_child(pid_t child) {
+void note_native_child(pid_t child) {
   WAITPOINT_CHECK(child > 0, "a child without an id is noted");
   WAITPOINT_CHECK(child_count <= child_room && (children != nullptr) == (child_room > 0),
                   "the table of children exceeds its memory");
@@ -79,20 +78,17 @@ void note_child(pid_t child) {
   if (!has_begun) begin();
 }
 
-void note_parent() {
-  parent = getppid();
+void forget_native_children() {
   child_count = 0;
+  has_begun = false;
   if (next_look.event.in_list()) kernel::running->scheduler->cancel(next_look.event);
-  prepare_to_look();
-  begin();
 }
 
 bool is_paced() {
   if (!has_begun) return false;
   const ErrorNumberKept kept;
   while (child_count > 0 && !lives(children[child_count - 1])) --child_count;
-  if (parent != 0 && getppid() != parent) parent = 0;
-  if (child_count == 0 && parent == 0) has_begun = false;
+  if (child_count == 0) has_begun = false;
   return has_begun;
 }
 

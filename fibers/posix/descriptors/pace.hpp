@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// While a program has children, or is a child of a simulation, its virtual time is no faster than real time: processes
-// that wait for each other by sleeping have no other time in common.
+// While a program has native children, its virtual time is no faster than real time: processes that wait for each other
+// by sleeping have no other time in common.
 //
 // Otherwise virtual time does not wait. Input that arrives while it waits is dated by the virtual time reached.
 #pragma once
@@ -11,10 +11,10 @@
 
 namespace waitpoint::posix {
 
-/// The running thread has made a child.
-void note_child(pid_t child);
-/// This is a new child, or a program that another simulation has started.
-void note_parent();
+/// The running thread has made a child that is not simulated; its number is the system's.
+void note_native_child(pid_t child);
+/// In a child of its own: those are its parent's.
+void forget_native_children();
 
 /// True if virtual time must wait for real time.
 bool is_paced();

@@ -15,11 +15,12 @@ extern "C" {
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/thread.hpp"
 
 namespace waitpoint::posix {
 
-// A line of /proc/self/fdinfo has it.
+// A line of /proc/self/fdinfo has the system's.
 pid_t process_of(int descriptor) {
   const ErrorNumberKept kept;
   char path[40], text[512];
@@ -31,13 +32,24 @@ pid_t process_of(int descriptor) {
   if (size < 0) return -1;
   text[size] = '\0';
   const char* const line = std::strstr(text, "\nPid:\t");
-  return line == nullptr ? -1 : std::atoi(line + std::strlen("\nPid:\t"));
+  if (line == nullptr) return -1;
+  const pid_t in_system = std::atoi(line + std::strlen("\nPid:\t"));
+  const family::Process* const process = family::find_in_system(in_system);
+  return process != nullptr ? process->id : in_system;
 }
 
 }  // namespace waitpoint::posix
 
 using namespace waitpoint;
 using namespace waitpoint::posix;
+
+// All processes that it can be of end by events of the family.
+WAITPOINT_INTERPOSED int pidfd_open(pid_t id, unsigned flags) noexcept {
+  const family::Process* const process = family::find(id);
+  const int made = WAITPOINT_NEXT(pidfd_open)(family::in_system(id), flags);
+  if (made >= 0 && process != nullptr) note_inside(made, !process->is_native);
+  return made;
+}
 
 WAITPOINT_INTERPOSED int pidfd_getfd(int process, int descriptor, unsigned flags) noexcept {
   const int made = WAITPOINT_NEXT(pidfd_getfd)(process, descriptor, flags);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/exec/run.hpp"
 
-#include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -14,10 +14,13 @@
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/pace.hpp"
 #include "fibers/posix/exec/exploration.hpp"
+#include "fibers/posix/exec/family_run.hpp"
 #include "fibers/posix/exec/fork_server.hpp"
 #include "fibers/posix/exec/race_log.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/exec/run_memory.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/processes/children.hpp"
+#include "fibers/posix/processes/process_end.hpp"
 #include "fibers/posix/program/randomness.hpp"
 #include "fibers/posix/program/thread_area.hpp"
 #include "fibers/posix/program/waitable.hpp"
@@ -34,31 +37,15 @@ const bool has_host = false;
 
 namespace {
 
-constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
-
 int (*program_body)() = nullptr;
 
 // The result of main() is passed to exit(), as in the C library; main() may also end by pthread_exit().
-void* run_body(void*) {
-  if (record->settings.is_started) note_parent();
-  std::exit(program_body());
-}
+void* run_body(void*) { std::exit(program_body()); }
 
 [[noreturn]] void end_process(int status) {
+  family::leave(W_EXITCODE(status, 0));
   WAITPOINT_NEXT(_exit)(status);
   __builtin_unreachable();
-}
-
-// Replaces an earlier mapping.
-void map_record(int descriptor) {
-  void* const memory = mmap(reinterpret_cast<void*>(record_address), record_bytes, PROT_READ | PROT_WRITE,
-                            MAP_SHARED | MAP_NORESERVE | MAP_FIXED, descriptor, 0);
-  close(descriptor);
-  if (memory == MAP_FAILED) refuse("there is no address space for the record of the run");
-  static_assert(record_address % alignof(Record) == 0 && sizeof(Record) <= record_bytes);
-  record = static_cast<Record*>(memory);
-  if (record->mark != Record::mark_of_version)
-    refuse("this library and the waitpoint that started it have different versions");
 }
 
 // At the end of an instant: takes in external input; returns the end of the run's next window.
@@ -78,33 +65,21 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   if (record != nullptr) return;
   const char* const descriptor = WAITPOINT_NEXT(getenv)(record_variable);
   if (descriptor == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
-  map_record(std::atoi(descriptor));
+  const int joined = map_run(descriptor);
   WAITPOINT_NEXT(unsetenv)(record_variable);
   leave_preload();
   if (record->settings.instrumented) leave_library_path();
   inherit_signals();
   register_fork();
+  if (joined >= 0) {
+    answer_inherited_traps();
+    family::join(joined);
+    inherit_inside();
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) trap_stream(stream);
+  }
   draw_random_bytes_of_the_process();
   if (record->settings.trap_rdtsc) trap_processor_counter();
   if (record->settings.trap_library) trap_library_calls();
-}
-
-// A debugger runs the program again on the same record.
-void begin_anew() {
-  const Settings settings = record->settings;
-  const Arena arena = record->arena;
-  ProgramRecord* const programs = record->programs;
-  const std::uint32_t count = record->program_count;
-  new (record) Record();
-  record->settings = settings;
-  record->arena = arena;
-  record->programs = programs;
-  record->program_count = count;
-  for (ProgramRecord& program : record->several()) {
-    program.robot = kernel::Robot();
-    program.threads_made = 0;
-    program.ended = false;
-  }
 }
 
 }  // namespace
@@ -121,12 +96,12 @@ bool has_members() {
 
 kernel::Scheduler& begin_run() {
   begin();
-  if (const int server = record->settings.server; server >= 0) map_record(serve_runs(server));
+  if (const int server = record->settings.server; server >= 0 && !family::is_joined()) map_record(serve_runs(server));
   WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");
   WAITPOINT_CHECK(record->program_count == 0 || record->programs != nullptr,
                   "the record counts programs that it lacks");
   if (record->began) begin_anew();
-  family::begin();
+  if (!family::is_joined()) family::begin();
   const Asked* const asked = record->settings.asked;
   record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
   if (!kernel::Scheduler::has_address_space())
@@ -134,6 +109,7 @@ kernel::Scheduler& begin_run() {
   kernel::Scheduler& scheduler =
       *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
   if (!record->settings.fast_paths) scheduler.use_fast_paths(false);
+  if (family::is_joined()) scheduler.advance(family::own->next.time);
   scheduler.hooks().deliver_signals = deliver_signals;
   scheduler.hooks().continues_after_cycle = continues_after_cycle;
   if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
@@ -153,8 +129,18 @@ kernel::Scheduler& begin_run() {
 Ending run_to_end(kernel::Scheduler& scheduler) {
   const Time end = record->settings.until;
   for (Time until = end;;) {
+    family::limit_window(scheduler);
     const kernel::RunState state = scheduler.run_before(until);
     if (state == kernel::RunState::stopped) break;
+    if (family::has_others() || !family::is_first()) {
+      if (!step_in_family(scheduler, until)) break;
+      continue;
+    }
+    if (family::take_ring(scheduler)) {  // the last of the others has ended
+      look_outside(false);
+      until = end;
+      continue;
+    }
     const bool is_idle = state == kernel::RunState::idle;
     if (is_paced() && (!is_idle || anybody_waits_outside())) {
       until = keep_pace(scheduler);
@@ -168,6 +154,7 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
       until = anybody_waits_outside() ? later(scheduler.next_event_time(), nanosecond) : end;
     }
   }
+  if (family::family->is_cut_off) end_process(0);
   if (scheduler.stop_cause() == kernel::StopCause::ended) return record->ending = Ending::own;
   if (scheduler.stop_cause() == kernel::StopCause::requested) {
     WAITPOINT_CHECK(record->explored != nullptr, "a run is stopped without an exploration");
@@ -185,13 +172,27 @@ void end_run(const kernel::Scheduler& scheduler, int status) {
   end_process(failed ? status_of_deadlock : status);
 }
 
+namespace {
+
+// The first program has the first process's name; further ones, by exec too, names with their process's number.
+void begin_robot(kernel::Scheduler& scheduler, const char* name) {
+  if (!family::is_joined()) return scheduler.add(record->robot, name);
+  char numbered[kernel::name_size];
+  std::snprintf(numbered, sizeof numbered, "%.36s#%d", name, static_cast<int>(family::own->id));
+  scheduler.add(record->robot, numbered);
+  record->robot.digest_in_use = &family::own->digest;
+}
+
+}  // namespace
+
 void run_program(int (*body)(), const char* name) {
   program_body = body;
   kernel::Scheduler& scheduler = begin_run();
+  note_exit_status();
   const char* const slash = std::strrchr(name, '/');
   static constinit Program program;
   program.robot = &record->robot;
-  scheduler.add(record->robot, slash != nullptr ? slash + 1 : name);
+  begin_robot(scheduler, slash != nullptr ? slash + 1 : name);
   static constinit Thread thread;
   thread.start.posix = run_body;
   if (!begin_main_thread(thread, program, scheduler)) refuse("there is no address space for the stacks of threads");

@@ -1,67 +1,125 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processes of a program: the one that was started, and those that it and its children fork.
+// A family: the processes that ever come of the program that was started, by fork and exec, and the memory that they
+// share.
 //
-// Each is its own simulation, with its own schedule. They can share primitives in shared memory, and named semaphores.
-// Such an object holds its state in its own bytes, which change only within a Section, exclusive among the family; a
-// process that changes one rings the processes that wait. For these the change comes from outside: see descriptors.hpp.
+// They are one simulation (turn.hpp): at any time one of them runs, so what they share needs no lock. The memory is
+// part of the run's file, behind the record, and mapped at the same address in every process.
 #pragma once
 
 #include <signal.h>
 #include <sys/types.h>
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
+
+#include "fibers/kernel/event.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/posix/base/arena.hpp"
+#include "fibers/posix/program/record.hpp"
 
 namespace waitpoint::posix::family {
 
-/// Starts a family with this process alone, at the beginning of a run.
-void begin();
-/// Before a child is made, and after; -1 if that failed.
-void expect_child();
-void note_child(pid_t child);
-/// In the child.
-void begin_as_child();
+/// The parts of the layer with a state that the processes share.
+enum class Part { names, futexes, semaphores, memory, messages, inside_files, count };
 
-/// True if another process of the family is alive.
-bool has_others();
-/// True if there may have been another.
-bool had_others();
-/// True if the process is alive; a zombie is not.
-bool lives(pid_t process);
-/// getpid(), without the system call.
-pid_t this_process();
+inline constexpr int processes_max = 1024;
+/// The number of the first process; the others count on, with their threads.
+inline constexpr pid_t first_id = 1000;
+/// The parent of a process whose parent has ended.
+inline constexpr pid_t no_parent = 1;
 
-/// Zeroed memory at the same address in all processes; null if exhausted. Within a Section.
+/// A signal sent by another process.
+struct Letter {
+  siginfo_t information;
+  pid_t thread = 0;  ///< its receiver; 0: the process
+};
+
+struct Process {
+  enum class State : std::uint8_t {
+    none,
+    alive,
+    stopped,
+    ended,  ///< until its parent has taken note
+  };
+  State state = State::none;
+  bool is_native = false;       ///< it executes a program that cannot be simulated
+  bool borrows = false;         ///< made by vfork(): its parent waits until it executes a program
+  bool continued = false;       ///< since its parent last took note
+  bool is_unnoted = false;      ///< it was stopped since its parent last took note
+  bool drops_children = false;  ///< it ignores SIGCHLD: its children leave no status
+  pid_t id = 0;
+  pid_t parent = no_parent;
+  pid_t group = 0, session = 0;
+  std::atomic<pid_t> real_id = 0;  ///< of the system; 0 until it is known
+  int status = 0;                  ///< of its end or stop, as waitpid() reports it
+  int exit_status = 0;             ///< once it has called exit()
+
+  // The turn (turn.hpp).
+  kernel::EventKey next = kernel::EventKey::never();  ///< the key of its least event, while another has the turn
+  std::atomic<std::uint32_t> has_turn = 0;            ///< a futex
+  bool listens = false;                               ///< its threads wait for what other processes may do
+  bool is_rung = false;                               ///< one of them did something since, first at `rung_at`
+  Time rung_at;
+  bool waits_outside = false;
+  Time looked_at = Time::from_ns(-1);  ///< the instant at whose end it last looked outside
+
+  pid_t waits_for = 0;  ///< the holder of a file lock; 0: none
+  int letters = 0;
+  static constexpr int letters_max = 32;
+  Letter inbox[letters_max];
+  /// The descriptors that are inside, handed over to the next program that the process executes; a bit each.
+  static constexpr int descriptors_max = 4096;
+  std::uint64_t inside[descriptors_max / 64] = {};
+  PairDigest digest;  ///< of its events; the first process has its robot's
+};
+
+/// What the process adds to the family's digest, whether it has ended or not: a sum, as they end in any order.
+inline std::uint64_t share_of_digest(const Process& process) {
+  if (process.digest.pairs() == 0) return 0;
+  Digest of_one;
+  of_one.add(static_cast<std::uint64_t>(process.id));
+  of_one.add(process.digest.value());
+  return of_one.value();
+}
+
+struct alignas(Arena::alignment) Family {
+  static constexpr std::uint64_t mark_of_version = 0x777066616D303031;  // "wpfam001"
+  std::uint64_t mark = mark_of_version;
+  Settings settings;
+  RunFile file;
+  Arena arena;
+  void* parts[static_cast<int>(Part::count)] = {};
+  Time now;  ///< of the event now executing
+  pid_t last_id = first_id - 1;
+  std::uint32_t alive = 0;  ///< number of processes that take turns
+  std::uint32_t made = 0;   ///< number of all so far
+  Time first_ended_at;      ///< the end of the first process
+  bool is_over = false;     ///< no process can continue: each reports its threads, and ends
+  bool is_cut_off = false;  ///< or those left over after the end of the first end without a report
+  bool is_reported = false;
+  std::atomic<std::uint32_t> holder = 0;  ///< the index of the process that has the turn
+  std::atomic<pid_t> leaving = 0;  ///< the system's number of a process that has ended, as far as its own code goes
+  std::uint64_t digest_of_ended = 0;
+  std::uint64_t hand_overs = 0;
+  std::uint32_t threads_made = 0;
+  std::uint64_t events_of_ended = 0, switches_of_ended = 0;
+  Process processes[processes_max];
+};
+
+/// Null before the run.
+extern Family* family;
+/// The calling process; null before the run.
+extern Process* own;
+
+/// The shared state of a part, zeroed at the first call with a size; before that null.
+void* common(Part part, std::size_t bytes);
+
+/// Zeroed memory at the same address in all processes; null if exhausted.
 void* take(std::size_t bytes);
 void give(void* memory);
 /// The same in whole pages, untouched; to be given back with the same size.
 void* take_pages(std::size_t bytes);
 void give_pages(void* pages, std::size_t bytes);
-
-/// The shared state of a part of the layer, zeroed at the first call with a size; before that null. Within a Section.
-enum class Part { names, futexes, semaphores, memory, messages, count };
-void* common(Part part, std::size_t bytes);
-
-/// A critical section, exclusive among the processes of the family. Not to be nested; no waits within.
-class Section {
- public:
-  /// No effect if not `needed`.
-  explicit Section(bool needed = true);
-  ~Section();
-  Section(const Section&) = delete;
-  Section& operator=(const Section&) = delete;
-
- private:
-  const bool entered_;
-};
-
-/// Threads of this process wait, or no longer wait, for other processes of the family.
-void note_waiting(bool waiting);
-/// This process waits for a file lock of `holder`; with 0, for none. False if `holder` waits for this process, directly
-/// or through others.
-bool note_waiting_for(pid_t holder);
-/// After a change: makes the processes that wait check again.
-void ring();
-/// True if a signal is the ring of another process.
-bool is_ring(const siginfo_t& information);
 
 }  // namespace waitpoint::posix::family

@@ -2,6 +2,7 @@
 //
 // Calls that make, duplicate and close descriptors: they note which of them only this program has.
 #include "fibers/posix/input_output/descriptor_table.hpp"
+#include "fibers/posix/family/processes.hpp"
 
 #include <fcntl.h>
 #include <linux/close_range.h>
@@ -65,10 +66,22 @@ int replaced(int from, int to, int made) {
 
 static_assert(sizeof(struct flock) == sizeof(struct flock64), "fcntl() and fcntl64() take the same record");
 
+// A process, or a group as a negative number.
+long owner_in_system(const void* argument) {
+  const auto owner = static_cast<int>(reinterpret_cast<std::intptr_t>(argument));
+  return owner < 0 ? -family::in_system(-owner) : family::in_system(owner);
+}
+int owner_in_family(int owner) {
+  const family::Process* const process = family::find_in_system(owner < 0 ? -owner : owner);
+  return process == nullptr ? owner : owner < 0 ? -process->group : process->id;
+}
+
 int control(int descriptor, int command, void* argument) {
   if (is_simulated() && (command == F_SETLKW || command == F_OFD_SETLKW) && can_be_read(argument))
     return lock_waiting(descriptor, command, *static_cast<struct flock*>(argument));
+  if (command == F_SETOWN) return WAITPOINT_NEXT(fcntl)(descriptor, command, owner_in_system(argument));
   const int result = WAITPOINT_NEXT(fcntl)(descriptor, command, argument);
+  if (command == F_GETOWN) return owner_in_family(result);
   return command == F_DUPFD || command == F_DUPFD_CLOEXEC ? copy(descriptor, result) : result;
 }
 

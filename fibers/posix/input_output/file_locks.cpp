@@ -10,7 +10,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 
@@ -30,7 +30,8 @@ bool closes_a_cycle(const Locking& locking) {
   if (locking.operation != F_SETLK) return false;
   struct flock holder = *locking.lock;
   if (WAITPOINT_NEXT(fcntl)(locking.descriptor, F_GETLK, &holder) != 0 || holder.l_type == F_UNLCK) return false;
-  return !family::note_waiting_for(holder.l_pid);
+  const family::Process* const process = family::find_in_system(holder.l_pid);
+  return process != nullptr && !family::note_waiting_for(process->id);
 }
 
 bool try_lock(const void* what) {

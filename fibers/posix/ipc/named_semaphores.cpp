@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/order.hpp"
 #include "fibers/posix/ipc/named_objects.hpp"
 
 namespace waitpoint::posix {
@@ -85,7 +85,6 @@ int make_named(const char* name, unsigned count, int& at) {
 int open(const char* name, int flags, unsigned count, int& at) {
   if (!is_name(name)) return EINVAL;
   if (*name == '/') ++name;
-  const family::Section section;
   if (all_names() == nullptr) return ENOMEM;
   at = find_named(name);
   const bool exists = at < names_max;
@@ -102,12 +101,10 @@ int open(const char* name, int flags, unsigned count, int& at) {
 }  // namespace
 
 void share_named_semaphores() {
-  const family::Section section;
   if (all_names() != nullptr) names->has_forked = true;
 }
 
 void forget_named_semaphores() {
-  const family::Section section;
   for (int at = 0; names != nullptr && at < names_max; ++at) {
     if (names->at[at] == nullptr) continue;
     names->at[at]->unlinked = true;
@@ -139,7 +136,6 @@ WAITPOINT_INTERPOSED sem_t* sem_open(const char* name, int flags, ...) noexcept 
 }
 
 WAITPOINT_INTERPOSED int sem_close(sem_t* semaphore) noexcept {
-  const family::Section section;
   for (int at = 0; names != nullptr && at < names_max; ++at) {
     if (opened[at] == 0 || &names->at[at]->semaphore != semaphore) continue;
     --opened[at];
@@ -151,7 +147,6 @@ WAITPOINT_INTERPOSED int sem_close(sem_t* semaphore) noexcept {
 
 WAITPOINT_INTERPOSED int sem_unlink(const char* name) noexcept {
   if (*name == '/') ++name;
-  const family::Section section;
   const int at = names != nullptr ? find_named(name) : names_max;
   if (at == names_max) return fail(ENOENT);
   names->at[at]->unlinked = true;

@@ -5,6 +5,7 @@
 
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -205,7 +206,6 @@ struct Awaited {
 bool is_done_or_undone(const void* what) {
   const auto& awaited = *static_cast<const Awaited*>(what);
   if (is_done(&awaited.waiting)) return true;
-  const family::Section section;
   return undo_of_ended(awaited.set) && is_done(&awaited.waiting);
 }
 
@@ -218,12 +218,10 @@ int wait_until_done(Set& set, Waiting& waiting, Time deadline) {
     if (ended != Wait::interrupted) continue;  // check again
     // The handler may leave by a jump, so the call is out of the list while it runs.
     {
-      const family::Section section;
       if (waiting.done) return waiting.result;
       remove(set.first, waiting);
     }
     if (is_interrupted(Restart::never)) return EINTR;
-    const family::Section section;
     if (set.removed) return EIDRM;
     append(set.first, waiting);
   }
@@ -250,14 +248,10 @@ int operate(int id, const sembuf* given, std::size_t count, Time deadline) {
   const bool may_wait = is_simulated() && deadline > kernel::running->local_time;
   Waiting* waiting = nullptr;
   int error = 0;
-  {
-    const family::Section section;
-    error = begin(*set, this_caller(), operations, count, may_wait || !is_simulated(), waiting);
-  }
+  { error = begin(*set, this_caller(), operations, count, may_wait || !is_simulated(), waiting); }
   if (waiting != nullptr) {
     if (!is_simulated()) refuse("a thread waits before main() begins");
     error = wait_until_done(*set, *waiting, deadline);
-    const family::Section section;
     remove(set->first, *waiting);
     family::give(waiting);
   }
@@ -267,7 +261,6 @@ int operate(int id, const sembuf* given, std::size_t count, Time deadline) {
 }
 
 void forget_semaphore_waiter(const kernel::Task& task) {
-  const family::Section section;
   for (int slot = 0; slot < sets().end(); ++slot) {
     Set* const set = sets().in_slot(slot);
     if (set == nullptr) continue;
@@ -281,13 +274,9 @@ void forget_semaphore_waiter(const kernel::Task& task) {
   }
 }
 
-void forget_semaphores() {
-  const family::Section section;
-  sets().clear();
-}
+void forget_semaphores() { sets().clear(); }
 
 void undo_semaphores_of(const Program& program) {
-  const family::Section section;
   const Caller caller{family::this_process(), &program};
   for (int slot = 0; slot < sets().end(); ++slot) {
     Set* const set = sets().in_slot(slot);

@@ -74,7 +74,6 @@ struct Set : Common {
 static_assert(alignof(Value) <= alignof(Set), "a set's values are behind it");
 
 using Sets = Table<Set, sets_max>;
-/// Within the family's section, as everything below.
 inline Sets& sets() { return table_of<Sets>(family::Part::semaphores); }
 
 /// After a change: completes the waiting calls that have become possible, one after the other.
@@ -84,7 +83,7 @@ void end_all(Set& set, int error);
 /// Reverts the SEM_UNDO operations of processes that have ended. True if there were any.
 bool undo_of_ended(Set& set);
 
-/// As semop(), until a deadline of virtual time. Outside the section.
+/// As semop(), until a deadline of virtual time.
 int operate(int id, const sembuf* operations, std::size_t count, Time deadline);
 
 }  // namespace waitpoint::posix::system_v

@@ -20,7 +20,7 @@
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waitable.hpp"
 
@@ -61,7 +61,7 @@ time_t date();
 /// A waitpoint; nothing before main().
 void pass_if_simulated(kernel::Operation operation, kernel::Object* object);
 
-/// Returns an object to the family's memory. Within the section.
+/// Returns an object to the family's memory.
 template <class T>
 void free_object(T& object) {
   if (Waitable* const known = find_waitable(&object, Known::kind_of_all); known != nullptr) forget(*known);
@@ -69,7 +69,7 @@ void free_object(T& object) {
   family::give(&object);
 }
 
-/// All objects of a kind, within the family's section. An identifier is a slot and the number of its earlier uses.
+/// All objects of a kind. An identifier is a slot and the number of its earlier uses.
 template <class T, int most>
 class Table {
   static_assert(most > 0 && most <= static_cast<int>(identifiers_a_slot), "identifiers of two slots would be equal");
@@ -143,20 +143,18 @@ class Table {
   int end_, count_;
 };
 
-/// A call in progress on an object, which is not freed before the call ends. Outside the section.
+/// A call in progress on an object, which is not freed before the call ends.
 template <class T>
 class Use {
  public:
-  /// On the object that `find` returns; it is called within the section.
+  /// On the object that `find` returns.
   template <class Find>
   explicit Use(Find find) {
-    const family::Section section;
     object_ = find();
     if (object_ != nullptr) ++object_->users;
   }
   ~Use() {
     if (object_ == nullptr) return;
-    const family::Section section;
     WAITPOINT_CHECK(object_->users > 0, "a call ends on an object that counts no calls");
     if (--object_->users == 0 && object_->removed) free_object(*object_);
   }
@@ -171,7 +169,7 @@ class Use {
   T* object_;
 };
 
-/// A new object of at least this size; null without memory. Within the section.
+/// A new object of at least this size; null without memory.
 template <class T>
 T* make_object(std::size_t size = sizeof(T)) {
   static_assert(alignof(T) <= alignof(std::max_align_t), "the family's memory is aligned for no more");
@@ -205,7 +203,7 @@ bool take_out_dead(T*& first, ProcessOf process_of, Drop drop) {
   return any;
 }
 
-/// The table of a kind. Within the section.
+/// The table of a kind.
 template <class T>
 T& table_of(family::Part part) {
   static_assert(std::is_trivially_default_constructible_v<T> && std::is_trivially_destructible_v<T>,

@@ -41,7 +41,7 @@ struct Attachment {
   Attachment* next;
 };
 
-/// In the family's memory. Everything below is called within its section.
+/// In the family's memory.
 struct Segments : Table<Segment, segments_max> {
   Attachment* first;
 };
@@ -171,7 +171,6 @@ int control(Segment& segment, int command, shmid_ds* status) {
 }  // namespace
 
 void forget_memory() {
-  const family::Section section;
   while (Attachment* const first = segments().first) {
     munmap(first->address, first->segment->mapped_bytes());
     drop(&segments().first);
@@ -180,7 +179,6 @@ void forget_memory() {
 }
 
 void inherit_memory(pid_t parent) {
-  const family::Section section;
   for (Attachment* each = segments().first; each != nullptr; each = each->next) {
     if (each->process != parent) continue;
     auto* const made = static_cast<Attachment*>(family::take(sizeof(Attachment)));
@@ -200,7 +198,6 @@ using namespace waitpoint::posix::system_v;
 
 WAITPOINT_INTERPOSED int shmget(key_t key, std::size_t size, int flags) noexcept {
   pass_if_simulated(kernel::Operation::open, nullptr);
-  const family::Section section;
   drop_dead();
   return segments().get(
       key, flags, [&](const Segment& segment) { return size > segment.size ? EINVAL : 0; },
@@ -234,7 +231,6 @@ WAITPOINT_INTERPOSED void* shmat(int id, const void* address, int flags) noexcep
   if (!segment || at % SHMLBA != 0 || (at == 0 && (flags & SHM_REMAP) != 0)) return failing(EINVAL);
   if (!is_allowed(*segment, (flags & SHM_RDONLY) != 0 ? 4 : 6)) return failing(EACCES);
   pass_if_simulated(kernel::Operation::open, &object_of(*segment));
-  const family::Section section;
   if (segment->removed) return failing(EIDRM);
   void* const wanted = reinterpret_cast<void*>(at);
   if (wanted != nullptr && (flags & SHM_REMAP) == 0 && !is_free(wanted, segment->mapped_bytes()))
@@ -245,7 +241,6 @@ WAITPOINT_INTERPOSED void* shmat(int id, const void* address, int flags) noexcep
 
 WAITPOINT_INTERPOSED int shmdt(const void* address) noexcept {
   pass_if_simulated(kernel::Operation::close, nullptr);
-  const family::Section section;
   Attachment** link = &segments().first;
   while (*link != nullptr && ((*link)->address != address || (*link)->process != family::this_process()))
     link = &(*link)->next;
@@ -259,7 +254,6 @@ WAITPOINT_INTERPOSED int shmctl(int id, int command, shmid_ds* status) noexcept 
   if (command < 0 || id < 0) return fail(EINVAL);
   if (command == IPC_INFO || command == SHM_INFO) {
     if (!has_memory(command, true, status)) return fail(EFAULT);
-    const family::Section section;
     return command == IPC_INFO ? tell_limits(status) : tell_use(status);
   }
   const bool by_slot = command == SHM_STAT || command == SHM_STAT_ANY;
@@ -272,7 +266,6 @@ WAITPOINT_INTERPOSED int shmctl(int id, int command, shmid_ds* status) noexcept 
     return segment->id;
   }
   pass_if_simulated(kernel::Operation::modify, &object_of(*segment));
-  const family::Section section;
   drop_dead();
   return segment->removed ? fail(EIDRM) : control(*segment, command, status);
 }

@@ -82,7 +82,6 @@ using namespace waitpoint::posix::system_v;
 
 WAITPOINT_INTERPOSED int msgget(key_t key, int flags) noexcept {
   pass_if_simulated(kernel::Operation::open, nullptr);
-  const family::Section section;
   return queues().get(
       key, flags, [](const Queue&) { return 0; },
       [](Queue*& made) {
@@ -129,7 +128,6 @@ WAITPOINT_INTERPOSED int msgctl(int id, int command, msqid_ds* status) noexcept 
   if (id < 0 || command < 0) return fail(EINVAL);
   if (command == IPC_INFO || command == MSG_INFO) {
     if (!has_memory(command, true, status)) return fail(EFAULT);
-    const family::Section section;
     return tell_limits(status, command == MSG_INFO);
   }
   const bool by_slot = command == MSG_STAT || command == MSG_STAT_ANY;
@@ -142,6 +140,5 @@ WAITPOINT_INTERPOSED int msgctl(int id, int command, msqid_ds* status) noexcept 
     return queue->id;
   }
   pass_if_simulated(kernel::Operation::modify, &object_of(*queue));
-  const family::Section section;
   return queue->removed ? fail(EIDRM) : control(*queue, command, status);
 }

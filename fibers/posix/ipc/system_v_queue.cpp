@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -140,7 +141,6 @@ int send_message(Queue& queue, long type, const char* bytes, std::size_t size, i
   const Sending sending{queue, size};
   for (;;) {
     {
-      const family::Section section;
       if (queue.removed) return fail(EIDRM);
       if (has_room(queue, size)) {
         const int error = put(queue, type, bytes, size);
@@ -192,13 +192,11 @@ int wait_for_message(Queue& queue, Receiving& receiving, const CancellationPoint
     if (is_done(&receiving)) break;
     if (ended != Wait::interrupted) continue;  // check again
     {
-      const family::Section section;
       if (is_done(&receiving)) break;
       posix::remove(queue.first_receiving, receiving);
     }
     if (point.was_cancelled()) return ECANCELED;
     if (is_interrupted(Restart::never)) return EINTR;
-    const family::Section section;
     if (queue.removed) return EIDRM;
     posix::append(queue.first_receiving, receiving);
   }
@@ -212,7 +210,6 @@ ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
   pass_if_simulated(kernel::Operation::receive, &object_of(queue));
   Receiving* receiving = nullptr;
   {
-    const family::Section section;
     if (queue.removed) return fail(EIDRM);
     if (Message** const link = find_message(queue, wanted); *link != nullptr) {
       Message& message = **link;
@@ -230,7 +227,6 @@ ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
   const int error = wait_for_message(queue, *receiving, point);
   ssize_t taken = -1;
   {
-    const family::Section section;
     Message* const message = receiving->message;
     WAITPOINT_CHECK(error != 0 || message != nullptr, "a receiver ends without a message and without an error");
     family::give(receiving);
@@ -242,7 +238,6 @@ ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
 }
 
 void forget_message_waiter(const kernel::Task& task) {
-  const family::Section section;
   for (int slot = 0; slot < queues().end(); ++slot) {
     Queue* const queue = queues().in_slot(slot);
     if (queue == nullptr) continue;
@@ -256,9 +251,6 @@ void forget_message_waiter(const kernel::Task& task) {
   }
 }
 
-void forget_messages() {
-  const family::Section section;
-  queues().clear();
-}
+void forget_messages() { queues().clear(); }
 
 }  // namespace waitpoint::posix::system_v

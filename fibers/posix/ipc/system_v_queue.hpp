@@ -63,15 +63,14 @@ struct Queue : Common {
 };
 
 using Queues = Table<Queue, queues_max>;
-/// Within the family's section.
 inline Queues& queues() { return table_of<Queues>(family::Part::messages); }
 
-/// As msgsnd(), but ECANCELED if the thread was cancelled. Outside the section, as the next.
+/// As msgsnd(), but ECANCELED if the thread was cancelled.
 int send_message(Queue& queue, long type, const char* bytes, std::size_t size, int flags);
 /// As msgrcv(), but ECANCELED if the thread was cancelled.
 ssize_t take_message(Queue& queue, const Wanted& wanted, void* to);
 
-/// Wakes the senders that wait for room. Within the section, as the next.
+/// Wakes the senders that wait for room.
 void wake_senders(const Queue& queue);
 /// Ends all waiting calls, receivers with this error.
 void end_all(Queue& queue, int error);

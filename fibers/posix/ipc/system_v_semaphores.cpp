@@ -131,7 +131,6 @@ using namespace waitpoint::posix::system_v;
 WAITPOINT_INTERPOSED int semget(key_t key, int size, int flags) noexcept {
   if (size < 0 || size > semaphores_a_set_max) return fail(EINVAL);
   pass_if_simulated(kernel::Operation::open, nullptr);
-  const family::Section section;
   return sets().get(
       key, flags, [&](const Set& set) { return size > set.size ? EINVAL : 0; },
       [&](Set*& made) {
@@ -164,7 +163,6 @@ WAITPOINT_INTERPOSED int semctl(int id, int number, int command, ...) noexcept {
   if (id < 0) return fail(EINVAL);
   if (command == IPC_INFO || command == SEM_INFO) {
     if (!has_memory(command, true, argument.information)) return fail(EFAULT);
-    const family::Section section;
     return tell_limits(argument.information, command == SEM_INFO);
   }
   const bool by_slot = command == SEM_STAT || command == SEM_STAT_ANY;
@@ -178,7 +176,6 @@ WAITPOINT_INTERPOSED int semctl(int id, int number, int command, ...) noexcept {
     return set->id;
   }
   pass_if_simulated(kernel::Operation::modify, &object_of(*set));
-  const family::Section section;
   if (set->adjustments != nullptr) undo_of_ended(*set);
   if (set->removed) return fail(EIDRM);
   switch (command) {

@@ -31,7 +31,7 @@ struct Datagram {
   char* bytes() { return reinterpret_cast<char*>(this + 1); }
 };
 
-void arrive(void* message) {
+void arrive_datagram(void* message) {
   auto& datagram = *static_cast<Datagram*>(message);
   WAITPOINT_CHECK(datagram.descriptor >= 0 && datagram.to.length <= sizeof datagram.to.bytes,
                   "a datagram arrives without a socket or a destination");
@@ -42,7 +42,7 @@ void arrive(void* message) {
   look_at_descriptors();
 }
 
-void drop(void* message) {
+void drop_datagram(void* message) {
   const ErrorNumberKept kept;
   WAITPOINT_NEXT(close)(static_cast<Datagram*>(message)->descriptor);
   std::free(message);
@@ -85,9 +85,10 @@ bool send_over_link(int descriptor, const msghdr& message, std::size_t& size) {
   }
   WAITPOINT_CHECK(at == datagram->bytes() + size, "the parts of a datagram have another size than their sum");
   pass(kernel::Operation::send, nullptr);
-  if (carrier->carry(carrier->network, *this_program().robot, *receiver->robot, size, arrive, drop, datagram))
+  if (carrier->carry(carrier->network, *this_program().robot, *receiver->robot, size, arrive_datagram, drop_datagram,
+                     datagram))
     return true;
-  drop(datagram);
+  drop_datagram(datagram);
   return false;
 }
 

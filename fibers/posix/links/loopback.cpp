@@ -19,12 +19,12 @@ constexpr int longest_queue = 4096;  // of connections; the system's maximum
 constexpr int sent_most = 1 << 15, received_most = 1 << 16;
 static_assert(sent_most < received_most, "the receiver has room for all data that is not acknowledged");
 
-struct Stream {
+struct LoopbackStream {
   bool is_at_once : 1;  ///< the system delays nothing
   bool asked_for : 1;   ///< TCP_NODELAY as set by the program
 };
 // Indexed by descriptor.
-constinit Stream streams[known_descriptors_max]{};
+constinit LoopbackStream streams[known_descriptors_max]{};
 
 bool is_known(int descriptor) { return descriptor >= 0 && descriptor < known_descriptors_max; }
 

@@ -3,6 +3,7 @@
 // Calls that end a process. If it is several programs, they end only the calling one.
 #include <assert.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,7 @@
 #include <cstdlib>
 
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/members/members.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -37,12 +39,14 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED void exit(int status) {
   if (runs_in_member()) exit_member(status);
+  if (family::own != nullptr) family::own->exit_status = status;
   WAITPOINT_NEXT(exit)(status);
   __builtin_unreachable();
 }
 
 WAITPOINT_INTERPOSED void _exit(int status) {
   if (runs_in_member()) end_member(status);
+  family::leave(W_EXITCODE(status & 0xFF, 0));
   WAITPOINT_NEXT(_exit)(status);
   __builtin_unreachable();
 }

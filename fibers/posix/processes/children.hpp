@@ -12,6 +12,9 @@ void register_fork();
 bool is_guest();
 /// Called before the running thread makes a child.
 void before_child();
+/// The running thread has made, or is about to make, a child whose end only the system notes: from now on its signal is
+/// noticed even if no handler is set.
+void await_child_in_system();
 /// Forks by `real(argument)`, which is as fork(). `calls_handlers`: it calls those of pthread_atfork().
 pid_t fork_by(pid_t (*real)(const void*), const void* argument, bool calls_handlers);
 

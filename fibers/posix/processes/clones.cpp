@@ -18,6 +18,7 @@
 #include "fibers/posix/base/system_call_words.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/pace.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/processes/children.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
@@ -82,6 +83,10 @@ int make_thread(const Clone& clone) {
 // In the child no thread is running: its calls go to the C library.
 int lend_memory(const Clone& clone) {
   before_child();
+  family::Process* const made = family::expect_child();
+  if (made == nullptr) return fail(EAGAIN);
+  family::set_native(*made, true);
+  await_child_in_system();
   kernel::running->scheduler->close_fast_path();
   kernel::Task* const task = std::exchange(kernel::running, nullptr);
   const int child = WAITPOINT_NEXT(clone)(clone.function, clone.stack, static_cast<int>(clone.flags | CLONE_VFORK),
@@ -89,9 +94,31 @@ int lend_memory(const Clone& clone) {
   WAITPOINT_CHECK(kernel::running == nullptr, "a process that borrowed the memory has left a running task");
   kernel::running = task;
   const ErrorNumberKept kept;
-  if (child > 0) note_child(child);
+  if (child > 0) note_native_child(child);
+  const pid_t id = made->id;
+  family::note_child(*made, child);
+  if (child > 0 && (clone.flags & CLONE_PARENT_SETTID) != 0) *clone.parent_id = id;
   look_at_descriptors();
-  return child;
+  return child > 0 ? id : child;
+}
+
+// The system has written its own number of the child.
+void correct_ids(long number, const CallWords& words, pid_t child) {
+  std::uint64_t flags = 0;
+  int *of_parent = nullptr, *of_child = nullptr;
+  if (number == SYS_clone3) {
+    const clone_args& arguments = *words.word<const clone_args*>(0);
+    flags = arguments.flags;
+    of_parent = reinterpret_cast<int*>(arguments.parent_tid);
+    of_child = reinterpret_cast<int*>(arguments.child_tid);
+  } else if (number == SYS_clone) {
+    flags = static_cast<std::uint64_t>(words.at[0]);
+    of_parent = words.word<int*>(2);
+    of_child = words.word<int*>(3);
+  }
+  if (child > 0 && (flags & CLONE_PARENT_SETTID) != 0) *of_parent = child;
+  if (child == 0 && (flags & CLONE_PARENT_SETTID) != 0) *of_parent = family::own->id;
+  if (child == 0 && (flags & CLONE_CHILD_SETTID) != 0) *of_child = family::own->id;
 }
 
 long fork_by_number(long number, const CallWords& words) {
@@ -105,7 +132,9 @@ long fork_by_number(long number, const CallWords& words) {
         WAITPOINT_NEXT(syscall)(of, with.at[0], with.at[1], with.at[2], with.at[3], with.at[4], with.at[5]));
   };
   const Call call{number, words};
-  return fork_by(real, &call, false);
+  const pid_t child = fork_by(real, &call, false);
+  correct_ids(number, words, child);
+  return child;
 }
 
 int fork_and_call(const Clone& clone) {

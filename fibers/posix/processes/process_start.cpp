@@ -14,6 +14,9 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/pace.hpp"
+#include "fibers/posix/family/turn.hpp"
+#include "fibers/posix/processes/children.hpp"
+#include "fibers/posix/processes/executable.hpp"
 #include "fibers/posix/processes/started_programs.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -62,18 +65,69 @@ class Words {
   char** words_;
 };
 
-int note_started(int error, const pid_t* child) {
-  if (error == 0 && child != nullptr && is_simulated()) note_child(*child);
+/// A child that executes a program, and does not exist yet.
+class Child {
+ public:
+  explicit Child(bool is_simulated) : is_simulated_(is_simulated) {
+    pass(kernel::Operation::start, nullptr);
+    note_start(!is_simulated);
+    process_ = family::expect_child();
+    if (process_ == nullptr || is_simulated) return;
+    family::set_native(*process_, true);
+    await_child_in_system();
+  }
+  bool has_room() const { return process_ != nullptr; }
+  /// Null if it is native.
+  const family::Process* simulated() const { return is_simulated_ ? process_ : nullptr; }
+  /// `error`: of posix_spawn(). Returns its number.
+  pid_t note(int error, pid_t in_system) {
+    const pid_t id = process_->id;
+    family::note_child(*process_, error == 0 ? in_system : -1);
+    if (error == 0 && !is_simulated_) note_native_child(in_system);
+    return id;
+  }
+
+ private:
+  bool is_simulated_;
+  family::Process* process_;
+};
+
+bool is_to_be_simulated(const char* path) { return record->settings.simulates_started && can_be_simulated(path); }
+
+using Spawn = decltype(&posix_spawn);
+int spawn(Spawn real, const char* path, pid_t* child, const char* file, const posix_spawn_file_actions_t* actions,
+          const posix_spawnattr_t* attributes, char* const* words, char* const* environment) {
+  if (!is_simulated()) return real(child, file, actions, attributes, words, environment);
+  if (is_guest()) return ENOSYS;
+  Child made(is_to_be_simulated(path));
+  if (!made.has_room()) return EAGAIN;
+  const StartEnvironment started(environment, made.simulated());
+  const RealMask mask;
+  pid_t in_system = 0;
+  const int error = real(&in_system, file, actions, attributes, words, started.get());
+  const pid_t id = made.note(error, in_system);
+  if (error == 0 && child != nullptr) *child = id;
   return error;
 }
 
-void before_start(const posix_spawn_file_actions_t* actions) {
-  if (!is_simulated()) return;
+/// The calling process executes a program; returns only if that fails.
+template <class Call>
+int execute(const char* path, char* const* environment, Call call) {
+  if (!is_simulated() || family::own == nullptr) return call(environment);
+  const bool simulated = is_to_be_simulated(path);
   pass(kernel::Operation::start, nullptr);
-  // File actions may pass any descriptor to it.
-  actions != nullptr ? note_fork() : note_start();
-  signals_of_program.ever_blocked |= only(SIGCHLD);
-  install(SIGCHLD);
+  note_start(!simulated);
+  const StartEnvironment started(environment, simulated ? family::own : nullptr);
+  family::own->next.time = kernel::running->local_time;
+  if (!simulated && family::has_others()) family::let_execute_natively(true);
+  int result = 0;
+  {
+    const RealMask mask;
+    result = call(started.get());
+  }
+  const ErrorNumberKept kept;
+  if (family::own->is_native) family::let_execute_natively(false);
+  return result;
 }
 
 // system() ignores SIGINT and SIGQUIT while the shell runs, and blocks SIGCHLD.
@@ -119,21 +173,21 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int execve(const char* path, char* const* words, char* const* environment) noexcept {
-  const StartEnvironment started(environment);
-  const RealMask mask;
-  return WAITPOINT_NEXT(execve)(path, words, started.get());
+  return execute(path, environment,
+                 [&](char* const* variables) { return WAITPOINT_NEXT(execve)(path, words, variables); });
 }
 WAITPOINT_INTERPOSED int execv(const char* path, char* const* words) noexcept { return execve(path, words, environ); }
 WAITPOINT_INTERPOSED int execvpe(const char* file, char* const* words, char* const* environment) noexcept {
-  const StartEnvironment started(environment);
-  const RealMask mask;
-  return WAITPOINT_NEXT(execvpe)(file, words, started.get());
+  const FoundProgram found(file);
+  return execute(found.path(), environment,
+                 [&](char* const* variables) { return WAITPOINT_NEXT(execvpe)(file, words, variables); });
 }
 WAITPOINT_INTERPOSED int execvp(const char* file, char* const* words) noexcept { return execvpe(file, words, environ); }
 WAITPOINT_INTERPOSED int fexecve(int descriptor, char* const* words, char* const* environment) noexcept {
-  const StartEnvironment started(environment);
-  const RealMask mask;
-  return WAITPOINT_NEXT(fexecve)(descriptor, words, started.get());
+  char path[40];
+  std::snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
+  return execute(path, environment,
+                 [&](char* const* variables) { return WAITPOINT_NEXT(fexecve)(descriptor, words, variables); });
 }
 
 WAITPOINT_INTERPOSED int execl(const char* path, const char* first, ...) noexcept {
@@ -161,39 +215,14 @@ WAITPOINT_INTERPOSED int execle(const char* path, const char* first, ...) noexce
 
 WAITPOINT_INTERPOSED int posix_spawn(pid_t* child, const char* path, const posix_spawn_file_actions_t* actions,
                                      const posix_spawnattr_t* attributes, char* const* words,
-                                     char* const* environment) noexcept {
-  pid_t made = 0;
-  before_start(actions);
-  const StartEnvironment started(environment);
-  const RealMask mask;
-  const int error =
-      note_started(WAITPOINT_NEXT(posix_spawn)(&made, path, actions, attributes, words, started.get()), &made);
-  if (error == 0 && child != nullptr) *child = made;
-  return error;
+                                     char* const* environment) {
+  return spawn(WAITPOINT_NEXT(posix_spawn), path, child, path, actions, attributes, words, environment);
 }
 WAITPOINT_INTERPOSED int posix_spawnp(pid_t* child, const char* file, const posix_spawn_file_actions_t* actions,
                                       const posix_spawnattr_t* attributes, char* const* words,
-                                      char* const* environment) noexcept {
-  pid_t made = 0;
-  before_start(actions);
-  const StartEnvironment started(environment);
-  const RealMask mask;
-  const int error =
-      note_started(WAITPOINT_NEXT(posix_spawnp)(&made, file, actions, attributes, words, started.get()), &made);
-  if (error == 0 && child != nullptr) *child = made;
-  return error;
-}
-
-WAITPOINT_INTERPOSED FILE* popen(const char* command, const char* type) {
-  before_start(nullptr);
-  const StartEnvironment started(environ);
-  const RealMask mask;
-  // The C library starts the shell with `environ`.
-  char** const own = environ;
-  environ = const_cast<char**>(started.get());
-  FILE* const stream = WAITPOINT_NEXT(popen)(command, type);
-  environ = own;
-  return stream;
+                                      char* const* environment) {
+  const FoundProgram found(file);
+  return spawn(WAITPOINT_NEXT(posix_spawnp), found.path(), child, file, actions, attributes, words, environment);
 }
 
 WAITPOINT_INTERPOSED int system(const char* command) {

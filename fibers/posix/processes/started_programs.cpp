@@ -2,10 +2,7 @@
 #include "fibers/posix/processes/started_programs.hpp"
 
 #include <dlfcn.h>
-#include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/personality.h>
-#include <unistd.h>
 
 #include <climits>
 #include <cstdio>
@@ -15,36 +12,14 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
-constexpr int out_of_the_way = 512;
 constexpr char preload[] = "LD_PRELOAD=";
-
-// A record for another run with the settings of this one; -1 if it cannot be made.
-int make_record() {
-  const int made = memfd_create("waitpoint-exec", 0);
-  if (made < 0) return -1;
-  const int moved = WAITPOINT_NEXT(fcntl)(made, F_DUPFD, out_of_the_way);
-  const int descriptor = moved >= 0 ? moved : made;
-  if (moved >= 0) WAITPOINT_NEXT(close)(made);
-  void* memory = MAP_FAILED;
-  if (ftruncate(descriptor, record_bytes) == 0)
-    memory = mmap(nullptr, sizeof(Record), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
-  if (memory == MAP_FAILED) {
-    WAITPOINT_NEXT(close)(descriptor);
-    return -1;
-  }
-  auto& fresh = *new (memory) Record();
-  fresh.settings = record->settings;
-  fresh.settings.traced = fresh.settings.instrumented = false;
-  fresh.settings.is_started = true;
-  munmap(memory, sizeof(Record));
-  return descriptor;
-}
 
 // The library's own file.
 const char* library() {
@@ -58,12 +33,13 @@ bool begins_with(const char* text, const char* with) { return std::strncmp(text,
 
 }  // namespace
 
-StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
+StartEnvironment::StartEnvironment(char* const* given, const family::Process* process) : given_(given) {
   if (!is_simulated() || given == nullptr) return;
-  place_at_random();
-  if (!record->settings.simulates_started) return;
+  if (process == nullptr) {
+    place_at_random();
+    return;
+  }
   const ErrorNumberKept kept;
-  if ((record_ = make_record()) < 0) return;
   std::size_t count = 0;
   while (given[count] != nullptr) ++count;
   const char* others = "";
@@ -76,7 +52,10 @@ StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
   made_ = reinterpret_cast<char**>(memory);
   const int preload_length =
       std::snprintf(memory + list, first, "%s%s%s%s", preload, library(), *others != '\0' ? ":" : "", others);
-  const int record_length = std::snprintf(memory + list + first, 64, "%s=%d", record_variable, record_);
+  // Of one length in every run: the addresses on the stack depend on it.
+  const RunFile& file = family::family->file;
+  const int record_length = std::snprintf(memory + list + first, 64, "%s=%09d:%05d:%04d", record_variable, file.watcher,
+                                          file.descriptor, static_cast<int>(process - family::family->processes));
   WAITPOINT_CHECK(
       preload_length > 0 && static_cast<std::size_t>(preload_length) < first && record_length > 0 && record_length < 64,
       "a started program's variables do not fit into their memory");
@@ -84,13 +63,13 @@ StartEnvironment::StartEnvironment(char* const* given) : given_(given) {
   made_[at++] = memory + list;
   made_[at++] = memory + list + first;
   for (std::size_t i = 0; i < count; ++i)
-    if (!begins_with(given[i], preload)) made_[at++] = given[i];
+    if (!begins_with(given[i], preload) && !begins_with(given[i], record_variable)) made_[at++] = given[i];
   WAITPOINT_CHECK(at <= count + 2, "a started program has more variables than there is room for");
   made_[at] = nullptr;
 }
 
-// Started programs inherit the traps of system calls, which depend on the C library's address, but have no handler for
-// them, at least not before main(): their C library must be at another address.
+// Native programs inherit the traps of system calls, which depend on the C library's address, but have no handler for
+// them: their C library must be at another address.
 void StartEnvironment::place_at_random() {
   if (!are_library_calls_trapped()) return;
   persona_ = personality(0xFFFFFFFF);
@@ -100,7 +79,6 @@ void StartEnvironment::place_at_random() {
 StartEnvironment::~StartEnvironment() {
   const ErrorNumberKept kept;
   if (persona_ >= 0) personality(static_cast<unsigned long>(persona_));
-  if (record_ >= 0) WAITPOINT_NEXT(close)(record_);
   std::free(made_);
 }
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs that a simulated one starts: native, unless the run simulates them too (Settings). Then each has a record of
-// its own, passed in its environment, and is not watched by `waitpoint exec`.
+// The environment of a program to be executed: it loads the layer's library, and names the family and the entry of the
+// process in it.
 #pragma once
 
 namespace waitpoint::posix {
 
-/// The environment of a program to be started; must live until then.
+namespace family {
+struct Process;
+}
+
 class StartEnvironment {
  public:
-  /// `given` as it is, or with the variables in front that make the program a simulation.
-  explicit StartEnvironment(char* const* given);
+  /// The variables `given`, and those that make the program a part of the simulation as `process`; null: it is native,
+  /// and has only those given. It must live until the start.
+  StartEnvironment(char* const* given, const family::Process* process);
   ~StartEnvironment();
   StartEnvironment(const StartEnvironment&) = delete;
   StartEnvironment& operator=(const StartEnvironment&) = delete;
@@ -21,7 +25,6 @@ class StartEnvironment {
 
   char* const* given_;
   char** made_ = nullptr;
-  int record_ = -1;
   int persona_ = -1;  ///< of this process, if it has to be restored
 };
 

@@ -75,6 +75,14 @@ std::optional<long> call_about_threads(long number, const CallWords& words) {
     case SYS_futex: return words.call(futex);
     case SYS_futex_waitv: return is_simulated() ? wait_for_any_futex(words) : call_system(number, words);
     case SYS_gettid: return gettid();
+    case SYS_getpid: return getpid();
+    case SYS_getppid: return getppid();
+    case SYS_getpgrp: return getpgrp();
+    case SYS_getpgid: return words.call(getpgid);
+    case SYS_setpgid: return words.call(setpgid);
+    case SYS_getsid: return words.call(getsid);
+    case SYS_setsid: return setsid();
+    case SYS_pidfd_open: return words.call(pidfd_open);
     case SYS_kill: return words.call(kill);
     case SYS_pidfd_send_signal: return words.call(pidfd_send_signal);
     case SYS_tgkill: return words.call(tgkill);
@@ -184,6 +192,7 @@ std::optional<long> call_about_processes(long number, const CallWords& words) {
       return waitid(static_cast<idtype_t>(words.at[0]), words.word<id_t>(1), words.word<siginfo_t*>(2),
                     words.word<int>(3));
     case SYS_execve: return words.call(execve);
+    case SYS_exit_group: _exit(words.word<int>(0));
     default: return std::nullopt;
   }
 }

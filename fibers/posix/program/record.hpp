@@ -28,6 +28,17 @@ inline constexpr int status_of_deadlock = 124, status_of_own_errors = 125;
 inline constexpr std::uintptr_t record_address = 0x2a00'0000'0000;
 inline constexpr std::size_t record_bytes = std::size_t{1} << 34;
 
+/// Behind it, in the same file: the memory that the processes of the program share (family/family.hpp).
+inline constexpr std::uintptr_t family_address = record_address + record_bytes;
+inline constexpr std::size_t family_bytes = std::size_t{1} << 34;
+inline constexpr std::size_t run_bytes = record_bytes + family_bytes;
+
+/// The file, as the processes that execute another program open it: a descriptor of the process that watches the run.
+struct RunFile {
+  int watcher = 0;  ///< process
+  int descriptor = -1;
+};
+
 struct Asked;
 struct Explored;
 struct RaceLog;
@@ -66,11 +77,12 @@ struct ProgramRecord {
   int status = 0;  ///< its exit status, once it has ended
 };
 
-struct Record {
-  static constexpr std::uint64_t mark_of_version = 0x7770657865633035;  // "wpexec05"
+struct alignas(Arena::alignment) Record {
+  static constexpr std::uint64_t mark_of_version = 0x7770657865633036;  // "wpexec06"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
+  RunFile file;
   /// Of a process with several programs, in the order of their names. None: it is one program.
   ProgramRecord* programs = nullptr;
   std::uint32_t program_count = 0;

@@ -11,7 +11,8 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/system_processes.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/timers/notification_threads.hpp"
@@ -32,7 +33,6 @@ namespace {
 LibraryRange guarded[3];
 const LibraryRange& c_library = guarded[1];
 
-std::atomic<bool> has_rung = false;
 bool has_bell = false;
 
 // Signals that have arrived and were not sent on yet: a ring buffer. It is written by a handler, which another may
@@ -73,6 +73,13 @@ void keep(const siginfo_t& information) {
   if (place.is_there.load()) return;  // the buffer is full: dropped, as by the system
   place.information = information;
   place.is_there.store(true);
+}
+
+// The system's notice of an end that the family has noted, or of a process that has just executed another program.
+bool is_end_of_member(const siginfo_t& information) {
+  if (information.si_signo != SIGCHLD || information.si_code <= 0 || family::own == nullptr) return false;
+  const family::Process* const child = family::find_in_system(information.si_pid);
+  return child == nullptr || !child->is_native;
 }
 
 bool is_handled(int signal) {
@@ -163,12 +170,11 @@ void handle_fault(int signal, siginfo_t* information, void* context) {
 }
 
 void catch_signal(int signal, siginfo_t* information, void* context) {
-  if (signal == bell && family::is_ring(*information)) return has_rung.store(true);
   if (signal == SIGSYS && answer_library_call(*information, context)) return;
   const int error = errno;
   // SIGPIPE and SIGXFSZ: this thread's own write.
-  const bool from_itself =
-      (information->si_code == SI_TKILL || signal == SIGPIPE || signal == SIGXFSZ) && information->si_pid == getpid();
+  const bool from_itself = (information->si_code == SI_TKILL || signal == SIGPIPE || signal == SIGXFSZ) &&
+                           information->si_pid == family::system_id();
   if (contains(faults, signal) && information->si_code > 0) {
     handle_fault(signal, information, context);
   } else if (is_simulated() && from_itself && !waits_really.load()) {
@@ -203,12 +209,11 @@ SignalSet interrupting = 0;  // siginterrupt()
 
 bool has_come_from_outside() {
   return next_kept.load(std::memory_order_relaxed) != next_taken.load(std::memory_order_relaxed) ||
-         has_rung.load(std::memory_order_relaxed);
+         (family::own != nullptr && family::own->letters > 0);
 }
 
 bool take_in_signals_from_outside() {
   bool any = false;
-  has_rung.store(false);
   // Signals that arrive during the loop are left for the next call: others may send them as fast as the loop runs.
   for (const unsigned end = next_kept.load(); next_taken.load() != end;) {
     Kept& place = kept[next_taken.load() % kept_max];
@@ -216,9 +221,16 @@ bool take_in_signals_from_outside() {
     const siginfo_t information = place.information;
     place.is_there.store(false);
     next_taken.fetch_add(1);
+    if (is_end_of_member(information)) continue;
     if (!ring_by_signal(information)) send(information, nullptr);
     any = true;
   }
+  for (int i = 0; family::own != nullptr && i < family::own->letters; ++i, any = true) {
+    const family::Letter& letter = family::own->inbox[i];
+    Thread* const thread = letter.thread != 0 ? thread_with_id(letter.thread) : nullptr;
+    if (letter.thread == 0 || (thread != nullptr && !thread->ended)) send(letter.information, thread);
+  }
+  if (family::own != nullptr) family::own->letters = 0;
   if (is_held_back.exchange(false)) let_come();
   return any;
 }
@@ -234,11 +246,13 @@ void install(int signal) {
   const bool is_default = !is_handled(signal);
   const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) ||
                                     (signal == SIGSYS && are_library_calls_trapped()) || (signal == bell && has_bell);
+  // The system's notices of ends that are events of the family come at any time: they could end a real wait.
+  const bool is_left_out = signal == SIGCHLD && family::own != nullptr && !family::has_native_child();
   const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
   if (is_default && action.sa_handler == SIG_IGN && !is_looked_for_always) {
     real.sa_flags &= ~SA_SIGINFO;
     real.sa_handler = SIG_IGN;
-  } else if (is_default && !is_looked_for) {
+  } else if ((is_default && !is_looked_for) || is_left_out) {
     real.sa_flags &= ~SA_SIGINFO;
     real.sa_handler = SIG_DFL;
   }
@@ -253,15 +267,17 @@ void install_bell() {
 void do_default(int signal) {
   WAITPOINT_CHECK(is_signal(signal), "the default action is taken for a number that is no signal");
   if (contains(stopping, signal)) {
-    WAITPOINT_NEXT(syscall)(SYS_kill, getpid(), SIGSTOP);
+    if (family::has_others()) return family::stop(signal);
+    WAITPOINT_NEXT(syscall)(SYS_kill, family::system_id(), SIGSTOP);
     return;
   }
+  family::leave(signal);
   struct sigaction real {};
   real.sa_handler = SIG_DFL;
   WAITPOINT_NEXT(sigaction)(signal, &real, nullptr);
   const sigset_t set = to_sigset(only(signal));
   WAITPOINT_NEXT(pthread_sigmask)(SIG_UNBLOCK, &set, nullptr);
-  WAITPOINT_NEXT(syscall)(SYS_kill, getpid(), signal);
+  WAITPOINT_NEXT(syscall)(SYS_kill, family::system_id(), signal);
 }
 
 void inherit_signals() {
@@ -296,6 +312,8 @@ WAITPOINT_INTERPOSED int sigaction(int signal, const struct sigaction* action, s
   const struct sigaction before = known;
   if (action != nullptr) {
     known = *action;
+    if (signal == SIGCHLD && family::own != nullptr)
+      family::own->drops_children = known.sa_handler == SIG_IGN || (known.sa_flags & SA_NOCLDWAIT) != 0;
     known.sa_mask = to_sigset(to_set(action->sa_mask) & ~unblockable);
     if (contains(interrupting, signal) && (action->sa_flags & SA_RESTART) != 0) interrupting &= ~only(signal);
     install(signal);

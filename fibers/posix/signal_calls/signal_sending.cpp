@@ -16,7 +16,9 @@ extern "C" {
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/process_descriptors.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -62,6 +64,41 @@ siginfo_t with_value(int signal, sigval value) {
   return information;
 }
 
+// To another process of the family. Returns an error number.
+int send_to_other(family::Process& process, const siginfo_t& information) {
+  using State = family::Process::State;
+  const int signal = information.si_signo;
+  if (signal == 0 || process.state == State::ended) return 0;
+  if (process.is_native) return WAITPOINT_NEXT(kill)(process.real_id, signal) == 0 ? 0 : errno;
+  if (signal == SIGKILL) {
+    family::kill_at_once(process);
+    look_at_descriptors();
+    return 0;
+  }
+  if (signal == SIGSTOP) family::note_stop_of(process, signal);
+  if (signal == SIGCONT) family::note_continuation_of(process);
+  if (signal == SIGSTOP) return 0;
+  return family::send_letter(process, information, 0) ? 0 : EAGAIN;
+}
+
+// As kill(). Returns an error number.
+int send_to_processes(pid_t to, const siginfo_t& information) {
+  bool any = false, own = false;
+  const pid_t group = to == 0 ? family::own->group : -to;
+  for (family::Process& process : family::family->processes) {
+    if (process.state == family::Process::State::none) continue;
+    const bool is_meant = to > 0 ? process.id == to : to == -1 ? &process != family::own : process.group == group;
+    if (!is_meant) continue;
+    any = true;
+    if (&process == family::own)
+      own = true;
+    else if (const int error = send_to_other(process, information); error != 0)
+      return error;
+  }
+  if (own && information.si_signo != 0) return send_here(information, nullptr);
+  return any ? 0 : ESRCH;
+}
+
 // Linux's limit of pending signals of a user.
 bool is_queue_full() {
   rlimit limit{};
@@ -90,14 +127,10 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int kill(pid_t process, int signal) noexcept {
-  if (!is_simulated() || process != getpid() || !is_signal(signal)) {
-    const int result = WAITPOINT_NEXT(kill)(process, signal);
-    // This process may be among the receivers.
-    if (is_simulated() && process <= 0 && take_in_signals_from_outside()) handle_signals();
-    return result;
-  }
+  if (!is_simulated() || family::own == nullptr) return WAITPOINT_NEXT(kill)(process, signal);
+  if (!is_number(signal)) return fail(EINVAL);
   pass(kernel::Operation::signal, nullptr);
-  const int error = send_here(from_here(signal, SI_USER), nullptr);
+  const int error = send_to_processes(process, from_here(signal, SI_USER));
   return error == 0 ? 0 : fail(error);
 }
 
@@ -111,25 +144,39 @@ WAITPOINT_INTERPOSED int raise(int signal) noexcept {
   return error == 0 ? 0 : fail(error);
 }
 
-WAITPOINT_INTERPOSED int tgkill(pid_t process, pid_t thread, int signal) noexcept {
-  if (!is_simulated() || process != getpid()) return WAITPOINT_NEXT(tgkill)(process, thread, signal);
-  if (thread <= 0) return fail(EINVAL);
+WAITPOINT_INTERPOSED int tgkill(pid_t process, pid_t thread, int signal) {
+  if (!is_simulated() || family::own == nullptr) return WAITPOINT_NEXT(tgkill)(process, thread, signal);
+  if (thread <= 0 || process <= 0) return fail(EINVAL);
+  if (process != getpid()) {
+    family::Process* const to = family::find(process);
+    if (to == nullptr) return fail(ESRCH);
+    if (signal != 0 && !family::send_letter(*to, from_here(signal, SI_TKILL), thread)) return fail(EAGAIN);
+    return 0;
+  }
   const int error = send_to_thread(thread_with_id(thread), from_here(signal, SI_TKILL));
   return error == 0 ? 0 : fail(error);
 }
 
 WAITPOINT_INTERPOSED int sigqueue(pid_t process, int signal, sigval value) noexcept {
-  if (!is_simulated() || process != getpid() || !is_signal(signal))
-    return WAITPOINT_NEXT(sigqueue)(process, signal, value);
-  const int error = send_as_told(with_value(signal, value));
+  if (!is_simulated() || family::own == nullptr) return WAITPOINT_NEXT(sigqueue)(process, signal, value);
+  if (!is_number(signal)) return fail(EINVAL);
+  if (process == getpid()) {
+    const int error = send_as_told(with_value(signal, value));
+    return error == 0 ? 0 : fail(error);
+  }
+  pass(kernel::Operation::signal, nullptr);
+  const int error = process > 0 ? send_to_processes(process, with_value(signal, value)) : ESRCH;
   return error == 0 ? 0 : fail(error);
 }
 
 WAITPOINT_INTERPOSED int pidfd_send_signal(int process, int signal, siginfo_t* information, unsigned flags) noexcept {
   const bool is_told = information == nullptr || (can_be_read(information) && information->si_signo == signal);
-  if (!is_simulated() || flags != 0 || !is_told || process_of(process) != getpid())
+  family::Process* const to = is_simulated() ? family::find(process_of(process)) : nullptr;
+  if (to == nullptr || flags != 0 || !is_told)
     return WAITPOINT_NEXT(pidfd_send_signal)(process, signal, information, flags);
-  const int error = send_as_told(information != nullptr ? *information : from_here(signal, SI_USER));
+  siginfo_t sent = information != nullptr ? *information : from_here(signal, SI_USER);
+  sent.si_signo = signal;
+  const int error = to == family::own ? send_as_told(sent) : send_to_processes(to->id, sent);
   return error == 0 ? 0 : fail(error);
 }
 

@@ -76,7 +76,7 @@ void drop_signals(Thread& thread);
 /// In a child: no signal is pending.
 void forget_pending_signals();
 
-/// The signal by which the processes of a family notify each other (family.hpp), identified by its address.
+/// The signal of the layer's own timer, identified by its address.
 inline constexpr int bell = SIGURG;
 static_assert(contains(ignored_by_default, bell), "the bell harms no process that does not listen");
 /// Catches it from now on.

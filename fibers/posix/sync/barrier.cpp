@@ -24,13 +24,12 @@ struct Bytes : SharedBytes<Barrier> {
   unsigned count, arrived;
   std::uint32_t opened;  // number of completed rounds
 };
-static_assert(sizeof(Bytes) <= sizeof(pthread_barrier_t) && alignof(Bytes) <= alignof(pthread_barrier_t));
+static_assert(sizeof(Bytes) <= sizeof(pthread_barrier_t));
 
 Bytes& bytes_of(pthread_barrier_t* barrier) { return *reinterpret_cast<Bytes*>(barrier); }
 
 // True for the last thread of a round.
 bool arrive(Bytes& bytes, std::uint32_t& opened) {
-  const family::Section section(bytes.is_shared());
   opened = bytes.opened;
   if (++bytes.arrived < bytes.count) return false;
   bytes.arrived = 0;

@@ -36,15 +36,11 @@ static_assert(!CLOCK_REALTIME, "PTHREAD_COND_INITIALIZER is all zeroes");
 
 ConditionBytes& bytes_of(pthread_cond_t* condition) { return *reinterpret_cast<ConditionBytes*>(condition); }
 
-std::uint64_t take_ticket(ConditionBytes& bytes) {
-  const family::Section section;
-  return bytes.next_ticket++;
-}
+std::uint64_t take_ticket(ConditionBytes& bytes) { return bytes.next_ticket++; }
 
 // A wait that ends without a signal leaves an unused ticket. Unless that is the newest, all waiters wake: spuriously,
 // as POSIX allows, but no signal is lost.
 void give_ticket_back(ConditionBytes& bytes, std::uint64_t ticket) {
-  const family::Section section;
   if (ticket < bytes.released) return;
   if (ticket + 1 == bytes.next_ticket)
     --bytes.next_ticket;
@@ -58,7 +54,6 @@ Wait wait_shared(Condition& known, ConditionBytes& bytes, std::uint64_t ticket, 
   for (;;) {
     std::uint32_t changes = 0;
     {
-      const family::Section section;
       if (ticket < bytes.released) return Wait::came;
       changes = bytes.changes;
     }
@@ -75,7 +70,6 @@ Wait wait_shared(Condition& known, ConditionBytes& bytes, std::uint64_t ticket, 
 
 void release_shared(Condition& known, ConditionBytes& bytes, bool all) {
   {
-    const family::Section section;
     if (bytes.released == bytes.next_ticket) return;
     bytes.released = all ? bytes.next_ticket : bytes.released + 1;
     ++bytes.changes;

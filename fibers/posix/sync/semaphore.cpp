@@ -28,13 +28,12 @@ struct Bytes : SharedBytes<Semaphore> {
   std::uint32_t count;
   std::uint32_t changes;
 };
-static_assert(sizeof(Bytes) <= sizeof(sem_t) && alignof(Bytes) <= alignof(sem_t));
+static_assert(sizeof(Bytes) <= sizeof(sem_t));
 static_assert(SEM_VALUE_MAX <= INT_MAX, "sem_getvalue() tells the count as an int");
 
 Bytes& bytes_of(sem_t* semaphore) { return *reinterpret_cast<Bytes*>(semaphore); }
 
 bool take_one(Bytes& bytes, std::uint32_t& changes) {
-  const family::Section section(bytes.is_shared());
   changes = bytes.changes;
   if (bytes.count == 0) return false;
   --bytes.count;
@@ -65,7 +64,6 @@ int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
 
 int give_shared(Bytes& bytes, Semaphore& known) {
   {
-    const family::Section section;
     if (bytes.count == SEM_VALUE_MAX) return fail(EOVERFLOW);
     ++bytes.count;
     ++bytes.changes;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/order.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -15,7 +15,7 @@ struct Futexes {
   SharedFutex all[futexes_max];
 };
 
-// Null if there is none. Within a section.
+// Null if there is none.
 SharedFutex* find(Futexes& futexes, const void* address) {
   SharedFutex* const end = futexes.all + futexes_max;
   SharedFutex* const found = std::find_if(futexes.all, end, [&](const SharedFutex& each) {
@@ -27,7 +27,6 @@ SharedFutex* find(Futexes& futexes, const void* address) {
 }  // namespace
 
 SharedFutex* begin_to_wait(const void* address) {
-  const family::Section section;
   auto* const futexes = static_cast<Futexes*>(family::common(family::Part::futexes, sizeof(Futexes)));
   if (futexes == nullptr) return nullptr;
   SharedFutex* futex = find(*futexes, address);
@@ -42,7 +41,6 @@ SharedFutex* begin_to_wait(const void* address) {
 }
 
 bool end_waiting(SharedFutex& futex, bool by_own) {
-  const family::Section section;
   WAITPOINT_CHECK(futex.waiters + futex.woken > 0, "a thread ends a wait at a futex that counts none");
   // Both may have woken the last waiter: then the wake-up by the other process has no one else to go to.
   const bool by_other = futex.woken > 0 && (!by_own || futex.waiters == 0);
@@ -57,7 +55,6 @@ bool has_woken(const void* kept) {
 std::uint32_t wake_others(const void* address, std::uint32_t most, std::uint32_t own) {
   std::uint32_t woken = 0;
   {
-    const family::Section section;
     auto* const futexes = static_cast<Futexes*>(family::common(family::Part::futexes, 0));
     SharedFutex* const futex = futexes != nullptr ? find(*futexes, address) : nullptr;
     if (futex == nullptr || futex->waiters <= own) return 0;

@@ -25,7 +25,7 @@ struct Bytes {
 static_assert(offsetof(Bytes, kind) == offsetof(pthread_mutex_t, __data.__kind));
 static_assert(offsetof(Bytes, unused) == offsetof(pthread_mutex_t, __data.__list.__prev));
 static_assert(offsetof(Bytes, ceiling) == offsetof(pthread_mutex_t, __data.__lock));
-static_assert(sizeof(Bytes) <= sizeof(pthread_mutex_t) && alignof(Bytes) <= alignof(pthread_mutex_t));
+static_assert(sizeof(Bytes) <= sizeof(pthread_mutex_t));
 
 Bytes& words_of(pthread_mutex_t& bytes) { return reinterpret_cast<Bytes&>(bytes); }
 
@@ -39,7 +39,7 @@ int lock_again(Bytes& words, int type) {
   return 0;
 }
 
-// Within the section: 0, an error, or -1 if it is held. A robust one is free if its owner's process has ended.
+// 0, an error, or -1 if it is held. A robust one is free if its owner's process has ended.
 int try_to_take(Bytes& words, Mutex& mutex) {
   if (words.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
   if (words.process != 0 && mutex.is_robust && words.process != family::this_process() &&
@@ -56,12 +56,25 @@ int try_to_take(Bytes& words, Mutex& mutex) {
   return EOWNERDEAD;
 }
 
+// Until it is given up; a robust one also until its owner's process has ended.
+Wait wait_for_owner(const Bytes& words, Mutex& mutex, std::uint32_t seen, Time deadline) {
+  if (!mutex.is_robust) return wait_for_change(mutex.object, words.changes, seen, deadline);
+  struct Owned {
+    const Bytes* words;
+    std::uint32_t seen;
+  } const owned{&words, seen};
+  const auto is_given_up = [](const void* what) {
+    const auto& [bytes, changes] = *static_cast<const Owned*>(what);
+    return bytes->changes != changes || (bytes->process != 0 && !family::lives(bytes->process));
+  };
+  return wait_on_shared(mutex.object, deadline, is_given_up, &owned);
+}
+
 void note_owner(Mutex& mutex) {
   if (mutex.object.owner == nullptr) kernel::own(mutex.object, *kernel::running);
 }
 
 int take_or_tell(Bytes& words, Mutex& mutex, std::uint32_t& changes) {
-  const family::Section section;
   changes = words.changes;
   return try_to_take(words, mutex);
 }
@@ -74,7 +87,6 @@ Mutex::RobustState state_after(const Bytes& words) {
 
 void give_up(Bytes& words, Mutex& mutex, Mutex::RobustState robust_state) {
   {
-    const family::Section section;
     words.process = words.thread = 0;
     words.depth = 0;
     words.robust_state = robust_state;
@@ -100,7 +112,7 @@ int lock(pthread_mutex_t& bytes, Time deadline, bool is_valid_deadline) {
     }
     if (!is_valid_deadline) return EINVAL;
     if (deadline <= kernel::running->local_time) return ETIMEDOUT;
-    const Wait ended = wait_for_change(mutex.object, words.changes, changes, deadline);
+    const Wait ended = wait_for_owner(words, mutex, changes, deadline);
     if (ended == Wait::timed_out) return ETIMEDOUT;
     if (ended == Wait::interrupted) handle_signals();
   }

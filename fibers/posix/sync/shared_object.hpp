@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Common parts of process-shared primitives: their whole state is in the program's object, changed within a family's
-// section. It includes a count of changes, on which threads wait.
+// Common parts of process-shared primitives: their whole state is in the program's object, which only the process with
+// the turn changes. It includes a count of changes, on which threads wait.
 #pragma once
 
 #include <cstdint>
 
 #include "fibers/posix/descriptors/descriptors.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/waitable.hpp"
 #include "fibers/posix/program/waiting.hpp"
 
@@ -27,7 +27,7 @@ struct SharedBytes {
   Known& waitable() { return is_shared() ? waitable_at<Known>(this) : waitable_at(known, this); }
 };
 
-/// Waits until the count of changes differs from `seen`, its value when the caller, within the section, found that it
+/// Waits until the count of changes differs from `seen`, its value when the caller found that it
 /// must wait. `object` is the primitive's in this process.
 inline Wait wait_for_change(kernel::Object& object, const std::uint32_t& changes, std::uint32_t seen, Time deadline) {
   struct Seen {
@@ -41,7 +41,7 @@ inline Wait wait_for_change(kernel::Object& object, const std::uint32_t& changes
   return wait_on_shared(object, deadline, has_changed, &last);
 }
 
-/// After the section in which a change was made and counted: all waiters check again.
+/// After a change was made and counted: all waiters check again.
 inline void tell_change(kernel::Object& object) {
   if (is_simulated()) kernel::running->scheduler->wake_all(object);
   family::ring();

@@ -23,7 +23,7 @@ struct Bytes {
 };
 static_assert(offsetof(Bytes, shared) == offsetof(pthread_rwlock_t, __data.__shared));
 static_assert(offsetof(Bytes, kind) == offsetof(pthread_rwlock_t, __data.__flags));
-static_assert(sizeof(Bytes) <= sizeof(pthread_rwlock_t) && alignof(Bytes) <= alignof(pthread_rwlock_t));
+static_assert(sizeof(Bytes) <= sizeof(pthread_rwlock_t));
 
 Bytes& words_of(pthread_rwlock_t& bytes) { return reinterpret_cast<Bytes&>(bytes); }
 
@@ -31,7 +31,6 @@ bool is_mine(const Bytes& words) { return words.process == family::this_process(
 
 // 0, an error, or -1 if it is held.
 int try_to_read(Bytes& words, std::uint32_t& changes) {
-  const family::Section section;
   changes = words.changes;
   const bool writers_first = words.kind == PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP;
   if (words.process != 0 || (writers_first && words.waiting_writers > 0)) return -1;
@@ -41,7 +40,6 @@ int try_to_read(Bytes& words, std::uint32_t& changes) {
 }
 
 int try_to_write(Bytes& words, std::uint32_t& changes) {
-  const family::Section section;
   changes = words.changes;
   if (words.process != 0 || words.readers > 0) return -1;
   words.process = family::this_process();
@@ -52,7 +50,6 @@ int try_to_write(Bytes& words, std::uint32_t& changes) {
 // A count that falls is a change: readers may wait only because writers do.
 void count_waiting_writer(Bytes& words, kernel::Object& object, int by) {
   {
-    const family::Section section;
     words.waiting_writers += static_cast<std::uint32_t>(by);
     if (by < 0) ++words.changes;
   }
@@ -94,7 +91,6 @@ int write_before(pthread_rwlock_t& bytes, kernel::Object& object, Time deadline,
 int unlock(pthread_rwlock_t& bytes, kernel::Object& object) {
   Bytes& words = words_of(bytes);
   {
-    const family::Section section;
     if (words.process != 0)
       words.process = words.thread = 0;
     else if (words.readers > 0)

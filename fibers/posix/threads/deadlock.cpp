@@ -3,11 +3,13 @@
 
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/symbols.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/program/waitable.hpp"
@@ -18,7 +20,9 @@ namespace {
 
 // "main", or "reader: main" if there are several programs.
 void print_name(const kernel::Task& task) {
-  if (is_thread(task) && thread_of(task).program->is_member) std::fprintf(stderr, "%s: ", task.robot->name);
+  const bool is_one_of_several = family::family != nullptr && family::family->made > 1;
+  if (is_thread(task) && (thread_of(task).program->is_member || is_one_of_several))
+    std::fprintf(stderr, "%s: ", task.robot->name);
   std::fprintf(stderr, "%s", task.name);
 }
 
@@ -71,9 +75,11 @@ bool can_others_go_on(const kernel::Scheduler& scheduler) {
 
 void report_deadlock(const kernel::Scheduler& scheduler) {
   const bool stuck = scheduler.stop_cause() != kernel::StopCause::no_progress;
-  std::fprintf(stderr, "waitpoint: %s at ", stuck ? "deadlock" : "no progress");
-  print_time(scheduler);
-  std::fprintf(stderr, "\n");
+  if (family::family == nullptr || !std::exchange(family::family->is_reported, true)) {
+    std::fprintf(stderr, "waitpoint: %s at ", stuck ? "deadlock" : "no progress");
+    print_time(scheduler);
+    std::fprintf(stderr, "\n");
+  }
   for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
     WAITPOINT_CHECK(is_thread(*task), "a task is reported that is no thread");
     print_wait(*task);

@@ -11,6 +11,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/time/clocks.hpp"
@@ -34,7 +35,11 @@ Thread* later_thread_with(__priority_which_t which, id_t id) {
   return thread != nullptr && thread->id != getpid() ? thread : nullptr;
 }
 
-int niceness_of_process() { return WAITPOINT_NEXT(getpriority)(PRIO_PROCESS, static_cast<id_t>(getpid())); }
+id_t in_system(__priority_which_t which, id_t id) {
+  return which == PRIO_USER ? id : static_cast<id_t>(family::in_system(static_cast<pid_t>(id)));
+}
+
+int niceness_of_process() { return WAITPOINT_NEXT(getpriority)(PRIO_PROCESS, 0); }
 
 // The niceness of the other threads is relative to the process's, and stays as it is.
 template <class Call>
@@ -62,7 +67,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int sched_setscheduler(pid_t id, int policy, const sched_param* parameters) noexcept {
   Thread* const thread = thread_with(id);
-  if (thread == nullptr) return WAITPOINT_NEXT(sched_setscheduler)(id, policy, parameters);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setscheduler)(family::in_system(id), policy, parameters);
   const int plain = policy & ~SCHED_RESET_ON_FORK;
   if (parameters == nullptr) return fail(EINVAL);
   if (!can_be_read(parameters)) return fail(EFAULT);
@@ -74,16 +79,16 @@ WAITPOINT_INTERPOSED int sched_setscheduler(pid_t id, int policy, const sched_pa
 }
 WAITPOINT_INTERPOSED int sched_getscheduler(pid_t id) noexcept {
   const Thread* const thread = thread_with(id);
-  return thread == nullptr ? WAITPOINT_NEXT(sched_getscheduler)(id) : thread->policy;
+  return thread == nullptr ? WAITPOINT_NEXT(sched_getscheduler)(family::in_system(id)) : thread->policy;
 }
 WAITPOINT_INTERPOSED int sched_setparam(pid_t id, const sched_param* parameters) noexcept {
   const Thread* const thread = thread_with(id);
-  if (thread == nullptr) return WAITPOINT_NEXT(sched_setparam)(id, parameters);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setparam)(family::in_system(id), parameters);
   return sched_setscheduler(id, thread->policy, parameters);
 }
 WAITPOINT_INTERPOSED int sched_getparam(pid_t id, sched_param* parameters) noexcept {
   const Thread* const thread = thread_with(id);
-  if (thread == nullptr) return WAITPOINT_NEXT(sched_getparam)(id, parameters);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_getparam)(family::in_system(id), parameters);
   if (parameters == nullptr) return fail(EINVAL);
   if (!can_be_written(parameters, sizeof *parameters)) return fail(EFAULT);
   *parameters = {thread->priority};
@@ -93,7 +98,8 @@ WAITPOINT_INTERPOSED int sched_getparam(pid_t id, sched_param* parameters) noexc
 // SCHED_RR's interval; for other policies the system's answer.
 WAITPOINT_INTERPOSED int sched_rr_get_interval(pid_t id, timespec* interval) noexcept {
   const Thread* const thread = thread_with(id);
-  if (thread == nullptr || thread->policy != SCHED_RR) return WAITPOINT_NEXT(sched_rr_get_interval)(id, interval);
+  if (thread == nullptr || thread->policy != SCHED_RR)
+    return WAITPOINT_NEXT(sched_rr_get_interval)(family::in_system(id), interval);
   if (!can_be_written(interval, sizeof *interval)) return fail(EFAULT);
   *interval = {0, 100'000'000};
   return 0;
@@ -101,25 +107,27 @@ WAITPOINT_INTERPOSED int sched_rr_get_interval(pid_t id, timespec* interval) noe
 
 WAITPOINT_INTERPOSED int sched_setaffinity(pid_t id, std::size_t size, const cpu_set_t* set) noexcept {
   Thread* const thread = thread_with(id);
-  if (thread == nullptr) return WAITPOINT_NEXT(sched_setaffinity)(id, size, set);
+  if (thread == nullptr) return WAITPOINT_NEXT(sched_setaffinity)(family::in_system(id), size, set);
   const int error = pthread_setaffinity_np(reinterpret_cast<pthread_t>(thread->area), size, set);
   return error == 0 ? 0 : fail(error);
 }
 WAITPOINT_INTERPOSED int sched_getaffinity(pid_t id, std::size_t size, cpu_set_t* set) noexcept {
   const Thread* const thread = thread_with(id);
   if (thread == nullptr || !thread->has_processors)
-    return WAITPOINT_NEXT(sched_getaffinity)(thread == nullptr ? id : 0, size, set);
+    return WAITPOINT_NEXT(sched_getaffinity)(thread == nullptr ? family::in_system(id) : 0, size, set);
   const int error = pthread_getaffinity_np(reinterpret_cast<pthread_t>(thread->area), size, set);
   return error == 0 ? 0 : fail(error);
 }
 
 WAITPOINT_INTERPOSED int getpriority(__priority_which_t which, id_t id) noexcept {
   const Thread* const thread = later_thread_with(which, id);
-  return thread == nullptr ? WAITPOINT_NEXT(getpriority)(which, id) : niceness_of_process() + thread->niceness;
+  return thread == nullptr ? WAITPOINT_NEXT(getpriority)(which, in_system(which, id))
+                           : niceness_of_process() + thread->niceness;
 }
 WAITPOINT_INTERPOSED int setpriority(__priority_which_t which, id_t id, int to) noexcept {
   Thread* const thread = later_thread_with(which, id);
-  if (thread == nullptr) return change_niceness_of_process([&] { return WAITPOINT_NEXT(setpriority)(which, id, to); });
+  if (thread == nullptr)
+    return change_niceness_of_process([&] { return WAITPOINT_NEXT(setpriority)(which, in_system(which, id), to); });
   to = to < least_niceness ? least_niceness : to > greatest_niceness ? greatest_niceness : to;
   const int of_process = niceness_of_process();
   if (geteuid() != 0 && to < of_process + thread->niceness) return fail(EACCES);

@@ -17,6 +17,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/input_output/asynchronous.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -78,6 +79,7 @@ void let_go(Thread& thread) {
 int last_id = 0;
 
 int make_id() {
+  if (!has_host) return family::next_id();
   if (last_id == 0) last_id = getpid();
   WAITPOINT_CHECK(last_id > 0, "there are no numbers left for threads");
   return ++last_id;
@@ -121,7 +123,7 @@ bool take_stack(Thread& thread, const pthread_attr_t* attributes) {
 void count_threads(Program& program) {
   ++program.threads_made;
   if (has_host) return;
-  ++record->threads_made;
+  ++(family::is_first() ? record->threads_made : family::family->threads_made);
   const std::uint32_t now = record->scheduler.roster().tasks();
   if (now > record->threads_most) record->threads_most = now;
 }

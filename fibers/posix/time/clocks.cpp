@@ -188,3 +188,11 @@ WAITPOINT_INTERPOSED clock_t times(tms* buffer) noexcept {
   if (buffer != nullptr) *buffer = {reading_ns(CLOCK_PROCESS_CPUTIME_ID, read) / tick_ns, 0, 0, 0};
   return reading_ns(CLOCK_MONOTONIC, read) / tick_ns;
 }
+
+// Of other processes only natives and those outside have clocks.
+WAITPOINT_INTERPOSED int clock_getcpuclockid(pid_t process, clockid_t* clock) noexcept {
+  if (!is_simulated() || (process != 0 && process != getpid()))
+    return WAITPOINT_NEXT(clock_getcpuclockid)(process, clock);
+  *clock = static_cast<clockid_t>((~static_cast<unsigned>(process) << 3) | 2);
+  return 0;
+}

@@ -24,17 +24,19 @@ namespace {
 constexpr int signal_of[] = {SIGALRM, SIGVTALRM, SIGPROF};
 constexpr int microsecond_ns = 1000;
 
-void ring(SignalTimer& timer, std::uint64_t);
+void expire_interval(SignalTimer& timer, std::uint64_t);
 
 // Indexed by ITIMER_REAL, ITIMER_VIRTUAL, ITIMER_PROF.
-SignalTimer timers[3] = {SignalTimer(ring), SignalTimer(ring), SignalTimer(ring)};
-static_assert(std::size(timers) == std::size(signal_of), "each timer has a signal");
+SignalTimer interval_timers[3] = {SignalTimer(expire_interval), SignalTimer(expire_interval),
+                                  SignalTimer(expire_interval)};
+static_assert(std::size(interval_timers) == std::size(signal_of), "each timer has a signal");
 static_assert(ITIMER_REAL == 0 && ITIMER_VIRTUAL == 1 && ITIMER_PROF == 2, "the timers are indexed by these");
 
-void ring(SignalTimer& timer, std::uint64_t) {
-  WAITPOINT_CHECK(&timer >= timers && &timer < std::end(timers), "a timer of another kind rings as setitimer()'s");
+void expire_interval(SignalTimer& timer, std::uint64_t) {
+  WAITPOINT_CHECK(&timer >= interval_timers && &timer < std::end(interval_timers),
+                  "a timer of another kind rings as setitimer()'s");
   siginfo_t information{};
-  information.si_signo = signal_of[&timer - timers];
+  information.si_signo = signal_of[&timer - interval_timers];
   information.si_code = SI_KERNEL;
   send(information, nullptr);
 }
@@ -51,8 +53,8 @@ bool is_valid_time(const timeval& time) { return time.tv_sec >= 0 && time.tv_use
 itimerval state_of(const SignalTimer& timer) { return {to_timeval(timer.interval()), to_timeval(timer.left())}; }
 
 void start(int which, Duration first, Duration interval) {
-  WAITPOINT_CHECK(which >= 0 && which < std::ssize(timers), "a timer that does not exist is started");
-  SignalTimer& timer = timers[which];
+  WAITPOINT_CHECK(which >= 0 && which < std::ssize(interval_timers), "a timer that does not exist is started");
+  SignalTimer& timer = interval_timers[which];
   if (first == Duration())
     timer.stop();
   else if (which == ITIMER_REAL)
@@ -64,7 +66,7 @@ void start(int which, Duration first, Duration interval) {
 }  // namespace
 
 void forget_interval_timers() {
-  for (SignalTimer& timer : timers) timer.stop();
+  for (SignalTimer& timer : interval_timers) timer.stop();
 }
 
 }  // namespace waitpoint::posix
@@ -79,7 +81,7 @@ WAITPOINT_INTERPOSED int setitimer(__itimer_which_t which, const itimerval* to, 
   if (number < 0 || number > 2) return fail(EINVAL);
   if (to != nullptr && (!is_valid_time(to->it_value) || !is_valid_time(to->it_interval))) return fail(EINVAL);
   pass(kernel::Operation::timer_start, nullptr);
-  const itimerval before = state_of(timers[number]);
+  const itimerval before = state_of(interval_timers[number]);
   start(number, to == nullptr ? Duration() : span_of(to->it_value),
         to == nullptr ? Duration() : span_of(to->it_interval));
   if (old == nullptr) return 0;
@@ -94,7 +96,7 @@ WAITPOINT_INTERPOSED int getitimer(__itimer_which_t which, itimerval* state) noe
   if (number < 0 || number > 2) return fail(EINVAL);
   if (!can_be_written(state)) return fail(EFAULT);
   read_clock();
-  *state = state_of(timers[number]);
+  *state = state_of(interval_timers[number]);
   return 0;
 }
 

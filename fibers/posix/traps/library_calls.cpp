@@ -19,6 +19,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
@@ -39,17 +40,8 @@ struct Words {
   long at[6];
 };
 
-// Returns as the system call: errors are negative. The call is not in the C library's code, so it is not trapped.
 long call_system(long number, const Words& words) {
-  long result = number;
-  register long fourth __asm__("r10") = words.at[3];
-  register long fifth __asm__("r8") = words.at[4];
-  register long sixth __asm__("r9") = words.at[5];
-  __asm__ volatile("syscall"
-                   : "+a"(result)
-                   : "D"(words.at[0]), "S"(words.at[1]), "d"(words.at[2]), "r"(fourth), "r"(fifth), "r"(sixth)
-                   : "rcx", "r11", "memory");
-  return result;
+  return call_directly(number, words.at[0], words.at[1], words.at[2], words.at[3], words.at[4], words.at[5]);
 }
 
 // Waits until the descriptor is ready, as read() and write() do; false if a signal handler ended the wait.
@@ -116,21 +108,29 @@ bool can_be_told_from_others(LibraryRange range) {
   return range.begin < range.end && high(range.begin) == high(range.end);
 }
 
-// Traps futexes, and with `streams_too` reads and writes, of code in that range. False if the system does not allow it.
-bool trap(LibraryRange range, bool streams_too) {
+/// Of code in a range: the waits on futexes; these, and reading and writing; reading and writing of one descriptor.
+enum class Trapped : std::uint8_t { futexes, futexes_and_streams, stream };
+
+// False if the system does not allow it.
+bool trap(LibraryRange range, Trapped what, std::uint32_t descriptor = 0) {
   constexpr int load = BPF_LD | BPF_W | BPF_ABS, is = BPF_JMP | BPF_JEQ | BPF_K, is_least = BPF_JMP | BPF_JGE | BPF_K;
   constexpr std::uint32_t at = offsetof(seccomp_data, instruction_pointer);
   static_assert(at % sizeof(std::uint32_t) == 0 && sizeof(seccomp_data::instruction_pointer) == 8 &&
                 sizeof(seccomp_data::nr) == 4);
   WAITPOINT_CHECK(can_be_told_from_others(range), "the filter cannot compare addresses of this range");
-  const std::uint32_t reading = streams_too ? SYS_read : SYS_futex, writing = streams_too ? SYS_write : SYS_futex;
+  const bool any_descriptor = what != Trapped::stream;
+  const std::uint32_t waiting = any_descriptor ? SYS_futex : SYS_read;
+  const std::uint32_t reading = what == Trapped::futexes ? SYS_futex : SYS_read;
+  const std::uint32_t writing = what == Trapped::futexes ? SYS_futex : SYS_write;
   sock_filter filter[] = {
       statement(load, offsetof(seccomp_data, arch)),
-      jump(is, AUDIT_ARCH_X86_64, 0, 10),
+      jump(is, AUDIT_ARCH_X86_64, 0, 12),
       statement(load, offsetof(seccomp_data, nr)),
-      jump(is, SYS_futex, 2, 0),
+      jump(is, waiting, 2, 0),
       jump(is, reading, 1, 0),
-      jump(is, writing, 0, 6),
+      jump(is, writing, 0, 8),
+      statement(load, offsetof(seccomp_data, args)),
+      any_descriptor ? jump(is_least, 0, 0, 6) : jump(is, descriptor, 0, 6),
       statement(load, at + 4),
       jump(is, high(range.begin), 0, 4),
       statement(load, at),
@@ -144,8 +144,11 @@ bool trap(LibraryRange range, bool streams_too) {
   const sock_fprog program{sizeof filter / sizeof *filter, filter};
   is_trapped = true;
   install(SIGSYS);
-  return WAITPOINT_NEXT(prctl)(PR_SET_NO_NEW_PRIVS, 1L, 0L, 0L, 0L) == 0 &&
-         WAITPOINT_NEXT(prctl)(PR_SET_SECCOMP, static_cast<long>(SECCOMP_MODE_FILTER), &program) == 0;
+  // Without its privileges a process must first give up to gain any.
+  const auto set = [&program] {
+    return WAITPOINT_NEXT(prctl)(PR_SET_SECCOMP, static_cast<long>(SECCOMP_MODE_FILTER), &program) == 0;
+  };
+  return set() || (WAITPOINT_NEXT(prctl)(PR_SET_NO_NEW_PRIVS, 1L, 0L, 0L, 0L) == 0 && set());
 }
 
 }  // namespace
@@ -155,7 +158,18 @@ void trap_library_calls() {
   const LibraryRange range = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
   if (!can_be_told_from_others(range))
     refuse("--trap-libc: the C library lies where its calls cannot be told from others");
-  if (!trap(range, true)) refuse("--trap-libc: the system does not let its calls be trapped");
+  if (!trap(range, Trapped::futexes_and_streams)) refuse("--trap-libc: the system does not let its calls be trapped");
+}
+
+void answer_inherited_traps() {
+  is_trapped = true;
+  install(SIGSYS);
+}
+
+void trap_stream(int descriptor) {
+  static const LibraryRange range = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
+  if (!is_inside(descriptor) || !can_be_told_from_others(range)) return;
+  trap(range, Trapped::stream, static_cast<std::uint32_t>(descriptor));
 }
 
 void trap_open_mp() {
@@ -166,7 +180,7 @@ void trap_open_mp() {
   if (now == loaded) return;
   loaded = now;
   const LibraryRange range = range_of_library_named("libgomp.so");
-  is_done = can_be_told_from_others(range) && trap(range, false);
+  is_done = can_be_told_from_others(range) && trap(range, Trapped::futexes);
 }
 
 bool are_library_calls_trapped() { return is_trapped; }

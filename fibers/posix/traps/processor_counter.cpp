@@ -14,7 +14,7 @@
 namespace waitpoint::posix {
 namespace {
 
-bool is_trapped = false;
+bool is_counter_trapped = false;
 
 // The length of the instruction; 0 if it is not one of them.
 int length_of_reading(const unsigned char* code) {
@@ -26,13 +26,13 @@ int length_of_reading(const unsigned char* code) {
 }  // namespace
 
 void trap_processor_counter() {
-  is_trapped = true;
+  is_counter_trapped = true;
   install(SIGSEGV);
   prctl(PR_SET_TSC, PR_TSC_SIGSEGV, 0, 0, 0);
 }
 
 bool emulate_processor_counter(void* context) {
-  if (!is_trapped) return false;
+  if (!is_counter_trapped) return false;
   greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   const int length = length_of_reading(reinterpret_cast<const unsigned char*>(registers[REG_RIP]));
   if (length == 0) return false;

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/exec/family_run.hpp"
+
+#include <algorithm>
+
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/turn.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/time/clocks.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+using family::Process;
+
+bool waits_outside(const Process& process) {
+  return process.state == Process::State::alive && !process.is_native && process.waits_outside;
+}
+
+// At the end of an instant, each process that waits for something outside looks there once.
+bool let_all_look(Time now) {
+  bool any = false;
+  for (Process& process : family::family->processes) {
+    if (!waits_outside(process) || process.looked_at == now) continue;
+    process.looked_at = now;
+    if (&process == family::own)
+      any = look_outside(false) || any;
+    else
+      family::ring(process);
+  }
+  return any;
+}
+
+// True if another process waits for what this one may do: its output to a pipe, too, of which the C library makes no
+// call that could be noticed.
+bool anybody_listens() {
+  for (const Process& process : family::family->processes)
+    if (&process != family::own && process.listens) return true;
+  return false;
+}
+
+// The next process after this one, in the table's order, that waits outside; null if none does.
+Process* next_waiting_outside() {
+  Process* const all = family::family->processes;
+  const auto own = family::own - all;
+  for (int i = 1; i <= family::processes_max; ++i)
+    if (Process& process = all[(own + i) % family::processes_max]; waits_outside(process)) return &process;
+  return nullptr;
+}
+
+// No process can continue by itself. False if none waits for something outside.
+bool wait_outside_together() {
+  Process* const next = next_waiting_outside();
+  if (next == nullptr) return false;
+  if (!waits_outside(*family::own)) {
+    family::hand_over_to(*next);
+    return true;
+  }
+  // Each in turn, for a short time, if there are several.
+  const bool is_only = next == family::own;
+  wait_outside_for(is_only ? Duration::max() : Duration(std::chrono::milliseconds(2)));
+  if (!look_outside(false) && !is_only) family::hand_over_to(*next);
+  return true;
+}
+
+}  // namespace
+
+namespace {
+
+// True if only processes are left that outlive the first one, and the next event is too late or comes from outside.
+bool is_left_over(Time next) {
+  const family::Family& all = *family::family;
+  const Process::State first = all.processes[0].state;
+  if (first != Process::State::ended && first != Process::State::none) return false;
+  return next > later(all.first_ended_at, family::left_over_at_most);
+}
+
+}  // namespace
+
+bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
+  family::Family& all = *family::family;
+  do {
+    if (all.is_over) return false;
+    if (family::take_ring(scheduler)) look_outside(false);
+    if (has_unnoticed_output()) family::ring();
+    const Time ring = family::own->is_rung ? family::own->rung_at : Time::max();
+    const Time own = std::min(scheduler.next_event_time(), ring);
+    const Time next = std::min(own, family::least_of_others().time);
+    const Time now = std::max(all.now, scheduler.global_time());
+    if (next > now && let_all_look(now)) break;
+    if (is_left_over(next)) {
+      all.is_over = all.is_cut_off = true;
+      return false;
+    }
+    // A ring made above is an event of this instant.
+    if (family::hand_over_if_due(scheduler)) continue;
+    if (own == Time::max() && family::least_of_others().time == Time::max() && !wait_outside_together()) {
+      all.is_over = true;
+      return false;
+    }
+  } while (family::own->is_rung && family::own->rung_at <= scheduler.next_event_time());
+  until = record->settings.until;
+  if (next_waiting_outside() != nullptr || anybody_listens())
+    until = std::min(until, later(std::max(scheduler.next_event_time(), all.now), nanosecond));
+  return true;
+}
+
+}  // namespace waitpoint::posix

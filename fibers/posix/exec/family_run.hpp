@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The run of a process that is not alone in its family: it takes turns with the others.
+#pragma once
+
+#include "core/time.hpp"
+#include "fibers/kernel/scheduler.hpp"
+
+namespace waitpoint::posix {
+
+inline constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
+
+/// Between two windows of the run: hands over the turn if another process is due, and waits in real time for something
+/// outside if none is. Sets the end of the next window. False if the run is over: no process can continue.
+bool step_in_family(kernel::Scheduler& scheduler, Time& until);
+
+}  // namespace waitpoint::posix

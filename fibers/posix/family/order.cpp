@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/family/order.hpp"
+
+#include "fibers/posix/program/program.hpp"
+
+namespace waitpoint::posix::family {
+namespace {
+
+// A rung process comes before all tasks of the instant, in the order of the table.
+kernel::EventKey key_of_ring(const Process& process) {
+  return {process.rung_at, kernel::make_order(kernel::Phase::deliveries, index_of(process))};
+}
+
+// Ends the window of the run: the event of another process, or a ring of this one, is the least.
+void end_window(kernel::EventNode&) { record->scheduler.pause(); }
+kernel::EventNode limit{kernel::EventNode::absent, end_window};
+
+// Just before the least event of another process. Equal keys are in the order of the table.
+kernel::EventKey limit_before(const Process& other, const kernel::Scheduler& scheduler) {
+  kernel::EventKey key = key_of(other);
+  if (key.time == Time::max()) return kernel::EventKey::never();
+  if (index_of(*own) < index_of(other)) ++key.order;
+  // Among ready tasks a strategy chooses: they keep the turn until the instant ends.
+  const bool is_explored = record->settings.order == kernel::Order::explored;
+  if (is_explored && kernel::phase_of(key.order) >= kernel::Phase::tasks)
+    key = {Time::from_ns(key.time.ns() + 1), kernel::make_order(kernel::Phase::deliveries, 0)};
+  if (key.time < scheduler.global_time()) key.time = scheduler.global_time();
+  return key;
+}
+
+}  // namespace
+
+std::uint32_t index_of(const Process& process) { return static_cast<std::uint32_t>(&process - family->processes); }
+
+bool takes_turns(const Process& process) { return process.state == Process::State::alive && !process.is_native; }
+
+kernel::EventKey key_of(const Process& process) {
+  if (!takes_turns(process)) return kernel::EventKey::never();
+  const kernel::EventKey ringing = key_of_ring(process);
+  return process.is_rung && ringing < process.next ? ringing : process.next;
+}
+
+bool precedes(const Process& a, const Process& b) {
+  const kernel::EventKey key_a = key_of(a), key_b = key_of(b);
+  return key_a < key_b || (!(key_b < key_a) && index_of(a) < index_of(b));
+}
+
+Process* least_other() {
+  Process* least = nullptr;
+  for (Process& process : family->processes) {
+    if (&process == own || !takes_turns(process)) continue;
+    if (least == nullptr || precedes(process, *least)) least = &process;
+  }
+  return least;
+}
+
+kernel::EventKey least_of_others() {
+  const Process* const least = least_other();
+  return least != nullptr ? key_of(*least) : kernel::EventKey::never();
+}
+
+bool has_others() { return family != nullptr && family->alive > 1; }
+
+void remove_limit(kernel::Scheduler& scheduler) {
+  if (limit.in_list()) scheduler.cancel(limit);
+}
+
+void limit_window(kernel::Scheduler& scheduler) {
+  remove_limit(scheduler);
+  const Process* const least = has_others() ? least_other() : nullptr;
+  kernel::EventKey key = kernel::EventKey::never();
+  if (least != nullptr) key = limit_before(*least, scheduler);
+  if (own->is_rung && key_of_ring(*own) < key) key = key_of_ring(*own);
+  if (key.time != Time::max()) scheduler.schedule(limit, key);
+}
+
+void ring(Process& process) {
+  if (&process == own) return;
+  const Time now = kernel::running != nullptr ? kernel::running->local_time : record->scheduler.global_time();
+  if (process.is_rung && process.rung_at <= now) return;
+  process.is_rung = true;
+  process.rung_at = now;
+  if (kernel::running != nullptr) limit_window(*kernel::running->scheduler);
+}
+
+void ring() {
+  if (!has_others()) return;
+  for (Process& process : family->processes)
+    if (process.listens && takes_turns(process)) ring(process);
+}
+
+}  // namespace waitpoint::posix::family

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Programs of several processes, in one simulation: families_test.py BUILD.
+
+Their output is as natively; equal seeds give equal runs, with one digest for all processes.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+from exec_case import ExecCase, Summary, WAITPOINT
+
+PYTHON = "/usr/bin/python3"
+
+SPAWN_PROGRAM = """
+import multiprocessing, os, sys, time
+def work(queue, number):
+    time.sleep(0.1 * (4 - number))
+    queue.put((number, os.getppid()))
+if __name__ == "__main__":
+    multiprocessing.set_start_method(sys.argv[1])
+    queue = multiprocessing.Queue()
+    processes = [multiprocessing.Process(target=work, args=(queue, i)) for i in range(4)]
+    for process in processes: process.start()
+    print([queue.get()[0] for _ in processes])
+    for process in processes: process.join()
+    print([process.exitcode for process in processes], time.monotonic() < 3601)
+"""
+
+DEADLOCK = """
+import multiprocessing
+a, b = multiprocessing.Lock(), multiprocessing.Lock()
+ready = multiprocessing.Barrier(2)
+def take(first, second):
+    with first:
+        ready.wait()
+        with second: pass
+if __name__ == "__main__":
+    other = multiprocessing.Process(target=take, args=(a, b))
+    other.start()
+    take(b, a)
+"""
+
+
+class Run:
+    def __init__(self, seed, *command, options=(), **more):
+        words = [WAITPOINT, "exec", "--seed", seed, *options, "--", *command]
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=120, **more)
+        self.status, self.output, self.errors = done.returncode, done.stdout, done.stderr
+        self.digest = Summary(self.errors).digest
+        self.processes = int((re.search(r"(\d+) processes", self.errors) or [0, 1])[1])
+
+
+class Families(ExecCase):
+    def assertRepeats(self, *command, seeds=(1, 2, 3), **more):
+        """The runs, two of each seed, which must be equal."""
+        runs = []
+        for seed in seeds:
+            one, other = Run(seed, *command, **more), Run(seed, *command, **more)
+            self.assertEqual((one.status, one.output, one.digest), (other.status, other.output, other.digest), one.errors)
+            runs.append(one)
+        return runs
+
+    def assertNative(self, *command, **more):
+        """Repeats, with the native output and status."""
+        native = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=120, **more)
+        runs = self.assertRepeats(*command, **more)
+        for run in runs:
+            self.assertEqual((run.status, run.output), (native.returncode, native.stdout), run.errors)
+        return runs
+
+
+class Shells(Families):
+    def test_pipelines(self):
+        tree = pathlib.Path(__file__).resolve().parent
+        runs = self.assertNative("sh", "-c", f"cd {tree} && cat *.c | sort | uniq -c | sort -rn | head -5; exit 3")
+        self.assertGreaterEqual(runs[0].processes, 6)
+
+    def test_a_compressor_with_threads_behind_a_pipe(self):
+        tree = pathlib.Path(__file__).resolve().parent
+        self.assertRepeats("bash", "-c", f"tar c -C {tree} . | gzip -n | wc -c")
+
+    def test_sleeps_of_all_processes_are_in_one_time(self):
+        script = "sleep 2 & for i in 1 2 3; do sleep 1; echo $i at $(date +%s); done; wait; date +%s"
+        begin = 1704067200  # 2024-01-01
+        for run in self.assertRepeats("sh", "-c", script):
+            self.assertEqual(run.output.split(),
+                             ["1", "at", f"{begin + 1}", "2", "at", f"{begin + 2}", "3", "at", f"{begin + 3}", f"{begin + 3}"])
+
+    def test_signals_and_statuses(self):
+        script = "sleep 100 & kill $!; wait $!; echo $?; (exit 5); echo $?; trap 'echo caught' USR1; kill -USR1 $$; $0 -c 'kill $$'; echo $?"
+        for shell in "sh", "bash":
+            self.assertNative(shell, "-c", script, shell)
+
+    def test_ids_are_the_same_in_every_run(self):
+        self.assertEqual(self.assertRepeats("sh", "-c", "echo $$; sh -c 'echo $$ $PPID'")[0].output.split()[0], "1000")
+
+    def test_here_documents_and_substitutions(self):
+        self.assertNative("bash", "-c", "x=$(cat <<END\none\ntwo\nEND\n); echo \"$x\" | while read l; do echo \"<$l>\"; done; read y < <(echo three); echo $y")
+
+    def test_a_script_that_executes_another_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script = pathlib.Path(folder) / "wrapper"
+            script.write_text('#!/bin/sh\nexec "$@"\n')
+            script.chmod(0o755)
+            self.assertNative(script, PYTHON, "-c", "import threading; t = threading.Thread(target=print, args=[5]); t.start(); t.join()")
+
+    def test_processes_left_over_are_ended(self):
+        run = self.assertRepeats("sh", "-c", "(while sleep 1; do echo on; done) & echo off", seeds=[1])[0]
+        self.assertEqual(run.output.split()[0], "off")
+        self.assertEqual(run.output.split().count("on"), 10)
+
+
+class Programs(Families):
+    def test_multiprocessing_by_each_way_of_starting(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder) / "program.py"
+            program.write_text(SPAWN_PROGRAM)
+            for way in "fork", "spawn", "forkserver":
+                for run in self.assertRepeats(PYTHON, program, way, seeds=[1, 2]):
+                    self.assertEqual(run.output, "[3, 2, 1, 0]\n[0, 0, 0, 0] True\n", run.errors)
+
+    def test_make_with_jobs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            rules = "".join(f"part{i}: ; @echo {i} > $@; sleep 0.{i}\n" for i in range(1, 9))
+            names = " ".join(f"part{i}" for i in range(1, 9))
+            (folder / "Makefile").write_text(f"all: {names}\n\t@cat $^ > all; cat all\n{rules}")
+
+            def clean():
+                for file in folder.iterdir():
+                    if file.name != "Makefile":
+                        file.unlink()
+
+            digests = set()
+            for _ in range(2):
+                run = Run(1, "make", "-s", "-j4", cwd=folder)
+                self.assertEqual(run.output.split(), [str(i) for i in range(1, 9)], run.errors)
+                digests.add(run.digest)
+                clean()
+            self.assertEqual(len(digests), 1)
+
+    def test_a_deadlock_across_processes_is_reported(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder) / "program.py"
+            program.write_text(DEADLOCK)
+            run = Run(1, PYTHON, program)
+            self.assertEqual(run.status, 124, run.errors)
+            self.assertEqual(run.errors.count("waitpoint: deadlock at"), 1, run.errors)
+            self.assertEqual(len(re.findall(r"^  \S+: main waits for", run.errors, re.M)), 2, run.errors)
+
+    def test_a_killed_process_holds_up_nobody(self):
+        run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")
+        self.assertEqual(run.output, "137\n01\n", run.errors)
+
+    def test_a_session_of_init_server_and_clients(self):
+        session = self.compile("session.c")
+        script = f"{session} init && ({session} serve & {session} ask 3 & {session} ask 2; wait %2 2> /dev/null; sleep 0.2; {session} end; wait); echo $?"
+        outputs = set()
+        for run in self.assertRepeats("sh", "-c", script, seeds=range(1, 21)):
+            self.assertEqual(run.status, 0, run.errors)
+            self.assertEqual(run.output.count(" ticks at "), 5, run.output + run.errors)
+            self.assertNotIn("TORN", run.output)
+            self.assertEqual(run.output.splitlines()[-1], "0")
+            outputs.add(run.digest)
+        self.assertGreater(len(outputs), 10)
+
+    def test_a_client_before_init_finds_no_devices(self):
+        session = self.compile("session.c")
+        run = Run(1, "sh", "-c", f"{session} ask 1; echo $?")
+        self.assertEqual(run.output, "3\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/family_report.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+
+#include "fibers/posix/family/processes.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using posix::family::Family;
+using posix::family::Process;
+
+// The memory behind the record; zero before the run.
+const Family& family_of(const posix::Record& record) {
+  return *reinterpret_cast<const Family*>(reinterpret_cast<const char*>(&record) + posix::record_bytes);
+}
+
+template <class Visit>
+void for_each_other(const Family& family, Visit visit) {
+  for (const Process& process : family.processes)
+    if (&process != family.processes && process.state != Process::State::none) visit(process);
+}
+
+}  // namespace
+
+Digest digest_of(const posix::Record& record) {
+  const Family& family = family_of(record);
+  if (family.made < 2 && family.digest_of_ended == 0) return record.digest();
+  std::uint64_t of_others = family.digest_of_ended;
+  for_each_other(family, [&of_others](const Process& process) { of_others += share_of_digest(process); });
+  Digest all;
+  all.add(record.digest().value());
+  all.add(of_others);
+  return all;
+}
+
+std::string counts_of(const posix::Record& record) {
+  const Family& family = family_of(record);
+  const kernel::Scheduler& scheduler = record.scheduler;
+  std::uint64_t events = scheduler.events() + family.events_of_ended;
+  for_each_other(family, [&events](const Process& process) { events += process.digest.pairs(); });
+  std::string all;
+  if (family.made > 1) all = fmt::format("{} processes, ", family.made);
+  return all + fmt::format("{} threads, {} at once, {} events, {} switches, {} s of virtual time",
+                           record.threads_made + family.threads_made, record.threads_most, events,
+                           scheduler.switches() + family.hand_overs,
+                           to_string(std::max(scheduler.global_time(), family.now)));
+}
+
+void end_others(const posix::Record& record) {
+  const Family& family = family_of(record);
+  constexpr int look_ms = 1, looks_after_end = 2000;  // when the run is over each reports its threads, and ends
+  const auto is_anybody_there = [&family] {
+    return std::any_of(family.processes, family.processes + posix::family::processes_max, [](const Process& process) {
+      return process.state == Process::State::alive && !process.is_native && kill(process.real_id, 0) == 0;
+    });
+  };
+  for (int looks = 0; looks < looks_after_end && family.alive > 0 && is_anybody_there(); poll(nullptr, 0, look_ms))
+    if (family.is_over) ++looks;
+  for (const Process& process : family.processes)
+    if (process.state == Process::State::alive && process.real_id > 0) kill(process.real_id, SIGKILL);
+  while (waitpid(-1, nullptr, WNOHANG) > 0) {
+  }
+}
+
+}  // namespace waitpoint::tools
