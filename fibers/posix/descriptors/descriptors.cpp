@@ -15,7 +15,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
-#include "fibers/posix/family/turn.hpp"
+#include "fibers/posix/family/order.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -70,7 +70,6 @@ void count_outside(const Waiter& waiter, int by) {
   if (waiter.count == 0) waiting_for_no_descriptor += by;
   WAITPOINT_CHECK(waiting_for_no_descriptor >= 0 && waiting_outside >= waiting_for_no_descriptor,
                   "the counts of threads that wait outside disagree");
-  note_waits();
 }
 
 void add(Waiter& waiter) {

@@ -2,6 +2,7 @@
 #include "fibers/posix/exec/family_run.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/family/turn.hpp"
@@ -13,14 +14,12 @@ namespace {
 
 using family::Process;
 
-bool waits_outside(const Process& process) {
-  return process.state == Process::State::alive && !process.is_native && process.waits_outside;
-}
+bool waits_outside(const Process& process) { return family::takes_turns(process) && process.waits_outside; }
 
 // At the end of an instant, each process that waits for something outside looks there once.
 bool let_all_look(Time now) {
   bool any = false;
-  for (Process& process : family::family->processes) {
+  for (Process& process : family::entries()) {
     if (!waits_outside(process) || process.looked_at == now) continue;
     process.looked_at = now;
     if (&process == family::own)
@@ -34,17 +33,17 @@ bool let_all_look(Time now) {
 // True if another process waits for what this one may do: its output to a pipe, too, of which the C library makes no
 // call that could be noticed.
 bool anybody_listens() {
-  for (const Process& process : family::family->processes)
+  for (const Process& process : family::entries())
     if (&process != family::own && process.listens) return true;
   return false;
 }
 
 // The next process after this one, in the table's order, that waits outside; null if none does.
 Process* next_waiting_outside() {
-  Process* const all = family::family->processes;
-  const auto own = family::own - all;
-  for (int i = 1; i <= family::processes_max; ++i)
-    if (Process& process = all[(own + i) % family::processes_max]; waits_outside(process)) return &process;
+  const std::span<Process> all = family::entries();
+  const std::size_t own = family::index_of(*family::own);
+  for (std::size_t i = 1; i <= all.size(); ++i)
+    if (Process& process = all[(own + i) % all.size()]; waits_outside(process)) return &process;
   return nullptr;
 }
 
@@ -62,10 +61,6 @@ bool wait_outside_together() {
   if (!look_outside(false) && !is_only) family::hand_over_to(*next);
   return true;
 }
-
-}  // namespace
-
-namespace {
 
 // True if only processes are left that outlive the first one, and the next event is too late or comes from outside.
 bool is_left_over(Time next) {

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "fibers/kernel/event.hpp"
 #include "fibers/kernel/task.hpp"
@@ -68,9 +69,6 @@ struct Process {
   int letters = 0;
   static constexpr int letters_max = 32;
   Letter inbox[letters_max];
-  /// The descriptors that are inside, handed over to the next program that the process executes; a bit each.
-  static constexpr int descriptors_max = 4096;
-  std::uint64_t inside[descriptors_max / 64] = {};
   PairDigest digest;  ///< of its events; the first process has its robot's
 };
 
@@ -92,11 +90,12 @@ struct alignas(Arena::alignment) Family {
   void* parts[static_cast<int>(Part::count)] = {};
   Time now;  ///< of the event now executing
   pid_t last_id = first_id - 1;
-  std::uint32_t alive = 0;  ///< number of processes that take turns
-  std::uint32_t made = 0;   ///< number of all so far
-  Time first_ended_at;      ///< the end of the first process
-  bool is_over = false;     ///< no process can continue: each reports its threads, and ends
-  bool is_cut_off = false;  ///< or those left over after the end of the first end without a report
+  std::uint32_t alive = 0;    ///< number of processes that take turns
+  std::uint32_t made = 0;     ///< number of all so far
+  std::uint32_t entries = 0;  ///< of the table, that were ever used
+  Time first_ended_at;        ///< the end of the first process
+  bool is_over = false;       ///< no process can continue: each reports its threads, and ends
+  bool is_cut_off = false;    ///< or those left over after the end of the first end without a report
   bool is_reported = false;
   std::atomic<std::uint32_t> holder = 0;  ///< the index of the process that has the turn
   std::atomic<pid_t> leaving = 0;  ///< the system's number of a process that has ended, as far as its own code goes
@@ -111,6 +110,9 @@ struct alignas(Arena::alignment) Family {
 extern Family* family;
 /// The calling process; null before the run.
 extern Process* own;
+
+/// The entries of the table that are or were in use.
+inline std::span<Process> entries() { return {family->processes, family->entries}; }
 
 /// The shared state of a part, zeroed at the first call with a size; before that null.
 void* common(Part part, std::size_t bytes);

@@ -47,7 +47,7 @@ bool precedes(const Process& a, const Process& b) {
 
 Process* least_other() {
   Process* least = nullptr;
-  for (Process& process : family->processes) {
+  for (Process& process : entries()) {
     if (&process == own || !takes_turns(process)) continue;
     if (least == nullptr || precedes(process, *least)) least = &process;
   }
@@ -85,7 +85,7 @@ void ring(Process& process) {
 
 void ring() {
   if (!has_others()) return;
-  for (Process& process : family->processes)
+  for (Process& process : entries())
     if (process.listens && takes_turns(process)) ring(process);
 }
 

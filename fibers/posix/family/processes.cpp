@@ -57,10 +57,9 @@ void tell_parent(Process& process, int code) {
 
 Process* find(pid_t id) {
   if (family == nullptr || id <= no_parent) return nullptr;
-  Process* const end = family->processes + processes_max;
-  Process* const found =
-      std::find_if(family->processes, end, [id](const Process& each) { return is_listed(each) && each.id == id; });
-  return found != end ? found : nullptr;
+  for (Process& each : entries())
+    if (is_listed(each) && each.id == id) return &each;
+  return nullptr;
 }
 
 pid_t in_system(pid_t id) {
@@ -71,13 +70,14 @@ pid_t in_system(pid_t id) {
 pid_t next_id() { return ++family->last_id; }
 
 Process* add() {
-  Process* const end = family->processes + processes_max;
   // The first entry stays the first process's.
-  Process* const begin = family->processes + (family->made > 0 ? 1 : 0);
-  Process* const free = std::find_if(begin, end, [](const Process& each) { return !is_listed(each); });
-  if (free == end) return nullptr;
+  const auto is_free = [](const Process& each) { return !is_listed(each) && &each != family->processes; };
+  const std::span<Process> used = entries();
+  auto free = std::find_if(used.begin(), used.end(), is_free);
+  if (free == used.end() && family->entries == processes_max) return nullptr;
+  if (free == used.end()) ++family->entries;
   free->~Process();
-  Process& made = *new (free) Process();
+  Process& made = *new (&*free) Process();
   made.state = Process::State::alive;
   made.id = next_id();
   if (own != nullptr) {
@@ -100,16 +100,14 @@ void set_native(Process& process, bool is_native) {
 }
 
 bool has_native_child() {
-  return std::any_of(family->processes, family->processes + processes_max,
-                     [](const Process& each) { return is_listed(each) && each.is_native && each.parent == own->id; });
+  return std::ranges::any_of(
+      entries(), [](const Process& each) { return is_listed(each) && each.is_native && each.parent == own->id; });
 }
 
 void remove(Process& process) {
   if (is_alive(process) && !process.is_native) --family->alive;
   process.state = Process::State::none;
 }
-
-void count_image(Process& process) { count_digest(process); }
 
 void note_end_of(Process& process, int status) {
   WAITPOINT_CHECK(is_alive(process), "a process ends twice");
@@ -120,7 +118,7 @@ void note_end_of(Process& process, int status) {
   count_digest(process);
   if (!process.is_native) --family->alive;
   if (&process == family->processes) family->first_ended_at = family->now;
-  for (Process& each : family->processes) {
+  for (Process& each : entries()) {
     if (!is_listed(each) || each.parent != process.id) continue;
     each.parent = no_parent;
     if (each.state == Process::State::ended) remove(each);
@@ -149,11 +147,9 @@ void note_continuation_of(Process& process) {
 
 Process* find_in_system(pid_t system_id) {
   if (family == nullptr || system_id <= 0) return nullptr;
-  Process* const end = family->processes + processes_max;
-  Process* const found = std::find_if(family->processes, end, [system_id](const Process& each) {
-    return is_listed(each) && each.real_id.load() == system_id;
-  });
-  return found != end ? found : nullptr;
+  for (Process& each : entries())
+    if (is_listed(each) && each.real_id.load() == system_id) return &each;
+  return nullptr;
 }
 
 bool send_letter(Process& to, const siginfo_t& information, pid_t thread) {

@@ -33,8 +33,6 @@ pid_t next_id();
 inline bool is_first() { return own == family->processes; }
 /// The process has ended: its children have no parent from now on. `status` is as for waitpid().
 void note_end_of(Process& process, int status);
-/// Before the process executes another program: counts the events of this one.
-void count_image(Process& process);
 /// Notes a stop or a continuation of the process, and notifies its parent.
 void note_stop_of(Process& process, int signal);
 void note_continuation_of(Process& process);

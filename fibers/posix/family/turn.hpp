@@ -32,8 +32,7 @@ void hand_over_to(Process& process);
 /// True if other processes rang; then the run is at the present instant of the family.
 bool take_ring(kernel::Scheduler& scheduler);
 
-/// The process is about to end, with a status as of waitpid(): closes its descriptors, and hands over the turn for
-/// good.
+/// The process is about to end, with a status as of waitpid(): hands over the turn for good.
 void leave(int status);
 /// Ends another process; returns when that has happened.
 void kill_at_once(Process& process);

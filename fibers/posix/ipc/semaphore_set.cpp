@@ -5,7 +5,7 @@
 
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
-#include "fibers/posix/family/turn.hpp"
+#include "fibers/posix/family/order.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -248,7 +248,7 @@ int operate(int id, const sembuf* given, std::size_t count, Time deadline) {
   const bool may_wait = is_simulated() && deadline > kernel::running->local_time;
   Waiting* waiting = nullptr;
   int error = 0;
-  { error = begin(*set, this_caller(), operations, count, may_wait || !is_simulated(), waiting); }
+  error = begin(*set, this_caller(), operations, count, may_wait || !is_simulated(), waiting);
   if (waiting != nullptr) {
     if (!is_simulated()) refuse("a thread waits before main() begins");
     error = wait_until_done(*set, *waiting, deadline);

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
-#include "fibers/posix/family/turn.hpp"
+#include "fibers/posix/family/order.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -209,29 +209,25 @@ ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
   const CancellationPoint point;
   pass_if_simulated(kernel::Operation::receive, &object_of(queue));
   Receiving* receiving = nullptr;
-  {
-    if (queue.removed) return fail(EIDRM);
-    if (Message** const link = find_message(queue, wanted); *link != nullptr) {
-      Message& message = **link;
-      if (message.size > wanted.size && (wanted.flags & MSG_NOERROR) == 0) return fail(E2BIG);
-      if ((wanted.flags & MSG_COPY) == 0) take_out(queue, link);
-      return hand_over(message, wanted, to);
-    }
-    if ((wanted.flags & IPC_NOWAIT) != 0) return fail(ENOMSG);
-    if (!is_simulated()) refuse("a thread waits before main() begins");
-    receiving = static_cast<Receiving*>(family::take(sizeof(Receiving)));
-    if (receiving == nullptr) return fail(ENOMEM);
-    *receiving = {family::this_process(), kernel::running, wanted, nullptr, -1, nullptr};
-    posix::append(queue.first_receiving, *receiving);
+  if (queue.removed) return fail(EIDRM);
+  if (Message** const link = find_message(queue, wanted); *link != nullptr) {
+    Message& message = **link;
+    if (message.size > wanted.size && (wanted.flags & MSG_NOERROR) == 0) return fail(E2BIG);
+    if ((wanted.flags & MSG_COPY) == 0) take_out(queue, link);
+    return hand_over(message, wanted, to);
   }
+  if ((wanted.flags & IPC_NOWAIT) != 0) return fail(ENOMSG);
+  if (!is_simulated()) refuse("a thread waits before main() begins");
+  receiving = static_cast<Receiving*>(family::take(sizeof(Receiving)));
+  if (receiving == nullptr) return fail(ENOMEM);
+  *receiving = {family::this_process(), kernel::running, wanted, nullptr, -1, nullptr};
+  posix::append(queue.first_receiving, *receiving);
   const int error = wait_for_message(queue, *receiving, point);
   ssize_t taken = -1;
-  {
-    Message* const message = receiving->message;
-    WAITPOINT_CHECK(error != 0 || message != nullptr, "a receiver ends without a message and without an error");
-    family::give(receiving);
-    if (error == 0) taken = hand_over(*message, wanted, to);
-  }
+  Message* const message = receiving->message;
+  WAITPOINT_CHECK(error != 0 || message != nullptr, "a receiver ends without a message and without an error");
+  family::give(receiving);
+  if (error == 0) taken = hand_over(*message, wanted, to);
   // A signal may have come together with the message.
   if (error == 0 && deliverable(this_thread()) != 0) handle_signals();
   return error == 0 ? taken : fail(error);

@@ -11,7 +11,6 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/processes.hpp"
-#include "fibers/posix/family/system_processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -68,7 +67,7 @@ WAITPOINT_INTERPOSED pid_t getsid(pid_t id) noexcept {
 WAITPOINT_INTERPOSED pid_t setsid() noexcept {
   if (family::own == nullptr) return WAITPOINT_NEXT(setsid)();
   Process& process = *family::own;
-  for (const Process& each : family::family->processes)
+  for (const Process& each : family::entries())
     if (each.state != Process::State::none && each.group == process.id) return fail(EPERM);
   const ErrorNumberKept kept;
   WAITPOINT_NEXT(setsid)();

@@ -54,7 +54,7 @@ bool has_news(const Process& process, int options) {
 
 Process* child_with_news(const Awaited& awaited) {
   const ErrorNumberKept kept;
-  for (Process& process : family::family->processes)
+  for (Process& process : family::entries())
     if (awaited.includes(process) && has_news(process, awaited.options)) return &process;
   return nullptr;
 }
@@ -63,7 +63,7 @@ Process* child_with_news(const Awaited& awaited) {
 enum class Among { none, family, natives_too };
 Among children_of(const Awaited& awaited) {
   Among among = Among::none;
-  for (const Process& process : family::family->processes) {
+  for (const Process& process : family::entries()) {
     if (!awaited.includes(process)) continue;
     if (process.is_native) return Among::natives_too;
     among = Among::family;

@@ -59,7 +59,6 @@ struct Settings {
   bool instrumented = false;        ///< the program is compiled with -fsanitize=thread
   bool trap_library = false;        ///< waits within the C library are simulated
   bool simulates_started = false;   ///< programs that it starts are simulations too
-  bool is_started = false;          ///< it was started by a simulated program
   int server = -1;                  ///< a socket on which runs are requested, see fork_server.hpp
 };
 

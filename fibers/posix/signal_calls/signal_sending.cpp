@@ -85,7 +85,7 @@ int send_to_other(family::Process& process, const siginfo_t& information) {
 int send_to_processes(pid_t to, const siginfo_t& information) {
   bool any = false, own = false;
   const pid_t group = to == 0 ? family::own->group : -to;
-  for (family::Process& process : family::family->processes) {
+  for (family::Process& process : family::entries()) {
     if (process.state == family::Process::State::none) continue;
     const bool is_meant = to > 0 ? process.id == to : to == -1 ? &process != family::own : process.group == group;
     if (!is_meant) continue;

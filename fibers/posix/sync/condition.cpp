@@ -69,11 +69,9 @@ Wait wait_shared(Condition& known, ConditionBytes& bytes, std::uint64_t ticket, 
 }
 
 void release_shared(Condition& known, ConditionBytes& bytes, bool all) {
-  {
-    if (bytes.released == bytes.next_ticket) return;
-    bytes.released = all ? bytes.next_ticket : bytes.released + 1;
-    ++bytes.changes;
-  }
+  if (bytes.released == bytes.next_ticket) return;
+  bytes.released = all ? bytes.next_ticket : bytes.released + 1;
+  ++bytes.changes;
   tell_change(known.object);
 }
 

@@ -63,11 +63,9 @@ int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
 }
 
 int give_shared(Bytes& bytes, Semaphore& known) {
-  {
-    if (bytes.count == SEM_VALUE_MAX) return fail(EOVERFLOW);
-    ++bytes.count;
-    ++bytes.changes;
-  }
+  if (bytes.count == SEM_VALUE_MAX) return fail(EOVERFLOW);
+  ++bytes.count;
+  ++bytes.changes;
   tell_change(known.object);
   return 0;
 }

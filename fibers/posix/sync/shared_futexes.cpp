@@ -54,15 +54,13 @@ bool has_woken(const void* kept) {
 
 std::uint32_t wake_others(const void* address, std::uint32_t most, std::uint32_t own) {
   std::uint32_t woken = 0;
-  {
-    auto* const futexes = static_cast<Futexes*>(family::common(family::Part::futexes, 0));
-    SharedFutex* const futex = futexes != nullptr ? find(*futexes, address) : nullptr;
-    if (futex == nullptr || futex->waiters <= own) return 0;
-    woken = std::min(most, futex->waiters - own);
-    // In this order a process that is killed in between leaves too many, never too few.
-    futex->woken += woken;
-    futex->waiters -= woken;
-  }
+  auto* const futexes = static_cast<Futexes*>(family::common(family::Part::futexes, 0));
+  SharedFutex* const futex = futexes != nullptr ? find(*futexes, address) : nullptr;
+  if (futex == nullptr || futex->waiters <= own) return 0;
+  woken = std::min(most, futex->waiters - own);
+  // In this order a process that is killed in between leaves too many, never too few.
+  futex->woken += woken;
+  futex->waiters -= woken;
   if (woken > 0) family::ring();
   return woken;
 }

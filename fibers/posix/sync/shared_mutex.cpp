@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "fibers/kernel/ownership.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
 #include "fibers/posix/sync/shared_object.hpp"
 
@@ -86,12 +87,10 @@ Mutex::RobustState state_after(const Bytes& words) {
 }
 
 void give_up(Bytes& words, Mutex& mutex, Mutex::RobustState robust_state) {
-  {
-    words.process = words.thread = 0;
-    words.depth = 0;
-    words.robust_state = robust_state;
-    ++words.changes;
-  }
+  words.process = words.thread = 0;
+  words.depth = 0;
+  words.robust_state = robust_state;
+  ++words.changes;
   if (mutex.object.owner != nullptr) take_from_owner(mutex.object);
   tell_change(mutex.object);
 }

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "fibers/posix/descriptors/descriptors.hpp"
-#include "fibers/posix/family/turn.hpp"
+#include "fibers/posix/family/order.hpp"
 #include "fibers/posix/program/waitable.hpp"
 #include "fibers/posix/program/waiting.hpp"
 

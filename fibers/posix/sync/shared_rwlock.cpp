@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstddef>
 
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/sync/shared_object.hpp"
 
 namespace waitpoint::posix::shared_rwlock {
@@ -49,10 +50,8 @@ int try_to_write(Bytes& words, std::uint32_t& changes) {
 
 // A count that falls is a change: readers may wait only because writers do.
 void count_waiting_writer(Bytes& words, kernel::Object& object, int by) {
-  {
-    words.waiting_writers += static_cast<std::uint32_t>(by);
-    if (by < 0) ++words.changes;
-  }
+  words.waiting_writers += static_cast<std::uint32_t>(by);
+  if (by < 0) ++words.changes;
   if (by < 0) tell_change(object);
 }
 
@@ -90,13 +89,11 @@ int write_before(pthread_rwlock_t& bytes, kernel::Object& object, Time deadline,
 
 int unlock(pthread_rwlock_t& bytes, kernel::Object& object) {
   Bytes& words = words_of(bytes);
-  {
-    if (words.process != 0)
-      words.process = words.thread = 0;
-    else if (words.readers > 0)
-      --words.readers;
-    ++words.changes;
-  }
+  if (words.process != 0)
+    words.process = words.thread = 0;
+  else if (words.readers > 0)
+    --words.readers;
+  ++words.changes;
   tell_change(object);
   return 0;
 }

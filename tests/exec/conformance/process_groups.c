@@ -82,19 +82,3 @@ CASE(what_is_no_terminal_has_no_group) {
   EXPECT_FAILS(tcgetpgrp(ends[0]), ENOTTY);
   EXPECT_FAILS(tcsetpgrp(ends[0], getpgrp()), ENOTTY);
 }
-
-CASE(a_stopped_child_is_noticed_and_goes_on) {
-  const pid_t child = fork();
-  if (child == 0) {
-    raise(SIGSTOP);
-    sleep_ms(20);
-    _exit(26);
-  }
-  int status = 0;
-  EXPECT_IS(waitpid(child, &status, WUNTRACED), child);
-  EXPECT(WIFSTOPPED(status) && WSTOPSIG(status) == SIGSTOP);
-  EXPECT_IS(kill(child, SIGCONT), 0);
-  EXPECT_IS(waitpid(child, &status, WCONTINUED), child);
-  EXPECT(WIFCONTINUED(status));
-  EXPECT_EXIT(child, 26);
-}
