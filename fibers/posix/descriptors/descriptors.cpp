@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/descriptors/descriptors.hpp"
 
-#include <fcntl.h>
-#include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -24,20 +21,13 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr int known_max = known_descriptors_max;
-static_assert(known_max % 64 == 0, "the sets of descriptors are whole words");
-std::uint64_t inside[known_max / 64];
-ino_t inodes[known_max];                       // of the pipes and sockets inside; 0: not known yet
-std::uint64_t waited_in_vain[known_max / 64];  // for a reader
-const Program* owners[known_max];              // among several programs of a process
-int owned_end = 0;                             // one past the greatest ever owned
-
 /// A waiting thread; on its own stack.
 struct Waiter {
   kernel::Task* task;
   pollfd* descriptors;
   nfds_t count;
   bool outside;
+  family::Changes awaited;
   bool (*is_ready)(const void*) = nullptr;  // null: one of the descriptors
   const void* what = nullptr;
   Waiter* next = nullptr;
@@ -61,7 +51,13 @@ int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
 // For the other processes of the family.
 void note_waits() {
   if (family::own == nullptr) return;
-  family::own->listens = first != nullptr;
+  // Without other processes it is not worth a search.
+  family::Changes awaited = first != nullptr ? family::of_anything : 0;
+  if (family::has_others()) {
+    awaited = 0;
+    for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) awaited |= waiter->awaited;
+  }
+  family::own->listens_to = awaited;
   family::own->waits_outside = waiting_outside > 0;
 }
 
@@ -93,13 +89,34 @@ void remove(Waiter& waiter) {
   note_waits();
 }
 
-// Wakes the threads whose descriptors are ready.
-bool wake_ready(bool outside_too) {
+// True if the count of a pipe shows that its end is ready; false if only the system knows.
+bool is_ready_by_count(const pollfd* descriptors, nfds_t count) {
+  if (count != 1) return false;
+  if (const InsideFile* const pipe = counted_pipe(descriptors->fd, descriptors->events))
+    return is_ready(*pipe, descriptors->events);
+  return false;
+}
+
+int poll_counted(pollfd* descriptors, nfds_t count) {
+  if (!is_ready_by_count(descriptors, count)) return poll_now(descriptors, count);
+  descriptors->revents = descriptors->events;
+  return 1;
+}
+
+family::Changes awaited_at(const pollfd* descriptors, nfds_t count) {
+  const InsideFile* const pipe = count == 1 ? counted_pipe(descriptors->fd, descriptors->events) : nullptr;
+  return pipe != nullptr ? family::of_pipe(pipe->inode) : family::of_descriptors;
+}
+
+// Wakes the threads whose descriptors, or shared objects, are ready, among those that wait for these changes.
+bool wake_ready(bool outside_too, family::Changes changes) {
   bool any = false;
   for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
-    if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too)) continue;
+    if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too) ||
+        (waiter->awaited & changes) == 0)
+      continue;
     const bool is_ready = waiter->is_ready != nullptr ? waiter->is_ready(waiter->what)
-                                                      : poll_now(waiter->descriptors, waiter->count) != 0;
+                                                      : poll_counted(waiter->descriptors, waiter->count) != 0;
     if (!is_ready) continue;
     // is_ready() may have woken it.
     if (waiter->task->state == kernel::TaskState::blocked) waiter->task->scheduler->wake(*waiter->task);
@@ -145,114 +162,6 @@ void (*before_look)() = nullptr;
 
 bool anybody_waits_outside() { return waiting_outside > 0; }
 
-void note_inside(int descriptor, bool is) {
-  if (descriptor < 0 || descriptor >= known_max) return;
-  const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
-  std::uint64_t& word = inside[descriptor / 64];
-  word = is ? word | bit : word & ~bit;
-  waited_in_vain[descriptor / 64] &= ~bit;
-  owners[descriptor] = nullptr;
-  inodes[descriptor] = 0;
-  if (is) note_owner(descriptor);
-}
-
-void note_owner(int descriptor) {
-  if (descriptor < 0 || descriptor >= known_max || !is_simulated() || !this_program().is_member) return;
-  owners[descriptor] = &this_program();
-  if (descriptor >= owned_end) owned_end = descriptor + 1;
-}
-
-int next_owned(int from, const Program*& owner) {
-  WAITPOINT_CHECK(from >= 0 && owned_end <= known_max, "the table of owners is read outside its range");
-  for (int descriptor = from; descriptor < owned_end; ++descriptor)
-    if ((owner = owners[descriptor]) != nullptr) return descriptor;
-  return -1;
-}
-
-void disown(int descriptor) {
-  WAITPOINT_CHECK(descriptor >= 0 && descriptor < owned_end && owners[descriptor] != nullptr,
-                  "a descriptor without an owner is disowned");
-  owners[descriptor] = nullptr;
-}
-
-bool is_inside(int descriptor) {
-  return descriptor >= 0 && descriptor < known_max && (inside[descriptor / 64] >> (descriptor % 64) & 1) != 0;
-}
-
-namespace {
-
-/// The pipes and sockets inside, by their inodes: a table with open addressing.
-struct InsideFile {
-  ino_t inode;
-  int held;  ///< bytes in the pipe at the last check, by any process
-};
-constexpr std::size_t inside_files_max = 1 << 16;
-
-// The entry of this inode, or a free one for it; null if the table is full.
-InsideFile* place_of(ino_t inode) {
-  auto* const all =
-      static_cast<InsideFile*>(family::common(family::Part::inside_files, sizeof(InsideFile) * inside_files_max));
-  const std::size_t first = Digest::mix(inode) % inside_files_max;
-  for (std::size_t i = 0; all != nullptr && i < inside_files_max; ++i) {
-    InsideFile& each = all[(first + i) % inside_files_max];
-    if (each.inode == inode || each.inode == 0) return &each;
-  }
-  return nullptr;
-}
-
-// 0 for other files.
-ino_t inode_of(int descriptor) {
-  struct stat status {};
-  if (fstat(descriptor, &status) != 0) return 0;
-  return S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode) ? status.st_ino : 0;
-}
-
-template <class Visit>
-void for_each_inside(Visit visit) {
-  for (int word = 0; word < known_max / 64; ++word)
-    for (std::uint64_t left = inside[word]; left != 0; left &= left - 1) visit(word * 64 + __builtin_ctzll(left));
-}
-
-}  // namespace
-
-bool has_unnoticed_output() {
-  bool any = false;
-  for_each_inside([&any](int descriptor) {
-    ino_t& inode = inodes[descriptor];
-    if (inode == 0) inode = inode_of(descriptor);
-    int bytes = 0;
-    if (inode == 0 || WAITPOINT_NEXT(ioctl)(descriptor, FIONREAD, &bytes) != 0) return;
-    InsideFile* const file = place_of(inode);
-    if (file == nullptr || (file->inode == inode && file->held == bytes)) return;
-    *file = {inode, bytes};
-    any = true;
-  });
-  return any;
-}
-
-void note_start(bool is_native) {
-  const ErrorNumberKept kept;
-  for_each_inside([&](int descriptor) {
-    if (is_native) {
-      if ((WAITPOINT_NEXT(fcntl)(descriptor, F_GETFD) & FD_CLOEXEC) == 0) note_inside(descriptor, false);
-      return;
-    }
-    const ino_t inode = inode_of(descriptor);
-    InsideFile* const file = inode != 0 ? place_of(inode) : nullptr;
-    if (file != nullptr && file->inode != inode) *file = {inode, 0};
-  });
-}
-
-void inherit_inside() {
-  const ErrorNumberKept kept;
-  constexpr int most = 1024;
-  for (int descriptor = 0; descriptor < most; ++descriptor) {
-    const ino_t inode = inode_of(descriptor);
-    const InsideFile* const file = inode != 0 ? place_of(inode) : nullptr;
-    if (file != nullptr && file->inode == inode) note_inside(descriptor, true);
-  }
-}
-
 void forget_waiters() {
   first = last = nullptr;
   waiting_outside = waiting_for_no_descriptor = 0;
@@ -270,18 +179,18 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) 
   for (nfds_t i = 0; i < count && !has_host; ++i)
     if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) outside = true;
   if (!outside)
-    if (const int ready = poll_now(descriptors, count); ready != 0) return ready;
+    if (const int ready = poll_counted(descriptors, count); ready != 0) return ready;
   for (;;) {
     if (deadline <= task.local_time) return poll_now(descriptors, count);
     task.scheduler->enter(descriptors_object);
-    Waiter waiter{&task, descriptors, count, outside};
+    Waiter waiter{&task, descriptors, count, outside, awaited_at(descriptors, count)};
     add(waiter);
     // While a thread waits outside, the run pauses at the end of each instant.
     if (outside) task.scheduler->pause();
     const Wait ended = wait_on(descriptors_object, deadline);
     remove(waiter);
     // Another thread may have taken the data.
-    if (const int ready = poll_now(descriptors, count); ready != 0) return ready;
+    if (const int ready = poll_counted(descriptors, count); ready != 0) return ready;
     if (thread_of(task).in_cancellation_point && is_to_leave(thread_of(task))) return 0;
     if (ended == Wait::interrupted && is_interrupted(restart)) return fail(EINTR);
   }
@@ -307,7 +216,7 @@ int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restar
   kernel::Task& task = *kernel::running;
   while (!is_ready(what)) {
     task.scheduler->enter(outside_object);
-    Waiter waiter{&task, nullptr, 0, true, is_ready, what};
+    Waiter waiter{&task, nullptr, 0, true, family::of_anything, is_ready, what};
     add(waiter);
     task.scheduler->pause();
     const Wait ended = wait_on(outside_object, Time::max());
@@ -322,7 +231,7 @@ Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(cons
   // Without other processes the thread that changes the object wakes the others; only the last change by a process that
   // has ended may not have been seen.
   if (is_ready(what)) return Wait::came;
-  Waiter waiter{kernel::running, nullptr, 0, false, is_ready, what};
+  Waiter waiter{kernel::running, nullptr, 0, false, family::of_objects, is_ready, what};
   add(waiter);
   const Wait ended = wait_on(object, deadline);
   remove(waiter);
@@ -337,20 +246,16 @@ bool wait_for_reader(int descriptor, int patience_ms) {
   for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
     if (waiter->count > 0 && poll_now(waiter->descriptors, waiter->count) > 0) return false;
   // An outside reader that did not read last time is not waited for again.
-  const bool is_known = descriptor < known_max;
-  std::uint64_t none = 0;
-  std::uint64_t& word = is_known ? waited_in_vain[descriptor / 64] : none;
-  const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
-  if ((word & bit) != 0) return false;
+  if (was_waited_for_in_vain(descriptor)) return false;
   if (poll_now(&one, 1, patience_ms) > 0) return true;
-  word |= bit;
+  note_waited_for_in_vain(descriptor);
   return false;
 }
 
-void look_at_descriptors() {
+void look_at_descriptors(family::Changes changes) {
   if (before_look != nullptr) before_look();
-  if (first != nullptr) wake_ready(false);
-  family::ring();
+  if (first != nullptr) wake_ready(false, changes);
+  family::ring(changes);
 }
 
 bool wait_outside_for(Duration longest) {
@@ -360,12 +265,12 @@ bool wait_outside_for(Duration longest) {
 
 bool look_outside(bool may_wait) {
   const bool came = take_in_signals_from_outside();
-  if (wake_ready(true) || came) return true;
+  if (wake_ready(true, family::of_anything) || came) return true;
   if (!may_wait) return false;
   if (waiting_outside == 0) return false;
   wait_really(Duration::max());
   take_in_signals_from_outside();
-  wake_ready(true);
+  wake_ready(true, family::of_anything);
   return true;
 }
 

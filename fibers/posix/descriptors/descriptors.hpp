@@ -13,32 +13,16 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/posix/descriptors/inside_files.hpp"
+#include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
 
-struct Program;
-
 /// True if a thread waits for something outside.
 bool anybody_waits_outside();
 
-/// Descriptors from this number on count as outside.
-inline constexpr int known_descriptors_max = 65536;
-/// Inside: made by this program for itself, or a duplicate of such a descriptor. Not inside: closed, or shared.
-void note_inside(int descriptor, bool inside);
-bool is_inside(int descriptor);
-/// Makes the running program the owner, if it is one of several in the process.
-void note_owner(int descriptor);
-/// The first descriptor, from `from` on, with an owner among several programs; -1 without one.
-int next_owned(int from, const Program*& owner);
-/// Removes its owner.
-void disown(int descriptor);
-/// Before a program is started. A simulated one finds the pipes and sockets inside that were inside here; a native one
-/// makes those outside that it gets.
-void note_start(bool is_native);
-/// In a program that was started: see there.
-void inherit_inside();
 /// In the child: no thread waits.
 void forget_waiters();
 /// The task no longer exists.
@@ -66,10 +50,7 @@ bool wait_for_reader(int descriptor, int patience_ms);
 /// Called, unless null, before each check of descriptors: a reader may have made room for data under way to it.
 extern void (*before_look)();
 /// After an action on a descriptor: wakes the threads whose descriptors are ready.
-void look_at_descriptors();
-
-/// True if a pipe inside holds another number of bytes than at the last call: the C library has written to it.
-bool has_unnoticed_output();
+void look_at_descriptors(family::Changes changes = family::of_descriptors);
 
 /// The running thread waits for a condition outside that is no descriptor. 1 once `is_ready` is true; 0 if the thread
 /// was cancelled; -1 with EINTR if a signal interrupted the wait.

@@ -53,6 +53,7 @@ WAITPOINT_INTERPOSED int pidfd_open(pid_t id, unsigned flags) noexcept {
 
 WAITPOINT_INTERPOSED int pidfd_getfd(int process, int descriptor, unsigned flags) noexcept {
   const int made = WAITPOINT_NEXT(pidfd_getfd)(process, descriptor, flags);
+  end_counting_of_all();
   if (made >= 0 && is_simulated()) note_inside(made, process_of(process) == getpid() && is_inside(descriptor));
   return made;
 }

@@ -30,11 +30,10 @@ bool let_all_look(Time now) {
   return any;
 }
 
-// True if another process waits for what this one may do: its output to a pipe, too, of which the C library makes no
-// call that could be noticed.
+// True if another process waits for descriptors: the C library's output makes no call that could be noticed.
 bool anybody_listens() {
   for (const Process& process : family::entries())
-    if (&process != family::own && process.listens) return true;
+    if (&process != family::own && (process.listens_to & family::of_descriptors) != 0) return true;
   return false;
 }
 
@@ -77,7 +76,7 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
   do {
     if (all.is_over) return false;
     if (family::take_ring(scheduler)) look_outside(false);
-    if (has_unnoticed_output()) family::ring();
+    if (anybody_listens() && has_unnoticed_output()) family::ring(family::of_descriptors);
     const Time ring = family::own->is_rung ? family::own->rung_at : Time::max();
     const Time own = std::min(scheduler.next_event_time(), ring);
     const Time next = std::min(own, family::least_of_others().time);
@@ -95,7 +94,7 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
     }
   } while (family::own->is_rung && family::own->rung_at <= scheduler.next_event_time());
   until = record->settings.until;
-  if (next_waiting_outside() != nullptr || anybody_listens())
+  if (next_waiting_outside() != nullptr || (anybody_listens() && may_have_unnoticed_output()))
     until = std::min(until, later(std::max(scheduler.next_event_time(), all.now), nanosecond));
   return true;
 }

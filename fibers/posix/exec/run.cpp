@@ -77,6 +77,7 @@ Time keep_pace(kernel::Scheduler& scheduler) {
     inherit_inside();
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) trap_stream(stream);
   }
+  notice_stream = trap_stream;
   draw_random_bytes_of_the_process();
   if (record->settings.trap_rdtsc) trap_processor_counter();
   if (record->settings.trap_library) trap_library_calls();

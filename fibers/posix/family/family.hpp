@@ -30,6 +30,14 @@ inline constexpr pid_t first_id = 1000;
 /// The parent of a process whose parent has ended.
 inline constexpr pid_t no_parent = 1;
 
+/// What threads wait for, and what an action may have changed: a set.
+using Changes = std::uint64_t;
+inline constexpr Changes of_objects = Changes{1} << 63;  ///< shared primitives, System V objects
+inline constexpr Changes of_descriptors = of_objects - 1;
+inline constexpr Changes of_anything = of_objects | of_descriptors;
+/// One pipe: a subset of the descriptors.
+inline constexpr Changes of_pipe(std::uint64_t inode) { return Changes{1} << (inode % 63); }
+
 /// A signal sent by another process.
 struct Letter {
   siginfo_t information;
@@ -59,7 +67,7 @@ struct Process {
   // The turn (turn.hpp).
   kernel::EventKey next = kernel::EventKey::never();  ///< the key of its least event, while another has the turn
   std::atomic<std::uint32_t> has_turn = 0;            ///< a futex
-  bool listens = false;                               ///< its threads wait for what other processes may do
+  Changes listens_to = 0;                             ///< its threads wait for them
   bool is_rung = false;                               ///< one of them did something since, first at `rung_at`
   Time rung_at;
   bool waits_outside = false;

@@ -83,10 +83,10 @@ void ring(Process& process) {
   if (kernel::running != nullptr) limit_window(*kernel::running->scheduler);
 }
 
-void ring() {
+void ring(Changes changes) {
   if (!has_others()) return;
   for (Process& process : entries())
-    if (process.listens && takes_turns(process)) ring(process);
+    if ((process.listens_to & changes) != 0 && takes_turns(process)) ring(process);
 }
 
 }  // namespace waitpoint::posix::family

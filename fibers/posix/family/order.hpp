@@ -35,7 +35,7 @@ void remove_limit(kernel::Scheduler& scheduler);
 
 /// Makes a process check, at the present instant of this one, for what its threads wait.
 void ring(Process& process);
-/// The same for all whose threads wait for something that another process may do.
-void ring();
+/// The same for all whose threads wait for one of these changes.
+void ring(Changes changes);
 
 }  // namespace waitpoint::posix::family

@@ -114,7 +114,8 @@ void note_end_of(Process& process, int status) {
   process.state = Process::State::ended;
   process.status = status;
   process.next = kernel::EventKey::never();
-  process.listens = process.is_rung = process.waits_outside = false;
+  process.listens_to = 0;
+  process.is_rung = process.waits_outside = false;
   count_digest(process);
   if (!process.is_native) --family->alive;
   if (&process == family->processes) family->first_ended_at = family->now;
@@ -123,7 +124,7 @@ void note_end_of(Process& process, int status) {
     each.parent = no_parent;
     if (each.state == Process::State::ended) remove(each);
   }
-  ring();
+  ring(of_anything);
   tell_parent(process, WIFEXITED(status) ? CLD_EXITED : WCOREDUMP(status) ? CLD_DUMPED : CLD_KILLED);
 }
 

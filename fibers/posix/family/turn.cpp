@@ -88,7 +88,7 @@ void join(int index) {
   is_joined_ = true;
   if (family->holder.load() != static_cast<std::uint32_t>(index)) await_turn();
   own->borrows = false;
-  ring();
+  ring(of_anything);
 }
 
 bool is_joined() { return is_joined_; }

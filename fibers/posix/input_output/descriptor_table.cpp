@@ -8,6 +8,7 @@
 #include <linux/close_range.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -18,6 +19,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/descriptors/signal_descriptors.hpp"
 #include "fibers/posix/input_output/file_locks.hpp"
 #include "fibers/posix/links/loopback.hpp"
@@ -31,19 +33,13 @@ using namespace waitpoint::posix;
 
 namespace {
 
-int both(int result, const int (&ends)[2]) {
-  if (result == 0)
-    for (const int end : ends) note_inside(end, true);
-  return result;
-}
-
 int one(int descriptor) {
   if (descriptor >= 0) note_inside(descriptor, true);
   return descriptor;
 }
 
 int copy(int from, int made) {
-  if (made >= 0) note_inside(made, is_inside(from)), copy_asked(from, made);
+  if (made >= 0) note_duplicate(from, made), copy_asked(from, made);
   return made;
 }
 
@@ -80,6 +76,7 @@ int control(int descriptor, int command, void* argument) {
   if (is_simulated() && (command == F_SETLKW || command == F_OFD_SETLKW) && can_be_read(argument))
     return lock_waiting(descriptor, command, *static_cast<struct flock*>(argument));
   if (command == F_SETOWN) return WAITPOINT_NEXT(fcntl)(descriptor, command, owner_in_system(argument));
+  if (command == F_SETFL || command == F_SETPIPE_SZ) end_counting(descriptor);
   const int result = WAITPOINT_NEXT(fcntl)(descriptor, command, argument);
   if (command == F_GETOWN) return owner_in_family(result);
   return command == F_DUPFD || command == F_DUPFD_CLOEXEC ? copy(descriptor, result) : result;
@@ -94,7 +91,7 @@ void close_descriptors_of(const Program& program) {
   for (int descriptor = next_owned(0, owner); descriptor >= 0; descriptor = next_owned(descriptor + 1, owner)) {
     if (owner != &program) continue;
     WAITPOINT_CHECK(owner->is_member, "a program that is alone in its process owns a descriptor");
-    disown(descriptor);
+    clear_owner(descriptor);
     forget_timer_descriptor(descriptor);
     close_stream_over_link(descriptor);
     close(descriptor);
@@ -104,11 +101,16 @@ void close_descriptors_of(const Program& program) {
 }  // namespace waitpoint::posix
 
 WAITPOINT_INTERPOSED int pipe2(int* ends, int flags) noexcept {
-  return both(WAITPOINT_NEXT(pipe2)(ends, flags), *reinterpret_cast<int(*)[2]>(ends));
+  const int result = WAITPOINT_NEXT(pipe2)(ends, flags);
+  if (result == 0) note_pipe(*reinterpret_cast<int(*)[2]>(ends), flags);
+  return result;
 }
 WAITPOINT_INTERPOSED int pipe(int* ends) noexcept { return pipe2(ends, 0); }
 WAITPOINT_INTERPOSED int socketpair(int domain, int type, int protocol, int* ends) noexcept {
-  return both(WAITPOINT_NEXT(socketpair)(domain, type, protocol, ends), *reinterpret_cast<int(*)[2]>(ends));
+  const int result = WAITPOINT_NEXT(socketpair)(domain, type, protocol, ends);
+  if (result == 0)
+    for (int i = 0; i < 2; ++i) note_inside(ends[i], true);
+  return result;
 }
 WAITPOINT_INTERPOSED int socket(int domain, int type, int protocol) noexcept {
   const int made = WAITPOINT_NEXT(socket)(domain, type, protocol);
@@ -153,6 +155,17 @@ int waitpoint_fcntl64(int descriptor, int command, ...) {
   void* const argument = va_arg(more, void*);
   va_end(more);
   return control(descriptor, command, argument);
+}
+
+extern "C" [[gnu::visibility("default")]] int waitpoint_ioctl(int descriptor, unsigned long request,
+                                                              ...) __asm__("ioctl");
+int waitpoint_ioctl(int descriptor, unsigned long request, ...) {
+  va_list more;
+  va_start(more, request);
+  void* const argument = va_arg(more, void*);
+  va_end(more);
+  if (request == FIONBIO) end_counting(descriptor);
+  return WAITPOINT_NEXT(ioctl)(descriptor, request, argument);
 }
 
 WAITPOINT_INTERPOSED int close(int descriptor) {

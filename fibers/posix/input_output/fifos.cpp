@@ -73,6 +73,7 @@ int open_fifo(int folder, const char* path, int flags) {
   pass(kernel::Operation::open, nullptr);
   struct stat of {};
   if (fstatat(folder, path, &of, 0) != 0) return -1;
+  end_counting_of_inode(of.st_ino);
   Opening opening{of.st_dev, of.st_ino, path, folder, flags, -1, false, first_opening};
   const bool reads = (flags & O_ACCMODE) == O_RDONLY;
   opening.descriptor = open_at_once(opening);

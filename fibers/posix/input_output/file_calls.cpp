@@ -40,6 +40,7 @@ WAITPOINT_SAME_AS(pwritev64) ssize_t waitpoint_pwritev(int, const iovec*, int, o
 // An offset of -1 is the file's position: then pipes and sockets are possible, too.
 WAITPOINT_INTERPOSED ssize_t preadv64v2(int descriptor, const iovec* pieces, int count, off64_t at, int flags) {
   const bool may_block = at == -1 && (flags & RWF_NOWAIT) == 0;
+  end_counting(descriptor);
   return receive(descriptor, may_block,
                  [&] { return WAITPOINT_NEXT(preadv64v2)(descriptor, pieces, count, at, flags); });
 }
@@ -47,6 +48,7 @@ WAITPOINT_SAME_AS(preadv64v2) ssize_t waitpoint_preadv2(int, const iovec*, int, 
 
 WAITPOINT_INTERPOSED ssize_t pwritev64v2(int descriptor, const iovec* pieces, int count, off64_t at, int flags) {
   if (at == -1 && flags == 0) return writev(descriptor, pieces, count);
+  end_counting(descriptor);
   return send_all_at_once(descriptor, at == -1 && (flags & RWF_NOWAIT) == 0,
                           [&] { return WAITPOINT_NEXT(pwritev64v2)(descriptor, pieces, count, at, flags); });
 }

@@ -2,13 +2,17 @@
 #include "fibers/posix/input_output/input_output.hpp"
 
 #include <fcntl.h>
+#include <limits.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "core/error.hpp"
+#include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -41,6 +45,7 @@ Patience patience_of(int descriptor, DescriptorClass of, short events) {
 
 DescriptorClass class_of(int descriptor) {
   if (!is_simulated()) return DescriptorClass::file;
+  if (is_counted_pipe(descriptor)) return DescriptorClass::pipe;
   struct stat of {};
   const ErrorNumberKept kept;
   const bool known = fstat(descriptor, &of) == 0;
@@ -53,8 +58,26 @@ DescriptorClass class_of(int descriptor) {
 bool blocks(int descriptor) { return (WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL) & O_NONBLOCK) == 0; }
 
 bool may_wait_for(int descriptor, short events) {
+  if (counted_pipe(descriptor, events) != nullptr) return true;
   const int flags = WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL);
   return (flags & O_NONBLOCK) == 0 && (flags & O_ACCMODE) != (events == POLLIN ? O_WRONLY : O_RDONLY);
+}
+
+long read_at_once(int descriptor, void* bytes, std::size_t size) {
+  const long count = call_directly(SYS_read, descriptor, reinterpret_cast<long>(bytes), static_cast<long>(size));
+  if (count > 0) note_read(counted_pipe(descriptor, POLLIN), static_cast<std::size_t>(count));
+  return count;
+}
+
+long write_at_once(int descriptor, const void* bytes, std::size_t size) {
+  InsideFile* const pipe = counted_pipe(descriptor, POLLOUT);
+  // A pipe that is ready has room for PIPE_BUF bytes.
+  const std::size_t room = std::max<std::size_t>(pipe != nullptr ? room_in(*pipe) : 0, PIPE_BUF);
+  const bool is_pipe = pipe != nullptr || class_of(descriptor) == DescriptorClass::pipe;
+  const std::size_t piece = is_pipe ? std::min(size, room) : size;
+  const long count = call_directly(SYS_write, descriptor, reinterpret_cast<long>(bytes), static_cast<long>(piece));
+  if (count > 0) note_written(pipe, static_cast<std::size_t>(count));
+  return count;
 }
 
 bool prepare(int descriptor, DescriptorClass of, kernel::Operation operation, short events, bool may_block) {

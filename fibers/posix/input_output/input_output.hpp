@@ -27,17 +27,28 @@ bool may_wait_for(int descriptor, short events);
 /// Before a call that may block on `descriptor`: its event and the wait. False, with errno set, if the call fails.
 bool prepare(int descriptor, DescriptorClass of, kernel::Operation operation, short events, bool may_block);
 
+/// The system's calls, on a descriptor that is ready, without one of the C library, which may be trapped: a negative
+/// result is an error number. A pipe may take less than the whole.
+long read_at_once(int descriptor, void* bytes, std::size_t size);
+long write_at_once(int descriptor, const void* bytes, std::size_t size);
+
 /// The object of all transfers for race detectors: a sending happens before the code after its reception. One object
 /// for all, since only the system knows which descriptors are connected.
 inline constexpr char all_descriptors = 0;
 
+/// What a transfer by this descriptor may change.
+inline family::Changes changes_at(int descriptor, short events) {
+  const InsideFile* const pipe = counted_pipe(descriptor, events);
+  return pipe != nullptr ? family::of_pipe(pipe->inode) : family::of_descriptors;
+}
+
 /// Makes the call, and wakes the threads that can continue after it.
 template <class Call>
-auto done(Call call) {
+auto done(Call call, family::Changes changes = family::of_descriptors) {
   if (kernel::sanitizer::present) kernel::sanitizer::release(&all_descriptors);
   const auto result = call();
   if (kernel::sanitizer::present) kernel::sanitizer::acquire(&all_descriptors);
-  look_at_descriptors();
+  look_at_descriptors(changes);
   handle_what_came_with_a_call();
   return result;
 }
@@ -47,7 +58,7 @@ auto receive(int descriptor, bool may_block, Call call) {
   const DescriptorClass of = class_of(descriptor);
   if (of == DescriptorClass::file) return at_cancellation_point(call);
   if (!prepare(descriptor, of, kernel::Operation::receive, POLLIN, may_block)) return static_cast<decltype(call())>(-1);
-  const auto received = done(call);
+  const auto received = done(call, changes_at(descriptor, POLLIN));
   acknowledge(descriptor);
   return received;
 }
@@ -67,7 +78,8 @@ std::ptrdiff_t write_all(int descriptor, DescriptorClass of, const char* bytes, 
   std::size_t written = 0;
   do {
     if (!prepare(descriptor, of, kernel::Operation::send, POLLOUT, true)) break;
-    const std::ptrdiff_t count = done([&] { return take(bytes + written, size - written); });
+    const std::ptrdiff_t count =
+        done([&] { return take(bytes + written, size - written); }, changes_at(descriptor, POLLOUT));
     if (count < 0 && errno == EAGAIN) continue;
     if (count < 0) break;
     WAITPOINT_CHECK(static_cast<std::size_t>(count) <= size - written, "more was written than there was");

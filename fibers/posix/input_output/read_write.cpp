@@ -32,6 +32,12 @@ bool gives_random(int descriptor) {
          (of.st_rdev == makedev(1, 8) || of.st_rdev == makedev(1, 9));
 }
 
+ssize_t as_of_library(long result) {
+  if (result >= 0) return result;
+  errno = static_cast<int>(-result);
+  return -1;
+}
+
 }  // namespace
 
 WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size) {
@@ -43,12 +49,13 @@ WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size)
   if (is_simulated() && is_signal_descriptor(descriptor))
     return receive(descriptor, true, [&] { return read_signals(descriptor, bytes, size); });
   // A read of size zero does not wait.
-  return receive(descriptor, size > 0, [&] { return WAITPOINT_NEXT(read)(descriptor, bytes, size); });
+  return receive(descriptor, size > 0, [&] { return as_of_library(read_at_once(descriptor, bytes, size)); });
 }
 
 WAITPOINT_INTERPOSED ssize_t readv(int descriptor, const iovec* pieces, int count) {
   if (is_simulated()) bring_up_to_date(descriptor);
   const bool is_valid = count > 0 && count <= IOV_MAX;
+  end_counting(descriptor);
   return receive(descriptor, is_valid, [&] { return WAITPOINT_NEXT(readv)(descriptor, pieces, count); });
 }
 
@@ -61,8 +68,7 @@ WAITPOINT_INTERPOSED ssize_t write(int descriptor, const void* bytes, std::size_
     return send_to_stream(descriptor, bytes, size, 0);
   if (size > 0 && of == DescriptorClass::pipe && may_wait_for(descriptor, POLLOUT))
     return write_all(descriptor, of, static_cast<const char*>(bytes), size, [&](const char* at, std::size_t left) {
-      // A pipe that is ready has room for PIPE_BUF bytes.
-      return WAITPOINT_NEXT(write)(descriptor, at, left > PIPE_BUF ? PIPE_BUF : left);
+      return as_of_library(write_at_once(descriptor, at, left));
     });
   return send_all_at_once(descriptor, true, [&] { return WAITPOINT_NEXT(write)(descriptor, bytes, size); });
 }

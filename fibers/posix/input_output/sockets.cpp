@@ -16,6 +16,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
 #include "fibers/posix/links/datagram_links.hpp"
 #include "fibers/posix/links/loopback.hpp"
@@ -273,6 +274,7 @@ WAITPOINT_INTERPOSED ssize_t sendto(int descriptor, const void* bytes, std::size
 WAITPOINT_INTERPOSED ssize_t sendmsg(int descriptor, const msghdr* message, int flags) {
   if (!can_be_read(message)) return WAITPOINT_NEXT(sendmsg)(descriptor, message, flags);
   if (is_forbidden(static_cast<const sockaddr*>(message->msg_name))) return -1;
+  if (message->msg_controllen > 0) end_counting_of_all();  // of which it may pass duplicates
   std::size_t size = 0;
   if (send_over_link(descriptor, *message, size)) return static_cast<ssize_t>(size);
   if (goes_over_link(descriptor)) return send_parts_over_link(descriptor, *message);

@@ -37,6 +37,7 @@ bool can_move(int from, int to, int pipes) {
 template <class Call>
 ssize_t move_between(int from, int to, int pipes, unsigned flags, Call call) {
   WAITPOINT_CHECK(pipes == 1 || pipes == 2, "data is moved between none or more than two pipes");
+  for (const int end : {from, to}) end_counting(end);
   if (!is_simulated()) return call(flags);
   if (goes_over_link(to)) return fail(EINVAL);
   const bool may_block = (flags & SPLICE_F_NONBLOCK) == 0 && can_move(from >= 0 ? from : to, to, pipes);
@@ -67,6 +68,7 @@ WAITPOINT_INTERPOSED ssize_t tee(int from, int to, std::size_t size, unsigned fl
 // Into the write end of a pipe, or out of its read end.
 WAITPOINT_INTERPOSED ssize_t vmsplice(int pipe, const iovec* pieces, std::size_t count, unsigned flags) {
   const auto call = [&](unsigned how) { return WAITPOINT_NEXT(vmsplice)(pipe, pieces, count, how); };
+  end_counting(pipe);
   const int mode = WAITPOINT_NEXT(fcntl)(pipe, F_GETFL);
   if (mode >= 0 && (mode & O_ACCMODE) == O_RDONLY) return receive(pipe, true, [&] { return call(flags); });
   return move_between(-1, pipe, 1, flags, call);
@@ -75,6 +77,7 @@ WAITPOINT_INTERPOSED ssize_t vmsplice(int pipe, const iovec* pieces, std::size_t
 // A pipe accepts as much as it has room for; a socket all, in pieces.
 WAITPOINT_INTERPOSED ssize_t sendfile64(int to, int from, off64_t* at, std::size_t size) noexcept {
   if (goes_over_link(to)) return fail(EINVAL);
+  end_counting(to);
   const DescriptorClass of = class_of(to);
   if (of == DescriptorClass::file || !blocks(to))
     return send_all_at_once(to, false, [&] { return WAITPOINT_NEXT(sendfile64)(to, from, at, size); });

@@ -79,7 +79,7 @@ void end_waiting(Waiting& waiting, int result) {
   WAITPOINT_CHECK(!waiting.done && result >= 0, "a call on semaphores ends twice, or without a result");
   waiting.result = result;
   waiting.done = true;
-  if (waiting.caller.process != family::this_process()) return family::ring();
+  if (waiting.caller.process != family::this_process()) return family::ring(family::of_objects);
   // A signal may have woken it before: then it finds the result when it runs.
   if (waiting.task->state == kernel::TaskState::blocked) waiting.task->scheduler->wake(*waiting.task);
 }

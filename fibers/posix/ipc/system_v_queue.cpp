@@ -55,7 +55,7 @@ void end_receiving(Queue& queue, Receiving& receiving, Message* message, int err
   posix::remove(queue.first_receiving, receiving);
   receiving.message = message;
   __atomic_store_n(&receiving.error, error, __ATOMIC_SEQ_CST);
-  if (receiving.process != family::this_process()) return family::ring();
+  if (receiving.process != family::this_process()) return family::ring(family::of_objects);
   // A signal or a cancellation may have woken it before: then it finds the result when it runs.
   if (receiving.task->state == kernel::TaskState::blocked) receiving.task->scheduler->wake(*receiving.task);
 }
@@ -99,7 +99,7 @@ bool has_room(const Queue& queue, std::size_t size) {
 
 void wake_senders(const Queue& queue) {
   if (is_simulated()) kernel::running->scheduler->wake_all(object_of_room(queue));
-  family::ring();
+  family::ring(family::of_objects);
 }
 
 void end_all(Queue& queue, int error) {
@@ -180,19 +180,19 @@ ssize_t hand_over(Message& message, const Wanted& wanted, void* to) {
   return static_cast<ssize_t>(taken);
 }
 
-bool is_done(const void* receiving) {
+bool is_wait_over(const void* receiving) {
   return __atomic_load_n(&static_cast<const Receiving*>(receiving)->error, __ATOMIC_SEQ_CST) >= 0;
 }
 
 // Waits until a message is handed over. Returns an error number.
 int wait_for_message(Queue& queue, Receiving& receiving, const CancellationPoint& point) {
-  while (!is_done(&receiving)) {
+  while (!is_wait_over(&receiving)) {
     Wait ended = Wait::interrupted;
-    if (!point.was_cancelled()) ended = wait_on_shared(object_of(queue), Time::max(), is_done, &receiving);
-    if (is_done(&receiving)) break;
+    if (!point.was_cancelled()) ended = wait_on_shared(object_of(queue), Time::max(), is_wait_over, &receiving);
+    if (is_wait_over(&receiving)) break;
     if (ended != Wait::interrupted) continue;  // check again
     {
-      if (is_done(&receiving)) break;
+      if (is_wait_over(&receiving)) break;
       posix::remove(queue.first_receiving, receiving);
     }
     if (point.was_cancelled()) return ECANCELED;

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/program/thread.hpp"
 
 namespace waitpoint::posix {

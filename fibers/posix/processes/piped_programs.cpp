@@ -14,6 +14,7 @@
 
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/inside_files.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
@@ -118,6 +119,7 @@ WAITPOINT_INTERPOSED int pclose(FILE* stream) {
 // Its calls within the C library are to be noticed.
 WAITPOINT_INTERPOSED FILE* fdopen(int descriptor, const char* mode) noexcept {
   FILE* const stream = WAITPOINT_NEXT(fdopen)(descriptor, mode);
-  if (stream != nullptr && is_simulated() && family::has_others()) trap_stream(descriptor);
+  if (stream == nullptr || !is_simulated()) return stream;
+  family::has_others() ? trap_stream(descriptor) : end_counting(descriptor);
   return stream;
 }

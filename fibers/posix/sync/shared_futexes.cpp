@@ -61,7 +61,7 @@ std::uint32_t wake_others(const void* address, std::uint32_t most, std::uint32_t
   // In this order a process that is killed in between leaves too many, never too few.
   futex->woken += woken;
   futex->waiters -= woken;
-  if (woken > 0) family::ring();
+  if (woken > 0) family::ring(family::of_objects);
   return woken;
 }
 

@@ -44,7 +44,7 @@ inline Wait wait_for_change(kernel::Object& object, const std::uint32_t& changes
 /// After a change was made and counted: all waiters check again.
 inline void tell_change(kernel::Object& object) {
   if (is_simulated()) kernel::running->scheduler->wake_all(object);
-  family::ring();
+  family::ring(family::of_objects);
 }
 
 }  // namespace waitpoint::posix

@@ -2,7 +2,6 @@
 #include "fibers/posix/traps/library_calls.hpp"
 
 #include <fcntl.h>
-#include <limits.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/futex.h>
@@ -46,22 +45,23 @@ long call_system(long number, const Words& words) {
 
 // Waits until the descriptor is ready, as read() and write() do; false if a signal handler ended the wait.
 bool wait_until_ready(int descriptor, short events) {
-  pollfd one{descriptor, events, 0};
   if (class_of(descriptor) == DescriptorClass::file || !may_wait_for(descriptor, events)) return true;
-  if (WAITPOINT_NEXT(poll)(&one, 1, 0) != 0) return true;
   const auto operation = events == POLLIN ? kernel::Operation::receive : kernel::Operation::send;
   pass(operation, nullptr);
   return wait_for(descriptor, events, Time::max(), Restart::if_asked) >= 0;
 }
 
-long read_or_write(long number, Words words) {
+long read_or_write(long number, const Words& words) {
   const auto descriptor = static_cast<int>(words.at[0]);
   if (!wait_until_ready(descriptor, number == SYS_read ? POLLIN : POLLOUT)) return -EINTR;
-  // A ready pipe takes an atomic write; the C library writes the rest by another call.
-  if (number == SYS_write && words.at[2] > PIPE_BUF && class_of(descriptor) == DescriptorClass::pipe)
-    words.at[2] = PIPE_BUF;
-  const long result = call_system(number, words);
-  look_at_descriptors();
+  const short events = number == SYS_read ? POLLIN : POLLOUT;
+  const family::Changes changes = changes_at(descriptor, events);
+  // What a pipe does not take the C library writes by another call.
+  void* const bytes = reinterpret_cast<void*>(words.at[1]);
+  const auto size = static_cast<std::size_t>(words.at[2]);
+  const long result =
+      number == SYS_read ? read_at_once(descriptor, bytes, size) : write_at_once(descriptor, bytes, size);
+  look_at_descriptors(changes);
   return result;
 }
 
@@ -168,8 +168,9 @@ void answer_inherited_traps() {
 
 void trap_stream(int descriptor) {
   static const LibraryRange range = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
-  if (!is_inside(descriptor) || !can_be_told_from_others(range)) return;
-  trap(range, Trapped::stream, static_cast<std::uint32_t>(descriptor));
+  if (!is_inside(descriptor)) return;
+  if (!can_be_told_from_others(range) || !trap(range, Trapped::stream, static_cast<std::uint32_t>(descriptor)))
+    end_counting(descriptor);
 }
 
 void trap_open_mp() {
