@@ -95,6 +95,7 @@ const char* description(Choice choice) {
     case Choice::spurious: return "a spurious wake-up";
     case Choice::loss: return "the loss of a datagram";
     case Choice::computing: return "the cost of a computation";
+    case Choice::process: return "the next process";
   }
   return "";
 }

@@ -23,6 +23,7 @@ enum class Choice : std::uint8_t {
   spurious,   ///< 1: a wait for a condition wakes spuriously
   loss,       ///< 1: a datagram is lost
   computing,  ///< the cost of a computation: one of the values offered
+  process,    ///< the process, of several with one simulation, that executes the next event
 };
 
 class Decisions {
@@ -30,8 +31,10 @@ class Decisions {
   /// In place of a ready task's index: all ready tasks poll, so virtual time advances to the next event, and they
   /// continue there. Only if an event is due later.
   static constexpr std::uint32_t later = ~std::uint32_t{0};
+  /// In place of an index: the next event is another run's, so this one's window ends.
+  static constexpr std::uint32_t elsewhere = later - 1;
 
-  /// The index in `ready` of the next task, or `later`; `count` is at least 1.
+  /// The index in `ready` of the next task, `later` or `elsewhere`; `count` is at least 1.
   virtual std::uint32_t next(Task* const* ready, std::uint32_t count) = 0;
   /// The index of one of `count` alternatives, at least 2, at an operation of `task`.
   virtual std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) = 0;

@@ -76,6 +76,7 @@ Fiber& Scheduler::dispatch_explored() {
       let_time_pass();
       continue;
     }
+    if (__builtin_expect(chosen == Decisions::elsewhere, 0)) return end_window(RunState::reached);
     return dispatch_task(agenda_.ready.take(chosen));
   }
 }

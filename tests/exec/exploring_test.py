@@ -4,6 +4,7 @@
 import json
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import unittest
@@ -18,7 +19,7 @@ def explore(*words, stdin=subprocess.DEVNULL):
 
 def replay_words(text):
     """The arguments of the last replay line of a report."""
-    return re.findall(r"^replay: \S+ explore --exec (.*)$", text, re.M)[-1].split()
+    return shlex.split(re.findall(r"^replay: \S+ explore --exec (.*)$", text, re.M)[-1])
 
 
 class Exploring(ExecCase):
@@ -55,6 +56,25 @@ class Exploring(ExecCase):
             self.assertEqual(explore("--replay", schedule, "--", program).returncode, 1)
             raw = explore("--strategy", strategy, "--no-minimize", "--", program)
             self.assertIn("the same run as in the record", explore(*replay_words(raw.stdout)).stderr, strategy)
+
+    def test_the_order_of_processes_is_explored(self):
+        program = self.compile("two_processes.c")
+        for strategy in ("random", "bounded:1", "dfs", "portfolio"):
+            done = explore("--strategy", strategy, "--", program)
+            self.assertEqual(done.returncode, 1, strategy)
+            self.assertIn("1 switch away from the default order fails", done.stdout, strategy)
+            self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr, strategy)
+        done = explore("--strategy", "dfs", "--", program, "locked")
+        self.assertEqual(done.returncode, 0)
+        self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive"), done.stdout)
+
+    def test_programs_that_a_shell_starts_are_explored(self):
+        program = self.compile("two_processes.c")
+        done = explore("--iterations", "100", "--", "sh", "-c", f"{program} locked & {program}; wait")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        done = explore("--iterations", "200", "--", "sh", "-c", f"{program} locked & {program}")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr)
 
     def test_a_correct_program_passes_under_many_schedules(self):
         done = explore("--iterations", "100", "--", self.compile("lost_update.c"), "locked")

@@ -29,6 +29,10 @@ void for_each_other(const Family& family, Visit visit) {
 
 }  // namespace
 
+const void* common_of(const posix::Record& record, posix::family::Part part) {
+  return family_of(record).parts[static_cast<int>(part)];
+}
+
 Digest digest_of(const posix::Record& record) {
   const Family& family = family_of(record);
   if (family.made < 2 && family.digest_of_ended == 0) return record.digest();

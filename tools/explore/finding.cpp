@@ -107,12 +107,12 @@ std::string without_digits(std::string text) {
 
 }  // namespace
 
-void Finding::take(const exploration::Explorer& explorer) {
-  decisions = explorer.schedule().decisions.size();
-  parted = explorer.parted();
+void Finding::take(const exploration::Schedule& schedule, bool has_parted) {
+  decisions = schedule.decisions.size();
+  parted = has_parted;
   if (passed()) return;
-  switches = explorer.schedule().switches;
-  deviations = explorer.schedule().deviations();
+  switches = schedule.switches;
+  deviations = schedule.deviations();
 }
 
 void Finding::tell(const exploration::Narrator& narrator, bool decision_asked, bool switches_too) {

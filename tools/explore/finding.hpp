@@ -41,7 +41,7 @@ struct Finding {
 
   bool passed() const { return kind == Kind::passed; }
   /// Copies the choices, and for a failure its switches.
-  void take(const exploration::Explorer& explorer);
+  void take(const exploration::Schedule& schedule, bool has_parted);
   /// Copies the requested decision, or with `switches_too` the switches in words.
   void tell(const exploration::Narrator& narrator, bool decision_asked, bool switches_too);
   /// Copies the tasks' events.

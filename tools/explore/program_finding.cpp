@@ -100,6 +100,15 @@ void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& p
   record.settings.until = std::min(record.settings.until, plan.until);
 }
 
+exploration::Schedule schedule_of(const posix::Record& record) {
+  const auto* const shared =
+      static_cast<const posix::SharedSchedule*>(common_of(record, posix::family::Part::schedule));
+  if (shared == nullptr) return record.explored->explorer.schedule();
+  const auto decisions = shared->decisions.all();
+  const auto switches = shared->switches.all();
+  return {{decisions.begin(), decisions.end()}, {switches.begin(), switches.end()}};
+}
+
 Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const Target::Request& request,
                        bool trace_too) {
   Finding finding;
@@ -116,8 +125,9 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   finding.digest = digest_of(record).value();
   finding.end = record.scheduler.global_time();
   finding.events = record.scheduler.events();
-  finding.take(explored.explorer);
-  if (request.choices) finding.choices = explored.explorer.schedule().decisions;
+  const exploration::Schedule schedule = schedule_of(record);
+  finding.take(schedule, explored.explorer.parted());
+  if (request.choices) finding.choices = schedule.decisions;
   if (request.profile) {
     finding.profile = explored.profile;
     finding.profile.finish(explored.explorer.steps());

@@ -14,6 +14,9 @@ posix::Settings settings_of(const ExploreOptions& options);
 void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& plan, const Target::Request& request,
                  const exploration::Profile& profile);
 
+/// The choices of all its processes.
+exploration::Schedule schedule_of(const posix::Record& record);
+
 /// The finding of a finished run: `status` is as from waitpid(), `output` the program's last output. A run passes with
 /// exit status 0.
 Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const Target::Request& request,

@@ -54,7 +54,7 @@ int replay_program(const ExploreOptions& asked) {
   const Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());
   if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before main()");
   const posix::Explored& explored = *memory.record().explored;
-  check_is_run_of(record, {explored.explorer.schedule(), explored.narrator.switches(), finding}, options.replay);
+  check_is_run_of(record, {schedule_of(memory.record()), explored.narrator.switches(), finding}, options.replay);
   if (trace) {
     trace->write(finding.trace);
     trace->commit();

@@ -107,7 +107,7 @@ Finding Scene::run(const Plan& plan, const Request& request) {
   explorer.begin(*stage_->strategy, {.switches = stage_->plan.switches, .deviations = stage_->plan.deviations});
   Finding finding;
   watch_and_carry_out(plan, request, finding);
-  finding.take(explorer);
+  finding.take(explorer.schedule(), explorer.parted());
   return finding;
 }
 

@@ -35,6 +35,7 @@ std::string in_words(Choice choice, const Task& task, std::uint32_t chosen, std:
     case Choice::waiter: return wakes(task, chosen, count);
     case Choice::spurious: return chosen != 0 ? "wakes up spuriously" : "waits";
     case Choice::loss: return chosen != 0 ? "loses the datagram" : "delivers the datagram";
+    case Choice::process: return chosen != 0 ? "waits for another process" : "or its process goes first";
     default: return "takes alternative " + std::to_string(chosen) + " of " + std::to_string(count);
   }
 }

@@ -31,7 +31,7 @@ bool is_look(Operation operation) { return (looks >> static_cast<unsigned>(opera
 }  // namespace
 
 void Explorer::begin(Strategy& strategy, const Played& played) {
-  strategy_ = &strategy.deciding();
+  decide_by(strategy);
   played_ = played;
   plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty() ||
            played.stop_at != Played().stop_at;
@@ -227,6 +227,19 @@ void Explorer::note_look(const Task& task, RecentAccesses& habit) {
 }
 
 std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {
+  return alternative(choice, task, count, false);
+}
+
+std::uint32_t Explorer::process(const Task& task, std::uint32_t count, bool can_continue) {
+  return alternative(Choice::process, task, count, can_continue);
+}
+
+void Explorer::take_over(std::span<const Decision> decisions, std::span<const Switch> switches) {
+  schedule_.decisions.insert(schedule_.decisions.end(), decisions.begin(), decisions.end());
+  schedule_.switches.insert(schedule_.switches.end(), switches.begin(), switches.end());
+}
+
+std::uint32_t Explorer::alternative(Choice choice, const Task& task, std::uint32_t count, bool can_continue) {
   left_out_.spurious |= choice == Choice::spurious;
   std::uint32_t chosen = count;
   if (plays_) {
@@ -237,7 +250,7 @@ std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t cou
   }
   if (chosen == count) chosen = strategy_->among(choice, task, count);
   WAITPOINT_CHECK(chosen < count, "a strategy chose an alternative that does not exist");
-  schedule_.decisions.push_back({count, chosen, 0, choice});
+  schedule_.decisions.push_back({count, chosen, 0, choice, can_continue});
   if (chosen != 0) schedule_.switches.push_back({choice, event_of(task), {chosen, 0}});
   return chosen;
 }

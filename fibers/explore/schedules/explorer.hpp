@@ -48,6 +48,9 @@ class Explorer final : public kernel::Decisions {
   /// Starts the next schedule: first `played`, then `strategy`, which must have begun this schedule.
   void begin(Strategy& strategy, const Played& played = {});
 
+  /// Continues with this strategy, which must have begun.
+  void decide_by(Strategy& strategy) { strategy_ = &strategy.deciding(); }
+
   /// The choices of this schedule so far.
   const Schedule& schedule() const { return schedule_; }
   /// Switch points so far.
@@ -68,7 +71,14 @@ class Explorer final : public kernel::Decisions {
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
   Duration computing(const Task& task, Duration least, Duration greatest) override;
 
+  /// One of `count` processes, at least 2, the default first; `task` is any of this one's. `can_continue`: the default
+  /// one executed the last event.
+  std::uint32_t process(const Task& task, std::uint32_t count, bool can_continue);
+  /// Appends choices that were made in another process.
+  void take_over(std::span<const Decision> decisions, std::span<const Switch> switches);
+
  private:
+  std::uint32_t alternative(Choice choice, const Task& task, std::uint32_t count, bool can_continue);
   // A task's recent accesses, by Task::number.
   struct alignas(32) RecentAccesses {
     kernel::Object* at[2] = {};

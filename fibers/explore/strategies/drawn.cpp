@@ -16,7 +16,8 @@ std::uint32_t Drawn::among(Choice choice, const Task&, std::uint32_t count) {
       }
       break;
     case Choice::task:
-    case Choice::waiter: break;
+    case Choice::waiter:
+    case Choice::process: break;
   }
   return draw(count);
 }

@@ -3,11 +3,16 @@
 
 #include <dlfcn.h>
 
+#include <cstring>
+#include <new>
+
 #include "core/error.hpp"
 #include "fibers/explore/report/choice_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/course.hpp"
 #include "fibers/kernel/visit.hpp"
+#include "fibers/posix/family/processes.hpp"
+#include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -32,16 +37,52 @@ std::string own_module() {
 
 }  // namespace
 
+namespace {
+
+template <class T>
+std::span<const T> shared_copy(std::span<const T> values) {
+  if (values.empty()) return {};
+  T* const copy = static_cast<T*>(family::take(values.size_bytes()));
+  if (copy == nullptr) refuse("there is no memory for the request of this run");
+  std::copy(values.begin(), values.end(), copy);
+  return {copy, values.size()};
+}
+
+}  // namespace
+
+const Asked* shared_copy(const Asked& asked) {
+  Asked& copy = *new (family::take(sizeof(Asked))) Asked();
+  std::memcpy(copy.strategy, asked.strategy, sizeof copy.strategy);
+  copy.seed = asked.seed;
+  copy.number = asked.number;
+  copy.switches = shared_copy(asked.switches);
+  copy.deviations = shared_copy(asked.deviations);
+  copy.at_random_from = asked.at_random_from;
+  copy.steps = asked.steps;
+  return &copy;
+}
+
 Explored::Explored(kernel::Scheduler& scheduler, const Asked& asked)
     : explorer(scheduler, steps_of_an_instant_max), narrator(scheduler, explorer), known(profile_of(asked)) {
   begin(asked);
   watch(scheduler, asked);
 }
 
-void Explored::begin(const Asked& asked) {
-  exploration::Course course{asked.strategy, asked.seed, asked.number, {}};
+exploration::Course Explored::course_of(const Asked& asked) const {
+  const auto id = static_cast<std::uint64_t>(family::own->id);
+  const std::uint64_t number = family::is_first() ? asked.number : Digest::mix(asked.number ^ Digest::mix(id));
+  exploration::Course course{asked.strategy, asked.seed, number, {}};
   if (asked.at_random_from != Asked::none) course.at_random_from = asked.at_random_from;
-  strategy = exploration::begin_course(course, explorer, known);
+  return course;
+}
+
+void Explored::continue_in_process(const Asked& asked) {
+  strategy = exploration::begin_course(course_of(asked), explorer, known);
+  explorer.decide_by(*strategy);
+}
+
+void Explored::begin(const Asked& asked) {
+  strategy = exploration::begin_course(course_of(asked), explorer, known);
   WAITPOINT_CHECK(strategy != nullptr, "a course of exploration has no strategy");
   explorer.begin(*strategy, {.switches = asked.switches, .deviations = asked.deviations});
 }
@@ -49,11 +90,12 @@ void Explored::begin(const Asked& asked) {
 void Explored::watch(kernel::Scheduler& scheduler, const Asked& asked) {
   if (asked.decision != Asked::none) narrator.ask_for(asked.decision);
   if (asked.stops)
-    scheduler.set_decisions(stop_.emplace(scheduler, explorer, asked.stop_before));
+    processes.emplace(scheduler, explorer, stop_.emplace(scheduler, explorer, asked.stop_before));
   else if (asked.words || asked.decision != Asked::none)
-    scheduler.set_decisions(narrator);
+    processes.emplace(scheduler, explorer, narrator);
   else
-    scheduler.set_decisions(explorer);
+    processes.emplace(scheduler, explorer, explorer);
+  scheduler.set_decisions(*processes);
   if (asked.profile)
     scheduler.set_watch(&profiling_.emplace(profile));
   else if (asked.events)

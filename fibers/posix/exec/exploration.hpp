@@ -10,10 +10,12 @@
 
 #include "fibers/explore/report/narrator.hpp"
 #include "fibers/explore/report/timeline_recorder.hpp"
+#include "fibers/explore/schedules/course.hpp"
 #include "fibers/explore/schedules/event_log.hpp"
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/schedules/explorer.hpp"
 #include "fibers/explore/strategies/profile.hpp"
+#include "fibers/posix/exec/process_choices.hpp"
 #include "fibers/sync/source_lines.hpp"
 
 namespace waitpoint::posix {
@@ -51,6 +53,9 @@ struct Asked {
   exploration::EventOf stop_before;
 };
 
+/// A request that programs which are started later can read, in the family's memory: without what only reports need.
+const Asked* shared_copy(const Asked& asked);
+
 /// All events of a run. Made by the program, before its first thread.
 struct Trace {
   Trace() : recorder(timeline, nullptr) {}
@@ -68,6 +73,7 @@ struct Explored {
 
   exploration::Explorer explorer;
   exploration::Narrator narrator;
+  std::optional<ProcessChoices> processes;
   exploration::Profile known;
   std::unique_ptr<exploration::Strategy> strategy;
   exploration::Profile profile;
@@ -78,9 +84,12 @@ struct Explored {
 
   /// After the run: notes if it has stopped where requested.
   void note_stop();
+  /// Makes the choices of another process from now on: its random ones differ.
+  void continue_in_process(const Asked& asked);
 
  private:
   void begin(const Asked& asked);
+  exploration::Course course_of(const Asked& asked) const;
   void watch(kernel::Scheduler& scheduler, const Asked& asked);
 
   std::optional<exploration::Profiling> profiling_;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/exec/exploration.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/time/clocks.hpp"
@@ -47,17 +48,17 @@ Process* next_waiting_outside() {
 }
 
 // No process can continue by itself. False if none waits for something outside.
-bool wait_outside_together() {
+bool wait_outside_together(kernel::Scheduler& scheduler) {
   Process* const next = next_waiting_outside();
   if (next == nullptr) return false;
   if (!waits_outside(*family::own)) {
-    family::hand_over_to(*next);
+    family::hand_over_to(scheduler, *next);
     return true;
   }
   // Each in turn, for a short time, if there are several.
   const bool is_only = next == family::own;
   wait_outside_for(is_only ? Duration::max() : Duration(std::chrono::milliseconds(2)));
-  if (!look_outside(false) && !is_only) family::hand_over_to(*next);
+  if (!look_outside(false) && !is_only) family::hand_over_to(scheduler, *next);
   return true;
 }
 
@@ -86,9 +87,16 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
       all.is_over = all.is_cut_off = true;
       return false;
     }
+    if (record->explored != nullptr) {
+      if (Process* const chosen = record->explored->processes->take_chosen(); chosen != nullptr) {
+        chosen->is_chosen = true;
+        family::hand_over_to(scheduler, *chosen);
+        continue;
+      }
+    }
     // A ring made above is an event of this instant.
     if (family::hand_over_if_due(scheduler)) continue;
-    if (own == Time::max() && family::least_of_others().time == Time::max() && !wait_outside_together()) {
+    if (own == Time::max() && family::least_of_others().time == Time::max() && !wait_outside_together(scheduler)) {
       all.is_over = true;
       return false;
     }

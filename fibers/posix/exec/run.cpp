@@ -113,7 +113,10 @@ kernel::Scheduler& begin_run() {
   if (family::is_joined()) scheduler.advance(family::own->next.time);
   scheduler.hooks().deliver_signals = deliver_signals;
   scheduler.hooks().continues_after_cycle = continues_after_cycle;
-  if (asked != nullptr) record->explored = new Explored(scheduler, *asked);
+  if (asked != nullptr) {
+    record->explored = new Explored(scheduler, *asked);
+    if (!family::is_joined()) family::family->settings.asked = shared_copy(*asked);
+  }
   names_waitables =
       record->settings.traced ||
       (asked != nullptr && (asked->words || asked->events || asked->stops || asked->decision != Asked::none));

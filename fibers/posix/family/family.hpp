@@ -22,7 +22,7 @@
 namespace waitpoint::posix::family {
 
 /// The parts of the layer with a state that the processes share.
-enum class Part { names, futexes, semaphores, memory, messages, inside_files, count };
+enum class Part { names, futexes, semaphores, memory, messages, inside_files, schedule, count };
 
 inline constexpr int processes_max = 1024;
 /// The number of the first process; the others count on, with their threads.
@@ -68,6 +68,7 @@ struct Process {
   kernel::EventKey next = kernel::EventKey::never();  ///< the key of its least event, while another has the turn
   std::atomic<std::uint32_t> has_turn = 0;            ///< a futex
   Changes listens_to = 0;                             ///< its threads wait for them
+  bool is_chosen = false;                             ///< by the strategy: it executes the next event
   bool is_rung = false;                               ///< one of them did something since, first at `rung_at`
   Time rung_at;
   bool waits_outside = false;

@@ -20,10 +20,10 @@ kernel::EventKey limit_before(const Process& other, const kernel::Scheduler& sch
   kernel::EventKey key = key_of(other);
   if (key.time == Time::max()) return kernel::EventKey::never();
   if (index_of(*own) < index_of(other)) ++key.order;
-  // Among ready tasks a strategy chooses: they keep the turn until the instant ends.
+  // In the explored order a strategy chooses among the processes with tasks of an instant: see process_choices.hpp.
   const bool is_explored = record->settings.order == kernel::Order::explored;
   if (is_explored && kernel::phase_of(key.order) >= kernel::Phase::tasks)
-    key = {Time::from_ns(key.time.ns() + 1), kernel::make_order(kernel::Phase::deliveries, 0)};
+    key.order = kernel::make_order(kernel::Phase::processors, kernel::tie_mask);
   if (key.time < scheduler.global_time()) key.time = scheduler.global_time();
   return key;
 }

@@ -135,8 +135,11 @@ bool hand_over_if_due(kernel::Scheduler& scheduler) {
   return true;
 }
 
-void hand_over_to(Process& process) {
-  own->next = record->scheduler.next_key();
+void hand_over_to(kernel::Scheduler& scheduler, Process& process) {
+  remove_limit(scheduler);
+  if (family->now < scheduler.global_time()) family->now = scheduler.global_time();
+  own->next = scheduler.next_key();
+  ++family->hand_overs;
   give_turn(process);
   await_turn();
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The order of a family's processes in the explored order, as choices of the strategy: before each event of a task, the
+// process that executes the next event is chosen among those with an event at this instant. By default the process of
+// the last event continues.
+//
+// Each process has an explorer of its own; the schedule is one: in the family's memory, each adds its choices to it and
+// takes over those of the others.
+#pragma once
+
+#include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/posix/family/family.hpp"
+
+namespace waitpoint::posix {
+
+/// In the family's memory.
+template <class T>
+struct SharedSequence {
+  T* values;
+  std::uint32_t count, room;
+
+  std::span<const T> all() const { return {values, count}; }
+};
+struct SharedSchedule {
+  SharedSequence<exploration::Decision> decisions;
+  SharedSequence<exploration::Switch> switches;
+  std::uint32_t last;  ///< the place in the table of the process of the last event
+};
+
+/// Sits between the kernel and the process's `decisions`, which record their choices in `explorer`.
+class ProcessChoices final : public kernel::Decisions {
+ public:
+  ProcessChoices(kernel::Scheduler& scheduler, exploration::Explorer& explorer, kernel::Decisions& decisions)
+      : scheduler_(scheduler), explorer_(explorer), decisions_(decisions) {}
+
+  std::uint32_t next(kernel::Task* const* ready, std::uint32_t count) override;
+  std::uint32_t among(kernel::Choice choice, const kernel::Task& task, std::uint32_t count) override;
+  Duration computing(const kernel::Task& task, Duration least, Duration greatest) override;
+
+  /// The process whose event is the next, if next() has chosen another one, or the process has no event at the instant
+  /// of the least and several others have; else null.
+  family::Process* take_chosen();
+
+ private:
+  family::Process* choose(bool can_stay);
+
+  kernel::Scheduler& scheduler_;
+  exploration::Explorer& explorer_;
+  kernel::Decisions& decisions_;
+  family::Process* chosen_ = nullptr;
+  pid_t process_ = 0;  // the one that the strategy has begun in
+};
+
+}  // namespace waitpoint::posix
