@@ -44,6 +44,28 @@ if __name__ == "__main__":
     take(b, a)
 """
 
+# The server waits for its client several times at one instant.
+BYTE_BY_BYTE = """
+import os, socket, time
+for family, name in (socket.AF_UNIX, "\\0bytes" + str(os.getpid())), (socket.AF_INET, ("127.0.0.1", 0)):
+    listener = socket.socket(family)
+    listener.bind(name)
+    listener.listen()
+    if os.fork() == 0:
+        connection, _ = listener.accept()
+        text = b""
+        while not text.endswith(b"\\n"): text += connection.recv(1)
+        connection.sendall(text.upper())
+        os._exit(0)
+    client = socket.socket(family)
+    client.connect(listener.getsockname())
+    client.settimeout(0.5)
+    begin = time.monotonic()
+    client.sendall(b"request\\n")
+    print(client.recv(100))
+    os.wait()
+"""
+
 
 class Run:
     def __init__(self, seed, *command, options=(), **more):
@@ -151,6 +173,12 @@ class Programs(Families):
             self.assertEqual(run.status, 124, run.errors)
             self.assertEqual(run.errors.count("waitpoint: deadlock at"), 1, run.errors)
             self.assertEqual(len(re.findall(r"^  \S+: main waits for", run.errors, re.M)), 2, run.errors)
+
+    def test_a_server_that_reads_byte_by_byte_answers_at_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder) / "program.py"
+            program.write_text(BYTE_BY_BYTE)
+            self.assertNative(PYTHON, program)
 
     def test_a_killed_process_holds_up_nobody(self):
         run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")

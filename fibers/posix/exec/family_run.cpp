@@ -17,12 +17,23 @@ using family::Process;
 
 bool waits_outside(const Process& process) { return family::takes_turns(process) && process.waits_outside; }
 
-// At the end of an instant, each process that waits for something outside looks there once.
+// Notes whether a thread of this process has run since the last call: it may have acted on a socket, say.
+void note_actions(const kernel::Scheduler& scheduler) {
+  static std::uint64_t switches_before = 0;
+  if (scheduler.switches() == switches_before) return;
+  switches_before = scheduler.switches();
+  ++family::family->actions;
+}
+
+// At the end of an instant, each process that waits for something outside looks there: once, and again after actions at
+// the same instant, which another process may have been waiting for.
 bool let_all_look(Time now) {
   bool any = false;
   for (Process& process : family::entries()) {
-    if (!waits_outside(process) || process.looked_at == now) continue;
+    const std::uint64_t actions = family::family->actions;
+    if (!waits_outside(process) || (process.looked_at == now && process.looked_after == actions)) continue;
     process.looked_at = now;
+    process.looked_after = actions;
     if (&process == family::own)
       any = look_outside(false) || any;
     else
@@ -76,6 +87,7 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
   family::Family& all = *family::family;
   do {
     if (all.is_over) return false;
+    note_actions(scheduler);
     if (family::take_ring(scheduler)) look_outside(false);
     if (anybody_listens() && has_unnoticed_output()) family::ring(family::of_descriptors);
     const Time ring = family::own->is_rung ? family::own->rung_at : Time::max();

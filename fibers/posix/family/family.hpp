@@ -73,6 +73,7 @@ struct Process {
   Time rung_at;
   bool waits_outside = false;
   Time looked_at = Time::from_ns(-1);  ///< the instant at whose end it last looked outside
+  std::uint64_t looked_after = 0;      ///< the family's actions until then
 
   pid_t waits_for = 0;  ///< the holder of a file lock; 0: none
   int letters = 0;
@@ -97,7 +98,8 @@ struct alignas(Arena::alignment) Family {
   RunFile file;
   Arena arena;
   void* parts[static_cast<int>(Part::count)] = {};
-  Time now;  ///< of the event now executing
+  Time now;                   ///< of the event now executing
+  std::uint64_t actions = 0;  ///< grows whenever a thread of any process has run, and when a process ends
   pid_t last_id = first_id - 1;
   std::uint32_t alive = 0;    ///< number of processes that take turns
   std::uint32_t made = 0;     ///< number of all so far

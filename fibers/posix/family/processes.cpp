@@ -117,6 +117,7 @@ void note_end_of(Process& process, int status) {
   process.listens_to = 0;
   process.is_rung = process.waits_outside = false;
   count_digest(process);
+  ++family->actions;
   if (!process.is_native) --family->alive;
   if (&process == family->processes) family->first_ended_at = family->now;
   for (Process& each : entries()) {
