@@ -140,6 +140,20 @@ class Loopback(ExecCase):
         self.assertEqual((len(set(digests[:3])), len(set(digests))), (1, 2))
 
 
+class Polling(ExecCase):
+    """Loops until a second has passed, that look at no clock."""
+
+    def test_by_primitives_has_about_as_many_rounds_as_a_real_machine(self):
+        program = self.compile("until.c")
+        for what in "lock", "post":
+            for by in "handler", "thread":
+                words = [str(word) for word in (WAITPOINT, "exec", "--", program, what, by)]
+                done = subprocess.run(words, capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertAlmostEqual(int(done.stdout), 10_000_000, delta=1000, msg=f"{what} {by}: 50 ns a primitive")
+                self.assertAlmostEqual(Summary(done.stderr).seconds, 1, places=3)
+
+
 class PlainPath(ExecCase):
     """The kernel without its fast paths."""
 

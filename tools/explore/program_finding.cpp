@@ -21,6 +21,8 @@ using posix::Asked;
 
 // Clock reads and yields that are paid for together: that many of them happen at one instant.
 constexpr std::uint32_t looks_at_once = 64;
+// The same for batches of 128 uses of primitives.
+constexpr std::uint32_t batches_at_once = 4;
 
 /// A copy for the program, in shared memory.
 template <class T>
@@ -68,6 +70,7 @@ posix::Settings settings_of(const ExploreOptions& options) {
   settings.order = kernel::Order::explored;
   settings.seed = options.seed;
   settings.looks_at_once = looks_at_once;
+  settings.batches_at_once = batches_at_once;
   if (options.until) settings.until = Time() + *options.until;
   options.conditions.apply_to(settings);
   return settings;

@@ -2,9 +2,9 @@
 // Waitpoints of a program's threads.
 //
 // A program declares no computing times, so its threads are at one instant until one sleeps. But polling loops must
-// end: reading a clock and yielding take a little virtual time, and so do some hundred uses of primitives. In an
-// exploration some dozen readings are charged together, so that threads that read clocks stay at one instant with the
-// others.
+// end, in a number of rounds that is a real machine's: reading a clock, yielding and using a primitive take a little
+// virtual time. Uses of primitives are charged together, which keeps them fast; in an exploration more of them, and
+// some dozen readings, so that threads stay at one instant with the others.
 #pragma once
 
 #include "fibers/kernel/local_clock.hpp"
@@ -14,11 +14,12 @@
 
 namespace waitpoint::posix {
 
-inline constexpr std::uint32_t operations_at_one_instant = 512;
-static_assert(operations_at_one_instant < Thread::in_kernel, "a thread in the kernel never passes at once");
+/// Uses of primitives that are charged together. While schedules are explored, several such batches are.
+inline constexpr std::uint32_t operations_at_once = 128;
+static_assert(operations_at_once < Thread::in_kernel, "a thread in the kernel never passes at once");
 /// After as many, other tasks due at this instant get a turn.
 inline constexpr std::uint32_t clock_readings_at_most = 100;
-inline constexpr Duration cost_of_operations = Duration(std::chrono::microseconds(1));
+inline constexpr Duration cost_of_operation = Duration(std::chrono::nanoseconds(50));
 inline constexpr Duration cost_of_clock_reading = Duration(std::chrono::nanoseconds(50));
 inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microseconds(1));
 
@@ -43,14 +44,21 @@ inline void spend_for_look(Duration cost) {
   spend(cost * looks);
 }
 
+/// The same for a batch of uses of primitives, or for as many batches as the run charges together.
+inline void spend_for_operations(Thread& thread) {
+  thread.operations = 0;
+  const std::uint32_t batches = record->settings.batches_at_once;
+  WAITPOINT_FAST_CHECK(batches > 0 && thread.batches < batches, "uses of primitives were not charged when due");
+  if (++thread.batches < batches) return;
+  thread.batches = 0;
+  spend(cost_of_operation * (operations_at_once * batches));
+}
+
 /// The running thread's waitpoint: returns when its event is the least.
 inline void pass(kernel::Operation operation, kernel::Object* object) {
   kernel::Task& task = *kernel::running;
   Thread& thread = thread_of(task);
-  if (++thread.operations >= operations_at_one_instant) {
-    thread.operations = 0;
-    spend(cost_of_operations);
-  }
+  if (++thread.operations >= operations_at_once) spend_for_operations(thread);
   const InKernel within;
   task.scheduler->waitpoint(operation, object);
 }
@@ -62,7 +70,7 @@ inline void pass(kernel::Operation operation, kernel::Object* object) {
   if (task == nullptr || !is_thread(*task)) return false;
   Thread& thread = thread_of(*task);
   const std::uint32_t operations = thread.operations + 1;
-  if (operations >= operations_at_one_instant) return false;  // also if in the kernel
+  if (operations >= operations_at_once) return false;  // also if in the kernel
   if (!kernel::try_fast_waitpoint(operation, object)) return false;
   thread.operations = operations;
   return true;
