@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   long count = 0;
   if (strcmp(what, "lock") == 0) count = lock_until_set();
   if (strcmp(what, "post") == 0) count = post_until_set();
+  if (strcmp(what, "ready spin") == 0) puts("ready"), fflush(stdout), count = spin_until_set();
   if (strcmp(what, "spin") == 0) count = spin_until_set();
   printf("%ld\n", count);
   return 0;

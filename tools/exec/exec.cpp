@@ -76,8 +76,7 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     output.forget();
     const RunMemory memory(settings_of(options, seed), files.programs);
     const ProgramRun run(files, memory, output.descriptor());
-    // Usually from the terminal: not a failure of the program.
-    if (run.signal() == SIGINT || run.signal() == SIGTERM) end_by(run.signal());
+    if (run.is_interrupted()) end_by(run.signal());  // not a failure of the program
     ++runs;
     if (memory.record().began) digests.insert(digest_of(memory.record()).value());
     if (run.exit_status() != 0) {
@@ -112,6 +111,7 @@ posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed) {
   settings.seed = seed;
   settings.traced = options.trace.has_value();
   settings.fast_paths = are_fast_paths_enabled();
+  settings.reports_ending = true;
   options.conditions.apply_to(settings);
   return settings;
 }
@@ -130,7 +130,7 @@ int exec(const ExecOptions& options) {
     if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());
     // Any other status is a failure only to the program's users.
     if (failed || (!options.quiet && run.exit_status() != 0))
-      print_failure(options, memory.record(), run.signal(), options.seed);
+      print_failure(options, memory.record(), run.is_interrupted() ? 0 : run.signal(), options.seed);
     if (!files.programs.is_one_program() && (!options.quiet || run.exit_status() != 0))
       std::fprintf(stderr, "waitpoint: %s\n", ends_of_programs(memory.record()).c_str());
   }

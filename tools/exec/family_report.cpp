@@ -16,18 +16,24 @@ namespace {
 using posix::family::Family;
 using posix::family::Process;
 
-// The memory behind the record; zero before the run.
-const Family& family_of(const posix::Record& record) {
-  return *reinterpret_cast<const Family*>(reinterpret_cast<const char*>(&record) + posix::record_bytes);
-}
-
 template <class Visit>
 void for_each_other(const Family& family, Visit visit) {
   for (const Process& process : family.processes)
     if (&process != family.processes && process.state != Process::State::none) visit(process);
 }
 
+bool is_in_system(const Process& process) {
+  const bool is_there = process.state == Process::State::alive || process.state == Process::State::stopped;
+  return is_there && process.real_id > 0;
+}
+
 }  // namespace
+
+// Zero before the run.
+Family& family_of(const posix::Record& record) {
+  const char* const memory = reinterpret_cast<const char*>(&record) + posix::record_bytes;
+  return *reinterpret_cast<Family*>(const_cast<char*>(memory));
+}
 
 const void* common_of(const posix::Record& record, posix::family::Part part) {
   return family_of(record).parts[static_cast<int>(part)];
@@ -44,20 +50,39 @@ Digest digest_of(const posix::Record& record) {
   return all;
 }
 
+std::uint64_t events_of(const posix::Record& record) {
+  const Family& family = family_of(record);
+  std::uint64_t events = record.scheduler.events() + family.events_of_ended;
+  for_each_other(family, [&events](const Process& process) { events += process.digest.pairs(); });
+  return events;
+}
+
+Time time_of(const posix::Record& record) { return std::max(record.scheduler.global_time(), family_of(record).now); }
+
+pid_t process_in_turn(const posix::Record& record) {
+  const Family& family = family_of(record);
+  return family.processes[family.holder.load() % posix::family::processes_max].real_id.load();
+}
+
+bool is_caught(const posix::Record& record, int signal) {
+  return (family_of(record).processes[0].caught >> (signal - 1) & 1) != 0;
+}
+
 std::string counts_of(const posix::Record& record) {
   const Family& family = family_of(record);
-  const kernel::Scheduler& scheduler = record.scheduler;
-  std::uint64_t events = scheduler.events() + family.events_of_ended;
-  for_each_other(family, [&events](const Process& process) { events += process.digest.pairs(); });
   std::string all;
   if (family.made > 1) all = fmt::format("{} processes, ", family.made);
   return all + fmt::format("{} threads, {} at once, {} events, {} switches, {} s of virtual time",
-                           record.threads_made + family.threads_made, record.threads_most, events,
-                           scheduler.switches() + family.hand_overs,
-                           to_string(std::max(scheduler.global_time(), family.now)));
+                           record.threads_made + family.threads_made, record.threads_most, events_of(record),
+                           record.scheduler.switches() + family.hand_overs, to_string(time_of(record)));
 }
 
-void end_others(const posix::Record& record) {
+void kill_all(const posix::Record& record) {
+  for (const Process& process : family_of(record).processes)
+    if (is_in_system(process)) kill(process.real_id, SIGKILL);
+}
+
+void end_others(const posix::Record& record, const std::function<bool()>& is_to_end) {
   const Family& family = family_of(record);
   constexpr int look_ms = 1, looks_after_end = 2000;  // when the run is over each reports its threads, and ends
   const auto is_anybody_there = [&family] {
@@ -65,10 +90,10 @@ void end_others(const posix::Record& record) {
       return process.state == Process::State::alive && !process.is_native && kill(process.real_id, 0) == 0;
     });
   };
-  for (int looks = 0; looks < looks_after_end && family.alive > 0 && is_anybody_there(); poll(nullptr, 0, look_ms))
+  for (int looks = 0; looks < looks_after_end && family.alive > 0 && is_anybody_there() && !is_to_end();
+       poll(nullptr, 0, look_ms))
     if (family.is_over) ++looks;
-  for (const Process& process : family.processes)
-    if (process.state == Process::State::alive && process.real_id > 0) kill(process.real_id, SIGKILL);
+  kill_all(record);
   while (waitpid(-1, nullptr, WNOHANG) > 0) {
   }
 }

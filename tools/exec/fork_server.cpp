@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "fibers/posix/exec/fork_server.hpp"
+#include "tools/command/interruption.hpp"
 #include "tools/command/signal_words.hpp"
 
 namespace waitpoint::tools {
@@ -25,7 +26,7 @@ template <class Answer>
 bool receive(int socket, Answer& answer) {
   ssize_t size = 0;
   do size = recv(socket, &answer, sizeof answer, 0);
-  while (size < 0 && errno == EINTR);
+  while (size < 0 && errno == EINTR && interruption() == 0);
   return size == static_cast<ssize_t>(sizeof answer);
 }
 
@@ -65,6 +66,7 @@ ForkServer::ForkServer(const ProgramFiles& files, posix::Settings settings) {
   socket_ = ends[0];
   if (posix::ServerReady ready; receive(socket_, ready)) return;
   close(socket_);
+  if (interruption() != 0) kill(process_, SIGKILL);
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }

@@ -15,6 +15,8 @@ namespace {
 using kernel::ClockKind;
 using kernel::ClockOptions;
 
+constexpr double idle_limit_s_max = 1e9;
+
 bool parse_cost(std::string_view text, Duration& cost) {
   double us = 0;
   if (!parse_number(text, us) || !(us > 0 && us <= 1e15)) return false;
@@ -75,6 +77,7 @@ void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.trap_rdtsc = trap_rdtsc;
   settings.trap_library = trap_library;
   settings.simulates_started = children;
+  if (idle_limit) settings.idle_limit = *idle_limit;
 }
 
 void ProgramConditions::check(const std::vector<std::string>& programs) const {
@@ -92,6 +95,7 @@ std::string ProgramConditions::words() const {
   if (trap_rdtsc) all += " --trap-rdtsc";
   if (trap_library) all += " --trap-libc";
   if (!children) all += " --children native";
+  if (idle_limit) all += " --idle-limit " + to_string(Time() + *idle_limit);
   return all;
 }
 
@@ -104,6 +108,9 @@ void ConditionArguments::add_to(Command& command) {
   command.option("--children", children_, "KIND",
                  "mode of programs that it starts (exec, posix_spawn, system, popen): simulated, in one\n"
                  "schedule with it as its forked children are, or native (default: simulated)");
+  command.option("--idle-limit", idle_limit_, "S",
+                 "end the run after S seconds of virtual time in which only timers expire and no thread\n"
+                 "wakes another; 0: never (default: 3600)");
   command.flag("--isolate", isolate_, "make calls fail that would leave this machine (EACCES)");
   command.flag("--trap-rdtsc", trap_rdtsc_,
                "show virtual time in the time-stamp counter, one nanosecond per tick, by trapping the\n"
@@ -122,6 +129,12 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   conditions.trap_library = trap_library_;
   conditions.children = children_ == "simulated";
   if (!conditions.children && children_ != "native") refuse("--children", "native or simulated", children_);
+  if (!idle_limit_.empty()) {
+    double seconds = 0;
+    if (!parse_number(idle_limit_, seconds) || !(seconds >= 0 && seconds <= idle_limit_s_max))
+      refuse("--idle-limit", "seconds of virtual time from 0 to 1e9", idle_limit_);
+    conditions.idle_limit = Duration::from_seconds(seconds);
+  }
   const bool is_measured = conditions.clock && (conditions.clock->kind == kernel::ClockKind::cpu ||
                                                 conditions.clock->kind == kernel::ClockKind::proportional);
   if (is_measured && is_repeated)
@@ -131,6 +144,7 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
 
 std::string ConditionArguments::first_given() const {
   return !clock_.empty()            ? "--clock"
+         : !idle_limit_.empty()     ? "--idle-limit"
          : isolate_                 ? "--isolate"
          : trap_rdtsc_              ? "--trap-rdtsc"
          : children_ != "simulated" ? "--children"

@@ -13,37 +13,26 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "tools/exec/end_requests.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/watchdog.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-constexpr int looks_ms = 1000;
+constexpr int look_ms = 100;
 
-pid_t child = 0;
-void pass_on(int signal) { kill(child, signal); }
-// Signals of the terminal reach the program anyway; only those sent by another process must be forwarded.
-void pass_on_if_sent(int signal, siginfo_t* information, void*) {
-  if (information->si_code <= 0) kill(child, signal);
-}
-
-/// Leaves the decision about signals to the program.
-int wait_for_end(Watchdog watchdog) {
-  struct sigaction of_terminal {};
-  of_terminal.sa_sigaction = pass_on_if_sent;
-  of_terminal.sa_flags = SA_SIGINFO | SA_RESTART;
-  for (const int signal : {SIGINT, SIGQUIT}) sigaction(signal, &of_terminal, nullptr);
-  for (const int signal : {SIGTERM, SIGHUP, SIGUSR1, SIGUSR2}) std::signal(signal, pass_on);
-  int status = 0;
-  const int end = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
-  for (pollfd one{end, POLLIN, 0}; end >= 0 && poll(&one, 1, looks_ms) <= 0;)
+// The status as of waitpid().
+int wait_for_end(pid_t program, Watchdog watchdog, EndRequests& requests) {
+  const int end = static_cast<int>(syscall(SYS_pidfd_open, program, 0));
+  for (pollfd one{end, POLLIN, 0}; end >= 0 && poll(&one, 1, look_ms) <= 0 && !requests.look();)
     if (const std::string words = watchdog.look(); !words.empty())
       std::fprintf(stderr, "waitpoint: %s\n", words.c_str());
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  int status = 0;
+  while (waitpid(program, &status, 0) < 0 && errno == EINTR) {
+    if (requests.look()) continue;
   }
   if (end >= 0) close(end);
-  for (const int signal : {SIGINT, SIGQUIT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2}) std::signal(signal, SIG_DFL);
   return status;
 }
 
@@ -51,9 +40,12 @@ int wait_for_end(Watchdog watchdog) {
 
 ProgramRun::ProgramRun(const ProgramFiles& files, const RunMemory& memory, int output) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // processes whose parents have ended are its own
-  child = start_program(files, memory, output);
-  status_ = wait_for_end(Watchdog(memory.record(), child));
-  end_others(memory.record());
+  const pid_t program = start_program(files, memory, output);
+  EndRequests requests(memory.record(), program);
+  status_ = wait_for_end(program, Watchdog(memory.record()), requests);
+  end_others(memory.record(), [&] { return requests.look(); });
+  is_interrupted_ = requests.ended_by() != 0;
+  if (is_interrupted_) status_ = requests.ended_by();
 }
 
 int ProgramRun::exit_status() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }

@@ -18,9 +18,12 @@ class ProgramRun {
   int exit_status() const;
   /// The signal that ended it; 0 if none.
   int signal() const;
+  /// True if it was ended by a signal to this process: see end_requests.hpp.
+  bool is_interrupted() const { return is_interrupted_; }
 
  private:
   int status_ = 0;
+  bool is_interrupted_ = false;
 };
 
 /// Ends this process by the signal, so that a shell sees the program's own end.

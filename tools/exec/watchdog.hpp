@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports a program whose running thread uses the processor without a simulated call: no other thread runs meanwhile. A
-// loop that spins for another thread never ends; a long computation does.
+// Reports a run whose running thread uses the processor without a simulated call: no other thread runs meanwhile. A
+// loop that spins for another thread, or for a signal's handler, never ends; a long computation does.
 #pragma once
 
 #include <sys/types.h>
@@ -14,16 +14,16 @@ namespace waitpoint::tools {
 
 class Watchdog {
  public:
-  Watchdog(const posix::Record& record, pid_t program) : record_(record), program_(program) {}
+  explicit Watchdog(const posix::Record& record) : record_(record) {}
 
   /// Call at intervals; returns a message once per such period, otherwise nothing.
   std::string look();
 
  private:
   const posix::Record& record_;
-  pid_t program_;
+  pid_t process_ = 0;  ///< of the system, that had the turn when `events_` was first read
   std::uint64_t events_ = 0;
-  double since_s_ = 0;  ///< processor time of the program when `events_` was first read
+  double since_s_ = 0;  ///< its processor time then
   bool told_ = false;
 };
 

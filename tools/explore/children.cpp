@@ -134,6 +134,18 @@ void Children::end_those_beyond_limits() {
   }
 }
 
+std::optional<Children::Ended> Children::stop_longest() {
+  constexpr double long_s = 1, patience_s = 10;
+  const auto longest = std::ranges::min_element(running_, {}, &Running::started_s);
+  const double now_s = wall_clock_s();
+  if (longest == running_.end() || now_s - longest->started_s < long_s) return std::nullopt;
+  const std::uint64_t number = longest->so_far.number;
+  kill(longest->process, SIGTERM);
+  while (!running_.empty() && wall_clock_s() - now_s < patience_s)
+    if (std::optional<Ended> ended = wait(100); ended && ended->number == number) return ended;
+  return std::nullopt;
+}
+
 void Children::kill_from(std::uint64_t number) {
   for (std::size_t i = running_.size(); i-- > 0;) {
     if (running_[i].so_far.number < number) continue;

@@ -39,6 +39,8 @@ class Children {
   std::size_t count() const { return running_.size(); }
   /// Waits for a child to end, for at most `timeout_ms`; kills those beyond a limit.
   std::optional<Ended> wait(int timeout_ms);
+  /// Asks the child that has run longest, if that is a second at least, to end by SIGTERM, and returns what it says.
+  std::optional<Ended> stop_longest();
   /// Kills children with numbers from `number` up.
   void kill_from(std::uint64_t number);
 

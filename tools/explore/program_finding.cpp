@@ -54,6 +54,9 @@ void judge(const RunMemory& memory, int status, Finding& finding) {
   } else if (ending == posix::Ending::no_progress) {
     finding.kind = Finding::Kind::no_progress;
     finding.words = "no progress: the threads poll without end";
+  } else if (ending == posix::Ending::idle) {
+    finding.kind = Finding::Kind::no_progress;
+    finding.words = "idle: only timers expire, and no thread wakes another";
   } else if (WIFSIGNALED(status)) {
     finding.words = "terminated by " + signal_in_words(WTERMSIG(status));
   } else if (WEXITSTATUS(status) != 0) {

@@ -11,14 +11,20 @@
 #include <fstream>
 
 #include "core/digest.hpp"
+#include "tools/exec/accounts.hpp"
+#include "tools/exec/family_report.hpp"
 #include "tools/exec/watchdog.hpp"
 #include "tools/explore/program_finding.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-constexpr int look_around_ms = 1000;
+constexpr int look_around_ms = 100;
 constexpr std::size_t output_shown = 2000;
+
+// The process of one run is asked to end by SIGTERM: see Children.
+volatile std::sig_atomic_t is_to_stop = 0;
+void note_stop(int) { is_to_stop = 1; }
 
 // Standard input of the runs, each from the beginning: this process's own if it is a regular file, else empty.
 int open_input() {
@@ -89,11 +95,16 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
   ask_for_run(memory, options_, plan, request, profile_);
   const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
   ServedRun run(*server_, memory, input, output);
-  Watchdog watchdog(memory.record(), run.process());
+  Watchdog watchdog(memory.record());
   std::string stalled;
   std::optional<int> status;
+  std::signal(SIGTERM, note_stop);
   while (!(status = run.wait(look_around_ms))) {
-    if (std::string words = watchdog.look(); !words.empty()) {
+    if (is_to_stop != 0 && stalled.empty()) {
+      stalled = "stopped by a signal at " + to_string(time_of(memory.record())) + " s of virtual time\n" +
+                states_of(memory.record());
+      kill(run.process(), SIGKILL);
+    } else if (std::string words = watchdog.look(); !words.empty()) {
       stalled = std::move(words);
       kill(run.process(), SIGKILL);
     }

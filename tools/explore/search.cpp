@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "tools/command/interruption.hpp"
 
@@ -26,6 +27,14 @@ Children::Limits limits_of(const Target& target) {
   return {.wall_s = target.limit_s(), .computes = target.options().program.empty()};
 }
 
+// A program's run that has gone on for long says what its threads do.
+void stop(Children& children, const Target& target) {
+  if (target.options().program.empty()) return;
+  if (const auto ended = children.stop_longest())
+    if (const std::string words = outcome_of(*ended).words; !words.empty())
+      std::fprintf(stderr, "waitpoint: %s\n", words.c_str());
+}
+
 }  // namespace
 
 Search::Search(Target& target, SearchProgress& progress)
@@ -36,6 +45,7 @@ std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target:
   children.start(0, [&] { return to_bytes(target.run(plan, request)); });
   while (interruption() == 0)
     if (const auto ended = children.wait(look_around_ms)) return outcome_of(*ended);
+  stop(children, target);
   return std::nullopt;
 }
 
@@ -84,6 +94,7 @@ void Search::run_drawn(bool all) {
     progress_.update(schedules_, distinct(), failures_);
     interrupted_ = interruption() != 0;
   }
+  if (interrupted_) stop(children_, target_);
   children_.kill_from(0);
 }
 

@@ -60,7 +60,7 @@ struct Found {
   std::uint64_t offset;  ///< of the address within the variable
 };
 
-bool look_up(const File& file, std::uint64_t address, Found& found) {
+bool look_up(const File& file, std::uint64_t address, unsigned type, Found& found) {
   const auto head = file.at<Elf64_Ehdr>(0, sizeof(Elf64_Ehdr));
   if (head.empty() || std::memcmp(head[0].e_ident, ELFMAG, SELFMAG) != 0) return false;
   const auto sections = file.at<Elf64_Shdr>(head[0].e_shoff, std::uint64_t{head[0].e_shnum} * sizeof(Elf64_Shdr));
@@ -69,8 +69,7 @@ bool look_up(const File& file, std::uint64_t address, Found& found) {
     const auto names = file.at<char>(sections[section.sh_link].sh_offset, sections[section.sh_link].sh_size);
     for (const Elf64_Sym& symbol : file.at<Elf64_Sym>(section.sh_offset, section.sh_size)) {
       const std::uint64_t into = address - symbol.st_value;
-      if (ELF64_ST_TYPE(symbol.st_info) != STT_OBJECT || into >= symbol.st_size || symbol.st_name >= names.size())
-        continue;
+      if (ELF64_ST_TYPE(symbol.st_info) != type || into >= symbol.st_size || symbol.st_name >= names.size()) continue;
       found = {names.data() + symbol.st_name, into};
       return true;
     }
@@ -113,22 +112,44 @@ const char* kept(const Found& found) {
   return pool.finish();
 }
 
+const File& file_of(const Dl_info& info) {
+  const bool is_program = std::strcmp(info.dli_fname, program_invocation_name) == 0;
+  return open_file(is_program ? "/proc/self/exe" : info.dli_fname);
+}
+
+// The symbols of a program linked at fixed addresses hold absolute addresses.
+std::uintptr_t offset_in(const File& file, const Dl_info& info, const void* address) {
+  const auto head = file.at<Elf64_Ehdr>(0, sizeof(Elf64_Ehdr));
+  const bool is_fixed = !head.empty() && head[0].e_type == ET_EXEC;
+  const auto* const base = static_cast<const char*>(is_fixed ? nullptr : info.dli_fbase);
+  return static_cast<std::uintptr_t>(static_cast<const char*>(address) - base);
+}
+
 }  // namespace
 
 const char* symbol_at(const void* address) {
   Dl_info info{};
   if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return nullptr;
-  const bool is_program = std::strcmp(info.dli_fname, program_invocation_name) == 0;
-  const File& file = open_file(is_program ? "/proc/self/exe" : info.dli_fname);
-  const auto head = file.at<Elf64_Ehdr>(0, sizeof(Elf64_Ehdr));
-  // The symbols of a program linked at fixed addresses hold absolute addresses.
-  const bool is_fixed = !head.empty() && head[0].e_type == ET_EXEC;
-  const auto* const base = static_cast<const char*>(is_fixed ? nullptr : info.dli_fbase);
+  const File& file = file_of(info);
   Found found{};
-  if (look_up(file, static_cast<std::uint64_t>(static_cast<const char*>(address) - base), found)) return kept(found);
+  if (look_up(file, offset_in(file, info, address), STT_OBJECT, found)) return kept(found);
   if (info.dli_sname == nullptr) return nullptr;
   const auto into = static_cast<const char*>(address) - static_cast<const char*>(info.dli_saddr);
   return kept({info.dli_sname, static_cast<std::uint64_t>(into)});
+}
+
+std::uintptr_t function_at(const void* address, const char*& function) {
+  function = nullptr;
+  Dl_info info{};
+  if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return 0;
+  const File& file = file_of(info);
+  const std::uintptr_t offset = offset_in(file, info, address);
+  Found found{};
+  if (look_up(file, offset, STT_FUNC, found))
+    function = kept({found.name, 0});
+  else if (info.dli_sname != nullptr)
+    function = kept({info.dli_sname, 0});
+  return offset;
 }
 
 }  // namespace waitpoint::posix

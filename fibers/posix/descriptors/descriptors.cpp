@@ -14,6 +14,7 @@
 #include "fibers/posix/base/real_waits.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/timer_firing.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/time/clocks.hpp"
@@ -37,6 +38,7 @@ Waiter* first = nullptr;
 Waiter* last = nullptr;
 int waiting_outside = 0;
 int waiting_for_no_descriptor = 0;  // these must be polled
+int waiting_for_input = 0;          // for descriptors outside
 
 kernel::Object descriptors_object{"descriptor"};
 kernel::Object outside_object{"something outside"};
@@ -59,11 +61,12 @@ void note_waits() {
   }
   family::own->listens_to = awaited;
   family::own->waits_outside = waiting_outside > 0;
+  family::own->awaits_input = waiting_for_input > 0;
 }
 
 void count_outside(const Waiter& waiter, int by) {
   waiting_outside += by;
-  if (waiter.count == 0) waiting_for_no_descriptor += by;
+  (waiter.count == 0 ? waiting_for_no_descriptor : waiting_for_input) += by;
   WAITPOINT_CHECK(waiting_for_no_descriptor >= 0 && waiting_outside >= waiting_for_no_descriptor,
                   "the counts of threads that wait outside disagree");
 }
@@ -119,7 +122,10 @@ bool wake_ready(bool outside_too, family::Changes changes) {
                                                       : poll_counted(waiter->descriptors, waiter->count) != 0;
     if (!is_ready) continue;
     // is_ready() may have woken it.
-    if (waiter->task->state == kernel::TaskState::blocked) waiter->task->scheduler->wake(*waiter->task);
+    if (waiter->task->state == kernel::TaskState::blocked) {
+      thread_of(*waiter->task).woken_by_timer = is_timer_firing;
+      waiter->task->scheduler->wake(*waiter->task);
+    }
     any = true;
   }
   return any;
@@ -164,7 +170,17 @@ bool anybody_waits_outside() { return waiting_outside > 0; }
 
 void forget_waiters() {
   first = last = nullptr;
-  waiting_outside = waiting_for_no_descriptor = 0;
+  waiting_outside = waiting_for_no_descriptor = waiting_for_input = 0;
+}
+
+const pollfd* awaited_descriptors(const kernel::Task& task, nfds_t& count) {
+  count = 0;
+  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+    if (waiter->task == &task) {
+      count = waiter->count;
+      return waiter->descriptors;
+    }
+  return nullptr;
 }
 
 void forget_waiter(const kernel::Task& task) {

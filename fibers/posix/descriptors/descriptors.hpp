@@ -25,6 +25,8 @@ bool anybody_waits_outside();
 
 /// In the child: no thread waits.
 void forget_waiters();
+/// For what a thread waits here, for reports; null and 0 if it is no descriptor.
+const pollfd* awaited_descriptors(const kernel::Task& task, nfds_t& count);
 /// The task no longer exists.
 void forget_waiter(const kernel::Task& task);
 

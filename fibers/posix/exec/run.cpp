@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -13,9 +14,11 @@
 #include "fibers/posix/base/preload.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/pace.hpp"
+#include "fibers/posix/exec/account.hpp"
 #include "fibers/posix/exec/exploration.hpp"
 #include "fibers/posix/exec/family_run.hpp"
 #include "fibers/posix/exec/fork_server.hpp"
+#include "fibers/posix/exec/idle_watch.hpp"
 #include "fibers/posix/exec/race_log.hpp"
 #include "fibers/posix/exec/run_memory.hpp"
 #include "fibers/posix/family/turn.hpp"
@@ -78,6 +81,7 @@ Time keep_pace(kernel::Scheduler& scheduler) {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) trap_stream(stream);
   }
   notice_stream = trap_stream;
+  begin_to_answer();
   draw_random_bytes_of_the_process();
   if (record->settings.trap_rdtsc) trap_processor_counter();
   if (record->settings.trap_library) trap_library_calls();
@@ -103,6 +107,7 @@ kernel::Scheduler& begin_run() {
                   "the record counts programs that it lacks");
   if (record->began) begin_anew();
   if (!family::is_joined()) family::begin();
+  note_caught_signals();
   const Asked* const asked = record->settings.asked;
   record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
   if (!kernel::Scheduler::has_address_space())
@@ -124,6 +129,7 @@ kernel::Scheduler& begin_run() {
     record->trace = new Trace();
     scheduler.set_watch(&record->trace->recorder);
   }
+  begin_idle_watch(scheduler);
   record->running = &kernel::running;
   record->began = true;
   return scheduler;
@@ -134,8 +140,12 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
   const Time end = record->settings.until;
   for (Time until = end;;) {
     family::limit_window(scheduler);
-    const kernel::RunState state = scheduler.run_before(until);
+    const kernel::RunState state = scheduler.run_before(std::min(until, next_idle_check()));
     if (state == kernel::RunState::stopped) break;
+    if (is_idle(scheduler)) {
+      family::family->is_over = family::family->is_idle = true;
+      break;
+    }
     if (family::has_others() || !family::is_first()) {
       if (!step_in_family(scheduler, until)) break;
       continue;
@@ -159,6 +169,7 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
     }
   }
   if (family::family->is_cut_off) end_process(0);
+  if (family::family->is_idle) return record->ending = Ending::idle;
   if (scheduler.stop_cause() == kernel::StopCause::ended) return record->ending = Ending::own;
   if (scheduler.stop_cause() == kernel::StopCause::requested) {
     WAITPOINT_CHECK(record->explored != nullptr, "a run is stopped without an exploration");
@@ -169,11 +180,25 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
   return record->ending = stuck ? Ending::deadlock : Ending::no_progress;
 }
 
+namespace {
+
+// Null if the run has not failed.
+const char* failure_in_words(Ending ending) {
+  switch (ending) {
+    case Ending::deadlock: return "deadlock";
+    case Ending::no_progress: return "no progress";
+    case Ending::idle: return "idle (only timers expire, and no thread wakes another: --idle-limit)";
+    default: return nullptr;
+  }
+}
+
+}  // namespace
+
 void end_run(const kernel::Scheduler& scheduler, int status) {
-  const bool failed = record->ending == Ending::deadlock || record->ending == Ending::no_progress;
+  const char* const why = failure_in_words(record->ending);
   std::fflush(nullptr);  // the program's own output comes before the report
-  if (failed) report_deadlock(scheduler);
-  end_process(failed ? status_of_deadlock : status);
+  if (why != nullptr) report_end(scheduler, why);
+  end_process(why != nullptr ? status_of_deadlock : status);
 }
 
 namespace {

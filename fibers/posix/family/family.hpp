@@ -17,6 +17,7 @@
 #include "fibers/kernel/event.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/base/arena.hpp"
+#include "fibers/posix/family/account.hpp"
 #include "fibers/posix/program/record.hpp"
 
 namespace waitpoint::posix::family {
@@ -63,6 +64,7 @@ struct Process {
   std::atomic<pid_t> real_id = 0;  ///< of the system; 0 until it is known
   int status = 0;                  ///< of its end or stop, as waitpid() reports it
   int exit_status = 0;             ///< once it has called exit()
+  std::uint64_t caught = 0;        ///< the signals that it handles or has blocked, a bit for each from 1 on
 
   // The turn (turn.hpp).
   kernel::EventKey next = kernel::EventKey::never();  ///< the key of its least event, while another has the turn
@@ -72,9 +74,12 @@ struct Process {
   bool is_rung = false;                               ///< one of them did something since, first at `rung_at`
   Time rung_at;
   bool waits_outside = false;
+  bool awaits_input = false;           ///< the same for descriptors alone
   Time looked_at = Time::from_ns(-1);  ///< the instant at whose end it last looked outside
   std::uint64_t looked_after = 0;      ///< the family's actions until then
 
+  // For the idle watch (exec/idle_watch.hpp): bytes written, as last read; those of the layer's own timers.
+  std::uint64_t written = 0, written_by_timers = 0;
   pid_t waits_for = 0;  ///< the holder of a file lock; 0: none
   int letters = 0;
   static constexpr int letters_max = 32;
@@ -90,6 +95,13 @@ inline std::uint64_t share_of_digest(const Process& process) {
   of_one.add(process.digest.value());
   return of_one.value();
 }
+
+/// Since the last known time at which a thread woke another: see exec/idle_watch.hpp.
+struct Idleness {
+  Time woken_at;
+  Time acted_at;             ///< of the last event of a thread
+  std::uint64_t events = 0;  ///< of threads and timers
+};
 
 struct alignas(Arena::alignment) Family {
   static constexpr std::uint64_t mark_of_version = 0x777066616D303031;  // "wpfam001"
@@ -107,6 +119,7 @@ struct alignas(Arena::alignment) Family {
   Time first_ended_at;        ///< the end of the first process
   bool is_over = false;       ///< no process can continue: each reports its threads, and ends
   bool is_cut_off = false;    ///< or those left over after the end of the first end without a report
+  bool is_idle = false;       ///< or the idle limit was reached: each reports its threads
   bool is_reported = false;
   std::atomic<std::uint32_t> holder = 0;  ///< the index of the process that has the turn
   std::atomic<pid_t> leaving = 0;  ///< the system's number of a process that has ended, as far as its own code goes
@@ -114,6 +127,8 @@ struct alignas(Arena::alignment) Family {
   std::uint64_t hand_overs = 0;
   std::uint32_t threads_made = 0;
   std::uint64_t events_of_ended = 0, switches_of_ended = 0;
+  Account account;
+  Idleness idleness;
   Process processes[processes_max];
 };
 

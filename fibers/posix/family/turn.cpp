@@ -114,6 +114,7 @@ void note_child(Process& child, pid_t real_id) {
 }
 
 void begin_as_child(Process& child) {
+  child.caught = own->caught;
   own = &child;
   own->real_id = system_id();
   await_turn();

@@ -2,11 +2,14 @@
 #include "fibers/posix/program/program.hpp"
 
 #include "fibers/posix/program/allocator.hpp"
+#include "fibers/posix/program/timer_firing.hpp"
 
 namespace waitpoint::posix {
 
 Record* record = nullptr;
 constinit AllocatorCode allocator_code;
+bool is_timer_firing = false;
+std::uint64_t timers_fired = 0;
 
 kernel::Task* first_task() {
   if (kernel::running != nullptr) return kernel::running->scheduler->first_task();

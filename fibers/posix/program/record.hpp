@@ -50,21 +50,23 @@ struct Settings {
   Time until = Time::max();  ///< the run is cut off then
   bool has_clock = false;    ///< threads have a clock; else computing takes no time
   kernel::ClockOptions clock;
-  bool isolate = false;               ///< traffic beyond this machine is rejected
-  bool trap_rdtsc = false;            ///< reading the processor's counter shows virtual time
-  bool traced = false;                ///< all events are recorded
-  bool fast_paths = true;             ///< see SimulationOptions::fast_paths
-  const Asked* asked = nullptr;       ///< the exploration's request, in Order::explored
-  std::uint32_t looks_at_once = 1;    ///< uses of clocks and of sched_yield() that are charged together
-  std::uint32_t batches_at_once = 1;  ///< the same for batches of uses of primitives: see waiting.hpp
-  bool instrumented = false;          ///< the program is compiled with -fsanitize=thread
-  bool trap_library = false;          ///< waits within the C library are simulated
-  bool simulates_started = false;     ///< programs that it starts are simulations too
-  int server = -1;                    ///< a socket on which runs are requested, see fork_server.hpp
+  bool isolate = false;                         ///< traffic beyond this machine is rejected
+  bool trap_rdtsc = false;                      ///< reading the processor's counter shows virtual time
+  bool traced = false;                          ///< all events are recorded
+  bool fast_paths = true;                       ///< see SimulationOptions::fast_paths
+  const Asked* asked = nullptr;                 ///< the exploration's request, in Order::explored
+  std::uint32_t looks_at_once = 1;              ///< uses of clocks and of sched_yield() that are charged together
+  std::uint32_t batches_at_once = 1;            ///< the same for batches of uses of primitives: see waiting.hpp
+  bool instrumented = false;                    ///< the program is compiled with -fsanitize=thread
+  Duration idle_limit = std::chrono::hours(1);  ///< 0: none; see exec/idle_watch.hpp
+  bool trap_library = false;                    ///< waits within the C library are simulated
+  bool simulates_started = false;               ///< programs that it starts are simulations too
+  bool reports_ending = false;                  ///< the watching process ends the run when a signal asks to
+  int server = -1;                              ///< a socket on which runs are requested, see fork_server.hpp
 };
 
 /// How a run ended: `own` as the program ends by itself.
-enum class Ending : std::uint8_t { own, deadlock, no_progress, cut_off };
+enum class Ending : std::uint8_t { own, deadlock, no_progress, idle, cut_off };
 
 /// One of several programs in one process.
 struct ProgramRecord {

@@ -51,7 +51,7 @@ inline void spend_for_operations(Thread& thread) {
   WAITPOINT_FAST_CHECK(batches > 0 && thread.batches < batches, "uses of primitives were not charged when due");
   if (++thread.batches < batches) return;
   thread.batches = 0;
-  spend(cost_of_operation * (operations_at_once * batches));
+  spend(cost_of_operation * operations_at_once * batches);
 }
 
 /// The running thread's waitpoint: returns when its event is the least.

@@ -87,6 +87,23 @@ bool is_handled(int signal) {
   return (action.sa_flags & SA_SIGINFO) != 0 || (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN);
 }
 
+bool has_default(int signal) { return signals_of_program.actions[signal].sa_handler == SIG_DFL && !is_handled(signal); }
+
+// Its default action is to end the run: that is done by the process that watches it.
+bool ends_run(int signal) {
+  return contains(ending, signal) && record != nullptr && record->settings.reports_ending && has_default(signal);
+}
+
+// Of several processes a signal sent to one ends that one alone, unless it is the first; the terminal's reach all.
+bool pass_to_watcher(const siginfo_t& information) {
+  if (!ends_run(information.si_signo) || information.si_pid == record->file.watcher) return false;
+  const bool is_of_family = information.si_code <= 0 && family::find_in_system(information.si_pid) != nullptr;
+  const bool is_for_all = information.si_code > 0 || family::own == nullptr || family::is_first();
+  if (is_of_family || !is_for_all) return false;
+  WAITPOINT_NEXT(syscall)(SYS_kill, record->file.watcher, information.si_signo);
+  return true;
+}
+
 bool is_of_program(std::uintptr_t at) {
   bool is_guarded = false;
   for (const LibraryRange& range : guarded) is_guarded = is_guarded || range.contains(at);
@@ -172,11 +189,19 @@ void handle_fault(int signal, siginfo_t* information, void* context) {
 void catch_signal(int signal, siginfo_t* information, void* context) {
   if (signal == SIGSYS && answer_library_call(*information, context)) return;
   const int error = errno;
+  if (is_question(*information)) {
+    if (answer_question != nullptr) answer_question();
+    errno = error;
+    return;
+  }
   // SIGPIPE and SIGXFSZ: this thread's own write.
   const bool from_itself = (information->si_code == SI_TKILL || signal == SIGPIPE || signal == SIGXFSZ) &&
                            information->si_pid == family::system_id();
   if (contains(faults, signal) && information->si_code > 0) {
     handle_fault(signal, information, context);
+  } else if (!from_itself && pass_to_watcher(*information)) {
+    errno = error;
+    return;
   } else if (is_simulated() && from_itself && !waits_really.load()) {
     // By the C library, which expects it to be handled at once: by abort() within it, for one.
     send(*information, &this_thread());
@@ -245,7 +270,8 @@ void install(int signal) {
   if (signal == bell) real.sa_flags |= SA_RESTART;  // the program did not ask for it, and must not see EINTR
   const bool is_default = !is_handled(signal);
   const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) ||
-                                    (signal == SIGSYS && are_library_calls_trapped()) || (signal == bell && has_bell);
+                                    (signal == SIGSYS && are_library_calls_trapped()) || (signal == bell && has_bell) ||
+                                    ends_run(signal);
   // The system's notices of ends that are events of the family come at any time: they could end a real wait.
   const bool is_left_out = signal == SIGCHLD && family::own != nullptr && !family::has_native_child();
   const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
@@ -257,6 +283,20 @@ void install(int signal) {
     real.sa_handler = SIG_DFL;
   }
   WAITPOINT_NEXT(sigaction)(signal, &real, nullptr);
+  note_caught_signals();
+}
+
+bool is_question(const siginfo_t& information) {
+  return information.si_signo == bell && information.si_code == SI_QUEUE && information.si_int == question &&
+         record != nullptr && information.si_pid == record->file.watcher;
+}
+
+void note_caught_signals() {
+  if (family::own == nullptr) return;
+  SignalSet caught = signals_of_program.ever_blocked;
+  for (SignalSet left = ending; left != 0; left &= left - 1)
+    if (const int signal = __builtin_ctzll(left) + 1; is_handled(signal)) caught |= only(signal);
+  family::own->caught = caught;
 }
 
 void install_bell() {
@@ -294,7 +334,8 @@ void inherit_signals() {
   sigset_t blocked;
   WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, nullptr, &blocked);
   signals_of_program.blocked_before_main = signals_of_program.ever_blocked = to_set(blocked);
-  for (SignalSet set = to_set(blocked); set != 0; set &= set - 1) install(__builtin_ctzll(set) + 1);
+  const SignalSet caught = record != nullptr && record->settings.reports_ending ? ending : 0;
+  for (SignalSet set = to_set(blocked) | caught; set != 0; set &= set - 1) install(__builtin_ctzll(set) + 1);
   const sigset_t none = to_sigset(0);
   WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, &none, nullptr);
 }

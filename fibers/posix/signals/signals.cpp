@@ -11,12 +11,14 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/timer_firing.hpp"
 #include "fibers/posix/program/waiting.hpp"
 
 namespace waitpoint::posix {
 
 constinit SignalsOfProgram signals_of_program{};
 void (*after_pending_changed)() = nullptr;
+void (*answer_question)() = nullptr;
 
 namespace {
 
@@ -48,6 +50,7 @@ void tell(Thread& thread) {
   kernel::Task& task = *thread.task;
   if (task.state == kernel::TaskState::blocked && thread.in_wait) {
     thread.woken_by_signal = true;
+    thread.woken_by_timer = is_timer_firing;
     task.scheduler->wake(task);
   } else {
     task.scheduler->attend(task, kernel::attention::signal, true);

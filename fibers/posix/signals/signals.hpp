@@ -82,6 +82,13 @@ static_assert(contains(ignored_by_default, bell), "the bell harms no process tha
 /// Catches it from now on.
 void install_bell();
 
+/// Asked by the process that watches the run: the bell with this value. It may interrupt any code. A process that has
+/// no handler ignores it.
+inline constexpr int question = 0x77703F;
+bool is_question(const siginfo_t& information);
+/// Answers it; null: nobody does.
+extern void (*answer_question)();
+
 /// Sends on the signals that came from outside; true if there were any.
 bool take_in_signals_from_outside();
 /// True if there are any. Fast.
@@ -93,6 +100,12 @@ void handle_what_came_with_a_call();
 void install(int signal);
 /// Ends or stops the process by the default action.
 void do_default(int signal);
+
+/// The signals that end the whole run by their default action. In `waitpoint exec` the process that watches the run
+/// ends it, and reports the state of all threads first.
+inline constexpr SignalSet ending = only(SIGINT) | only(SIGTERM) | only(SIGHUP);
+/// Notes for that process which signals this one handles or blocks.
+void note_caught_signals();
 
 /// Before main(): reads the actions and the mask that the process inherited.
 void inherit_signals();

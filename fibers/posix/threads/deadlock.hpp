@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports of deadlocks among a program's threads.
+// Reports of runs that end since no thread continues.
 #pragma once
 
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::posix {
 
-/// Writes to the error stream, for each thread, the object that it waits for and its holder. Objects have the names of
-/// the program's variables, if it has symbols.
-void report_deadlock(const kernel::Scheduler& scheduler);
+/// After a run that no thread can continue, or that makes no progress: writes the reason to the error stream, once for
+/// all processes of the family, and a line for each thread (thread_states.hpp).
+void report_end(const kernel::Scheduler& scheduler, const char* why);
 
 /// `task` has just closed a cycle of waiting threads. True if the run continues with the others, as with threads of the
 /// system; the cycle is reported at once. False where schedules are explored, and without other threads. If a timer of

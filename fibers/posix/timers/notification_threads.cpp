@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/timer_firing.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
@@ -119,6 +120,8 @@ void Notice::ring() {
   WAITPOINT_CHECK(Notices::has(this), "a notice rings that is not prepared");
   WAITPOINT_CHECK(starter_object.robot != nullptr, "a notice rings before the thread that starts others is made");
   ++due_;
+  for (kernel::Task* task = starter_object.first_waiter; task != nullptr; task = task->next_waiter)
+    thread_of(*task).woken_by_timer = is_timer_firing;
   starter_object.robot->scheduler->wake_all(starter_object);
 }
 

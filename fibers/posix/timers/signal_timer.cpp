@@ -2,6 +2,7 @@
 #include "fibers/posix/timers/signal_timer.hpp"
 
 #include "core/error.hpp"
+#include "fibers/posix/program/timer_firing.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -76,6 +77,7 @@ void SignalTimer::expire(kernel::EventNode& node) {
     scheduler.schedule(timer.node_.event, timer.due_, timer.object_);
   else
     --set_count_;
+  const TimerFiring firing;
   timer.ring_(timer, count);
 }
 

@@ -15,6 +15,8 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/program/timer_firing.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -57,11 +59,13 @@ void count(TimerDescriptor& timer, Time now) {
   }
   const ErrorNumberKept kept;
   [[maybe_unused]] const ssize_t written = WAITPOINT_NEXT(write)(timer.descriptor, &expirations, sizeof expirations);
+  if (family::own != nullptr) family::own->written_by_timers += sizeof expirations;
 }
 
 void expire(kernel::EventNode& node) {
   auto& timer = reinterpret_cast<TimerDescriptor&>(node);
   WAITPOINT_CHECK(timer.event.fire == expire && timer.object.robot != nullptr, "an event is no timer descriptor's");
+  const TimerFiring firing;
   count(timer, timer.object.robot->scheduler->global_time());
   look_at_descriptors();
 }
