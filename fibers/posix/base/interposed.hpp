@@ -13,6 +13,9 @@
 /// Marks a definition that replaces the C library's.
 #define WAITPOINT_INTERPOSED extern "C" [[gnu::visibility("default")]]
 
+/// The C library's dlsym(): see lookups.cpp.
+extern "C" [[gnu::visibility("hidden")]] void* waitpoint_own_dlsym();
+
 namespace waitpoint::posix {
 
 /// The replaced function of this name: the next one in the search order of the libraries.
@@ -23,12 +26,13 @@ Function next(Function& known, const char* name) {
   return known;
 }
 
-/// The C library's own function, even if another library defines the name too: see lookups.cpp.
+/// The C library's own function, even if another library defines the name too.
 template <class Function>
 Function of_c_library(Function, const char* name) {
   void* const library = dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD);
   WAITPOINT_CHECK(library != nullptr, "the process has no C library of the expected name");
-  const auto found = reinterpret_cast<Function>(dlsym(library, name));
+  const auto look_up = reinterpret_cast<void* (*)(void*, const char*)>(waitpoint_own_dlsym());
+  const auto found = reinterpret_cast<Function>(look_up(library, name));
   WAITPOINT_CHECK(found != nullptr, "the C library lacks a function that the layer calls");
   return found;
 }

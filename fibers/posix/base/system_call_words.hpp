@@ -44,6 +44,9 @@ struct CallWords {
   }
 };
 
+/// The call as syscall() makes it: simulated, or the system's; -1 with errno set if it fails.
+long simulated_call(long number, const CallWords& words);
+
 /// System calls that take signal sets with their size, by number.
 long call_about_signals(long number, const CallWords& words);
 

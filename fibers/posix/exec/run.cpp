@@ -33,6 +33,8 @@
 #include "fibers/posix/time/clocks.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 #include "fibers/posix/traps/processor_counter.hpp"
+#include "fibers/posix/traps/raw_calls.hpp"
+#include "fibers/posix/traps/vdso.hpp"
 
 namespace waitpoint::posix {
 
@@ -85,6 +87,8 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   draw_random_bytes_of_the_process();
   if (record->settings.trap_rdtsc) trap_processor_counter();
   if (record->settings.trap_library) trap_library_calls();
+  trap_raw_calls();
+  replace_vdso();
 }
 
 }  // namespace
@@ -101,7 +105,10 @@ bool has_members() {
 
 kernel::Scheduler& begin_run() {
   begin();
-  if (const int server = record->settings.server; server >= 0 && !family::is_joined()) map_record(serve_runs(server));
+  if (const int server = record->settings.server; server >= 0 && !family::is_joined()) {
+    map_record(serve_runs(server));
+    trap_raw_calls_of_child();
+  }
   WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");
   WAITPOINT_CHECK(record->program_count == 0 || record->programs != nullptr,
                   "the record counts programs that it lacks");

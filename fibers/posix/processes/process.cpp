@@ -29,6 +29,7 @@
 #include "fibers/posix/threads/thread.hpp"
 #include "fibers/posix/timers/interval_timers.hpp"
 #include "fibers/posix/timers/notification_threads.hpp"
+#include "fibers/posix/traps/raw_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -110,6 +111,7 @@ void begin_as_child() {
   forget_asynchronous_requests();
   forget_pending_signals();
   begin_again_as_first(this_thread());
+  trap_raw_calls_of_child();
   begin_events();
 }
 

@@ -252,14 +252,16 @@ std::optional<long> call_about_sockets(long number, const CallWords& words) {
   }
 }
 
+}  // namespace
+
 long simulated_call(long number, const CallWords& words) {
+  const CancellationDisabled disabled;
   for (const auto about : {call_about_threads, call_about_scheduling, call_about_time, call_about_ipc,
                            call_about_processes, call_about_descriptors, call_about_sockets})
     if (const std::optional<long> result = about(number, words)) return *result;
   return call_system(number, words);
 }
 
-}  // namespace
 }  // namespace waitpoint::posix
 
 using namespace waitpoint::posix;
@@ -271,7 +273,6 @@ WAITPOINT_INTERPOSED long syscall(long number, ...) noexcept {
   for (long& word : words.at) word = va_arg(more, long);
   va_end(more);
   if (is_host_code()) return call_system(number, words);
-  const CancellationDisabled disabled;
   return simulated_call(number, words);
 }
 

@@ -20,6 +20,7 @@
 #include "fibers/posix/traps/library_range.hpp"
 #include "fibers/posix/traps/library_return.hpp"
 #include "fibers/posix/traps/processor_counter.hpp"
+#include "fibers/posix/traps/raw_calls.hpp"
 
 extern "C" void* _dl_allocate_tls(void*);  // of the dynamic linker
 
@@ -187,7 +188,8 @@ void handle_fault(int signal, siginfo_t* information, void* context) {
 }
 
 void catch_signal(int signal, siginfo_t* information, void* context) {
-  if (signal == SIGSYS && answer_library_call(*information, context)) return;
+  if (signal == SIGSYS && (answer_library_call(*information, context) || answer_raw_call(*information, context)))
+    return;
   const int error = errno;
   if (is_question(*information)) {
     if (answer_question != nullptr) answer_question();
@@ -270,8 +272,8 @@ void install(int signal) {
   if (signal == bell) real.sa_flags |= SA_RESTART;  // the program did not ask for it, and must not see EINTR
   const bool is_default = !is_handled(signal);
   const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) ||
-                                    (signal == SIGSYS && are_library_calls_trapped()) || (signal == bell && has_bell) ||
-                                    ends_run(signal);
+                                    (signal == SIGSYS && (are_library_calls_trapped() || are_raw_calls_trapped())) ||
+                                    (signal == bell && has_bell) || ends_run(signal);
   // The system's notices of ends that are events of the family come at any time: they could end a real wait.
   const bool is_left_out = signal == SIGCHLD && family::own != nullptr && !family::has_native_child();
   const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/time/clocks.hpp"
 
+#include <sys/syscall.h>
 #include <sys/time.h>
 #include <sys/times.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <cerrno>
 
 #include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/allocator.hpp"
@@ -58,7 +60,7 @@ bool is_clock(clockid_t clock) {
   if (of == 0 || of == getpid()) return true;
   for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
     if (is_thread(*task) && thread_of(*task).id == of) return true;
-  return WAITPOINT_NEXT(clock_getres)(clock, nullptr) == 0;
+  return call_directly(SYS_clock_getres, clock, 0) == 0;
 }
 
 std::int64_t reading_ns(clockid_t clock, Time time) {
@@ -116,9 +118,11 @@ Time read_clock() {
 using namespace waitpoint;
 using namespace waitpoint::posix;
 
-// For the clocks of fibers/clocks that measure real time: the linker redirects their calls here.
+// For the clocks of fibers/clocks that measure real time: the linker redirects their calls here. The C library's
+// function shows virtual time, too, as its vDSO is replaced (traps/vdso.hpp).
 extern "C" [[gnu::visibility("hidden")]] int __wrap_clock_gettime(clockid_t clock, timespec* time) noexcept {
-  return WAITPOINT_NEXT(clock_gettime)(clock, time);
+  const long result = call_directly(SYS_clock_gettime, clock, reinterpret_cast<long>(time));
+  return result == 0 ? 0 : fail(static_cast<int>(-result));
 }
 
 WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept {

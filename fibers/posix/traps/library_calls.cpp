@@ -25,6 +25,7 @@
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/sync/futex.hpp"
 #include "fibers/posix/traps/library_range.hpp"
+#include "fibers/posix/traps/raw_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -176,7 +177,7 @@ void trap_stream(int descriptor) {
 void trap_open_mp() {
   static bool is_done = false;
   static unsigned long long loaded = 0;
-  if (is_done) return;
+  if (is_done || are_raw_calls_trapped()) return;
   const unsigned long long now = libraries_loaded();
   if (now == loaded) return;
   loaded = now;

@@ -3,8 +3,8 @@
 // writes of a FILE*. On request (--trap-libc), these system calls of its code are trapped by seccomp, and simulated in
 // the trap's handler.
 //
-// The runtime of OpenMP (libgomp) has futexes of its own too: if it is loaded, they are always trapped, as none of its
-// threads would ever wake another.
+// The runtime of OpenMP (libgomp) has futexes of its own too: if it is loaded, and raw calls are not trapped
+// (raw_calls.hpp), they are always trapped, as none of its threads would ever wake another.
 //
 // A trap cannot be removed: started programs inherit it. It depends on the address of the C library, which is therefore
 // another one there (started_programs.hpp).

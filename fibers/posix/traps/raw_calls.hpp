@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// System calls that the program makes by instructions of its own, not by functions of the C library: trapped by the
+// system's dispatch of such calls to a signal handler (Linux 5.11), and answered as by syscall().
+//
+// The C library's instructions are exempt, which costs its calls some nanoseconds. Threads of the system, and children
+// of clones that share memory, have no such dispatch.
+#pragma once
+
+#include <csignal>
+
+namespace waitpoint::posix {
+
+/// In this process from now on, if the system is able to. Without an effect in a program with a sanitizer's runtime,
+/// which makes calls that must be the system's.
+void trap_raw_calls();
+/// The same in a forked child, which does not inherit it.
+void trap_raw_calls_of_child();
+bool are_raw_calls_trapped();
+/// In a handler of SIGSYS: true if it was such a call, which is done then.
+bool answer_raw_call(const siginfo_t& information, void* context);
+
+}  // namespace waitpoint::posix
