@@ -33,6 +33,7 @@
 #include "fibers/posix/time/clocks.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 #include "fibers/posix/traps/processor_counter.hpp"
+#include "fibers/posix/traps/processor_features.hpp"
 #include "fibers/posix/traps/raw_calls.hpp"
 #include "fibers/posix/traps/vdso.hpp"
 
@@ -87,6 +88,7 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   draw_random_bytes_of_the_process();
   if (record->settings.trap_rdtsc) trap_processor_counter();
   if (record->settings.trap_library) trap_library_calls();
+  trap_processor_features();
   trap_raw_calls();
   replace_vdso();
 }

@@ -20,6 +20,7 @@
 #include "fibers/posix/traps/library_range.hpp"
 #include "fibers/posix/traps/library_return.hpp"
 #include "fibers/posix/traps/processor_counter.hpp"
+#include "fibers/posix/traps/processor_features.hpp"
 #include "fibers/posix/traps/raw_calls.hpp"
 
 extern "C" void* _dl_allocate_tls(void*);  // of the dynamic linker
@@ -168,7 +169,9 @@ void handle_what_has_come(ucontext_t& interrupted) {
 
 // The processor raised it in the running thread: it must be handled at once.
 void handle_fault(int signal, siginfo_t* information, void* context) {
-  if (signal == SIGSEGV && emulate_processor_counter(context)) return;
+  // Only an instruction that may not be executed has no address; an address that cannot be executed is not looked at.
+  const bool is_of_processor = signal == SIGSEGV && information->si_code == SI_KERNEL;
+  if (is_of_processor && (emulate_processor_counter(context) || answer_processor_features(context))) return;
   struct sigaction& known = signals_of_program.actions[signal];
   const SignalSet blocked = is_simulated() ? this_thread().blocked : signals_of_program.blocked_before_main;
   if (!is_handled(signal) || contains(blocked, signal)) return do_default(signal);
@@ -271,7 +274,8 @@ void install(int signal) {
   if (!contains(faults, signal)) real.sa_mask = to_sigset(one_by_one);
   if (signal == bell) real.sa_flags |= SA_RESTART;  // the program did not ask for it, and must not see EINTR
   const bool is_default = !is_handled(signal);
-  const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr && record->settings.trap_rdtsc) ||
+  const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr &&
+                                     (record->settings.trap_rdtsc || are_processor_features_trapped())) ||
                                     (signal == SIGSYS && (are_library_calls_trapped() || are_raw_calls_trapped())) ||
                                     (signal == bell && has_bell) || ends_run(signal);
   // The system's notices of ends that are events of the family come at any time: they could end a real wait.

@@ -2,10 +2,12 @@
 // System calls by instructions of the program's own, and functions that it looks up in the C library.
 #include "tests/exec/conformance/harness.h"
 
+#include <cpuid.h>
 #include <dlfcn.h>
 #include <elf.h>
 #include <fcntl.h>
 #include <linux/futex.h>
+#include <setjmp.h>
 #include <signal.h>
 #include <sys/auxv.h>
 #include <sys/mman.h>
@@ -185,4 +187,31 @@ CASE(a_loop_that_reads_such_a_clock_ends) {
   const pthread_t other = start(set_word_late, NULL);
   while (clock != NULL && __atomic_load_n(&word, __ATOMIC_SEQ_CST) == 0) EXPECT_IS(clock(CLOCK_MONOTONIC, &time), 0);
   join(other);
+}
+
+// What differs between processors of one machine, or in each run, is printed; natively it is not compared.
+CASE(the_processor_says_the_same_of_itself_in_each_run) {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  EXPECT_IS(__get_cpuid(1, &a, &b, &c, &d), 1);
+  printf("%x %x %x %x\n", a, b, c, d);
+  EXPECT((d & bit_SSE2) != 0);
+  if (__get_cpuid_count(0xB, 0, &a, &b, &c, &d) != 0) printf("%x\n", d);
+}
+static jmp_buf behind;
+static volatile int* volatile nowhere = (volatile int*)8;
+static void leave(int signal) {
+  (void)signal;
+  longjmp(behind, 1);
+}
+CASE(an_access_to_no_memory_is_a_fault_still) {
+  struct sigaction action = {.sa_handler = leave, .sa_flags = SA_NODEFER};
+  EXPECT_IS(sigaction(SIGSEGV, &action, NULL), 0);
+  if (setjmp(behind) == 0) {
+    *nowhere = 1;
+    EXPECT(0);
+  }
+  if (setjmp(behind) == 0) {
+    ((void (*)(void))nowhere)();
+    EXPECT(0);
+  }
 }
