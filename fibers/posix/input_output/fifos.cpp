@@ -11,6 +11,8 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/files/process_paths.hpp"
+#include "fibers/posix/files/system_files.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -114,6 +116,9 @@ mode_t mode_of(int flags, va_list more) {
 int open_at(int folder, const char* path, int flags, va_list more) {
   const mode_t mode = mode_of(flags, more);
   pass_cancellation_point();
+  if (const int generated = open_generated(path, flags); generated != not_generated) return generated;
+  const PathInSystem in_system(path);
+  path = in_system.get();
   if (is_fifo_to_wait_for(folder, path, flags)) return open_fifo(folder, path, flags);
   return WAITPOINT_NEXT(openat)(folder, path, flags, mode);
 }

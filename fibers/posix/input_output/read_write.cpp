@@ -2,8 +2,6 @@
 //
 // read(), write() and their vectored forms.
 #include <limits.h>
-#include <sys/stat.h>
-#include <sys/sysmacros.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -14,6 +12,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/signal_descriptors.hpp"
+#include "fibers/posix/files/random_devices.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
 #include "fibers/posix/input_output/sockets.hpp"
 #include "fibers/posix/program/randomness.hpp"
@@ -23,14 +22,6 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 namespace {
-
-// /dev/random and /dev/urandom.
-bool gives_random(int descriptor) {
-  struct stat of {};
-  const ErrorNumberKept kept;
-  return fstat(descriptor, &of) == 0 && S_ISCHR(of.st_mode) &&
-         (of.st_rdev == makedev(1, 8) || of.st_rdev == makedev(1, 9));
-}
 
 ssize_t as_of_library(long result) {
   if (result >= 0) return result;
@@ -53,6 +44,11 @@ WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size)
 }
 
 WAITPOINT_INTERPOSED ssize_t readv(int descriptor, const iovec* pieces, int count) {
+  if (class_of(descriptor) == DescriptorClass::other && gives_random(descriptor)) {
+    ssize_t all = 0;
+    for (int i = 0; i < count; ++i) all += read(descriptor, pieces[i].iov_base, pieces[i].iov_len);
+    return all;
+  }
   if (is_simulated()) bring_up_to_date(descriptor);
   const bool is_valid = count > 0 && count <= IOV_MAX;
   end_counting(descriptor);

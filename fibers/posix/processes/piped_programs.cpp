@@ -16,6 +16,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/inside_files.hpp"
 #include "fibers/posix/family/order.hpp"
+#include "fibers/posix/files/random_devices.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 
@@ -121,5 +122,5 @@ WAITPOINT_INTERPOSED FILE* fdopen(int descriptor, const char* mode) noexcept {
   FILE* const stream = WAITPOINT_NEXT(fdopen)(descriptor, mode);
   if (stream == nullptr || !is_simulated()) return stream;
   family::has_others() ? trap_stream(descriptor) : end_counting(descriptor);
-  return stream;
+  return with_own_bytes(stream, mode);
 }

@@ -17,7 +17,7 @@ struct Program {
   /// Called, unless null, by each thread about to end; in the last one it ends the program.
   void (*thread_ends)() = nullptr;
   std::uint32_t threads_made = 0;
-  std::uint64_t numbers_drawn = 0;  ///< random numbers, in place of the system's
+  std::uint64_t numbers_drawn[2] = {};  ///< of each stream of random numbers (randomness.hpp)
   /// Its processor time: the cost of its threads' uses of primitives and clocks.
   Duration spent;
 };

@@ -20,19 +20,22 @@
 namespace waitpoint::posix {
 namespace {
 
-std::uint64_t drawn_before_main = 0;
+constexpr auto streams = static_cast<std::size_t>(Numbers::count);
+static_assert(sizeof(Program::numbers_drawn) == streams * sizeof(std::uint64_t), "each stream is counted");
+std::uint64_t drawn_before_main[streams] = {};
 
 }  // namespace
 
 // Each program has its own stream.
-std::uint64_t draw_random() {
-  constexpr std::uint64_t of_the_system = 0x67657472616E646F;  // "getrando": no other stream has these numbers
-  std::uint64_t stream = of_the_system;
-  std::uint64_t* drawn = &drawn_before_main;
+std::uint64_t draw_random(Numbers numbers) {
+  constexpr std::uint64_t names[streams] = {0x67657472616E646F, 0x66696C656E616D65};  // "getrando", "filename"
+  const auto index = static_cast<std::size_t>(numbers);
+  std::uint64_t stream = names[index];
+  std::uint64_t* drawn = &drawn_before_main[index];
   if (is_simulated()) {
     Program& program = this_program();
     stream ^= program.robot->id ^ kernel::running->scheduler->chooser().seed();
-    drawn = &program.numbers_drawn;
+    drawn = &program.numbers_drawn[index];
   } else if (record != nullptr) {
     stream ^= record->settings.seed;
   }

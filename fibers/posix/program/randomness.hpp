@@ -7,7 +7,10 @@
 
 namespace waitpoint::posix {
 
-std::uint64_t draw_random();
+/// The streams of numbers: those of one do not depend on how many of the others were drawn.
+enum class Numbers { of_the_system, of_file_names, count };
+
+std::uint64_t draw_random(Numbers = Numbers::of_the_system);
 void fill_with_random(void* buffer, std::size_t size);
 /// Redraws the kernel's random bytes for a new process (AT_RANDOM).
 void draw_random_bytes_of_the_process();

@@ -12,6 +12,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/processes.hpp"
+#include "fibers/posix/files/machine.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/time/clocks.hpp"
@@ -151,16 +152,16 @@ WAITPOINT_INTERPOSED int getcpu(unsigned* processor, unsigned* node) noexcept {
   return 0;
 }
 
-// Processor time is virtual. The system's other counts do not follow from the seed, except for memory.
+// Processor time is virtual. The system's other counts do not follow from the seed.
 WAITPOINT_INTERPOSED int getrusage(__rusage_who_t who, rusage* usage) noexcept {
-  if (!is_simulated() || static_cast<int>(who) == RUSAGE_CHILDREN) return WAITPOINT_NEXT(getrusage)(who, usage);
-  rusage real{};
+  if (!is_simulated()) return WAITPOINT_NEXT(getrusage)(who, usage);
+  const int of = static_cast<int>(who);
+  if (of != RUSAGE_SELF && of != RUSAGE_THREAD && of != RUSAGE_CHILDREN) return fail(EINVAL);
   if (!can_be_written(usage)) return fail(EFAULT);
-  if (WAITPOINT_NEXT(getrusage)(who, &real) != 0) return -1;
-  const clockid_t clock = static_cast<int>(who) == RUSAGE_SELF ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID;
-  const timespec spent = to_timespec(reading_ns(clock, read_clock()));
+  const clockid_t clock = of == RUSAGE_SELF ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_THREAD_CPUTIME_ID;
+  const timespec spent = of == RUSAGE_CHILDREN ? timespec{} : to_timespec(reading_ns(clock, read_clock()));
   *usage = {};
   usage->ru_utime = {spent.tv_sec, spent.tv_nsec / 1000};
-  usage->ru_maxrss = real.ru_maxrss;
+  usage->ru_maxrss = process_memory_bytes / 1024;
   return 0;
 }

@@ -80,8 +80,10 @@ bool answer_processor_features(void* context) {
   if (!are_features_trapped) return false;
   greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   constexpr unsigned char instruction[2] = {0x0F, 0xA2};
-  if (std::memcmp(reinterpret_cast<const void*>(registers[REG_RIP]), instruction, sizeof instruction) != 0) return false;
-  const auto leaf = static_cast<std::uint32_t>(registers[REG_RAX]), sub = static_cast<std::uint32_t>(registers[REG_RCX]);
+  if (std::memcmp(reinterpret_cast<const void*>(registers[REG_RIP]), instruction, sizeof instruction) != 0)
+    return false;
+  const auto leaf = static_cast<std::uint32_t>(registers[REG_RAX]),
+             sub = static_cast<std::uint32_t>(registers[REG_RCX]);
   Features features;
   let_instruction_fault(false);
   __cpuid_count(leaf, sub, features.a, features.b, features.c, features.d);

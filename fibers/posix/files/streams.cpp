@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// fopen(): the C library would open files by calls that the layer does not see.
+#include <fcntl.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/files/process_paths.hpp"
+#include "fibers/posix/files/random_devices.hpp"
+#include "fibers/posix/files/system_files.hpp"
+#include "fibers/posix/program/program.hpp"
+
+using namespace waitpoint::posix;
+
+WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __restrict mode) {
+  if (!is_simulated()) return WAITPOINT_NEXT(fopen64)(path, mode);
+  const bool only_reads = mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
+  const int generated =
+      only_reads ? open_generated(path, std::strchr(mode, 'e') != nullptr ? O_CLOEXEC : 0) : not_generated;
+  if (generated != not_generated) return generated < 0 ? nullptr : WAITPOINT_NEXT(fdopen)(generated, mode);
+  const PathInSystem in_system(path);
+  return with_own_bytes(WAITPOINT_NEXT(fopen64)(in_system.get(), mode), mode);
+}
+// Under the C library's name: its header redirects it to the other.
+extern "C" [[gnu::visibility("default"), gnu::alias("fopen64"), gnu::malloc]] FILE* waitpoint_fopen(
+    const char*, const char*) __asm__("fopen");
