@@ -75,6 +75,32 @@ void release_shared(Condition& known, ConditionBytes& bytes, bool all) {
   tell_change(known.object);
 }
 
+// A waiter's mutex, which it takes again however the wait ends: when a handler ends the thread, too, before the
+// thread's cleanup handlers run.
+class GivenUp {
+ public:
+  explicit GivenUp(pthread_mutex_t& mutex) : mutex_(mutex), depth_(release(mutex)) {}
+  ~GivenUp() {
+    if (!is_taken_) take_again();
+  }
+  GivenUp(const GivenUp&) = delete;
+  GivenUp& operator=(const GivenUp&) = delete;
+
+  /// Returns an error number.
+  int take_again() {
+    is_taken_ = true;
+    pass(kernel::Operation::lock, &mutex_of(&mutex_).object);
+    const int error = lock(mutex_, Time::max());
+    if (is_mine(mutex_)) set_depth(mutex_, depth_);
+    return error;
+  }
+
+ private:
+  pthread_mutex_t& mutex_;
+  std::uint32_t depth_;
+  bool is_taken_ = false;
+};
+
 int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
   ConditionBytes& words = bytes_of(condition);
@@ -86,7 +112,7 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   // Unlock and wait are one step, without a waitpoint between, so the happens-before edge is reported here.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);
   const std::uint64_t ticket = words.is_shared() ? take_ticket(words) : 0;
-  const std::uint32_t depth = release(*bytes);
+  GivenUp given_up(*bytes);
   // After a signal handler the wait is not resumed, as a pthread_cond_signal() meanwhile would miss this thread: the
   // call returns as if signalled.
   Wait ended = Wait::came;
@@ -95,9 +121,7 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   else if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
     ended = deadline > kernel::running->local_time ? point.block(known.object, deadline) : Wait::timed_out;
   if (ended == Wait::interrupted && !point.was_cancelled()) handle_signals();
-  pass(kernel::Operation::lock, &mutex.object);
-  const int error = lock(*bytes, Time::max());
-  if (is_mine(*bytes)) set_depth(*bytes, depth);
+  const int error = given_up.take_again();
   if (point.was_cancelled()) leave_if_cancelled();
   return error != 0 ? error : ended == Wait::timed_out ? ETIMEDOUT : 0;
 }

@@ -326,6 +326,22 @@ void end_running_thread() {
   scheduler.end_running_task();
 }
 
+namespace {
+
+// Scope of a wait for the end of a thread; a handler may leave it by pthread_exit().
+class Joining {
+ public:
+  explicit Joining(Thread& thread) : thread_(thread) { thread_.has_joiner = true; }
+  ~Joining() { thread_.has_joiner = false; }
+  Joining(const Joining&) = delete;
+  Joining& operator=(const Joining&) = delete;
+
+ private:
+  Thread& thread_;
+};
+
+}  // namespace
+
 int join(pthread_t id, void** result, Time deadline) {
   Thread* const thread = find(id);
   if (thread == nullptr) return ESRCH;
@@ -338,12 +354,13 @@ int join(pthread_t id, void** result, Time deadline) {
   pass(kernel::Operation::join, &thread->end);
   if (!thread->ended) {
     if (deadline <= kernel::running->local_time) return deadline == Time() ? EBUSY : ETIMEDOUT;
-    thread->has_joiner = true;
     Wait ended = Wait::came;
-    while (!thread->ended && (ended = point.block(thread->end, deadline)) == Wait::interrupted &&
-           !point.was_cancelled())
-      handle_signals();
-    thread->has_joiner = false;
+    {
+      const Joining joining(*thread);
+      while (!thread->ended && (ended = point.block(thread->end, deadline)) == Wait::interrupted &&
+             !point.was_cancelled())
+        handle_signals();
+    }
     if (!thread->ended) {
       if (point.was_cancelled()) leave_if_cancelled();
       if (ended == Wait::timed_out) return ETIMEDOUT;
