@@ -217,10 +217,7 @@ int wait_until_done(Set& set, Waiting& waiting, Time deadline) {
     if (ended == Wait::timed_out) return EAGAIN;
     if (ended != Wait::interrupted) continue;  // check again
     // The handler may leave by a jump, so the call is out of the list while it runs.
-    {
-      if (waiting.done) return waiting.result;
-      remove(set.first, waiting);
-    }
+    remove(set.first, waiting);
     if (is_interrupted(Restart::never)) return EINTR;
     if (set.removed) return EIDRM;
     append(set.first, waiting);
@@ -251,9 +248,8 @@ int operate(int id, const sembuf* given, std::size_t count, Time deadline) {
   error = begin(*set, this_caller(), operations, count, may_wait || !is_simulated(), waiting);
   if (waiting != nullptr) {
     if (!is_simulated()) refuse("a thread waits before main() begins");
+    const Listed listed(set->first, *waiting);
     error = wait_until_done(*set, *waiting, deadline);
-    remove(set->first, *waiting);
-    family::give(waiting);
   }
   // A signal may have come together with the operation.
   if (waiting != nullptr && deliverable(this_thread()) != 0) handle_signals();

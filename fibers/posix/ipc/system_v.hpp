@@ -19,6 +19,7 @@
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
+#include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -167,6 +168,24 @@ class Use {
 
  private:
   T* object_;
+};
+
+/// The record of a waiting call, in `list` and in the family's memory: however the call ends, by an exit of its thread
+/// in a handler too, the record leaves both.
+template <class Record>
+class Listed {
+ public:
+  Listed(Record*& list, Record& record) : list_(list), record_(record) {}
+  ~Listed() {
+    posix::remove(list_, record_);
+    family::give(&record_);
+  }
+  Listed(const Listed&) = delete;
+  Listed& operator=(const Listed&) = delete;
+
+ private:
+  Record*& list_;
+  Record& record_;
 };
 
 /// A new object of at least this size; null without memory.

@@ -191,10 +191,7 @@ int wait_for_message(Queue& queue, Receiving& receiving, const CancellationPoint
     if (!point.was_cancelled()) ended = wait_on_shared(object_of(queue), Time::max(), is_wait_over, &receiving);
     if (is_wait_over(&receiving)) break;
     if (ended != Wait::interrupted) continue;  // check again
-    {
-      if (is_wait_over(&receiving)) break;
-      posix::remove(queue.first_receiving, receiving);
-    }
+    posix::remove(queue.first_receiving, receiving);
     if (point.was_cancelled()) return ECANCELED;
     if (is_interrupted(Restart::never)) return EINTR;
     if (queue.removed) return EIDRM;
@@ -222,11 +219,15 @@ ssize_t take_message(Queue& queue, const Wanted& wanted, void* to) {
   if (receiving == nullptr) return fail(ENOMEM);
   *receiving = {family::this_process(), kernel::running, wanted, nullptr, -1, nullptr};
   posix::append(queue.first_receiving, *receiving);
-  const int error = wait_for_message(queue, *receiving, point);
+  int error = 0;
+  Message* message = nullptr;
+  {
+    const Listed listed(queue.first_receiving, *receiving);
+    error = wait_for_message(queue, *receiving, point);
+    message = receiving->message;
+  }
   ssize_t taken = -1;
-  Message* const message = receiving->message;
   WAITPOINT_CHECK(error != 0 || message != nullptr, "a receiver ends without a message and without an error");
-  family::give(receiving);
   if (error == 0) taken = hand_over(*message, wanted, to);
   // A signal may have come together with the message.
   if (error == 0 && deliverable(this_thread()) != 0) handle_signals();

@@ -83,8 +83,8 @@ struct Thread {
   PendingSignals pending;
   stack_t alternate{nullptr, SS_DISABLE, 0};
   bool has_temporary_mask = false;
-  bool in_wait = false;  ///< that a signal interrupts
-  bool woken_by_signal = false;
+  bool in_wait = false;                   ///< that a signal interrupts
+  bool woken_early = false;               ///< by a signal or a cancellation: what it waits for did not come
   bool woken_by_timer = false;            ///< the idle watch has not seen it continue yet
   bool delivery_due = false;              ///< notified of a signal after its wait had ended otherwise
   std::uintptr_t library_returns_to = 0;  ///< see library_return.hpp

@@ -52,8 +52,11 @@ WAITPOINT_INTERPOSED int pthread_cancel(pthread_t id) {
     if (thread->cancel_at_once) leave_if_cancelled();
     return 0;
   }
-  if (thread->in_cancellation_point && thread->task->state == kernel::TaskState::blocked)
+  // One whose wait has ended otherwise completes its call, and exits at the next point: it has consumed what came.
+  if (thread->in_cancellation_point && thread->task->state == kernel::TaskState::blocked) {
+    thread->woken_early = true;
     kernel::running->scheduler->wake(*thread->task);
+  }
   return 0;
 }
 

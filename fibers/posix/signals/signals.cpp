@@ -49,7 +49,7 @@ void tell(Thread& thread) {
   WAITPOINT_CHECK(thread.task != nullptr, "a thread that has ended is notified of a signal");
   kernel::Task& task = *thread.task;
   if (task.state == kernel::TaskState::blocked && thread.in_wait) {
-    thread.woken_by_signal = true;
+    thread.woken_early = true;
     thread.woken_by_timer = is_timer_firing;
     task.scheduler->wake(task);
   } else {
@@ -259,12 +259,12 @@ Wait wait_on(kernel::Object& object, Time deadline) {
   if ((deliverable(thread) | ((thread.pending.set() | signals_of_program.pending.set()) & thread.awaited)) != 0)
     return Wait::interrupted;
   WAITPOINT_CHECK(!thread.in_wait, "a thread begins to wait within a wait");
-  thread.woken_by_signal = thread.delivery_due = false;
+  thread.woken_early = thread.delivery_due = false;
   thread.in_wait = true;
   const bool woken = block(object, deadline);
   WAITPOINT_CHECK(thread.in_wait, "a wait was ended by code within it");
   thread.in_wait = false;
-  if (thread.woken_by_signal) return Wait::interrupted;
+  if (thread.woken_early) return Wait::interrupted;
   if (thread.delivery_due) task.scheduler->attend(task, kernel::attention::signal, true);
   return woken ? Wait::came : Wait::timed_out;
 }

@@ -122,7 +122,8 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
     ended = deadline > kernel::running->local_time ? point.block(known.object, deadline) : Wait::timed_out;
   if (ended == Wait::interrupted && !point.was_cancelled()) handle_signals();
   const int error = given_up.take_again();
-  if (point.was_cancelled()) leave_if_cancelled();
+  // A signal that came is not lost on a cancelled thread: it continues, and exits at its next cancellation point.
+  if (ended != Wait::came && point.was_cancelled()) leave_if_cancelled();
   return error != 0 ? error : ended == Wait::timed_out ? ETIMEDOUT : 0;
 }
 

@@ -55,8 +55,8 @@ int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
       ended = point.block(known.object, deadline);
     else if (!point.was_cancelled())
       ended = wait_for_change(known.object, bytes.changes, changes, deadline);
-    if (point.was_cancelled()) leave_if_cancelled();
     if (ended == Wait::came && !bytes.is_shared()) return 0;
+    if (point.was_cancelled()) leave_if_cancelled();
     if (ended == Wait::timed_out) return fail(ETIMEDOUT);
     if (ended == Wait::interrupted && is_interrupted(Restart::if_asked)) return fail(EINTR);
   }
