@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread.hpp"
@@ -18,11 +19,10 @@ namespace {
 
 constexpr std::size_t line_max = 1024;
 
+// A ready thread, a deadline, a timer, or what is outside of the process: one of these may yet end the program, or the
+// process. Where none does, the run ends as soon as nothing is left to happen.
 bool can_others_go_on(const kernel::Scheduler& scheduler) {
-  if (anybody_waits_outside()) return true;
-  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next)
-    if (task->state != kernel::TaskState::blocked || task->finite_wait) return true;
-  return false;
+  return anybody_waits_outside() || family::has_others() || scheduler.pending_events() > 0;
 }
 
 }  // namespace

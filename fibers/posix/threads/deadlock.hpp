@@ -10,9 +10,10 @@ namespace waitpoint::posix {
 /// all processes of the family, and a line for each thread (thread_states.hpp).
 void report_end(const kernel::Scheduler& scheduler, const char* why);
 
-/// `task` has just closed a cycle of waiting threads. True if the run continues with the others, as with threads of the
-/// system; the cycle is reported at once. False where schedules are explored, and without other threads. If a timer of
-/// the program is set, whose signal handler may end the wait, the run continues without a report.
+/// `task` has just closed a cycle of waiting threads. True if the run continues without them, as with threads of the
+/// system; the cycle is reported at once. False where schedules are explored, and if nothing else is left to happen: no
+/// thread continues, no deadline or timer expires, and there is no other process. If a timer of the program is set,
+/// whose signal handler may end the wait, the run continues without a report.
 bool continues_after_cycle(kernel::Task& task);
 
 }  // namespace waitpoint::posix
