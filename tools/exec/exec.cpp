@@ -34,11 +34,8 @@ void print_summary(const posix::Record& record, const std::string& program) {
 }
 
 // The report of a failed run.
-void print_failure(const ExecOptions& options, const posix::Record& record, int signal, std::uint64_t seed) {
-  const std::string name = program_of_last_turn(record);
-  if (signal != 0)
-    std::fprintf(stderr, "waitpoint: terminated by %s%s\n", signal_in_words(signal).c_str(),
-                 name.empty() ? "" : (", in " + name).c_str());
+void print_failure(const ExecOptions& options, int signal, std::uint64_t seed) {
+  if (signal != 0) std::fprintf(stderr, "waitpoint: terminated by %s\n", signal_in_words(signal).c_str());
   std::fprintf(stderr, "waitpoint: replay: %s\n", replay_line(options, seed).c_str());
 }
 
@@ -74,7 +71,7 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     if (terminal)
       std::fprintf(stderr, "\rseed %llu, %zu schedules ", static_cast<unsigned long long>(seed), digests.size());
     output.forget();
-    const RunMemory memory(settings_of(options, seed), files.programs);
+    const RunMemory memory(settings_of(options, seed));
     const ProgramRun run(files, memory, output.descriptor());
     if (run.is_interrupted()) end_by(run.signal());  // not a failure of the program
     ++runs;
@@ -85,7 +82,7 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
       std::fprintf(stderr, "waitpoint: seed %llu failed, after %llu that passed: exit status %d\n",
                    static_cast<unsigned long long>(seed), static_cast<unsigned long long>(runs - 1),
                    run.signal() != 0 ? 128 + run.signal() : run.exit_status());
-      print_failure(options, memory.record(), run.signal(), seed);
+      print_failure(options, run.signal(), seed);
       return 1;
     }
     if (seed == options.seeds->last) break;
@@ -117,12 +114,12 @@ posix::Settings settings_of(const ExecOptions& options, std::uint64_t seed) {
 }
 
 int exec(const ExecOptions& options) {
-  const ProgramFiles files(options.words);
+  const ProgramFiles files(options.words, options.quiet);
   options.conditions.check(files.named());
   if (options.seeds) return run_seeds(options, files);
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
-  const RunMemory memory(settings_of(options, options.seed), files.programs);
+  const RunMemory memory(settings_of(options, options.seed));
   const ProgramRun run(files, memory);
   const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
   if (memory.record().began) {
@@ -130,9 +127,7 @@ int exec(const ExecOptions& options) {
     if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());
     // Any other status is a failure only to the program's users.
     if (failed || (!options.quiet && run.exit_status() != 0))
-      print_failure(options, memory.record(), run.is_interrupted() ? 0 : run.signal(), options.seed);
-    if (!files.programs.is_one_program() && (!options.quiet || run.exit_status() != 0))
-      std::fprintf(stderr, "waitpoint: %s\n", ends_of_programs(memory.record()).c_str());
+      print_failure(options, run.is_interrupted() ? 0 : run.signal(), options.seed);
   }
   if (!memory.record().began && run.signal() != 0)
     std::fprintf(stderr, "waitpoint: terminated by %s before main()\n", signal_in_words(run.signal()).c_str());

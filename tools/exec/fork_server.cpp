@@ -59,7 +59,7 @@ ForkServer::ForkServer(const ProgramFiles& files, posix::Settings settings) {
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("cannot create a socket");
   settings.server = fcntl(ends[1], F_DUPFD, least_descriptor);  // stays open in the program
   if (settings.server < 0) fail("cannot duplicate a descriptor");
-  const RunMemory memory(settings, files.programs);
+  const RunMemory memory(settings);
   process_ = start_program(files, memory);
   close(ends[1]);
   close(settings.server);

@@ -2,21 +2,19 @@
 #include "tools/exec/program_list.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
-#include <new>
 #include <tuple>
 
 #include "core/error.hpp"
 #include "tools/exec/program_file.hpp"
+#include "tools/session/start_condition.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 constexpr char separator[] = "::";
-constexpr char host_name[] = "waitpoint-host";
-constexpr std::size_t letters_max = 32;     // the kernel stores names inline, and uses them as prefixes of thread names
-constexpr std::size_t told_apart_max = 20;  // limit of programs whose exit statuses are listed one by one
+constexpr std::string_view after = "after:";
+constexpr std::size_t letters_max = 32;  // the kernel stores names inline, and uses them as prefixes of thread names
 
 bool fits_names(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
@@ -34,48 +32,50 @@ std::string name_of_file(const std::string& file) {
   return std::filesystem::path(file).stem().string().substr(0, letters_max);
 }
 
+session::StartCondition condition_of(const std::string& text) {
+  session::StartCondition condition;
+  if (!session::parse(text, condition))
+    throw BadInput("exec", "expected after:NAME, after:NAME.started, after:tcp:PORT or after:PATH with a '/', got 'after:" + text + "'");
+  return condition;
+}
+
 }  // namespace
 
 ProgramList::ProgramList(const std::vector<std::string>& words) {
-  const bool several = std::find(words.begin(), words.end(), separator) != words.end();
-  if (several || name_letters(words.front()) > 0 || is_shared_object(words.front())) {
-    read_several(words);
-    return;
-  }
-  words_ = words;
-  title_ = std::filesystem::path(words.front()).filename().string();
+  const bool are_several = std::find(words.begin(), words.end(), separator) != words.end();
+  is_session_ = are_several || words.front().starts_with(after) || name_letters(words.front()) > 0;
+  read(words);
+  name_apart();
+  check_conditions();
 }
 
-void ProgramList::read_several(const std::vector<std::string>& words) {
+void ProgramList::read(const std::vector<std::string>& words) {
   programs_.emplace_back();
   for (const std::string& word : words) {
+    Program& program = programs_.back();
     if (word == separator)
       programs_.emplace_back();
+    else if (program.words.empty() && word.starts_with(after))
+      program.conditions.push_back(word.substr(after.size()));
     else
-      programs_.back().words.push_back(word);
+      program.words.push_back(word);
   }
-  for (std::uint32_t place = 0; place < size(); ++place) {
+  for (std::size_t place = 0; place < programs_.size(); ++place) {
     Program& program = programs_[place];
-    program.place = place;
+    program.place = static_cast<int>(place);
     if (program.words.empty())
       throw BadInput(
           "exec", "expected a program on both sides of every '::', found none at place " + std::to_string(place + 1));
     std::string& file = program.words.front();
-    if (const std::size_t letters = name_letters(file); letters > 0) {
+    if (const std::size_t letters = is_session_ ? name_letters(file) : 0; letters > 0) {
       program.name = file.substr(0, letters);
       program.is_named = true;
       file.erase(0, letters + 1);
     } else {
-      program.name = name_of_file(file);
+      program.name = is_session_ || is_shared_object(file) ? name_of_file(file)
+                                                           : std::filesystem::path(file).filename().string();
     }
   }
-  name_apart();
-  words_ = {host_name};
-  for (const Program& program : programs_) {
-    if (words_.size() > 1) words_.push_back(separator);
-    words_.insert(words_.end(), program.words.begin(), program.words.end());
-  }
-  title_ = size() == 1 ? programs_.front().name : std::to_string(size()) + " programs";
 }
 
 // The order of equal programs with equal arguments does not matter.
@@ -94,44 +94,55 @@ void ProgramList::name_apart() {
   }
 }
 
-std::vector<std::string> ProgramList::files() const {
-  std::vector<std::string> files;
-  for (const Program& program : programs_) files.push_back(program.words.front());
-  return files;
-}
-
-void ProgramList::write(posix::Record& record) const {
-  if (programs_.empty()) return;
-  void* const memory = record.arena.take(programs_.size() * sizeof(posix::ProgramRecord));
-  record.programs = static_cast<posix::ProgramRecord*>(memory);
-  record.program_count = size();
-  for (std::uint32_t i = 0; i < size(); ++i) {
-    posix::ProgramRecord& program = *new (record.programs + i) posix::ProgramRecord();
-    std::strncpy(program.name, programs_[i].name.c_str(), sizeof program.name - 1);
-    program.place = programs_[i].place;
+// Conditions on other programs must be of known ones, and without cycles: then some program can always start.
+void ProgramList::check_conditions() const {
+  std::vector<std::string> startable;
+  const auto is_startable = [&startable](const std::string& name) {
+    return std::find(startable.begin(), startable.end(), name) != startable.end();
+  };
+  const auto is_known = [this](const std::string& name) {
+    return std::any_of(programs_.begin(), programs_.end(), [&name](const Program& each) { return each.name == name; });
+  };
+  for (const Program& program : programs_) {
+    for (const std::string& text : program.conditions) {
+      const session::StartCondition condition = condition_of(text);
+      if (condition.is_of_program() && !is_known(condition.of))
+        throw BadInput("exec", "after:" + text + ": there is no program '" + condition.of + "'");
+    }
   }
-}
-
-std::string ends_of_programs(const posix::Record& record) {
-  const bool told_apart = record.program_count <= told_apart_max;
-  std::string text;
-  std::uint32_t good = 0;
-  for (const posix::ProgramRecord& program : record.several()) {
-    const bool is_good = program.ended && program.status == 0;
-    if (is_good) ++good;
-    if (is_good && !told_apart) continue;
-    text += (text.empty() ? "" : ", ") + std::string(program.name) + " " +
-            (program.ended ? std::to_string(program.status) : "none");
+  for (std::size_t before = ~std::size_t{0}; before != startable.size();) {
+    before = startable.size();
+    for (const Program& program : programs_) {
+      if (is_startable(program.name)) continue;
+      const bool is_free = std::all_of(program.conditions.begin(), program.conditions.end(), [&](const auto& text) {
+        const session::StartCondition condition = condition_of(text);
+        return !condition.is_of_program() || is_startable(condition.of);
+      });
+      if (is_free) startable.push_back(program.name);
+    }
   }
-  if (told_apart) return "exit status: " + text;
-  const std::string all = good == record.program_count ? "all " : "";
-  return "exit status: 0 of " + all + std::to_string(good) + (text.empty() ? "" : ", ") + text;
+  for (const Program& program : programs_)
+    if (!is_startable(program.name))
+      throw BadInput("exec", "'" + program.name + "' can never start: the conditions after: form a cycle");
 }
 
-std::string program_of_last_turn(const posix::Record& record) {
-  for (const posix::ProgramRecord& program : record.several())
-    if (record.scheduler.digest_in_use() == &program.robot.digest) return program.name;
-  return "";
+std::string ProgramList::title() const {
+  return programs_.size() == 1 ? programs_.front().name : std::to_string(programs_.size()) + " programs";
+}
+
+std::vector<std::string> ProgramList::words_of_session(const std::string& host, bool quiet) const {
+  std::vector<std::string> words;
+  if (quiet) words.emplace_back("--quiet");
+  for (const Program& program : programs_) {
+    if (program.place != programs_.front().place) words.emplace_back(separator);
+    words.push_back(program.name);
+    words.push_back(std::to_string(program.place));
+    for (const std::string& condition : program.conditions) words.push_back(std::string(after).append(condition));
+    words.emplace_back("--");
+    if (is_shared_object(program.words.front())) words.push_back(host);
+    words.insert(words.end(), program.words.begin(), program.words.end());
+  }
+  return words;
 }
 
 }  // namespace waitpoint::tools

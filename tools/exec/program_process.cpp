@@ -36,35 +36,52 @@ std::string put_first(const std::string& variable, const std::string& path) {
   static std::vector<std::string> environment = environment_of(files, memory);
   for (std::string& variable : environment) putenv(variable.data());
   std::vector<char*> words;
-  for (const std::string& word : files.programs.words()) words.push_back(const_cast<char*>(word.c_str()));
+  for (const std::string& word : files.words) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   execv(files.program.c_str(), words.data());
   std::fprintf(stderr, "waitpoint: exec: %s: %s\n", files.program.c_str(), std::strerror(errno));
   _exit(exec_failed);
 }
 
-}  // namespace
-
-ProgramFiles::ProgramFiles(const std::vector<std::string>& words)
-    : programs(words), library(find_part("libwaitpoint-exec.so")) {
-  const std::string& name = programs.words().front();
-  if (!programs.is_one_program()) {
-    program = find_part(name);
-    return;
-  }
-  program = find_program(name);
+// The path of a program that can be simulated.
+std::filesystem::path checked_program(const std::string& name) {
+  const std::filesystem::path program = find_program(name);
   if (program.empty() && name.find('/') != std::string::npos && std::filesystem::exists(name))
     throw BadInput("exec", "'" + name + "' is not an executable file");
   if (program.empty()) throw BadInput("exec", "there is no program '" + name + "'");
   if (const std::string reason = cannot_be_simulated(program); !reason.empty())
     throw BadInput("exec", program.string() + " " + reason);
+  return program;
+}
+
+}  // namespace
+
+ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet)
+    : programs(given), library(find_part("libwaitpoint-exec.so")) {
+  const std::filesystem::path host = find_part("waitpoint-host");
+  for (const ProgramList::Program& one : programs.programs())
+    if (!is_shared_object(one.words.front())) program = checked_program(one.words.front());
+  if (programs.is_session()) {
+    program = find_part("waitpoint-session");
+    words = programs.words_of_session(host, quiet);
+    words.insert(words.begin(), program.filename());
+    return;
+  }
+  words = programs.programs().front().words;
+  if (program.empty()) {
+    program = host;
+    words.insert(words.begin(), programs.title());
+  }
   instrumented = is_instrumented(program);
   if (instrumented) library = find_part("libwaitpoint-exec-races.so");
 }
 
 std::vector<std::string> ProgramFiles::named() const {
-  std::vector<std::string> all = programs.files();
-  if (all.empty()) all = {program.string()};
+  std::vector<std::string> all;
+  for (const ProgramList::Program& one : programs.programs()) {
+    const std::string& file = one.words.front();
+    all.push_back(is_shared_object(file) ? file : find_program(file).string());
+  }
   return all;
 }
 

@@ -13,15 +13,17 @@
 
 namespace waitpoint::tools {
 
-/// The program's files and the library. BadInput if they are missing, or the program is linked statically.
+/// The programs' files and the library. BadInput if they are missing, or a program is linked statically.
 struct ProgramFiles {
-  explicit ProgramFiles(const std::vector<std::string>& words);
+  /// `quiet`: a session prints no line about its programs' ends, unless one has failed.
+  explicit ProgramFiles(const std::vector<std::string>& words, bool quiet = false);
 
   /// The files of the programs.
   std::vector<std::string> named() const;
 
   ProgramList programs;
-  std::filesystem::path program, library;  ///< of the process
+  std::filesystem::path program, library;  ///< of the first process
+  std::vector<std::string> words;          ///< its arguments, from its name on
   bool instrumented = false;  ///< with -fsanitize=thread; the library then includes a race detector's runtime
 };
 

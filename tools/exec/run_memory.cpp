@@ -17,7 +17,7 @@ namespace {
 
 }  // namespace
 
-RunMemory::RunMemory(const posix::Settings& settings, const ProgramList& programs) {
+RunMemory::RunMemory(const posix::Settings& settings) {
   const int made = memfd_create("waitpoint-exec", 0);
   descriptor_ = fcntl(made, F_DUPFD, least_descriptor);
   if (descriptor_ >= 0)
@@ -31,7 +31,6 @@ RunMemory::RunMemory(const posix::Settings& settings, const ProgramList& program
   record_ = new (memory) posix::Record();
   record_->settings = settings;
   record_->file = {getpid(), descriptor_};
-  programs.write(*record_);
 }
 
 RunMemory::~RunMemory() {

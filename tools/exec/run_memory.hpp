@@ -3,7 +3,6 @@
 #pragma once
 
 #include "fibers/posix/program/record.hpp"
-#include "tools/exec/program_list.hpp"
 
 namespace waitpoint::tools {
 
@@ -14,7 +13,7 @@ inline constexpr int least_descriptor = 900;
 /// One at a time per process, mapped at the same address in the program.
 class RunMemory {
  public:
-  RunMemory(const posix::Settings& settings, const ProgramList& programs);
+  explicit RunMemory(const posix::Settings& settings);
   ~RunMemory();
   RunMemory(const RunMemory&) = delete;
   RunMemory& operator=(const RunMemory&) = delete;

@@ -20,7 +20,7 @@ namespace {
 /// The profile of a run in the default order; the program's output is discarded.
 exploration::Profile look(const ProgramFiles& files, const ExploreOptions& options, const Target::Request& request,
                           const exploration::Profile& known) {
-  RunMemory memory(settings_of(options), files.programs);
+  RunMemory memory(settings_of(options));
   ask_for_run(memory, options, {.drawn = false}, request, known);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   const ProgramRun run(files, memory, nowhere);
@@ -48,7 +48,7 @@ int replay_program(const ExploreOptions& asked) {
   if (options.trace) trace.emplace(*options.trace);
   const exploration::Profile profile = take_profile(files, options, record.plan);
   const Target::Request request{.words = !record.plan.drawn, .places = true, .events = trace.has_value()};
-  RunMemory memory(settings_of(options), files.programs);
+  RunMemory memory(settings_of(options));
   ask_for_run(memory, options, record.plan, request, profile);
   const ProgramRun run(files, memory);
   const Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());

@@ -91,7 +91,7 @@ Finding ProgramTarget::run(const Plan& plan, const Request& request) {
 }
 
 Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
-  RunMemory memory(settings_of(options_), files_.programs);
+  RunMemory memory(settings_of(options_));
   ask_for_run(memory, options_, plan, request, profile_);
   const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
   ServedRun run(*server_, memory, input, output);

@@ -46,8 +46,8 @@ std::filesystem::path commands() {
 /// gdb starts the program itself, with the environment of `waitpoint exec`.
 [[noreturn]] void debug_program(const DebugOptions& options, const ExecOptions& program) {
   const ProgramFiles files(program.words);
-  const RunMemory memory(settings_of(program, program.seed), files.programs);
-  std::vector<std::string> words = files.programs.words();
+  const RunMemory memory(settings_of(program, program.seed));
+  std::vector<std::string> words = files.words;
   words.front() = files.program.string();
   const std::string wrapper = "set exec-wrapper env" + quoted(environment_of(files, memory));
   become_gdb(options, {"-iex", "set breakpoint pending on", "-ex", wrapper}, words);

@@ -100,11 +100,9 @@ void refuse(const char* reason) {
   end_process(status_of_own_errors);
 }
 
-bool has_members() {
-  begin();
-  return record->program_count > 0;
-}
+namespace {
 
+// Its scheduler has no robot yet.
 kernel::Scheduler& begin_run() {
   begin();
   if (const int server = record->settings.server; server >= 0 && !family::is_joined()) {
@@ -112,8 +110,6 @@ kernel::Scheduler& begin_run() {
     trap_raw_calls_of_child();
   }
   WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");
-  WAITPOINT_CHECK(record->program_count == 0 || record->programs != nullptr,
-                  "the record counts programs that it lacks");
   if (record->began) begin_anew();
   if (!family::is_joined()) family::begin();
   note_caught_signals();
@@ -189,8 +185,6 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
   return record->ending = stuck ? Ending::deadlock : Ending::no_progress;
 }
 
-namespace {
-
 // Null if the run has not failed.
 const char* failure_in_words(Ending ending) {
   switch (ending) {
@@ -201,20 +195,24 @@ const char* failure_in_words(Ending ending) {
   }
 }
 
-}  // namespace
-
-void end_run(const kernel::Scheduler& scheduler, int status) {
+// The process ends with `status`, unless the run has failed.
+[[noreturn]] void end_run(const kernel::Scheduler& scheduler, int status) {
   const char* const why = failure_in_words(record->ending);
   std::fflush(nullptr);  // the program's own output comes before the report
   if (why != nullptr) report_end(scheduler, why);
   end_process(why != nullptr ? status_of_deadlock : status);
 }
 
-namespace {
-
 // The first program has the first process's name; further ones, by exec too, names with their process's number.
 void begin_robot(kernel::Scheduler& scheduler, const char* name) {
   if (!family::is_joined()) return scheduler.add(record->robot, name);
+  // A session has given it one.
+  if (const char* const given = getenv(name_variable); given != nullptr) {
+    scheduler.add(record->robot, given);
+    unsetenv(name_variable);
+    record->robot.digest_in_use = &family::own->digest;
+    return;
+  }
   char numbered[kernel::name_size];
   std::snprintf(numbered, sizeof numbered, "%.36s#%d", name, static_cast<int>(family::own->id));
   scheduler.add(record->robot, numbered);

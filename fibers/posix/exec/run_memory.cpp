@@ -71,19 +71,10 @@ void begin_anew() {
   const Settings settings = record->settings;
   const RunFile file = record->file;
   const Arena arena = record->arena;
-  ProgramRecord* const programs = record->programs;
-  const std::uint32_t count = record->program_count;
   new (record) Record();
   record->settings = settings;
   record->file = file;
   record->arena = arena;
-  record->programs = programs;
-  record->program_count = count;
-  for (ProgramRecord& program : record->several()) {
-    program.robot = kernel::Robot();
-    program.threads_made = 0;
-    program.ended = false;
-  }
 }
 
 }  // namespace waitpoint::posix

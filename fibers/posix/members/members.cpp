@@ -89,10 +89,6 @@ void end_member(int status) {
   system_v::undo_semaphores_of(member);
   member.ended = true;
   member.status = status & 0xFF;
-  if (member.record != nullptr) {
-    member.record->ended = true;
-    member.record->status = member.status;
-  }
   end_running_thread();
 }
 

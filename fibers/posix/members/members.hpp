@@ -29,7 +29,6 @@ struct Member : Program {
   bool exiting = false;             ///< a thread is calling the handlers
   bool ended = false;
   int status = 0;
-  ProgramRecord* record = nullptr;
 };
 
 /// Makes its first thread, which begins now; false without memory.

@@ -20,6 +20,8 @@ namespace waitpoint::posix {
 
 /// The environment variable with the file's descriptor number.
 inline constexpr char record_variable[] = "WAITPOINT_EXEC";
+/// The name that a session gives to a program, in place of that of its file.
+inline constexpr char name_variable[] = "WAITPOINT_NAME";
 
 /// Exit statuses set by the layer, not by the program.
 inline constexpr int status_of_deadlock = 124, status_of_own_errors = 125;
@@ -68,26 +70,12 @@ struct Settings {
 /// How a run ended: `own` as the program ends by itself.
 enum class Ending : std::uint8_t { own, deadlock, no_progress, idle, cut_off };
 
-/// One of several programs in one process.
-struct ProgramRecord {
-  char name[kernel::name_size] = {};
-  std::uint32_t place = 0;  ///< on the command line, from 0
-  // Written by the program.
-  kernel::Robot robot;
-  std::uint32_t threads_made = 0;
-  bool ended = false;
-  int status = 0;  ///< its exit status, once it has ended
-};
-
 struct alignas(Arena::alignment) Record {
   static constexpr std::uint64_t mark_of_version = 0x7770657865633036;  // "wpexec06"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
   RunFile file;
-  /// Of a process with several programs, in the order of their names. None: it is one program.
-  ProgramRecord* programs = nullptr;
-  std::uint32_t program_count = 0;
 
   // Written by the program.
   bool began = false;  ///< the scheduler exists
@@ -99,21 +87,12 @@ struct alignas(Arena::alignment) Record {
   std::uint32_t threads_made = 0;
   std::uint32_t threads_most = 0;          ///< at once
   kernel::Task* const* running = nullptr;  ///< the program's kernel::running
-  kernel::Robot robot;                     ///< of the program, if it is the only one
+  kernel::Robot robot;
   union {
     kernel::Scheduler scheduler;
   };
 
-  Digest digest() const {
-    if (program_count == 0) return robot.digest.digest();
-    Digest all;
-    for (const ProgramRecord& program : several()) all.add(program.robot.digest.value());
-    return all;
-  }
-  std::span<ProgramRecord> several() const {
-    WAITPOINT_CHECK((programs == nullptr) == (program_count == 0), "the record's programs and their number disagree");
-    return {programs, program_count};
-  }
+  Digest digest() const { return robot.digest.digest(); }
 
   /// Its pointers are valid at the record's address, wherever it is constructed.
   Record() {
@@ -123,8 +102,7 @@ struct alignas(Arena::alignment) Record {
 };
 static_assert(record_address % 4096 == 0 && record_bytes % 4096 == 0, "the record's file is mapped in whole pages");
 static_assert(sizeof(Record) % Arena::alignment == 0, "the arena begins behind the record");
-static_assert(std::is_trivially_copyable_v<Settings> && std::is_trivially_copyable_v<ProgramRecord> &&
-                  std::is_trivially_copyable_v<Arena>,
+static_assert(std::is_trivially_copyable_v<Settings> && std::is_trivially_copyable_v<Arena>,
               "a fork copies the record bytewise");
 
 }  // namespace waitpoint::posix

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/session/start_condition.hpp"
+
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdio>
+#include <string_view>
+
+namespace waitpoint::session {
+namespace {
+
+constexpr std::string_view of_port = "tcp:", of_start = ".started";
+
+// Looks into the system's table of sockets: a connection would disturb the server.
+bool is_listening_at(int port, const char* table) {
+  constexpr unsigned listening = 0x0A;
+  std::FILE* const file = std::fopen(table, "r");
+  if (file == nullptr) return false;
+  char line[512];
+  bool is_found = false;
+  while (!is_found && std::fgets(line, sizeof line, file) != nullptr) {
+    unsigned local = 0, state = 0;
+    if (std::sscanf(line, " %*d: %*[0-9A-Fa-f]:%x %*[0-9A-Fa-f]:%*x %x", &local, &state) == 2)
+      is_found = state == listening && local == static_cast<unsigned>(port);
+  }
+  std::fclose(file);
+  return is_found;
+}
+
+}  // namespace
+
+bool parse(const std::string& text, StartCondition& condition) {
+  if (text.empty()) return false;
+  if (text.starts_with(of_port)) {
+    condition.kind = StartCondition::Kind::port;
+    const char* const begin = text.data() + of_port.size();
+    const char* const end = text.data() + text.size();
+    const auto [behind, error] = std::from_chars(begin, end, condition.port);
+    return error == std::errc() && behind == end && condition.port > 0 && condition.port < 65536;
+  }
+  condition.of = text;
+  if (text.find('/') != std::string::npos) {
+    condition.kind = StartCondition::Kind::file;
+  } else if (text.ends_with(of_start)) {
+    condition.kind = StartCondition::Kind::start;
+    condition.of.resize(text.size() - of_start.size());
+  }
+  return !condition.of.empty();
+}
+
+bool holds_outside(const StartCondition& condition) {
+  if (condition.kind == StartCondition::Kind::file) return access(condition.of.c_str(), F_OK) == 0;
+  return is_listening_at(condition.port, "/proc/net/tcp") || is_listening_at(condition.port, "/proc/net/tcp6");
+}
+
+}  // namespace waitpoint::session
