@@ -313,6 +313,7 @@ class Robot(unittest.TestCase):
     def test_what_cannot_be_loaded_is_bad_input(self):
         for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \
                           (__file__, r".*several_test.py is no shared object for x86-64"), \
+                          (PROGRAMS / "executable", r".*executable is an executable: build it with -shared -fPIC"), \
                           (PROGRAMS / "without-main.so", r".*without-main.so has no main\(\) that others see"):
             run = office("run", programs=f"[{{name: one, file: {file}}}]")
             self.assertEqual(run.returncode, 2, run.stderr)

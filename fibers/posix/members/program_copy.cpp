@@ -75,11 +75,6 @@ class Object {
   }
   bool is_position_independent() const { return head_.e_type == ET_DYN; }
   bool is_executable() const { return part(PT_INTERP) != nullptr; }
-  bool has_thread_local_variables() const {
-    const Elf64_Phdr* const variables = part(PT_TLS);
-    return variables != nullptr && variables->p_memsz > 0;
-  }
-  std::uint64_t entry() const { return head_.e_entry; }
 
   /// Finds the dynamic section; false without one.
   bool find_dynamic() {
@@ -158,23 +153,6 @@ class Object {
   std::size_t count_ = 0;
 };
 
-// The first variable of a library that an executable has copied (R_X86_64_COPY): the library uses the process's copy,
-// and this program would have another. Variables that are constant after the start may exist twice.
-const char* variable_of_its_own(const Object& object) {
-  const std::uint64_t count = object.value(DT_RELASZ) / sizeof(Elf64_Rela);
-  const Elf64_Rela* const all = object.loaded<Elf64_Rela>(object.value(DT_RELA), count);
-  for (std::uint64_t i = 0; all != nullptr && i < count; ++i) {
-    if (ELF64_R_TYPE(all[i].r_info) != R_X86_64_COPY) continue;
-    const Elf64_Sym* const symbol = object.symbol(ELF64_R_SYM(all[i].r_info));
-    const char* const name = symbol != nullptr ? object.name(*symbol) : nullptr;
-    if (name == nullptr) continue;
-    bool is_fixed = std::strncmp(name, "_Z", 2) == 0;  // tables of classes, the standard streams
-    for (const char* fixed : {"stdin", "stdout", "stderr"}) is_fixed = is_fixed || std::strcmp(name, fixed) == 0;
-    if (!is_fixed) return name;
-  }
-  return nullptr;
-}
-
 void use_own_names_first(Object& object) {
   if (Elf64_Dyn* const flags = object.find(DT_FLAGS); flags != nullptr) {
     flags->d_un.d_val |= DF_SYMBOLIC;
@@ -197,16 +175,8 @@ bool change(Object& object, const char* file, ProgramParts& parts, LoadError& er
     return false;
   }
   if (object.is_executable()) {
-    const char* const variable = variable_of_its_own(object);
-    if (variable != nullptr || object.has_thread_local_variables()) {
-      std::snprintf(error, sizeof error, "%s is an executable with %s%s: %s", file,
-                    variable != nullptr ? "a copy of the variable " : "thread-local variables",
-                    variable != nullptr ? variable : "", advice);
-      return false;
-    }
-    parts.entry = object.entry();
-    if (Elf64_Dyn* const flags = object.find(DT_FLAGS_1); flags != nullptr)
-      flags->d_un.d_val &= ~std::uint64_t{DF_1_PIE};
+    std::snprintf(error, sizeof error, "%s is an executable: %s", file, advice);
+    return false;
   }
   for (std::size_t i = 1, count = object.symbols(); i < count; ++i) {
     Elf64_Sym* const symbol = object.symbol(i);
@@ -217,14 +187,14 @@ bool change(Object& object, const char* file, ProgramParts& parts, LoadError& er
     if (symbol->st_shndx != SHN_UNDEF && name != nullptr && std::strcmp(name, "main") == 0)
       parts.main = symbol->st_value;
   }
-  if (parts.main == 0 && parts.entry == 0) return refused("has no main() that others see");
+  if (parts.main == 0) return refused("has no main() that others see");
   parts.initialise = object.take(DT_INIT);
   parts.finish = object.take(DT_FINI);
   parts.constructors = object.take(DT_INIT_ARRAY);
   parts.constructors_bytes = object.take(DT_INIT_ARRAYSZ);
   parts.destructors = object.take(DT_FINI_ARRAY);
   parts.destructors_bytes = object.take(DT_FINI_ARRAYSZ);
-  if (!object.is_executable()) use_own_names_first(object);
+  use_own_names_first(object);
   return true;
 }
 

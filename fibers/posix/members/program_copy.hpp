@@ -12,7 +12,7 @@ using LoadError = char[512];
 
 /// Removed from a copy, and called when the program begins and ends: addresses within it, 0 for none.
 struct ProgramParts {
-  std::uint64_t main = 0, entry = 0;
+  std::uint64_t main = 0;
   std::uint64_t initialise = 0, finish = 0;
   std::uint64_t constructors = 0, constructors_bytes = 0;
   std::uint64_t destructors = 0, destructors_bytes = 0;

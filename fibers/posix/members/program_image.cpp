@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/members/program_image.hpp"
 
-#include <alloca.h>
 #include <dlfcn.h>
 #include <link.h>
 #include <unistd.h>
@@ -39,20 +38,6 @@ void explain(const char* file, const CopyName& copy, LoadError& error) {
                 reason != nullptr ? reason : "no reason is known");
 }
 
-// Enters a program as the system does, with its arguments on the stack. It never returns.
-[[noreturn]] void enter(void* entry, int argc, char** argv) {
-  WAITPOINT_CHECK(argc >= 0 && argv != nullptr, "a program is entered without arguments");
-  const auto words = static_cast<std::size_t>(argc) + 3;
-  auto** const block = static_cast<void**>(alloca((words + 2) * sizeof(void*)));
-  auto** const top = reinterpret_cast<void**>((reinterpret_cast<std::uintptr_t>(block) + 15) & ~std::uintptr_t{15});
-  top[0] = reinterpret_cast<void*>(static_cast<std::intptr_t>(argc));
-  for (int i = 0; i < argc; ++i) top[1 + i] = argv[i];
-  top[1 + argc] = nullptr;
-  top[2 + argc] = nullptr;  // no environment: the C library has it already
-  asm volatile("movq %0, %%rsp\n\txorl %%edx, %%edx\n\tjmp *%1" : : "r"(top), "r"(entry) : "rdx", "memory");
-  __builtin_unreachable();
-}
-
 using Constructor = void (*)(int, char**, char**);
 using Destructor = void (*)();
 
@@ -70,11 +55,10 @@ bool load(ProgramImage& image, const char* file, LoadError& error) {
     unload(image);
     return false;
   }
-  WAITPOINT_CHECK(parts.entry != 0 || parts.main != 0, "a copy was made of a program without a beginning");
+  WAITPOINT_CHECK(parts.main != 0, "a copy was made of a program without a beginning");
   image.base = reinterpret_cast<char*>(map->l_addr);
   const auto at = [base = image.base](std::uint64_t address) { return address != 0 ? base + address : nullptr; };
-  if (parts.entry == 0) image.main = reinterpret_cast<Main>(at(parts.main));
-  image.entry = at(parts.entry);
+  image.main = reinterpret_cast<Main>(at(parts.main));
   image.initialise = reinterpret_cast<void (*)()>(at(parts.initialise));
   image.finish = reinterpret_cast<void (*)()>(at(parts.finish));
   image.constructors = {reinterpret_cast<char**>(at(parts.constructors)), parts.constructors_bytes / sizeof(char*)};
@@ -89,18 +73,13 @@ void unload(ProgramImage& image) {
 }
 
 int call_main(const ProgramImage& image, int argc, char** argv) {
-  if (image.entry != nullptr) enter(image.entry, argc, argv);
   WAITPOINT_CHECK(image.main != nullptr, "a program is called that is not loaded");
-  return call_main(image, image.main, argc, argv);
-}
-
-int call_main(const ProgramImage& image, Main main, int argc, char** argv) {
   if (image.initialise != nullptr) image.initialise();
   for (std::size_t i = 0; i < image.constructors.count; ++i)
     reinterpret_cast<Constructor>(image.constructors.first[i])(argc, argv, environ);
   // An earlier program may have used getopt(): 0 makes it start again, see getopt(3) on several vectors.
   optind = 0;
-  return main(argc, argv, environ);
+  return image.main(argc, argv, environ);
 }
 
 void call_destructors(const ProgramImage& image) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program within a process that is not its own: a shared object with a main(), or a position-independent executable.
+// A program within a process that is not its own: a shared object with a main().
 //
 // Each instance is loaded as a private copy, with globals of its own. The dynamic linker identifies objects by their
 // file, and every copy is a file in memory, changed so that it can be loaded beside others:
@@ -7,7 +7,6 @@
 //   constructors, destructors   are called by the layer, at the program's own beginning and end
 //   its own names first         as in a program: a library's definition of the same name does not take precedence
 //   names unique to a process   (inline variables of C++) become unique to the copy
-//   the mark of an executable   is removed: the linker would refuse to load it
 #pragma once
 
 #include <cstddef>
@@ -27,8 +26,7 @@ struct ProgramImage {
   void* handle = nullptr;  ///< of the dynamic linker
   char* base = nullptr;    ///< its load address
   int file = -1;           ///< the copy: open, so that a debugger finds the symbols
-  Main main = nullptr;     ///< of a shared object
-  void* entry = nullptr;   ///< of an executable: its entry point
+  Main main = nullptr;
   void (*initialise)() = nullptr;
   void (*finish)() = nullptr;
   Functions constructors, destructors;
@@ -39,10 +37,8 @@ bool load(ProgramImage& image, const char* file, LoadError& error);
 void unload(ProgramImage& image);
 
 /// In the program's first thread, in place of the C library's start-up: calls the constructors and main(), and returns
-/// its result. An executable calls __libc_start_main() with its main(): then the call never returns.
+/// its result.
 int call_main(const ProgramImage& image, int argc, char** argv);
-/// The same, with the main() that an executable passed to __libc_start_main().
-int call_main(const ProgramImage& image, Main main, int argc, char** argv);
 void call_destructors(const ProgramImage& image);
 /// True if `address` is in it.
 bool contains(const ProgramImage& image, const void* address);
