@@ -25,6 +25,13 @@ void unset_processor_timer(ProcessorTimer& timer) {
   timer.spent = nullptr;
 }
 
+void unset_processor_timers_of(const Duration& spent) {
+  for (ProcessorTimer *timer = first_processor_timer, *next = nullptr; timer != nullptr; timer = next) {
+    next = timer->next;
+    if (timer->spent == &spent) unset_processor_timer(*timer);
+  }
+}
+
 void look_at_processor_timers() {
   for (ProcessorTimer *timer = first_processor_timer, *next = nullptr; timer != nullptr; timer = next) {
     next = timer->next;

@@ -18,6 +18,8 @@ extern ProcessorTimer* first_processor_timer;
 /// Sets it to ring once `spent` reaches `due`. A periodic timer sets itself again when it rings.
 void set_processor_timer(ProcessorTimer& timer, const Duration& spent, Duration due);
 void unset_processor_timer(ProcessorTimer& timer);
+/// The same for all that measure `spent`, which is no longer counted.
+void unset_processor_timers_of(const Duration& spent);
 /// Rings the timers that are due.
 void look_at_processor_timers();
 

@@ -20,6 +20,7 @@
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/input_output/asynchronous.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
+#include "fibers/posix/program/processor_timers.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread_area.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -56,6 +57,7 @@ static_assert(sizeof(__pthread_unwind_buf_t) >= offsetof(__jmp_buf_tag, __saved_
               "waitpoint_keep_mask() looks at two words of the mask");
 
 void free_thread(Thread& thread) {
+  unset_processor_timers_of(thread.spent);
   if (thread.owns_stack) munmap(thread.stack, thread.stack_size);
   std::free(thread.clock);
   free_thread_area(thread.area);
@@ -316,6 +318,7 @@ void end_running_thread() {
   }
   WAITPOINT_CHECK(!thread.ended && thread.task == kernel::running, "a thread ends twice, or as another task");
   thread.ended = true;
+  unset_processor_timers_of(thread.spent);
   unprotect_stack(thread);
   drop_signals(thread);
   leave_held_objects();

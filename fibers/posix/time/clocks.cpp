@@ -52,11 +52,10 @@ Time now() { return is_simulated() ? read_clock() : Time(); }
 
 }  // namespace
 
-// Clocks of the processor time of other processes and threads are numbered by glibc and the kernel: the complement of
-// the id, above three bits.
 bool is_clock(clockid_t clock) {
   if (clock >= 0) return clock <= CLOCK_TAI && clock != 10;
-  const int of = ~(clock >> 3);
+  if (!is_processor_clock(clock)) return false;
+  const int of = owner_of(clock);
   if (of == 0 || of == getpid()) return true;
   for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
     if (is_thread(*task) && thread_of(*task).id == of) return true;
@@ -66,7 +65,11 @@ bool is_clock(clockid_t clock) {
 std::int64_t reading_ns(clockid_t clock, Time time) {
   if (clock == CLOCK_PROCESS_CPUTIME_ID) return spent_by_program().ns();
   if (clock == CLOCK_THREAD_CPUTIME_ID) return is_simulated() ? this_thread().spent.ns() : 0;
-  if (clock < 0) return (clock & 4) == 0 ? spent_by_program().ns() : spent_by(~(clock >> 3)).ns();
+  if (clock < 0) {
+    if (!is_thread_clock(clock)) return spent_by_program().ns();
+    if (owner_of(clock) == 0) return reading_ns(CLOCK_THREAD_CPUTIME_ID, time);
+    return spent_by(owner_of(clock)).ns();
+  }
   return begin_ns(clock) + time.ns();
 }
 
@@ -135,6 +138,7 @@ WAITPOINT_INTERPOSED int clock_gettime(clockid_t clock, timespec* time) noexcept
 
 // The simulation's own date, not the machine's.
 WAITPOINT_INTERPOSED int clock_settime(clockid_t clock, const timespec* time) noexcept {
+  if (clock < 0 && is_clock(clock)) return fail(EPERM);
   if (clock != CLOCK_REALTIME) return fail(EINVAL);
   if (!is_valid(*time) || time->tv_sec < 0 || time->tv_sec > last_date_s) return fail(EINVAL);
   if (geteuid() != 0) return fail(EPERM);

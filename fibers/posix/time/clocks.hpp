@@ -12,6 +12,14 @@ namespace waitpoint::posix {
 /// of processor time at zero.
 inline constexpr std::int64_t first_date_s = 1'704'067'200, first_uptime_s = 3600;
 
+/// Clocks of the processor time of processes and threads are numbered by glibc and the kernel: the complement of the
+/// id, 0 for the caller's own, above a bit for threads and two bits for the kind of time. Their fourth kind is none, or
+/// a device's clock.
+inline bool is_processor_clock(clockid_t clock) { return clock < 0 && (clock & 3) != 3; }
+inline bool is_device_clock(clockid_t clock) { return clock < 0 && (clock & 7) == 3; }
+inline bool is_thread_clock(clockid_t clock) { return (clock & 4) != 0; }
+inline int owner_of(clockid_t clock) { return ~(clock >> 3); }
+
 /// True if the clock exists.
 bool is_clock(clockid_t clock);
 /// True for the two clocks by which primitives accept deadlines.

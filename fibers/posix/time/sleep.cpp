@@ -31,6 +31,13 @@ timespec sleep_for(Duration span) {
   return to_timespec(left_ns > 0 ? left_ns : 1);
 }
 
+// A thread cannot sleep by its own processor time.
+bool is_of_this_thread(clockid_t clock) {
+  if (clock == CLOCK_THREAD_CPUTIME_ID) return true;
+  return is_processor_clock(clock) && is_thread_clock(clock) &&
+         (owner_of(clock) == 0 || owner_of(clock) == this_thread().id);
+}
+
 bool is_nothing(const timespec& time) { return time.tv_sec == 0 && time.tv_nsec == 0; }
 
 }  // namespace
@@ -42,8 +49,9 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED int clock_nanosleep(clockid_t clock, int flags, const timespec* time, timespec* remaining) {
   if (!is_simulated()) return WAITPOINT_NEXT(clock_nanosleep)(clock, flags, time, remaining);
   if (clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME_COARSE || clock == CLOCK_MONOTONIC_COARSE) return ENOTSUP;
+  if (is_device_clock(clock)) return ENOTSUP;
   if (is_clock(clock) && !can_be_read(time)) return EFAULT;
-  if (!is_clock(clock) || clock == CLOCK_THREAD_CPUTIME_ID || !is_valid(*time) || time->tv_sec < 0) return EINVAL;
+  if (!is_clock(clock) || is_of_this_thread(clock) || !is_valid(*time) || time->tv_sec < 0) return EINVAL;
   if ((flags & TIMER_ABSTIME) != 0) return sleep_until(when(clock, *time)) ? 0 : EINTR;
   const timespec left = posix::sleep_for(span(*time));
   if (is_nothing(left)) return 0;

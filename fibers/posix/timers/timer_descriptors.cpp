@@ -80,6 +80,11 @@ void await(TimerDescriptor& timer) {
   scheduler.schedule(timer.event, timer.due > now ? timer.due : now, timer.object);
 }
 
+bool can_be_awaited(clockid_t clock) {
+  return is_clock_of_deadlines(clock) || clock == CLOCK_BOOTTIME || clock == CLOCK_REALTIME_ALARM ||
+         clock == CLOCK_BOOTTIME_ALARM;
+}
+
 timespec left_of(const TimerDescriptor& timer) {
   if (timer.due == Time::max()) return {};
   const std::int64_t ns = (timer.due - kernel::running->local_time).ns();
@@ -115,7 +120,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int timerfd_create(clockid_t clock, int flags) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timerfd_create)(clock, flags);
-  if (!is_clock_of_deadlines(clock) && clock != CLOCK_BOOTTIME) return fail(EINVAL);
+  if (!can_be_awaited(clock)) return fail(EINVAL);
   static_assert(int{TFD_NONBLOCK} == int{EFD_NONBLOCK} && int{TFD_CLOEXEC} == int{EFD_CLOEXEC});
   if ((flags & ~(TFD_NONBLOCK | TFD_CLOEXEC)) != 0) return fail(EINVAL);
   const int descriptor = eventfd(0, flags);

@@ -32,7 +32,9 @@ struct Timer : PendingSignal, SignalTimer {
   Timer();
 
   clockid_t clock = CLOCK_REALTIME;
-  const Duration* spent = nullptr;  // the processor time that it measures, on such a clock
+  // On a clock of processor time: that of a program, or of the thread with this id.
+  const Program* of_program = nullptr;
+  int of_thread = 0;
   sigevent notification{};
   Notice notice;         // of SIGEV_THREAD
   Thread* to = nullptr;  // of SIGEV_THREAD_ID
@@ -111,9 +113,30 @@ int number_for_new() {
   return static_cast<int>(timers_end++);
 }
 
-bool can_count(clockid_t clock) {
-  return clock == CLOCK_REALTIME || clock == CLOCK_MONOTONIC || clock == CLOCK_BOOTTIME || clock == CLOCK_TAI ||
-         clock == CLOCK_PROCESS_CPUTIME_ID || clock == CLOCK_THREAD_CPUTIME_ID;
+// Returns an error number.
+int take_clock(Timer& timer, clockid_t clock) {
+  timer.clock = clock;
+  const bool of_processor = is_processor_clock(clock);
+  if (clock == CLOCK_THREAD_CPUTIME_ID || (of_processor && is_thread_clock(clock))) {
+    const int owner = of_processor ? owner_of(clock) : 0;
+    timer.of_thread = owner != 0 ? owner : this_thread().id;
+    return thread_with_id(timer.of_thread) != nullptr ? 0 : EINVAL;
+  }
+  if (clock == CLOCK_PROCESS_CPUTIME_ID || (of_processor && (owner_of(clock) == 0 || owner_of(clock) == getpid()))) {
+    timer.of_program = &this_program();
+    return 0;
+  }
+  if (clock == CLOCK_REALTIME || clock == CLOCK_MONOTONIC || clock == CLOCK_BOOTTIME || clock == CLOCK_TAI) return 0;
+  return is_clock(clock) || is_device_clock(clock) ? ENOTSUP : EINVAL;
+}
+
+bool counts_processor_time(const Timer& timer) { return timer.of_program != nullptr || timer.of_thread != 0; }
+
+// Null if its thread has ended.
+const Duration* spent_on(const Timer& timer) {
+  if (timer.of_program != nullptr) return &timer.of_program->spent;
+  const Thread* const thread = thread_with_id(timer.of_thread);
+  return thread != nullptr ? &thread->spent : nullptr;
 }
 
 itimerspec state_of(const Timer& timer) { return {to_timespec(timer.interval().ns()), to_timespec(timer.left().ns())}; }
@@ -144,15 +167,12 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t* id) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timer_create)(clock, event, id);
   if ((event != nullptr && !can_be_read(event)) || !can_be_written(id)) return fail(EFAULT);
-  if (!can_count(clock)) return fail(is_clock(clock) ? ENOTSUP : EINVAL);
   void* const memory = std::malloc(sizeof(Timer));
   if (memory == nullptr) return fail(EAGAIN);
   auto* const timer = new (memory) Timer();
-  timer->clock = clock;
-  if (clock == CLOCK_PROCESS_CPUTIME_ID) timer->spent = &this_program().spent;
-  if (clock == CLOCK_THREAD_CPUTIME_ID) timer->spent = &this_thread().spent;
+  int error = take_clock(*timer, clock);
   // Other threads may run meanwhile, and make timers.
-  int error = prepare(*timer, event);
+  if (error == 0) error = prepare(*timer, event);
   const int number = error == 0 ? number_for_new() : -1;
   if (error == 0 && number < 0) error = EAGAIN;
   if (error != 0) {
@@ -183,6 +203,9 @@ WAITPOINT_INTERPOSED int timer_settime(timer_t id, int flags, const itimerspec* 
   pass(kernel::Operation::timer_start, nullptr);
   Timer* const timer = find_timer(id);
   if (timer == nullptr) return fail(EINVAL);  // another thread has deleted it meanwhile
+  const bool by_processor = counts_processor_time(*timer);
+  const Duration* const spent = by_processor ? spent_on(*timer) : nullptr;
+  if (by_processor && spent == nullptr) return fail(ESRCH);
   const itimerspec before = state_of(*timer);
   const Duration first = span(to->it_value), interval = span(to->it_interval);
   const bool is_date = (flags & TIMER_ABSTIME) != 0;
@@ -190,8 +213,8 @@ WAITPOINT_INTERPOSED int timer_settime(timer_t id, int flags, const itimerspec* 
   timer->told = 0;
   if (first == Duration())
     timer->stop();
-  else if (timer->spent != nullptr)
-    timer->start(*timer->spent, is_date ? first : *timer->spent + first, interval);
+  else if (by_processor)
+    timer->start(*spent, is_date ? first : *spent + first, interval);
   else
     timer->start(is_date ? when(timer->clock, to->it_value) : later(kernel::local_time(*kernel::running), first),
                  interval, is_date ? passed_since(timer->clock, to->it_value) : Duration());

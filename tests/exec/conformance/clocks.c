@@ -237,3 +237,50 @@ CASE(what_is_no_date_cannot_be_set) {
   EXPECT_FAILS(clock_settime(CLOCK_REALTIME, &time), EINVAL);
   EXPECT_FAILS(settimeofday(&invalid, NULL), EINVAL);
 }
+
+// Negative numbers: the kind of processor time in two bits, a bit for threads, and the complement of an id, here 0.
+CASE(the_fourth_kind_of_processor_time_is_no_clock) {
+  struct timespec time = {0, 0};
+  timer_t timer;
+  EXPECT_FAILS(clock_gettime(-1, &time), EINVAL);
+  EXPECT_FAILS(clock_getres(-1, &time), EINVAL);
+  EXPECT_FAILS(clock_settime(-1, &time), EINVAL);
+  EXPECT_IS(clock_nanosleep(-1, 0, &time, NULL), EINVAL);
+  EXPECT_FAILS(timer_create(-1, NULL, &timer), EINVAL);
+  EXPECT_FAILS(syscall(SYS_clock_gettime, -1, &time), EINVAL);
+}
+CASE(what_is_no_device_has_no_clock) {
+  struct timespec time = {0, 0};
+  timer_t timer;
+  EXPECT_FAILS(clock_gettime(-5, &time), EINVAL);
+  EXPECT_FAILS(clock_getres(-5, &time), EINVAL);
+  EXPECT_IS(clock_nanosleep(-5, 0, &time, NULL), ENOTSUP);
+  EXPECT_FAILS(timer_create(-5, NULL, &timer), ENOTSUP);
+}
+CASE(all_kinds_of_processor_time_are_clocks) {
+  for (clockid_t clock = -8; clock < -1; ++clock) {
+    if (clock == -5) continue;
+    struct timespec time = {-1, -1};
+    timer_t timer;
+    EXPECT_IS(clock_gettime(clock, &time), 0);
+    EXPECT(time.tv_sec >= 0);
+    EXPECT_IS(clock_getres(clock, &time), 0);
+    EXPECT_FAILS(clock_settime(clock, &time), EPERM);
+    EXPECT_IS(timer_create(clock, NULL, &timer), 0);
+    EXPECT_IS(timer_delete(timer), 0);
+  }
+}
+CASE(no_thread_sleeps_by_its_own_processor_time) {
+  const struct timespec time = {0, 1};
+  clockid_t clock;
+  EXPECT_IS(clock_nanosleep(-2, 0, &time, NULL), EINVAL);
+  EXPECT_IS(clock_nanosleep(CLOCK_THREAD_CPUTIME_ID, 0, &time, NULL), EINVAL);
+  EXPECT_IS(pthread_getcpuclockid(pthread_self(), &clock), 0);
+  EXPECT_IS(clock_nanosleep(clock, 0, &time, NULL), EINVAL);
+}
+CASE(the_processor_clock_of_oneself_is_the_callers) {
+  while (now_ns(CLOCK_THREAD_CPUTIME_ID) == 0) clock();
+  const long long before = now_ns(CLOCK_THREAD_CPUTIME_ID), between = now_ns(-2),
+                  after = now_ns(CLOCK_THREAD_CPUTIME_ID);
+  EXPECT(before <= between && between <= after);
+}

@@ -401,3 +401,24 @@ CASE(timers_of_two_threads_are_two) {
   EXPECT(timers[0] != timers[1]);
   for (int i = 0; i < 2; ++i) EXPECT_IS(timer_delete(timers[i]), 0);
 }
+
+static void* tell_clock(void* to) {
+  EXPECT_IS(pthread_getcpuclockid(pthread_self(), to), 0);
+  sleep_ms(20);
+  return NULL;
+}
+CASE(a_timer_of_a_thread_that_has_ended_cannot_be_set) {
+  clockid_t clock = -1;
+  timer_t timer;
+  const pthread_t id = start(tell_clock, &clock);
+  let_others_wait();
+  EXPECT_IS(timer_create(clock, NULL, &timer), 0);
+  const struct itimerspec time = in_ns(1000000000, 0);
+  struct itimerspec now;
+  EXPECT_IS(timer_settime(timer, 0, &time, NULL), 0);
+  join(id);
+  EXPECT_FAILS(timer_settime(timer, 0, &time, NULL), ESRCH);
+  EXPECT_IS(timer_gettime(timer, &now), 0);
+  EXPECT_IS(now.it_value.tv_sec + now.it_value.tv_nsec, 0);
+  EXPECT_IS(timer_delete(timer), 0);
+}
