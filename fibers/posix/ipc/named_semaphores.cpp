@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <semaphore.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdarg>
@@ -15,6 +17,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/order.hpp"
+#include "fibers/posix/ipc/access.hpp"
 #include "fibers/posix/ipc/named_objects.hpp"
 
 namespace waitpoint::posix {
@@ -27,6 +30,10 @@ struct Named {
   char name[NAME_MAX + 1];
   sem_t semaphore;
   bool unlinked;
+  // As of the file that it would be.
+  uid_t owner;
+  gid_t group;
+  mode_t mode;
 };
 
 struct Names {
@@ -68,8 +75,29 @@ bool is_name(const char* name) {
   return length > 0 && length <= NAME_MAX - 4 && std::strchr(name, '/') == nullptr;
 }
 
+// To use it is to read and to write its file.
+bool may_use(const Named& named) {
+  const uid_t user = geteuid();
+  if (user == 0) return true;
+  const unsigned shift = user == named.owner ? 6 : is_in_group(named.group) ? 3 : 0;
+  constexpr unsigned both = 6;
+  return (named.mode >> shift & both) == both;
+}
+
+// The files' folder is sticky: who may remove the name owns the file.
+bool may_unlink(const Named& named) {
+  const uid_t user = geteuid();
+  return user == 0 || user == named.owner;
+}
+
+mode_t unmasked(mode_t mode) {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return mode & 0777 & ~mask;
+}
+
 // Returns an error number.
-int make_named(const char* name, unsigned count, int& at) {
+int make_named(const char* name, mode_t mode, unsigned count, int& at) {
   for (at = 0; at < names_max && names->at[at] != nullptr;) ++at;
   if (at == names_max) return ENFILE;
   auto* const named = static_cast<Named*>(family::take(sizeof(Named)));
@@ -77,12 +105,15 @@ int make_named(const char* name, unsigned count, int& at) {
   WAITPOINT_CHECK(std::strlen(name) < sizeof named->name, "a semaphore's name does not fit into its record");
   std::strcpy(named->name, name);
   sem_init(&named->semaphore, 1, count);
+  named->owner = geteuid();
+  named->group = getegid();
+  named->mode = unmasked(mode);
   names->at[at] = named;
   return 0;
 }
 
 // Returns an error number, and the index of the name.
-int open(const char* name, int flags, unsigned count, int& at) {
+int open(const char* name, int flags, mode_t mode, unsigned count, int& at) {
   if (!is_name(name)) return EINVAL;
   if (*name == '/') ++name;
   if (all_names() == nullptr) return ENOMEM;
@@ -90,9 +121,10 @@ int open(const char* name, int flags, unsigned count, int& at) {
   const bool exists = at < names_max;
   if (!exists && (flags & O_CREAT) == 0) return ENOENT;
   if (exists && (flags & O_CREAT) != 0 && (flags & O_EXCL) != 0) return EEXIST;
+  if (exists && !may_use(*names->at[at])) return EACCES;
   if (!exists && count > SEM_VALUE_MAX) return EINVAL;
   if (!exists)
-    if (const int error = make_named(name, count, at); error != 0) return error;
+    if (const int error = make_named(name, mode, count, at); error != 0) return error;
   WAITPOINT_CHECK(at >= 0 && at < names_max && names->at[at] != nullptr, "a semaphore was opened that has no name");
   ++opened[at];
   return 0;
@@ -119,16 +151,17 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED sem_t* sem_open(const char* name, int flags, ...) noexcept {
+  mode_t mode = 0;
   unsigned count = 0;
   if ((flags & O_CREAT) != 0) {
     va_list more;
     va_start(more, flags);
-    va_arg(more, mode_t);
+    mode = va_arg(more, mode_t);
     count = va_arg(more, unsigned);
     va_end(more);
   }
   int at = 0;
-  if (const int error = posix::open(name, flags, count, at); error != 0) {
+  if (const int error = posix::open(name, flags, mode, count, at); error != 0) {
     errno = error;
     return SEM_FAILED;
   }
@@ -149,6 +182,7 @@ WAITPOINT_INTERPOSED int sem_unlink(const char* name) noexcept {
   if (*name == '/') ++name;
   const int at = names != nullptr ? find_named(name) : names_max;
   if (at == names_max) return fail(ENOENT);
+  if (!may_unlink(*names->at[at])) return fail(EACCES);
   names->at[at]->unlinked = true;
   let_go(at);
   return 0;

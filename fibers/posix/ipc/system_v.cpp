@@ -3,12 +3,12 @@
 
 #include <unistd.h>
 
+#include "fibers/posix/ipc/access.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
-namespace waitpoint::posix::system_v {
-namespace {
+namespace waitpoint::posix {
 
 bool is_in_group(gid_t group) {
   if (group == getegid()) return true;
@@ -19,7 +19,9 @@ bool is_in_group(gid_t group) {
   return false;
 }
 
-}  // namespace
+}  // namespace waitpoint::posix
+
+namespace waitpoint::posix::system_v {
 
 void set_creator(Common& common, key_t key, int flags) {
   common.permissions.__key = key;

@@ -3,9 +3,11 @@
 #include "tests/exec/conformance/harness.h"
 
 #include <fcntl.h>
+#include <grp.h>
 #include <limits.h>
 #include <semaphore.h>
 #include <stdint.h>
+#include <sys/stat.h>
 
 static char name[64];
 static void take_away(void) { sem_unlink(name); }
@@ -143,4 +145,70 @@ CASE(a_timed_wait_at_a_name_times_out) {
   const struct timespec soon = in_ms(CLOCK_REALTIME, 3);
   EXPECT_FAILS(sem_timedwait(semaphore, &soon), ETIMEDOUT);
   EXPECT_FAILS(sem_trywait(semaphore), EAGAIN);
+}
+
+// Access, for another user: only root can become one.
+static int become_another_user(void) {
+  if (geteuid() != 0) return 0;
+  EXPECT_IS(setgroups(0, NULL), 0);
+  EXPECT_IS(setegid(65534), 0);
+  EXPECT_IS(seteuid(65534), 0);
+  return 1;
+}
+static void become_root_again(void) {
+  EXPECT_IS(seteuid(0), 0);
+  EXPECT_IS(setegid(0), 0);
+}
+CASE(the_mode_keeps_other_users_out) {
+  EXPECT(sem_open(own_name(), O_CREAT, 0600, 1) != SEM_FAILED);
+  if (!become_another_user()) return;
+  expect_no(sem_open(name, 0), EACCES);
+  expect_no(sem_open(name, O_CREAT, 0666, 1), EACCES);
+  expect_no(sem_open(name, O_CREAT | O_EXCL, 0666, 1), EEXIST);
+  become_root_again();
+  EXPECT(sem_open(name, 0) != SEM_FAILED);
+}
+CASE(the_mode_lets_other_users_in) {
+  umask(0);
+  EXPECT(sem_open(own_name(), O_CREAT, 0606, 1) != SEM_FAILED);
+  if (!become_another_user()) return;
+  EXPECT(sem_open(name, 0) != SEM_FAILED);
+  become_root_again();
+}
+CASE(to_read_it_is_not_enough) {
+  umask(0);
+  EXPECT(sem_open(own_name(), O_CREAT, 0604, 1) != SEM_FAILED);
+  if (!become_another_user()) return;
+  expect_no(sem_open(name, 0), EACCES);
+  become_root_again();
+}
+CASE(the_mask_of_files_keeps_other_users_out) {
+  umask(077);
+  EXPECT(sem_open(own_name(), O_CREAT, 0666, 1) != SEM_FAILED);
+  if (!become_another_user()) return;
+  expect_no(sem_open(name, 0), EACCES);
+  become_root_again();
+}
+CASE(other_users_cannot_unlink_it) {
+  umask(0);
+  EXPECT(sem_open(own_name(), O_CREAT, 0666, 1) != SEM_FAILED);
+  if (!become_another_user()) return;
+  EXPECT_FAILS(sem_unlink(name), EACCES);
+  become_root_again();
+  EXPECT_IS(sem_unlink(name), 0);
+}
+CASE(an_owner_without_rights_is_kept_out) {
+  own_name();
+  if (!become_another_user()) return;
+  EXPECT(sem_open(name, O_CREAT, 0, 1) != SEM_FAILED);
+  expect_no(sem_open(name, 0), EACCES);
+  EXPECT_IS(sem_unlink(name), 0);
+  become_root_again();
+}
+CASE(an_open_one_can_be_used_by_who_could_not_open_it) {
+  sem_t* const semaphore = sem_open(own_name(), O_CREAT, 0600, 1);
+  if (!become_another_user()) return;
+  EXPECT_IS(sem_wait(semaphore), 0);
+  EXPECT_IS(sem_post(semaphore), 0);
+  become_root_again();
 }
