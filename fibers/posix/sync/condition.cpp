@@ -21,7 +21,11 @@ namespace {
 struct Condition : Waitable {
   static constexpr Kind kind_of_all = Kind::condition;
   explicit Condition(const void* address) : Waitable(kind_of_all, "condition variable", address) {}
+
+  kernel::Object last_leaves{"end of a condition variable"};  ///< for who destroys it
+  std::uint32_t inside = 0;                                   ///< calls in their wait, of a private one
 };
+static_assert(sizeof(Condition) <= waitable_bytes_max);
 
 struct ConditionBytes : SharedBytes<Condition> {
   clockid_t clock;  // 0: CLOCK_REALTIME
@@ -29,6 +33,7 @@ struct ConditionBytes : SharedBytes<Condition> {
   std::uint64_t next_ticket;
   std::uint64_t released;
   std::uint32_t changes;
+  std::uint32_t inside;  // calls in their wait
 };
 static_assert(sizeof(ConditionBytes) <= sizeof(pthread_cond_t));
 static_assert(alignof(ConditionBytes) <= alignof(pthread_cond_t));
@@ -75,6 +80,36 @@ void release_shared(Condition& known, ConditionBytes& bytes, bool all) {
   tell_change(known.object);
 }
 
+// True if calls are on their way out of their wait: signalled, and not continued yet.
+bool is_anybody_leaving(const ConditionBytes& bytes) {
+  if (bytes.is_shared()) return bytes.inside > bytes.next_ticket - bytes.released;
+  if (bytes.known == nullptr || bytes.known->inside == 0) return false;
+  std::uint32_t waiting = 0;
+  for (const kernel::Task* task = bytes.known->object.first_waiter; task != nullptr; task = task->next_waiter)
+    ++waiting;
+  return bytes.known->inside > waiting;
+}
+bool has_everybody_left(const void* bytes) { return !is_anybody_leaving(*static_cast<const ConditionBytes*>(bytes)); }
+
+// Scope of a wait: who destroys the condition meanwhile waits until it ends, as its bytes may be gone then.
+class Inside {
+ public:
+  Inside(Condition& known, ConditionBytes& bytes)
+      : known_(known), count_(bytes.is_shared() ? bytes.inside : known.inside) {
+    ++count_;
+  }
+  ~Inside() {
+    --count_;
+    tell_change(known_.last_leaves);
+  }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+
+ private:
+  Condition& known_;
+  std::uint32_t& count_;
+};
+
 // A waiter's mutex, which it takes again however the wait ends: when a handler ends the thread, too, before the
 // thread's cleanup handlers run.
 class GivenUp {
@@ -116,10 +151,13 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   // After a signal handler the wait is not resumed, as a pthread_cond_signal() meanwhile would miss this thread: the
   // call returns as if signalled.
   Wait ended = Wait::came;
-  if (words.is_shared())
-    ended = wait_shared(known, words, ticket, deadline, point);
-  else if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
-    ended = deadline > kernel::running->local_time ? point.block(known.object, deadline) : Wait::timed_out;
+  {
+    const Inside inside(known, words);
+    if (words.is_shared())
+      ended = wait_shared(known, words, ticket, deadline, point);
+    else if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
+      ended = deadline > kernel::running->local_time ? point.block(known.object, deadline) : Wait::timed_out;
+  }
   if (ended == Wait::interrupted && !point.was_cancelled()) handle_signals();
   const int error = given_up.take_again();
   // A signal that came is not lost on a cancelled thread: it continues, and exits at its next cancellation point.
@@ -158,6 +196,11 @@ WAITPOINT_INTERPOSED int pthread_cond_init(pthread_cond_t* condition, const pthr
 
 WAITPOINT_INTERPOSED int pthread_cond_destroy(pthread_cond_t* condition) noexcept {
   ConditionBytes& bytes = bytes_of(condition);
+  while (is_simulated() && is_anybody_leaving(bytes)) {
+    kernel::Object& end = bytes.waitable().last_leaves;
+    kernel::running->scheduler->enter(end);
+    if (wait_on_shared(end, Time::max(), has_everybody_left, &bytes) == Wait::interrupted) handle_signals();
+  }
   Waitable* const known = bytes.is_shared() ? find_waitable(condition, Waitable::Kind::condition) : bytes.known;
   if (known != nullptr) forget(*known);
   bytes.known = nullptr;

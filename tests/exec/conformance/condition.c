@@ -2,6 +2,8 @@
 // Condition variables.
 #include "tests/exec/conformance/harness.h"
 
+#include <sys/mman.h>
+
 #include <stdatomic.h>
 #include <stdint.h>
 
@@ -292,6 +294,51 @@ CASE(a_condition_can_be_destroyed_after_its_broadcast) {
   EXPECT_IS(pthread_cond_destroy(&condition), 0);
   for (int i = 0; i < 3; ++i) join(ids[i]);
 }
+
+// glibc: destruction waits for those who were woken, so that the memory can be given back.
+struct in_page {
+  pthread_cond_t condition;
+};
+static struct in_page* page;
+static void make_in_page(int shared) {
+  pthread_condattr_t attributes;
+  EXPECT_IS(pthread_condattr_init(&attributes), 0);
+  EXPECT_IS(pthread_condattr_setpshared(&attributes, shared), 0);
+  page = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  EXPECT(page != MAP_FAILED);
+  EXPECT_IS(pthread_cond_init(&page->condition, &attributes), 0);
+}
+static void* wait_in_page(void* unused) {
+  pthread_mutex_lock(&mutex);
+  ++waiting;
+  while (tickets == 0) pthread_cond_wait(&page->condition, &mutex);
+  --tickets;
+  pthread_mutex_unlock(&mutex);
+  return unused;
+}
+static void destroy_behind(int shared, int all) {
+  for (int i = 0; i < 10; ++i) {
+    pthread_t ids[3];
+    const int count = all ? 3 : 1;
+    waiting = 0;
+    make_in_page(shared);
+    for (int k = 0; k < count; ++k) ids[k] = start(wait_in_page, NULL);
+    lock_when_waiting(count);
+    tickets = count;
+    if (all)
+      pthread_cond_broadcast(&page->condition);
+    else
+      pthread_cond_signal(&page->condition);
+    pthread_mutex_unlock(&mutex);
+    EXPECT_IS(pthread_cond_destroy(&page->condition), 0);
+    EXPECT_IS(munmap(page, 4096), 0);
+    for (int k = 0; k < count; ++k) join(ids[k]);
+  }
+}
+CASE(the_memory_of_a_condition_can_be_freed_behind_a_broadcast) { destroy_behind(PTHREAD_PROCESS_PRIVATE, 1); }
+CASE(the_memory_of_a_condition_can_be_freed_behind_a_signal) { destroy_behind(PTHREAD_PROCESS_PRIVATE, 0); }
+CASE(the_memory_of_a_shared_condition_can_be_freed_behind_a_broadcast) { destroy_behind(PTHREAD_PROCESS_SHARED, 1); }
+CASE(the_memory_of_a_shared_condition_can_be_freed_behind_a_signal) { destroy_behind(PTHREAD_PROCESS_SHARED, 0); }
 
 CASE(attributes_of_conditions_have_defaults) {
   pthread_condattr_t attributes;
