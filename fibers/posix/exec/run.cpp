@@ -110,6 +110,7 @@ kernel::Scheduler& begin_run() {
     trap_raw_calls_of_child();
   }
   WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");
+  reserve_waitables();
   if (record->began) begin_anew();
   if (!family::is_joined()) family::begin();
   note_caught_signals();

@@ -40,25 +40,37 @@ static_assert(record_address % 4096 == 0 && record_bytes % 4096 == 0 && sizeof(R
 void* copy_of_record = nullptr;
 family::Process* expected = nullptr;
 
-void copy_record() {
-  if (!is_simulated() || copy_of_record != nullptr) return;
-  share_named_semaphores();
-  expected = family::expect_child();
-  if (expected == nullptr) refuse("the program has too many processes");
-  void* const copy =
-      mmap(nullptr, record_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (copy == MAP_FAILED) refuse("there is no memory for a child's simulation");
-  const auto used = static_cast<const char*>(record->arena.top()) - reinterpret_cast<const char*>(record);
-  WAITPOINT_CHECK(
-      used >= static_cast<std::ptrdiff_t>(sizeof(Record)) && used <= static_cast<std::ptrdiff_t>(record_bytes),
-      "the record's arena reaches out of the record");
-  std::memcpy(copy, static_cast<void*>(record), static_cast<std::size_t>(used));
-  copy_of_record = copy;
-}
+bool is_copied = false;
 
 void drop_copy() {
   if (copy_of_record != nullptr) munmap(copy_of_record, record_bytes);
   copy_of_record = nullptr;
+  is_copied = false;
+}
+
+// Makes room for the copy. Returns an error number.
+int expect_child() {
+  if (copy_of_record != nullptr) return 0;
+  void* const room =
+      mmap(nullptr, record_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED) return ENOMEM;
+  copy_of_record = room;
+  expected = family::expect_child();
+  if (expected != nullptr) return 0;
+  drop_copy();
+  return EAGAIN;
+}
+
+void copy_record() {
+  if (!is_simulated() || is_copied) return;
+  share_named_semaphores();
+  if (expect_child() != 0) refuse("there is no memory for a child's simulation");
+  const auto used = static_cast<const char*>(record->arena.top()) - reinterpret_cast<const char*>(record);
+  WAITPOINT_CHECK(
+      used >= static_cast<std::ptrdiff_t>(sizeof(Record)) && used <= static_cast<std::ptrdiff_t>(record_bytes),
+      "the record's arena reaches out of the record");
+  std::memcpy(copy_of_record, static_cast<void*>(record), static_cast<std::size_t>(used));
+  is_copied = true;
 }
 
 void take_own_record() {
@@ -66,6 +78,7 @@ void take_own_record() {
   if (mremap(copy_of_record, record_bytes, record_bytes, flags, record) == MAP_FAILED)
     refuse("there is no memory for a child's simulation");
   copy_of_record = nullptr;
+  is_copied = false;
 }
 
 // The events of the child are its own.
@@ -121,6 +134,7 @@ void before_child() { pass(kernel::Operation::start, nullptr); }
 
 pid_t fork_by(pid_t (*real)(const void*), const void* argument, bool calls_handlers) {
   before_child();
+  if (const int error = expect_child(); error != 0) return fail(error);
   if (!calls_handlers) copy_record();
   const pid_t child = real(argument);
   if (child == 0) begin_as_child();

@@ -35,10 +35,20 @@ constexpr std::uintptr_t first_pages = 0x2b00'0000'0000;
 static_assert(first_pages >= record_address + 2 * record_bytes, "they begin behind the record and the family's memory");
 std::uintptr_t next_pages = first_pages;
 
+// Reserved at the beginning, and used page by page: a program that exhausts its memory, its address space or the number
+// of its mappings can use new primitives nevertheless, as these need no memory outside of it.
+constexpr std::size_t reserved_bytes = std::size_t{1} << 34;
+std::uintptr_t reserved_end = first_pages;
+
 void* pages(std::size_t bytes) {
-  void* memory =
-      mmap(reinterpret_cast<void*>(next_pages), bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  next_pages += (bytes + 4095) / 4096 * 4096;
+  reserve_waitables();
+  const std::size_t whole = (bytes + 4095) / 4096 * 4096;
+  void* memory = reinterpret_cast<void*>(next_pages);
+  if (whole > reserved_end - next_pages && next_pages < reserved_end) next_pages = reserved_end;
+  if (next_pages >= reserved_end)
+    memory =
+        mmap(reinterpret_cast<void*>(next_pages), whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  next_pages += whole;
   if (memory == MAP_FAILED) refuse("there is no memory for the program's primitives");
   return memory;
 }
@@ -90,6 +100,19 @@ void unlink(Waitable& waitable) {
 }
 
 }  // namespace
+
+void reserve_waitables() {
+  static constinit bool has_tried = false;
+  if (has_tried) return;
+  has_tried = true;
+  void* const at = reinterpret_cast<void*>(first_pages);
+  void* const memory =
+      mmap(at, reserved_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == at)
+    reserved_end = first_pages + reserved_bytes;
+  else if (memory != MAP_FAILED)
+    munmap(memory, reserved_bytes);
+}
 
 bool names_waitables = false;
 
