@@ -29,7 +29,7 @@ struct Queued {
   Queued* next;
 };
 
-/// The requests of a descriptor; the first is in progress, once its worker runs.
+/// The requests of a descriptor, and whether the first is in progress.
 struct Queue {
   int descriptor;
   Queued* first;
@@ -105,8 +105,12 @@ bool start_worker(Queue& queue) {
   return is_made;
 }
 
-// After the requests of equal urgency; not before the one in progress.
+bool synchronises(Request request) { return request == Request::sync || request == Request::sync_data; }
+
+// After the requests of equal urgency; not before the one in progress. A synchronisation follows all that were made
+// before.
 void insert(Queue& queue, Queued& request) {
+  if (synchronises(request.request)) return append(queue.first, request);
   Queued** link = &queue.first;
   WAITPOINT_CHECK(!queue.is_begun || queue.first != nullptr, "a request in progress is not in its queue");
   if (queue.is_begun && *link != nullptr) link = &(*link)->next;
@@ -136,6 +140,7 @@ void cancel_from(Queued** from) {
 
 int submit(aiocb& block, Request request, RequestBatch* batch) {
   pass(kernel::Operation::start, nullptr);
+  if (synchronises(request)) block.aio_reqprio = 0;
   if (block.aio_reqprio < 0 || block.aio_reqprio > least_urgent) return refuse(block, EINVAL);
   if (Queue* const known = queue_of(block.aio_fildes); known != nullptr) {
     auto* const queued = static_cast<Queued*>(std::malloc(sizeof(Queued)));
@@ -150,7 +155,8 @@ int submit(aiocb& block, Request request, RequestBatch* batch) {
     kernel::running->scheduler->enter(done_object);
     block.__error_code = EINPROGRESS;
     new (queued) Queued{&block, request, batch, nullptr};
-    queues = new (queue) Queue{block.aio_fildes, queued, false, nullptr, queues};
+    // Its worker begins at once: it cannot be cancelled any more.
+    queues = new (queue) Queue{block.aio_fildes, queued, true, nullptr, queues};
     if (start_worker(*queue)) return 0;
     remove(*queue);
   } else {
@@ -193,7 +199,6 @@ int cancel_requests(int descriptor) {
   Queue* const queue = queue_of(descriptor);
   if (queue == nullptr || queue->first == nullptr) return AIO_ALLDONE;
   const bool is_begun = queue->is_begun;
-  WAITPOINT_CHECK(!is_begun || queue->worker != nullptr, "a request is in progress without a worker");
   cancel_from(is_begun ? &queue->first->next : &queue->first);
   return is_begun ? AIO_NOTCANCELED : AIO_CANCELED;
 }

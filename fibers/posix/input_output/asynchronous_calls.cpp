@@ -50,7 +50,7 @@ int submit_one(aiocb& block, RequestBatch* batch) {
 // Waits until all are done or a signal handler has run.
 int wait_for_all(aiocb* const* blocks, int count) {
   while (!are_all_done(blocks, count))
-    if (wait_for_any_request(Time::max()) == Wait::interrupted && is_interrupted(Restart::never)) return fail(EINTR);
+    if (wait_for_any_request(Time::max()) == Wait::interrupted && is_interrupted(Restart::if_asked)) return fail(EINTR);
   for (int i = 0; i < count; ++i)
     if (blocks[i] != nullptr && blocks[i]->aio_lio_opcode != LIO_NOP && error_of(*blocks[i]) != 0) return fail(EIO);
   return 0;
@@ -133,7 +133,9 @@ WAITPOINT_BOTH(int, aio_suspend, (const aiocb* const* blocks, int count, const t
     if (deadline <= kernel::running->local_time) return fail(EAGAIN);
     const Wait ended = point.was_cancelled() ? Wait::interrupted : wait_for_any_request(deadline);
     leave_if_cancelled();
-    if (ended == Wait::interrupted && is_interrupted(Restart::never)) return fail(EINTR);
+    // As in the C library, by a futex.
+    const Restart restart = timeout == nullptr ? Restart::if_asked : Restart::never;
+    if (ended == Wait::interrupted && is_interrupted(restart)) return fail(EINTR);
   }
   return 0;
 }
@@ -148,7 +150,7 @@ WAITPOINT_BOTH(int, aio_cancel, (int descriptor, aiocb* block), noexcept) {
 
 WAITPOINT_BOTH(int, lio_listio, (int mode, aiocb* const* blocks, int count, sigevent* event), noexcept) {
   if (!is_simulated()) return fail(ENOSYS);
-  if ((mode != LIO_WAIT && mode != LIO_NOWAIT) || count < 0) return fail(EINVAL);
+  if (mode != LIO_WAIT && mode != LIO_NOWAIT) return fail(EINVAL);
   for (int i = 0; i < count && mode == LIO_WAIT; ++i)
     if (blocks[i] != nullptr) blocks[i]->aio_sigevent.sigev_notify = SIGEV_NONE;
   const int started = start_all(blocks, count, mode == LIO_NOWAIT ? event : nullptr);

@@ -306,3 +306,165 @@ CASE(aio_many) {
   EXPECT_IS(pread(f, bytes, 64, 0), 64);
   EXPECT(memcmp(b, bytes, 64) == 0);
 }
+
+CASE(aio_fsync_has_no_priority) {
+  struct aiocb s = of(temp(), NULL, 0, 0);
+  s.aio_reqprio = -1;
+  EXPECT_IS(aio_fsync(O_SYNC, &s), 0);
+  EXPECT_IS(finish(&s), 0);
+  EXPECT_IS(s.aio_reqprio, 0);
+}
+CASE(aio_fsync_of_what_cannot_be_synchronised) {
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb s = of(ends[1], NULL, 0, 0);
+  EXPECT_IS(aio_fsync(O_SYNC, &s), 0);
+  EXPECT_IS(finish(&s), EINVAL);
+  EXPECT_IS(aio_return(&s), -1);
+}
+CASE(aio_suspend_of_nothing_is_at_once) {
+  const struct aiocb* l[] = {NULL, NULL};
+  const struct timespec t = {5, 0};
+  EXPECT_IS(aio_suspend(l, 2, &t), 0);
+  EXPECT_IS(aio_suspend(l, 0, NULL), 0);
+  EXPECT_FAILS(aio_suspend(l, -1, NULL), EINVAL);
+}
+CASE(aio_suspend_without_time_left) {
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb r = of(ends[0], bytes, 5, 0);
+  const struct aiocb* l[] = {&r};
+  EXPECT_IS(aio_read(&r), 0);
+  struct timespec t = {0, 0};
+  EXPECT_FAILS(aio_suspend(l, 1, &t), EAGAIN);
+  t.tv_sec = -1;
+  EXPECT_FAILS(aio_suspend(l, 1, &t), EAGAIN);
+}
+CASE(aio_suspend_returns_for_one_of_several) {
+  int f = temp();
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb r = of(ends[0], bytes, 5, 0), w = of(f, "hello", 5, 0);
+  EXPECT_IS(aio_read(&r), 0);
+  EXPECT_IS(aio_write(&w), 0);
+  EXPECT_IS(finish(&w), 0);
+  const struct aiocb* l[] = {&r, NULL, &w};
+  EXPECT_IS(aio_suspend(l, 3, NULL), 0);
+  EXPECT_IS(aio_error(&r), EINPROGRESS);
+}
+static struct aiocb awaited;
+static void* suspend_for_ever(void* unused) {
+  const struct aiocb* l[] = {&awaited};
+  aio_suspend(l, 1, NULL);
+  return unused;
+}
+CASE(aio_suspend_can_be_cancelled) {
+  EXPECT_IS(pipe(ends), 0);
+  awaited = of(ends[0], bytes, 5, 0);
+  EXPECT_IS(aio_read(&awaited), 0);
+  pthread_t id = start(suspend_for_ever, NULL);
+  let_others_wait();
+  EXPECT_IS(pthread_cancel(id), 0);
+  EXPECT(join(id) == PTHREAD_CANCELED);
+  EXPECT_IS(aio_error(&awaited), EINPROGRESS);
+}
+static void* kill_then_write(void* id) {
+  let_others_wait();
+  pthread_kill(*(pthread_t*)id, SIGUSR1);
+  let_others_wait();
+  EXPECT_IS(write(ends[1], "hello", 5), 5);
+  return NULL;
+}
+static int suspend_disturbed(const struct timespec* timeout) {
+  struct sigaction a = {.sa_handler = on, .sa_flags = SA_RESTART};
+  sigaction(SIGUSR1, &a, NULL);
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb r = of(ends[0], bytes, 5, 0);
+  EXPECT_IS(aio_read(&r), 0);
+  const struct aiocb* l[] = {&r};
+  pthread_t self = pthread_self();
+  pthread_t id = start(kill_then_write, &self);
+  const int result = aio_suspend(l, 1, timeout), error = errno;
+  EXPECT_NOTED("h");
+  EXPECT_IS(aio_error(&r), result == 0 ? 0 : EINPROGRESS);
+  join(id);
+  EXPECT_IS(finish(&r), 0);
+  errno = error;
+  return result;
+}
+CASE(aio_suspend_goes_on_if_asked) { EXPECT_IS(suspend_disturbed(NULL), 0); }
+CASE(aio_suspend_with_a_timeout_is_interrupted_whatever_is_asked) {
+  const struct timespec t = {5, 0};
+  EXPECT_IS(suspend_disturbed(&t), -1);
+  EXPECT_IS(errno, EINTR);
+}
+static void* write_soon(void* unused) {
+  let_others_wait();
+  EXPECT_IS(write(ends[1], "hello", 5), 5);
+  return unused;
+}
+CASE(aio_fsync_follows_the_least_urgent) {
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb a = of(ends[0], bytes, 5, 0), b = of(ends[0], bytes + 10, 5, 0), s = of(ends[0], NULL, 0, 0);
+  EXPECT_IS(aio_read(&a), 0);
+  EXPECT_IS(aio_read(&b), 0);
+  EXPECT_IS(aio_fsync(O_SYNC, &s), 0);
+  pthread_t id = start(write_soon, NULL);
+  EXPECT_IS(finish(&a), 0);
+  EXPECT_IS(aio_error(&s), EINPROGRESS);
+  join(id);
+}
+CASE(aio_cancel_of_what_has_just_begun) {
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb r = of(ends[0], bytes, 5, 0);
+  EXPECT_IS(aio_read(&r), 0);
+  EXPECT_IS(aio_cancel(ends[0], &r), AIO_NOTCANCELED);
+  EXPECT_IS(aio_cancel(ends[0], NULL), AIO_NOTCANCELED);
+  EXPECT_IS(aio_error(&r), EINPROGRESS);
+  EXPECT_IS(write(ends[1], "hello", 5), 5);
+  EXPECT_IS(finish(&r), 0);
+  EXPECT_IS(aio_return(&r), 5);
+}
+CASE(aio_cancel_of_all_leaves_what_has_begun) {
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb a = of(ends[0], bytes, 5, 0), b = of(ends[0], bytes + 10, 5, 0), c = of(ends[0], bytes + 20, 5, 0);
+  EXPECT_IS(aio_read(&a), 0);
+  EXPECT_IS(aio_read(&b), 0);
+  EXPECT_IS(aio_read(&c), 0);
+  EXPECT_IS(aio_cancel(ends[0], NULL), AIO_NOTCANCELED);
+  EXPECT_IS(aio_error(&a), EINPROGRESS);
+  EXPECT_IS(aio_error(&b), ECANCELED);
+  EXPECT_IS(aio_error(&c), ECANCELED);
+  EXPECT_IS(aio_return(&c), -1);
+  EXPECT_IS(write(ends[1], "hello", 5), 5);
+  EXPECT_IS(finish(&a), 0);
+}
+CASE(aio_cancel_notifies) {
+  struct sigaction sa = {.sa_sigaction = on_aio, .sa_flags = SA_SIGINFO};
+  sigaction(SIGRTMIN + 1, &sa, NULL);
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb a = of(ends[0], bytes, 5, 0), b = of(ends[0], bytes + 10, 5, 0);
+  b.aio_sigevent.sigev_notify = SIGEV_SIGNAL;
+  b.aio_sigevent.sigev_signo = SIGRTMIN + 1;
+  b.aio_sigevent.sigev_value.sival_int = 9;
+  EXPECT_IS(aio_read(&a), 0);
+  EXPECT_IS(aio_read(&b), 0);
+  EXPECT_IS(aio_cancel(ends[0], &b), AIO_CANCELED);
+  for (int i = 0; i < 100 && !got; ++i) sleep_ms(1);
+  EXPECT_IS(got_value, 9);
+  EXPECT_IS(got_code, SI_ASYNCIO);
+}
+CASE(aio_cancel_of_another_descriptors) {
+  int f = temp();
+  EXPECT_IS(pipe(ends), 0);
+  struct aiocb r = of(ends[0], bytes, 5, 0);
+  EXPECT_IS(aio_read(&r), 0);
+  EXPECT_FAILS(aio_cancel(f, &r), EINVAL);
+  EXPECT_IS(aio_cancel(f, NULL), AIO_ALLDONE);
+}
+CASE(aio_cancel_of_a_request_that_was_never_made) {
+  int f = temp();
+  struct aiocb r = of(f, bytes, 5, 0);
+  EXPECT_IS(aio_cancel(f, &r), AIO_ALLDONE);
+}
+CASE(lio_listio_of_no_requests) {
+  struct aiocb* l[] = {NULL};
+  EXPECT_IS(lio_listio(LIO_WAIT, l, 0, NULL), 0);
+}
