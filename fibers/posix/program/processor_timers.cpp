@@ -2,6 +2,7 @@
 #include "fibers/posix/program/processor_timers.hpp"
 
 #include "core/error.hpp"
+#include "fibers/posix/program/computing.hpp"
 
 namespace waitpoint::posix {
 
@@ -14,6 +15,7 @@ void set_processor_timer(ProcessorTimer& timer, const Duration& spent, Duration 
   timer.due = due;
   timer.next = first_processor_timer;
   first_processor_timer = &timer;
+  if (expect_computing != nullptr) expect_computing();
 }
 
 void unset_processor_timer(ProcessorTimer& timer) {

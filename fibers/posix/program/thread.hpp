@@ -100,6 +100,9 @@ struct Thread {
   SharedFutex* shared_futex = nullptr;  ///< on which it waits, if other processes may wake it
 };
 
+/// True if `thread` was cancelled, has cancellation enabled, and is not exiting already.
+inline bool is_to_leave(const Thread& thread) { return thread.cancelled && !thread.cancel_disabled && !thread.exiting; }
+
 /// The entry of a thread's task: calls its body.
 void run_thread(void* thread);
 

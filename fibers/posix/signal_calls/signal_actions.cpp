@@ -14,6 +14,7 @@
 #include "fibers/posix/family/system_processes.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signal_calls/computing.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/timers/notification_threads.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
@@ -190,12 +191,23 @@ void handle_fault(int signal, siginfo_t* information, void* context) {
   if (is_simulated()) this_thread().blocked = blocked;
 }
 
+void interrupt_if_computing(const ucontext_t& interrupted) {
+  if (!is_to_be_interrupted() || !may_handle_here(interrupted)) return;
+  let_come();
+  spend_tick();
+}
+
 void catch_signal(int signal, siginfo_t* information, void* context) {
   if (signal == SIGSYS && (answer_library_call(*information, context) || answer_raw_call(*information, context)))
     return;
   const int error = errno;
   if (is_question(*information)) {
     if (answer_question != nullptr) answer_question();
+    errno = error;
+    return;
+  }
+  if (is_tick(*information)) {
+    interrupt_if_computing(*static_cast<ucontext_t*>(context));
     errno = error;
     return;
   }
@@ -274,10 +286,10 @@ void install(int signal) {
   if (!contains(faults, signal)) real.sa_mask = to_sigset(one_by_one);
   if (signal == bell) real.sa_flags |= SA_RESTART;  // the program did not ask for it, and must not see EINTR
   const bool is_default = !is_handled(signal);
-  const bool is_looked_for_always = (signal == SIGSEGV && record != nullptr &&
-                                     (record->settings.trap_rdtsc || are_processor_features_trapped())) ||
-                                    (signal == SIGSYS && (are_library_calls_trapped() || are_raw_calls_trapped())) ||
-                                    (signal == bell && has_bell) || ends_run(signal);
+  const bool is_looked_for_always =
+      (signal == SIGSEGV && record != nullptr && (record->settings.trap_rdtsc || are_processor_features_trapped())) ||
+      (signal == SIGSYS && (are_library_calls_trapped() || are_raw_calls_trapped())) || (signal == bell && has_bell) ||
+      ends_run(signal);
   // The system's notices of ends that are events of the family come at any time: they could end a real wait.
   const bool is_left_out = signal == SIGCHLD && family::own != nullptr && !family::has_native_child();
   const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
@@ -327,6 +339,7 @@ void do_default(int signal) {
 }
 
 void inherit_signals() {
+  prepare_to_watch_computing();
   guarded[0] = range_of_library_with(reinterpret_cast<const void*>(&catch_signal));
   guarded[1] = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
   guarded[2] = range_of_library_with(reinterpret_cast<const void*>(&_dl_allocate_tls));

@@ -4,6 +4,7 @@
 #include <cerrno>
 
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/computing.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
@@ -53,9 +54,14 @@ WAITPOINT_INTERPOSED int pthread_cancel(pthread_t id) {
     return 0;
   }
   // One whose wait has ended otherwise completes its call, and exits at the next point: it has consumed what came.
-  if (thread->in_cancellation_point && thread->task->state == kernel::TaskState::blocked) {
+  const bool is_waiting = thread->task->state == kernel::TaskState::blocked &&
+                          (thread->in_cancellation_point || (thread->cancel_at_once && thread->in_wait));
+  kernel::Scheduler& scheduler = *kernel::running->scheduler;
+  if (is_waiting) {
     thread->woken_early = true;
-    kernel::running->scheduler->wake(*thread->task);
+    scheduler.wake(*thread->task);
+  } else if (thread->cancel_at_once) {
+    scheduler.attend(*thread->task, kernel::attention::signal, true);
   }
   return 0;
 }
@@ -67,6 +73,7 @@ WAITPOINT_INTERPOSED int pthread_setcancelstate(int state, int* old) {
   if (old != nullptr) *old = thread.cancel_disabled ? PTHREAD_CANCEL_DISABLE : PTHREAD_CANCEL_ENABLE;
   thread.cancel_disabled = state == PTHREAD_CANCEL_DISABLE;
   if (thread.cancel_at_once) leave_if_cancelled();
+  if (thread.cancel_at_once && expect_computing != nullptr) expect_computing();
   return 0;
 }
 
@@ -77,6 +84,7 @@ WAITPOINT_INTERPOSED int pthread_setcanceltype(int type, int* old) {
   if (old != nullptr) *old = thread.cancel_at_once ? PTHREAD_CANCEL_ASYNCHRONOUS : PTHREAD_CANCEL_DEFERRED;
   thread.cancel_at_once = type == PTHREAD_CANCEL_ASYNCHRONOUS;
   if (thread.cancel_at_once) leave_if_cancelled();
+  if (thread.cancel_at_once && expect_computing != nullptr) expect_computing();
   return 0;
 }
 

@@ -8,9 +8,6 @@
 
 namespace waitpoint::posix {
 
-/// True if `thread` was cancelled, has cancellation enabled, and is not exiting already.
-inline bool is_to_leave(const Thread& thread) { return thread.cancelled && !thread.cancel_disabled && !thread.exiting; }
-
 /// Exits the running thread, if is_to_leave().
 void leave_if_cancelled();
 /// The same at the beginning of a call that does not wait; no effect before main().

@@ -171,6 +171,7 @@ void send(PendingSignal& signal, Thread* to) {
 Handled handle_signals() {
   Thread& thread = this_thread();
   thread.delivery_due = false;
+  if (thread.cancel_at_once && is_to_leave(thread)) pthread_exit(PTHREAD_CANCELED);
   Handled handled;
   if (deliverable(thread) == 0) return handled;
   // Handlers may wait, too.
