@@ -13,7 +13,12 @@ void access(Operation operation, Object* memory) {
 }
 
 void yield_after_computing() {
-  if ((running->attention & attention::timer) == 0) running->scheduler->yield();
+  Task& task = *running;
+  if ((task.attention & attention::timer) != 0) return;
+  if (const auto computes_long = task.scheduler->hooks().computes_long;
+      computes_long != nullptr && !task.scheduler->unwinding())
+    computes_long(task);
+  task.scheduler->yield();
 }
 
 }  // namespace waitpoint::kernel

@@ -20,6 +20,9 @@ struct Hooks {
   /// Called when a blocked task has closed a cycle. True: the run continues; false, and if null: it ends with a
   /// deadlock.
   bool (*continues_after_cycle)(Task&) = nullptr;
+  /// Called when the running task has computed for long without a waitpoint, before it yields: may let its local time
+  /// pass. Null: none passes.
+  void (*computes_long)(Task&) = nullptr;
   /// Null: durations are used unchanged.
   Durations* durations = nullptr;
   /// The command that repeats this run, for waitpoint_describe_run(); must outlive the run.

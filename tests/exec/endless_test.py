@@ -6,13 +6,12 @@ Programs in which only timers expire; signals to `waitpoint`; loops without call
 
 import os
 import pathlib
-import re
 import signal
 import subprocess
 import time
 import unittest
 
-from exec_case import ExecCase, Summary, WAITPOINT, execute
+from exec_case import BUILD, ExecCase, HERE, Summary, WAITPOINT
 
 
 class Idle(ExecCase):
@@ -149,6 +148,53 @@ class Signals(ExecCase):
                 output, text = running.communicate(timeout=60)
                 self.assertEqual(running.returncode, 130, text)
                 self.assertRegex(text + output, r"  main computes\n      at spin_until_set at \S*until\.c:\d+\n")
+
+
+class Loops(ExecCase):
+    """Without calls, until another thread or a signal's handler sets a flag."""
+
+    def run_until_set(self, program, by, *options):
+        words = [str(word) for word in (WAITPOINT, "exec", *options, "--", program, "spin", by)]
+        return subprocess.run(words, capture_output=True, text=True, timeout=100)
+
+    def instrumented(self, name, *options):
+        program = self.folder / name
+        subprocess.run(["gcc", "-O1", "-g", "-pthread", HERE / "until.c", *options, "-o", program], check=True)
+        return program
+
+    def assertEnds(self, program, *options):
+        for by in "handler", "thread":
+            done = self.run_until_set(program, by, *options)
+            self.assertEqual((done.returncode, done.stdout), (0, "1\n"), done.stderr)
+            self.assertAlmostEqual(Summary(done.stderr).seconds, 1, places=1)
+            self.assertEqual(Summary(done.stderr).digest, Summary(self.run_until_set(program, by, *options).stderr).digest)
+
+    def test_end_where_accesses_to_memory_are_seen(self):
+        if not (BUILD / "libwaitpoint-exec-races.so").exists():
+            self.skipTest("this build has no runtime for -fsanitize=thread")
+        program = self.instrumented("until-accesses", "-fsanitize=thread")
+        self.assertEnds(program)
+        words = [str(word) for word in (WAITPOINT, "explore", "--exec", "--iterations", "5", "--", program, "spin", "handler")]
+        done = subprocess.run(words, capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_end_where_basic_blocks_are_counted(self):
+        library = self.folder / "libblocks.so"
+        subprocess.run(["gcc", "-shared", "-fPIC", "-x", "c", "-", "-o", library], text=True, check=True,
+                       input="void __sanitizer_cov_trace_pc(void) {}")
+        program = self.instrumented("until-blocks", "-fsanitize-coverage=trace-pc", library)
+        self.assertEnds(program)
+        self.assertEnds(program, "--clock", "counted:10")
+
+    def test_are_named_where_nothing_is_seen(self):
+        words = [str(word) for word in (WAITPOINT, "exec", "--", self.compile("until.c", "-g"), "spin", "thread")]
+        with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as running:
+            text = running.stderr.readline() + running.stderr.readline() + running.stderr.readline()
+            running.terminate()
+            running.communicate(timeout=60)
+        self.assertRegex(text, r"waitpoint: thread 'main' has computed for \d+ s, at 0\.0+ s of virtual time, without a "
+                               r"simulated call, at spin_until_set at \S*until\.c:\d+:\n")
+        self.assertIn("-fsanitize=thread or -fsanitize-coverage=trace-pc", text)
 
 
 if __name__ == "__main__":

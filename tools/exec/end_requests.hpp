@@ -32,7 +32,6 @@ class EndRequests {
   pid_t program_;
   int asked_by_ = 0;       ///< the first signal that was passed on
   double asked_at_s_ = 0;  ///< by the wall clock
-  bool has_limit_ = false;
   int ended_by_ = 0;
 };
 

@@ -27,6 +27,7 @@
 #include "fibers/posix/program/randomness.hpp"
 #include "fibers/posix/program/thread_area.hpp"
 #include "fibers/posix/program/waitable.hpp"
+#include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/threads/deadlock.hpp"
 #include "fibers/posix/threads/thread.hpp"
@@ -124,6 +125,7 @@ kernel::Scheduler& begin_run() {
   if (family::is_joined()) scheduler.advance(family::own->next.time);
   scheduler.hooks().deliver_signals = deliver_signals;
   scheduler.hooks().continues_after_cycle = continues_after_cycle;
+  scheduler.hooks().computes_long = spend_for_computing;
   if (asked != nullptr) {
     record->explored = new Explored(scheduler, *asked);
     if (!family::is_joined()) family::family->settings.asked = shared_copy(*asked);

@@ -93,9 +93,11 @@ struct Thread {
   /// the thread begins, and within calls of the kernel, which may show an event to a watch: calls made by that are not
   /// simulated.
   std::uint32_t operations = in_kernel;
-  std::uint32_t batches = 0;            ///< the number of such counts that were not charged yet
-  std::uint32_t looks = 0;              ///< the same as `operations` for readings of clocks and sched_yield()
-  std::uint32_t clock_readings = 0;     ///< since other tasks had a turn
+  std::uint32_t batches = 0;         ///< the number of such counts that were not charged yet
+  std::uint32_t looks = 0;           ///< the same as `operations` for readings of clocks and sched_yield()
+  std::uint32_t clock_readings = 0;  ///< since other tasks had a turn
+  std::uint32_t spins = 0;           ///< batches of accesses to memory without a call, at the instant `spins_at`
+  Time spins_at;
   std::uint32_t futex_mask = 0;         ///< of a wait on a futex: the wake-ups that end it
   SharedFutex* shared_futex = nullptr;  ///< on which it waits, if other processes may wake it
 };

@@ -22,6 +22,10 @@ inline constexpr std::uint32_t clock_readings_at_most = 100;
 inline constexpr Duration cost_of_operation = Duration(std::chrono::nanoseconds(50));
 inline constexpr Duration cost_of_clock_reading = Duration(std::chrono::nanoseconds(50));
 inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microseconds(1));
+/// Of 100 000 accesses to memory, as long as they take: after as many without a call, instrumented code yields.
+inline constexpr Duration cost_of_accesses = Duration(std::chrono::milliseconds(1));
+/// The same for basic blocks.
+inline constexpr Duration cost_of_blocks = Duration(std::chrono::microseconds(200));
 
 /// The running thread computes for `cost`.
 inline void spend(Duration cost) {
@@ -53,6 +57,11 @@ inline void spend_for_operations(Thread& thread) {
   thread.batches = 0;
   spend(cost_of_operation * operations_at_once * batches);
 }
+
+/// The running thread, whose accesses to memory are seen, has made many of them without a call: it may wait for another
+/// thread, or for the handler of a timer's signal. So virtual time passes. While schedules are explored none does until
+/// all others wait; then it goes on to the next event.
+void spend_for_computing(kernel::Task& task);
 
 /// The running thread's waitpoint: returns when its event is the least.
 inline void pass(kernel::Operation operation, kernel::Object* object) {
