@@ -9,6 +9,7 @@ declare -A debian=(
          libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
          libuv1-dev cmake'
+  [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev'
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
   [valgrind]='valgrind'
@@ -24,6 +25,7 @@ declare -A upstream=(
          wanted, Assimp 5.2; for the dynamic world, if wanted, Bullet 3.24 in double precision; for ROS bags, if wanted,
          rosbag_storage and its messages'
   [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake'
+  [ros]='the master of ROS 1, roscpp and std_msgs'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'
   [valgrind]='valgrind'
@@ -35,7 +37,7 @@ declare -A upstream=(
 )
 # Required for every build; all libraries except Google Benchmark and its peers come from subprojects/ if missing.
 declare -A tools=(
-  [run]='meson ninja c++ pkg-config python3' [test]='' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
+  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
   [bench]='' [peers]='' [check]='' [format]='clang-format'
 )
 
