@@ -180,6 +180,10 @@ class Programs(Families):
             program.write_text(BYTE_BY_BYTE)
             self.assertNative(PYTHON, program)
 
+    def test_streams_of_the_c_library_over_sockets(self):
+        run = self.assertNative(self.compile("socket_stream.c"))[0]
+        self.assertEqual(run.output, "7\n14\n21\n")
+
     def test_a_killed_process_holds_up_nobody(self):
         run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")
         self.assertEqual(run.output, "137\n01\n", run.errors)

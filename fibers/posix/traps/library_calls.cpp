@@ -2,20 +2,16 @@
 #include "fibers/posix/traps/library_calls.hpp"
 
 #include <fcntl.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
 #include <linux/futex.h>
-#include <linux/seccomp.h>
 #include <pthread.h>
-#include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <ucontext.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <iterator>
+#include <cstdint>
 
 #include "core/error.hpp"
 #include "fibers/posix/base/direct_call.hpp"
@@ -24,6 +20,7 @@
 #include "fibers/posix/input_output/input_output.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/sync/futex.hpp"
+#include "fibers/posix/traps/call_filter.hpp"
 #include "fibers/posix/traps/library_range.hpp"
 #include "fibers/posix/traps/raw_calls.hpp"
 
@@ -79,24 +76,6 @@ long simulated(long number, const Words& words) {
   return result >= 0 ? result : -errno;
 }
 
-constexpr sock_filter statement(int code, std::uint32_t value) {
-  return {static_cast<std::uint16_t>(code), 0, 0, value};
-}
-constexpr sock_filter jump(int code, std::uint32_t value, std::uint8_t if_so, std::uint8_t if_not) {
-  return {static_cast<std::uint16_t>(code), if_so, if_not, value};
-}
-
-// True if each jump leads to a statement behind it, and the last statement returns.
-template <std::size_t size>
-bool is_closed(const sock_filter (&filter)[size]) {
-  for (std::size_t at = 0; at < size; ++at)
-    if (BPF_CLASS(filter[at].code) == BPF_JMP && at + 1 + std::max(filter[at].jt, filter[at].jf) >= size) return false;
-  return BPF_CLASS(filter[size - 1].code) == BPF_RET;
-}
-
-constexpr std::uint32_t low(std::uintptr_t address) { return static_cast<std::uint32_t>(address); }
-constexpr std::uint32_t high(std::uintptr_t address) { return static_cast<std::uint32_t>(address >> 32); }
-
 // The C library locks a FILE* for each character only once its own pthread_create() has made a second thread.
 void tell_of_threads() {
   pthread_t id = 0;
@@ -105,51 +84,10 @@ void tell_of_threads() {
   if (create(&id, nullptr, nothing, nullptr) == 0) WAITPOINT_NEXT(pthread_join)(id, nullptr);
 }
 
-bool can_be_told_from_others(LibraryRange range) {
-  return range.begin < range.end && high(range.begin) == high(range.end);
-}
-
-/// Of code in a range: the waits on futexes; these, and reading and writing; reading and writing of one descriptor.
-enum class Trapped : std::uint8_t { futexes, futexes_and_streams, stream };
-
-// False if the system does not allow it.
 bool trap(LibraryRange range, Trapped what, std::uint32_t descriptor = 0) {
-  constexpr int load = BPF_LD | BPF_W | BPF_ABS, is = BPF_JMP | BPF_JEQ | BPF_K, is_least = BPF_JMP | BPF_JGE | BPF_K;
-  constexpr std::uint32_t at = offsetof(seccomp_data, instruction_pointer);
-  static_assert(at % sizeof(std::uint32_t) == 0 && sizeof(seccomp_data::instruction_pointer) == 8 &&
-                sizeof(seccomp_data::nr) == 4);
-  WAITPOINT_CHECK(can_be_told_from_others(range), "the filter cannot compare addresses of this range");
-  const bool any_descriptor = what != Trapped::stream;
-  const std::uint32_t waiting = any_descriptor ? SYS_futex : SYS_read;
-  const std::uint32_t reading = what == Trapped::futexes ? SYS_futex : SYS_read;
-  const std::uint32_t writing = what == Trapped::futexes ? SYS_futex : SYS_write;
-  sock_filter filter[] = {
-      statement(load, offsetof(seccomp_data, arch)),
-      jump(is, AUDIT_ARCH_X86_64, 0, 12),
-      statement(load, offsetof(seccomp_data, nr)),
-      jump(is, waiting, 2, 0),
-      jump(is, reading, 1, 0),
-      jump(is, writing, 0, 8),
-      statement(load, offsetof(seccomp_data, args)),
-      any_descriptor ? jump(is_least, 0, 0, 6) : jump(is, descriptor, 0, 6),
-      statement(load, at + 4),
-      jump(is, high(range.begin), 0, 4),
-      statement(load, at),
-      jump(is_least, low(range.begin), 0, 2),
-      jump(is_least, low(range.end), 1, 0),
-      statement(BPF_RET | BPF_K, SECCOMP_RET_TRAP),
-      statement(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
-  };
-  static_assert(std::size(filter) <= BPF_MAXINSNS);
-  WAITPOINT_CHECK(is_closed(filter), "a jump of the filter leads out of it");
-  const sock_fprog program{sizeof filter / sizeof *filter, filter};
   is_trapped = true;
   install(SIGSYS);
-  // Without its privileges a process must first give up to gain any.
-  const auto set = [&program] {
-    return WAITPOINT_NEXT(prctl)(PR_SET_SECCOMP, static_cast<long>(SECCOMP_MODE_FILTER), &program) == 0;
-  };
-  return set() || (WAITPOINT_NEXT(prctl)(PR_SET_NO_NEW_PRIVS, 1L, 0L, 0L, 0L) == 0 && set());
+  return install_filter(range, what, descriptor);
 }
 
 }  // namespace
@@ -167,9 +105,26 @@ void answer_inherited_traps() {
   install(SIGSYS);
 }
 
+namespace {
+
+bool is_socket(int descriptor) {
+  struct stat status {};
+  const ErrorNumberKept kept;
+  return fstat(descriptor, &status) == 0 && S_ISSOCK(status.st_mode);
+}
+
+}  // namespace
+
 void trap_stream(int descriptor) {
   static const LibraryRange range = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
-  if (!is_inside(descriptor)) return;
+  static std::uint64_t trapped[known_descriptors_max / 64];
+  // The other end of a socket outside is mostly a process of the family, too, by the loopback.
+  if (descriptor < 0 || descriptor >= known_descriptors_max || (!is_inside(descriptor) && !is_socket(descriptor)))
+    return;
+  const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
+  std::uint64_t& word = trapped[descriptor / 64];
+  if ((word & bit) != 0) return;
+  word |= bit;
   if (!can_be_told_from_others(range) || !trap(range, Trapped::stream, static_cast<std::uint32_t>(descriptor)))
     end_counting(descriptor);
 }
