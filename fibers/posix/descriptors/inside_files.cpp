@@ -50,7 +50,7 @@ InsideFile* place_of(ino_t inode) {
 // 0 for other files.
 ino_t inode_of(int descriptor) {
   struct stat status {};
-  if (fstat(descriptor, &status) != 0) return 0;
+  if (WAITPOINT_NEXT(fstat)(descriptor, &status) != 0) return 0;
   return S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode) ? status.st_ino : 0;
 }
 

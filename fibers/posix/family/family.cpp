@@ -2,11 +2,14 @@
 #include "fibers/posix/family/family.hpp"
 
 #include <sys/mman.h>
+#include <sys/syscall.h>
+#include <time.h>
 
 #include <cstring>
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix::family {
@@ -32,6 +35,12 @@ Family& memory() {
 }
 
 }  // namespace
+
+std::int64_t date_in_system_ns() {
+  timespec date{};
+  call_directly(SYS_clock_gettime, CLOCK_REALTIME_COARSE, reinterpret_cast<long>(&date));
+  return date.tv_sec * std::int64_t{1'000'000'000} + date.tv_nsec;
+}
 
 void* take(std::size_t bytes) {
   void* const piece = memory().arena.take(bytes);

@@ -23,7 +23,7 @@
 namespace waitpoint::posix::family {
 
 /// The parts of the layer with a state that the processes share.
-enum class Part { names, futexes, semaphores, memory, messages, inside_files, schedule, count };
+enum class Part { names, futexes, semaphores, memory, messages, inside_files, schedule, files, count };
 
 inline constexpr int processes_max = 1024;
 /// The number of the first process; the others count on, with their threads.
@@ -103,8 +103,11 @@ struct Idleness {
   std::uint64_t events = 0;  ///< of threads and timers
 };
 
+/// The date of the system, as it is written to files that are changed now.
+std::int64_t date_in_system_ns();
+
 struct alignas(Arena::alignment) Family {
-  static constexpr std::uint64_t mark_of_version = 0x777066616D303031;  // "wpfam001"
+  static constexpr std::uint64_t mark_of_version = 0x777066616D303032;  // "wpfam002"
   std::uint64_t mark = mark_of_version;
   Settings settings;
   RunFile file;
@@ -116,6 +119,7 @@ struct alignas(Arena::alignment) Family {
   std::uint32_t alive = 0;    ///< number of processes that take turns
   std::uint32_t made = 0;     ///< number of all so far
   std::uint32_t entries = 0;  ///< of the table, that were ever used
+  std::int64_t began_in_system_ns = date_in_system_ns();  ///< files that were changed before are not the run's
   Time first_ended_at;        ///< the end of the first process
   bool is_over = false;       ///< no process can continue: each reports its threads, and ends
   bool is_cut_off = false;    ///< or those left over after the end of the first end without a report

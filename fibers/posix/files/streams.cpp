@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/files/process_paths.hpp"
 #include "fibers/posix/files/random_devices.hpp"
 #include "fibers/posix/files/system_files.hpp"
@@ -21,7 +22,9 @@ WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __re
       only_reads ? open_generated(path, std::strchr(mode, 'e') != nullptr ? O_CLOEXEC : 0) : not_generated;
   if (generated != not_generated) return generated < 0 ? nullptr : WAITPOINT_NEXT(fdopen)(generated, mode);
   const PathInSystem in_system(path);
-  return with_own_bytes(WAITPOINT_NEXT(fopen64)(in_system.get(), mode), mode);
+  FILE* const stream = WAITPOINT_NEXT(fopen64)(in_system.get(), mode);
+  if (stream != nullptr && !only_reads) note_state_of(fileno(stream));
+  return with_own_bytes(stream, mode);
 }
 // Under the C library's name: its header redirects it to the other.
 extern "C" [[gnu::visibility("default"), gnu::alias("fopen64"), gnu::malloc]] FILE* waitpoint_fopen(

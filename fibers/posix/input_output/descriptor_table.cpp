@@ -12,6 +12,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <stdio_ext.h>
 #include <cstdarg>
 #include <cstdio>
 
@@ -21,6 +22,7 @@
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/descriptors/signal_descriptors.hpp"
+#include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/input_output/file_locks.hpp"
 #include "fibers/posix/links/loopback.hpp"
 #include "fibers/posix/links/stream_links.hpp"
@@ -171,6 +173,7 @@ int waitpoint_ioctl(int descriptor, unsigned long request, ...) {
 WAITPOINT_INTERPOSED int close(int descriptor) {
   if (!is_simulated()) return WAITPOINT_NEXT(close)(descriptor);
   pass_cancellation_point();
+  note_state_of(descriptor);
   forget(descriptor);
   const int result = WAITPOINT_NEXT(close)(descriptor);
   look_at_descriptors();
@@ -194,6 +197,10 @@ WAITPOINT_INTERPOSED int fclose(FILE* stream) {
   if (!is_simulated()) return WAITPOINT_NEXT(fclose)(stream);
   pass_cancellation_point();
   const int descriptor = fileno(stream);
+  if (descriptor >= 0 && __fwriting(stream) != 0) {
+    WAITPOINT_NEXT(fflush)(stream);
+    note_state_of(descriptor);
+  }
   const int result = WAITPOINT_NEXT(fclose)(stream);
   if (descriptor >= 0) forget(descriptor);
   look_at_descriptors();

@@ -11,6 +11,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/files/process_paths.hpp"
 #include "fibers/posix/files/system_files.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -67,14 +68,14 @@ bool is_fifo_to_wait_for(int folder, const char* path, int flags) {
   if (!is_simulated() || (flags & (O_NONBLOCK | O_PATH)) != 0 || (flags & O_ACCMODE) == O_RDWR) return false;
   struct stat of {};
   const ErrorNumberKept kept;
-  return fstatat(folder, path, &of, 0) == 0 && S_ISFIFO(of.st_mode);
+  return WAITPOINT_NEXT(fstatat)(folder, path, &of, 0) == 0 && S_ISFIFO(of.st_mode);
 }
 
 int open_fifo(int folder, const char* path, int flags) {
   const CancellationPoint point;
   pass(kernel::Operation::open, nullptr);
   struct stat of {};
-  if (fstatat(folder, path, &of, 0) != 0) return -1;
+  if (WAITPOINT_NEXT(fstatat)(folder, path, &of, 0) != 0) return -1;
   end_counting_of_inode(of.st_ino);
   Opening opening{of.st_dev, of.st_ino, path, folder, flags, -1, false, first_opening};
   const bool reads = (flags & O_ACCMODE) == O_RDONLY;
@@ -120,7 +121,9 @@ int open_at(int folder, const char* path, int flags, va_list more) {
   const PathInSystem in_system(path);
   path = in_system.get();
   if (is_fifo_to_wait_for(folder, path, flags)) return open_fifo(folder, path, flags);
-  return WAITPOINT_NEXT(openat)(folder, path, flags, mode);
+  const int opened = WAITPOINT_NEXT(openat)(folder, path, flags, mode);
+  if (opened >= 0 && (flags & (O_CREAT | O_TRUNC)) != 0) note_state_of(opened);
+  return opened;
 }
 
 }  // namespace

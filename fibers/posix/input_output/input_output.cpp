@@ -48,7 +48,7 @@ DescriptorClass class_of(int descriptor) {
   if (is_counted_pipe(descriptor)) return DescriptorClass::pipe;
   struct stat of {};
   const ErrorNumberKept kept;
-  const bool known = fstat(descriptor, &of) == 0;
+  const bool known = WAITPOINT_NEXT(fstat)(descriptor, &of) == 0;
   if (!known || S_ISREG(of.st_mode) || S_ISDIR(of.st_mode) || S_ISBLK(of.st_mode)) return DescriptorClass::file;
   return S_ISFIFO(of.st_mode)   ? DescriptorClass::pipe
          : S_ISSOCK(of.st_mode) ? DescriptorClass::socket

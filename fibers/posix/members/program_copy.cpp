@@ -29,7 +29,7 @@ class Bytes {
   Bytes(const char* file, LoadError& error) {
     const int descriptor = open(file, O_RDONLY | O_CLOEXEC);
     struct stat of {};
-    if (descriptor < 0 || fstat(descriptor, &of) != 0) {
+    if (descriptor < 0 || WAITPOINT_NEXT(fstat)(descriptor, &of) != 0) {
       std::snprintf(error, sizeof error, "there is no program '%s': %s", file, std::strerror(errno));
     } else if (!S_ISREG(of.st_mode) || of.st_size < static_cast<off_t>(sizeof(Elf64_Ehdr))) {
       std::snprintf(error, sizeof error, "%s is no shared object", file);

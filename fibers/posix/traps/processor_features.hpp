@@ -5,8 +5,8 @@
 
 namespace waitpoint::posix {
 
-/// From now on the instruction is a fault; forked children inherit it. Without an effect in a debugger, which would stop
-/// at each.
+/// From now on the instruction is a fault; forked children inherit it. Without an effect in a debugger, which would
+/// stop at each.
 void trap_processor_features();
 bool are_processor_features_trapped();
 /// In a handler of SIGSEGV: true if it was that instruction, which is done then.

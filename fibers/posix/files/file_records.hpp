@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The inode numbers and times of files, as the processes of the program see them.
+//
+// Inodes are numbered in the order in which the program sees them first; the system reuses its own. A file that the
+// program has changed shows the virtual date at which it did: noted when it makes, truncates and closes the file, at
+// the latest when it looks at it next. Others keep their dates. The time of the last access is that of the last change,
+// as on file systems that do not keep it.
+#pragma once
+
+#include <sys/stat.h>
+
+#include <cstdint>
+
+namespace waitpoint::posix {
+
+struct FileRecord {
+  // The key, of the system. The date of birth tells files apart that had the same inode one after the other.
+  std::uint64_t device, inode;
+  std::int64_t born_ns;
+
+  std::uint64_t number;  ///< of the inode; 0: the record is free
+  // Dates in nanoseconds: those that the program sees once it has changed the file, and the system's at that time.
+  std::int64_t modified_ns, changed_ns, accessed_ns;
+  std::int64_t modified_in_system_ns, changed_in_system_ns;
+};
+
+inline std::int64_t ns_of(const statx_timestamp& date) {
+  return date.tv_sec * std::int64_t{1'000'000'000} + date.tv_nsec;
+}
+/// What statx() is asked for.
+inline constexpr unsigned wanted_of_file = STATX_BASIC_STATS | STATX_BTIME;
+/// As statx() for that. Returns 0 or an error number.
+int ask_system(int folder, const char* path, int flags, struct statx& state);
+
+/// The record of a file in this state, made if it is new, with a change noted that it shows; null without memory.
+FileRecord* look_at(const struct statx& state);
+/// Replaces what the program does not see of the system's state.
+void replace_with_own(struct statx& state);
+/// The program has made or written the file of this descriptor, or is about to close it.
+void note_state_of(int descriptor);
+
+}  // namespace waitpoint::posix
