@@ -31,6 +31,7 @@ static_assert(sizeof(dirent) == sizeof(dirent64) && offsetof(dirent, d_name) == 
 /// The entries of an open directory.
 struct Listing {
   const DIR* directory;
+  std::uint64_t device;
   dirent64** entries;
   long count, room, next;
   Listing* behind;
@@ -56,6 +57,7 @@ bool add(Listing& listing, const dirent64& entry) {
 
 bool add_number(Listing& listing, int number) {
   dirent64 entry{};
+  entry.d_ino = static_cast<ino64_t>(number);
   entry.d_type = DT_DIR;
   std::snprintf(entry.d_name, sizeof entry.d_name, "%d", number);
   return add(listing, entry);
@@ -101,6 +103,8 @@ bool is_before(const dirent64* one, const dirent64* other) {
 
 // 0, or an error number.
 int fill(Listing& listing, DIR* directory) {
+  struct statx state {};
+  if (ask_system(dirfd(directory), "", AT_EMPTY_PATH, state) == 0) listing.device = device_of(state);
   const Numbered numbered = numbers_in(dirfd(directory));
   errno = 0;
   while (const dirent64* const entry = WAITPOINT_NEXT(readdir64)(directory)) {
@@ -145,19 +149,21 @@ Listing* listing_of(DIR* directory) {
   return failed != 0 ? nullptr : made;
 }
 
-std::uint64_t number_of(const DIR* directory, const dirent64& entry) {
+// Of "..", which may be on another device, the folder does not tell.
+std::uint64_t number_in(const Listing& listing, const dirent64& entry) {
+  if (std::strcmp(entry.d_name, "..") != 0) return number_of(listing.device, entry.d_ino);
   struct statx state {};
-  const int error =
-      ask_system(dirfd(const_cast<DIR*>(directory)), entry.d_name, AT_SYMLINK_NOFOLLOW | AT_NO_AUTOMOUNT, state);
+  const int flags = AT_SYMLINK_NOFOLLOW | AT_NO_AUTOMOUNT;
+  const int error = ask_system(dirfd(const_cast<DIR*>(listing.directory)), entry.d_name, flags, state);
   const FileRecord* const file = error == 0 ? look_at(state) : nullptr;
-  return file != nullptr ? file->number : entry.d_ino;
+  return file != nullptr ? file->number : 0;
 }
 
 dirent64* next_entry(DIR* directory) {
   Listing* const listing = listing_of(directory);
   if (listing == nullptr || listing->next >= listing->count) return nullptr;
   dirent64& entry = *listing->entries[listing->next++];
-  entry.d_ino = number_of(directory, entry);
+  if (const std::uint64_t number = number_in(*listing, entry); number != 0) entry.d_ino = number;
   entry.d_off = listing->next;
   return &entry;
 }

@@ -14,8 +14,8 @@
 namespace waitpoint::posix {
 
 struct FileRecord {
-  // The key, of the system. The date of birth tells files apart that had the same inode one after the other.
-  std::uint64_t device, inode;
+  std::uint64_t device, inode;  ///< the key, of the system
+  /// The date of birth tells files apart that had the same inode one after the other; 0: it is not known.
   std::int64_t born_ns;
 
   std::uint64_t number;  ///< of the inode; 0: the record is free
@@ -34,9 +34,15 @@ int ask_system(int folder, const char* path, int flags, struct statx& state);
 
 /// The record of a file in this state, made if it is new, with a change noted that it shows; null without memory.
 FileRecord* look_at(const struct statx& state);
+/// The number of an inode that the program finds in a folder; 0 without memory.
+std::uint64_t number_of(std::uint64_t device, std::uint64_t inode);
+/// The first argument of number_of().
+std::uint64_t device_of(const struct statx& state);
 /// Replaces what the program does not see of the system's state.
 void replace_with_own(struct statx& state);
-/// The program has made or written the file of this descriptor, or is about to close it.
-void note_state_of(int descriptor);
+/// The program has opened a file for writing, and may have made or truncated it.
+void note_opened(int descriptor);
+/// It is about to close a file; without an effect if it was not opened for writing.
+void note_closing(int descriptor);
 
 }  // namespace waitpoint::posix

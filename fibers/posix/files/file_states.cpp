@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
@@ -44,10 +45,11 @@ void convert(const struct statx& from, struct stat64& to) {
 int look_up(int folder, const char* path, int flags, struct stat64* state) {
   if (!is_simulated()) return WAITPOINT_NEXT(fstatat64)(folder, path, state, flags);
   if (!can_be_written(state)) return fail(EFAULT);
-  const PathInSystem in_system(path);
   struct statx found {};
-  if (const int error = ask_system(folder, in_system.get(), flags | AT_NO_AUTOMOUNT, found); error != 0)
-    return fail(error);
+  int error = ask_system(folder, path, flags | AT_NO_AUTOMOUNT, found);
+  if (error != EFAULT && std::strncmp(path, "/proc/", 6) == 0)
+    error = ask_system(folder, PathInSystem(path).get(), flags | AT_NO_AUTOMOUNT, found);
+  if (error != 0) return fail(error);
   replace_with_own(found);
   convert(found, *state);
   return 0;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "fibers/posix/base/argument_memory.hpp"
@@ -28,6 +29,10 @@ void write_own_link(const char* path, const char* system, char (&own)[64]) {
   const auto id = static_cast<int>(family::own->id);
   if (std::strcmp(path, "/proc/self") == 0) std::snprintf(own, sizeof own, "%d", id);
   if (std::strcmp(path, "/proc/thread-self") == 0) std::snprintf(own, sizeof own, "%d/task/%d", id, this_thread().id);
+  // A link to a folder of the own process.
+  char* behind = nullptr;
+  if (std::strncmp(system, "/proc/", 6) == 0 && std::strtol(system + 6, &behind, 10) == family::own->real_id.load())
+    std::snprintf(own, sizeof own, "/proc/%d%.40s", id, behind);
   const char* const colon = std::strstr(system, ":[");
   if (colon == nullptr || (std::strncmp(system, "pipe", 4) != 0 && std::strncmp(system, "socket", 6) != 0)) return;
   struct statx state {};
@@ -39,8 +44,8 @@ void write_own_link(const char* path, const char* system, char (&own)[64]) {
 }
 
 ssize_t read_link(int folder, const char* path, char* text, std::size_t size) {
-  const ProcessPath process(path);
-  if (process.process == nullptr) return WAITPOINT_NEXT(readlinkat)(folder, path, text, size);
+  if (!is_simulated() || !is_in_proc(path) || ProcessPath(path).process == nullptr)
+    return WAITPOINT_NEXT(readlinkat)(folder, path, text, size);
   const PathInSystem in_system(path);
   char system[PATH_MAX + 1], own[64];
   const ssize_t length = WAITPOINT_NEXT(readlinkat)(folder, in_system.get(), system, sizeof system - 1);

@@ -31,14 +31,14 @@ long leading_number(const char* path, const char*& behind) {
   return (*end == '\0' || *end == '/') && number <= INT_MAX ? number : 0;
 }
 
-bool is_path(const char* path) {
+}  // namespace
+
+bool is_in_proc(const char* path) {
   return path != nullptr && can_be_read(path) && std::strncmp(path, folder, folder_length) == 0;
 }
 
-}  // namespace
-
 ProcessPath::ProcessPath(const char* path) {
-  if (!is_simulated() || family::own == nullptr || !is_path(path)) return;
+  if (!is_simulated() || family::own == nullptr || std::strncmp(path, folder, folder_length) != 0) return;
   const char* const at = path + folder_length;
   for (const char* const word : {"self", "thread-self"})
     if (const char* const behind = behind_part(at, word); behind != nullptr) {
@@ -60,6 +60,7 @@ ProcessPath::ProcessPath(const char* path) {
 }
 
 PathInSystem::PathInSystem(const char* path) : path_(path) {
+  if (!is_simulated() || !is_in_proc(path)) return;
   const ProcessPath found(path);
   if (found.process == nullptr || !found.is_by_number) return;
   const int size = std::snprintf(changed_, sizeof changed_, "%s%d%s", folder,

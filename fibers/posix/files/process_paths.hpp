@@ -8,9 +8,12 @@
 
 namespace waitpoint::posix {
 
+/// True for a path in /proc; false for one that cannot be read. A system call.
+bool is_in_proc(const char* path);
+
 /// A path in the folder of a process of the family.
 struct ProcessPath {
-  /// Of "/proc/self/stat", "/proc/1002/stat", "/proc/self/task/1003/stat" and the like.
+  /// Of "/proc/self/stat", "/proc/1002/stat", "/proc/self/task/1003/stat" and the like; it must be readable.
   explicit ProcessPath(const char* path);
 
   const family::Process* process = nullptr;  ///< null for other paths

@@ -18,12 +18,13 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __restrict mode) {
   if (!is_simulated()) return WAITPOINT_NEXT(fopen64)(path, mode);
   const bool only_reads = mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
-  const int generated =
-      only_reads ? open_generated(path, std::strchr(mode, 'e') != nullptr ? O_CLOEXEC : 0) : not_generated;
+  const int generated = only_reads && is_in_proc(path)
+                            ? open_generated(path, std::strchr(mode, 'e') != nullptr ? O_CLOEXEC : 0)
+                            : not_generated;
   if (generated != not_generated) return generated < 0 ? nullptr : WAITPOINT_NEXT(fdopen)(generated, mode);
   const PathInSystem in_system(path);
   FILE* const stream = WAITPOINT_NEXT(fopen64)(in_system.get(), mode);
-  if (stream != nullptr && !only_reads) note_state_of(fileno(stream));
+  if (stream != nullptr && !only_reads) note_opened(fileno(stream));
   return with_own_bytes(stream, mode);
 }
 // Under the C library's name: its header redirects it to the other.

@@ -7,7 +7,8 @@ namespace waitpoint::posix {
 
 inline constexpr int not_generated = -2;
 
-/// Opens the text in place of the file of this path; as open(). `not_generated` for files that are the system's.
+/// Opens the text in place of the file of this path in /proc; as open(). `not_generated` for files that are the
+/// system's.
 int open_generated(const char* path, int flags);
 
 }  // namespace waitpoint::posix

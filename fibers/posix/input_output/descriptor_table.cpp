@@ -173,7 +173,7 @@ int waitpoint_ioctl(int descriptor, unsigned long request, ...) {
 WAITPOINT_INTERPOSED int close(int descriptor) {
   if (!is_simulated()) return WAITPOINT_NEXT(close)(descriptor);
   pass_cancellation_point();
-  note_state_of(descriptor);
+  note_closing(descriptor);
   forget(descriptor);
   const int result = WAITPOINT_NEXT(close)(descriptor);
   look_at_descriptors();
@@ -199,7 +199,7 @@ WAITPOINT_INTERPOSED int fclose(FILE* stream) {
   const int descriptor = fileno(stream);
   if (descriptor >= 0 && __fwriting(stream) != 0) {
     WAITPOINT_NEXT(fflush)(stream);
-    note_state_of(descriptor);
+    note_closing(descriptor);
   }
   const int result = WAITPOINT_NEXT(fclose)(stream);
   if (descriptor >= 0) forget(descriptor);

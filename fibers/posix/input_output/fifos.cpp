@@ -117,12 +117,14 @@ mode_t mode_of(int flags, va_list more) {
 int open_at(int folder, const char* path, int flags, va_list more) {
   const mode_t mode = mode_of(flags, more);
   pass_cancellation_point();
-  if (const int generated = open_generated(path, flags); generated != not_generated) return generated;
-  const PathInSystem in_system(path);
-  path = in_system.get();
+  if (is_simulated() && is_in_proc(path)) {
+    const int generated = open_generated(path, flags);
+    return generated != not_generated ? generated
+                                      : WAITPOINT_NEXT(openat)(folder, PathInSystem(path).get(), flags, mode);
+  }
   if (is_fifo_to_wait_for(folder, path, flags)) return open_fifo(folder, path, flags);
   const int opened = WAITPOINT_NEXT(openat)(folder, path, flags, mode);
-  if (opened >= 0 && (flags & (O_CREAT | O_TRUNC)) != 0) note_state_of(opened);
+  if (opened >= 0 && (flags & O_ACCMODE) != O_RDONLY) note_opened(opened);
   return opened;
 }
 
