@@ -2,6 +2,7 @@
 // The arguments of a system call made by number, as words, and calls of functions with them.
 #pragma once
 
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -47,6 +48,8 @@ struct CallWords {
 /// The call as syscall() makes it: simulated, or the system's; -1 with errno set if it fails.
 long simulated_call(long number, const CallWords& words);
 
+/// System calls about the state of files, by number; nullopt for others.
+std::optional<long> call_about_files(long number, const CallWords& words);
 /// System calls that take signal sets with their size, by number.
 long call_about_signals(long number, const CallWords& words);
 

@@ -257,7 +257,7 @@ std::optional<long> call_about_sockets(long number, const CallWords& words) {
 long simulated_call(long number, const CallWords& words) {
   const CancellationDisabled disabled;
   for (const auto about : {call_about_threads, call_about_scheduling, call_about_time, call_about_ipc,
-                           call_about_processes, call_about_descriptors, call_about_sockets})
+                           call_about_processes, call_about_descriptors, call_about_sockets, call_about_files})
     if (const std::optional<long> result = about(number, words)) return *result;
   return call_system(number, words);
 }

@@ -3,6 +3,7 @@
 #include "tests/exec/conformance/harness.h"
 
 #include <cpuid.h>
+#include <dirent.h>
 #include <dlfcn.h>
 #include <elf.h>
 #include <fcntl.h>
@@ -11,6 +12,7 @@
 #include <signal.h>
 #include <sys/auxv.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 
@@ -144,6 +146,28 @@ CASE(other_functions_of_the_c_library_are_found_there) {
   EXPECT_IS(((long (*)(const char*, char**, int))dlsym(library, "strtol"))("17", NULL, 10), 17);
   EXPECT(dlsym(library, "no_function_of_this_name") == NULL);
   EXPECT(dlerror() != NULL);
+}
+
+CASE(files_are_those_of_the_functions) {
+  struct stat by_function, raw_state;
+  char bytes[4096], link[20] = {0};
+  EXPECT_IS(stat("/", &by_function), 0);
+  EXPECT_IS(raw(SYS_stat, (long)"/", (long)&raw_state, 0, 0), 0);
+  EXPECT_IS(raw_state.st_ino, by_function.st_ino);
+  EXPECT_IS(raw(SYS_newfstatat, AT_FDCWD, (long)"/", (long)&raw_state, 0), 0);
+  EXPECT_IS(raw_state.st_ino, by_function.st_ino);
+  EXPECT_IS(raw(SYS_readlink, (long)"/proc/self", (long)link, sizeof link, 0),
+            snprintf(bytes, sizeof bytes, "%d", getpid()));
+  EXPECT_IS(atoi(link), getpid());
+  EXPECT_IS(raw(SYS_stat, 8, (long)&raw_state, 0, 0), -EFAULT);
+  EXPECT_IS(raw(SYS_stat, (long)"/", 8, 0, 0), -EFAULT);
+  const int folder = (int)raw(SYS_openat, AT_FDCWD, (long)"/", O_RDONLY | O_DIRECTORY, 0);
+  const long size = raw(SYS_getdents64, folder, (long)bytes, sizeof bytes, 0);
+  EXPECT(size > 0);
+  for (long at = 0; at < size; at += ((struct dirent*)(bytes + at))->d_reclen) {
+    const struct dirent* const entry = (struct dirent*)(bytes + at);
+    if (strcmp(entry->d_name, ".") == 0) EXPECT_IS(entry->d_ino, by_function.st_ino);
+  }
 }
 
 // A function of the image that the system maps into each process; null without it.
