@@ -25,7 +25,8 @@ ExecArguments::ExecArguments(CommandLine& line)
   command_.takes_program();
   command_.flag("--quiet", quiet_, "print no summary line, unless the run failed");
   command_.footer(
-      "Several programs in one process, built as shared objects: exec -- a.so ARGUMENTS :: NAME=b.so ARGUMENTS\n"
+      "Several programs in one simulation: exec -- NAME=a ARGUMENTS :: after:NAME b ARGUMENTS\n"
+      "(after:NAME its end, after:NAME.started, after:tcp:PORT, after:PATH: what its start waits for)\n"
       "Exit status: the program's own; 124: deadlock; 125: the program cannot be run; with --seeds 1: a seed failed.\n"
       "Data races (of programs compiled with -fsanitize=thread) are reported and do not affect the status; waitpoint\n"
       "explore --exec counts them as failures.");

@@ -35,7 +35,9 @@ std::string name_of_file(const std::string& file) {
 session::StartCondition condition_of(const std::string& text) {
   session::StartCondition condition;
   if (!session::parse(text, condition))
-    throw BadInput("exec", "expected after:NAME, after:NAME.started, after:tcp:PORT or after:PATH with a '/', got 'after:" + text + "'");
+    throw BadInput(
+        "exec",
+        "expected after:NAME, after:NAME.started, after:tcp:PORT or after:PATH with a '/', got 'after:" + text + "'");
   return condition;
 }
 
@@ -72,8 +74,8 @@ void ProgramList::read(const std::vector<std::string>& words) {
       program.is_named = true;
       file.erase(0, letters + 1);
     } else {
-      program.name = is_session_ || is_shared_object(file) ? name_of_file(file)
-                                                           : std::filesystem::path(file).filename().string();
+      program.name =
+          is_session_ || is_shared_object(file) ? name_of_file(file) : std::filesystem::path(file).filename().string();
     }
   }
 }

@@ -48,8 +48,7 @@ std::vector<Program> programs_of(char** words) {
     Program& program = programs.emplace_back();
     program.name = *words++;
     program.place = std::atoi(*words++);
-    for (; std::strcmp(*words, "--") != 0; ++words)
-      parse(*words + after.size(), program.conditions.emplace_back());
+    for (; std::strcmp(*words, "--") != 0; ++words) parse(*words + after.size(), program.conditions.emplace_back());
     for (++words; *words != nullptr && std::strcmp(*words, "::") != 0; ++words) program.words.push_back(*words);
     program.words.push_back(nullptr);
     if (*words != nullptr) ++words;
@@ -168,7 +167,6 @@ int main(int argc, char** argv) {
   Session session(programs_of(argv + (is_quiet ? 2 : 1)));
   session.run();
   std::fflush(stdout);
-  if (!is_quiet || session.status() != 0)
-    std::fprintf(stderr, "waitpoint: exit status: %s\n", session.ends().c_str());
+  if (!is_quiet || session.status() != 0) std::fprintf(stderr, "waitpoint: exit status: %s\n", session.ends().c_str());
   return session.status();
 }

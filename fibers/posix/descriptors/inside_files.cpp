@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/family/family.hpp"
 
 namespace waitpoint::posix {

@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fibers/posix/descriptors/owners.hpp"
+
 namespace waitpoint::posix {
 
 /// A pipe or a socket inside, in the family's memory.
@@ -33,9 +35,6 @@ inline bool is_ready(const InsideFile& pipe, short events) {
 /// After bytes were written or read; null: to or from a pipe that is not counted.
 void note_written(InsideFile* pipe, std::size_t bytes);
 void note_read(InsideFile* pipe, std::size_t bytes);
-
-/// Descriptors from this number on count as outside.
-inline constexpr int known_descriptors_max = 65536;
 
 /// Inside: made by this program for itself, or a duplicate of such a descriptor. Not inside: closed, or shared.
 void note_inside(int descriptor, bool inside);

@@ -2,7 +2,6 @@
 #include "fibers/posix/descriptors/owners.hpp"
 
 #include "core/error.hpp"
-#include "fibers/posix/descriptors/inside_files.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {

@@ -6,6 +6,9 @@ namespace waitpoint::posix {
 
 struct Program;
 
+/// Descriptors from this number on count as outside, and have no owner.
+inline constexpr int known_descriptors_max = 65536;
+
 /// Makes the running program the owner, if it is one of several in the process.
 void note_owner(int descriptor);
 /// The descriptor has no owner from now on; numbers out of range are ignored.

@@ -89,12 +89,13 @@ void Explored::begin(const Asked& asked) {
 
 void Explored::watch(kernel::Scheduler& scheduler, const Asked& asked) {
   if (asked.decision != Asked::none) narrator.ask_for(asked.decision);
+  const auto begin_in_process = [] { record->explored->continue_in_process(*record->settings.asked); };
   if (asked.stops)
-    processes.emplace(scheduler, explorer, stop_.emplace(scheduler, explorer, asked.stop_before));
+    processes.emplace(scheduler, explorer, stop_.emplace(scheduler, explorer, asked.stop_before), begin_in_process);
   else if (asked.words || asked.decision != Asked::none)
-    processes.emplace(scheduler, explorer, narrator);
+    processes.emplace(scheduler, explorer, narrator, begin_in_process);
   else
-    processes.emplace(scheduler, explorer, explorer);
+    processes.emplace(scheduler, explorer, explorer, begin_in_process);
   scheduler.set_decisions(*processes);
   if (asked.profile)
     scheduler.set_watch(&profiling_.emplace(profile));

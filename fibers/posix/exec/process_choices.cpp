@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "fibers/posix/exec/exploration.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -94,7 +93,7 @@ Process* ProcessChoices::choose(bool can_stay) {
 std::uint32_t ProcessChoices::next(kernel::Task* const* ready, std::uint32_t count) {
   if (process_ != family::own->id) {
     process_ = family::own->id;
-    if (!family::is_first()) record->explored->continue_in_process(*record->settings.asked);
+    if (!family::is_first()) begin_in_process_();
   }
   if (family::has_others() && !std::exchange(family::own->is_chosen, false)) {
     if (Process* const process = choose(true); process != family::own) {

@@ -29,8 +29,10 @@ struct SharedSchedule {
 /// Sits between the kernel and the process's `decisions`, which record their choices in `explorer`.
 class ProcessChoices final : public kernel::Decisions {
  public:
-  ProcessChoices(kernel::Scheduler& scheduler, exploration::Explorer& explorer, kernel::Decisions& decisions)
-      : scheduler_(scheduler), explorer_(explorer), decisions_(decisions) {}
+  /// `begin_in_process` is called in each other process than the first, before its first choice.
+  ProcessChoices(kernel::Scheduler& scheduler, exploration::Explorer& explorer, kernel::Decisions& decisions,
+                 void (*begin_in_process)())
+      : scheduler_(scheduler), explorer_(explorer), decisions_(decisions), begin_in_process_(begin_in_process) {}
 
   std::uint32_t next(kernel::Task* const* ready, std::uint32_t count) override;
   std::uint32_t among(kernel::Choice choice, const kernel::Task& task, std::uint32_t count) override;
@@ -46,6 +48,7 @@ class ProcessChoices final : public kernel::Decisions {
   kernel::Scheduler& scheduler_;
   exploration::Explorer& explorer_;
   kernel::Decisions& decisions_;
+  void (*begin_in_process_)();
   family::Process* chosen_ = nullptr;
   pid_t process_ = 0;  // the one that the strategy has begun in
 };

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/processes.hpp"
+#include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
@@ -71,6 +72,8 @@ void begin_anew() {
   const Settings settings = record->settings;
   const RunFile file = record->file;
   const Arena arena = record->arena;
+  // Only the first process's are in its record.
+  if (family::is_joined() && family::is_first()) family::keep_digest_of(*family::own, record->robot.digest);
   new (record) Record();
   record->settings = settings;
   record->file = file;

@@ -70,6 +70,7 @@ struct Process {
   kernel::EventKey next = kernel::EventKey::never();  ///< the key of its least event, while another has the turn
   std::atomic<std::uint32_t> has_turn = 0;            ///< a futex
   Changes listens_to = 0;                             ///< its threads wait for them
+  bool executes = false;                              ///< another program, and keeps the turn
   bool is_chosen = false;                             ///< by the strategy: it executes the next event
   bool is_rung = false;                               ///< one of them did something since, first at `rung_at`
   Time rung_at;
@@ -88,11 +89,11 @@ struct Process {
 };
 
 /// What the process adds to the family's digest, whether it has ended or not: a sum, as they end in any order.
-inline std::uint64_t share_of_digest(const Process& process) {
-  if (process.digest.pairs() == 0) return 0;
+inline std::uint64_t share_of_digest(pid_t process, const PairDigest& digest) {
+  if (digest.pairs() == 0) return 0;
   Digest of_one;
-  of_one.add(static_cast<std::uint64_t>(process.id));
-  of_one.add(process.digest.value());
+  of_one.add(static_cast<std::uint64_t>(process));
+  of_one.add(digest.value());
   return of_one.value();
 }
 
@@ -116,14 +117,14 @@ struct alignas(Arena::alignment) Family {
   Time now;                   ///< of the event now executing
   std::uint64_t actions = 0;  ///< grows whenever a thread of any process has run, and when a process ends
   pid_t last_id = first_id - 1;
-  std::uint32_t alive = 0;    ///< number of processes that take turns
-  std::uint32_t made = 0;     ///< number of all so far
-  std::uint32_t entries = 0;  ///< of the table, that were ever used
+  std::uint32_t alive = 0;                                ///< number of processes that take turns
+  std::uint32_t made = 0;                                 ///< number of all so far
+  std::uint32_t entries = 0;                              ///< of the table, that were ever used
   std::int64_t began_in_system_ns = date_in_system_ns();  ///< files that were changed before are not the run's
-  Time first_ended_at;        ///< the end of the first process
-  bool is_over = false;       ///< no process can continue: each reports its threads, and ends
-  bool is_cut_off = false;    ///< or those left over after the end of the first end without a report
-  bool is_idle = false;       ///< or the idle limit was reached: each reports its threads
+  Time first_ended_at;                                    ///< the end of the first process
+  bool is_over = false;     ///< no process can continue: each reports its threads, and ends
+  bool is_cut_off = false;  ///< or those left over after the end of the first end without a report
+  bool is_idle = false;     ///< or the idle limit was reached: each reports its threads
   bool is_reported = false;
   std::atomic<std::uint32_t> holder = 0;  ///< the index of the process that has the turn
   std::atomic<pid_t> leaving = 0;  ///< the system's number of a process that has ended, as far as its own code goes

@@ -28,8 +28,7 @@ bool is_alive(const Process& process) { return is_listed(process) && process.sta
 
 // Its digest, while the process may still be in the table.
 void count_digest(Process& process) {
-  family->digest_of_ended += share_of_digest(process);
-  family->events_of_ended += process.digest.pairs();
+  keep_digest_of(process, process.digest);
   process.digest = PairDigest();
 }
 
@@ -91,6 +90,11 @@ Process* add() {
   ++family->made;
   ++family->alive;
   return &made;
+}
+
+void keep_digest_of(const Process& process, const PairDigest& digest) {
+  family->digest_of_ended += share_of_digest(process.id, digest);
+  family->events_of_ended += digest.pairs();
 }
 
 void set_native(Process& process, bool is_native) {

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <ctime>
+#include <utility>
 
 #include "core/error.hpp"
 #include "fibers/posix/base/direct_call.hpp"
@@ -86,7 +87,7 @@ void join(int index) {
   own = &family->processes[index];
   own->real_id = system_id();
   is_joined_ = true;
-  if (family->holder.load() != static_cast<std::uint32_t>(index)) await_turn();
+  if (!std::exchange(own->executes, false)) await_turn();
   own->borrows = false;
   ring(of_anything);
 }

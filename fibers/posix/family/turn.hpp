@@ -27,8 +27,8 @@ void begin_as_child(Process& child);
 /// After a window: hands over the turn if the least event is another process's, and returns when the turn has come
 /// back. False if the least event is its own, or nobody has one.
 bool hand_over_if_due(kernel::Scheduler& scheduler);
-/// Hands over the turn to this process, which a strategy has chosen or which waits for something outside; returns when it
-/// has come back.
+/// Hands over the turn to this process, which a strategy has chosen or which waits for something outside; returns when
+/// it has come back.
 void hand_over_to(kernel::Scheduler& scheduler, Process& process);
 /// True if other processes rang; then the run is at the present instant of the family.
 bool take_ring(kernel::Scheduler& scheduler);

@@ -120,11 +120,13 @@ int execute(const char* path, char* const* environment, Call call) {
   const StartEnvironment started(environment, simulated ? family::own : nullptr);
   family::own->next.time = kernel::running->local_time;
   if (!simulated && family::has_others()) family::let_execute_natively(true);
+  family::own->executes = simulated;
   int result = 0;
   {
     const RealMask mask;
     result = call(started.get());
   }
+  family::own->executes = false;
   const ErrorNumberKept kept;
   if (family::own->is_native) family::let_execute_natively(false);
   return result;
