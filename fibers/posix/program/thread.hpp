@@ -94,6 +94,7 @@ struct Thread {
   /// simulated.
   std::uint32_t operations = in_kernel;
   std::uint32_t batches = 0;         ///< the number of such counts that were not charged yet
+  std::uint32_t comparisons = 0;     ///< of threads' ids, since it was last charged for them
   std::uint32_t looks = 0;           ///< the same as `operations` for readings of clocks and sched_yield()
   std::uint32_t clock_readings = 0;  ///< since other tasks had a turn
   std::uint32_t spins = 0;           ///< batches of accesses to memory without a call, at the instant `spins_at`

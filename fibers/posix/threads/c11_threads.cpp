@@ -43,6 +43,7 @@ WAITPOINT_INTERPOSED int thrd_join(thrd_t id, int* result) {
   if (error == 0 && result != nullptr) *result = static_cast<int>(reinterpret_cast<std::intptr_t>(value));
   return c11(error);
 }
+WAITPOINT_INTERPOSED int thrd_equal(thrd_t one, thrd_t other) { return pthread_equal(one, other); }
 WAITPOINT_INTERPOSED int thrd_detach(thrd_t id) { return c11(pthread_detach(id)); }
 WAITPOINT_INTERPOSED void thrd_exit(int result) {
   pthread_exit(reinterpret_cast<void*>(static_cast<std::intptr_t>(result)));

@@ -406,6 +406,16 @@ WAITPOINT_INTERPOSED int pthread_timedjoin_np(pthread_t id, void** result, const
   return pthread_clockjoin_np(id, result, CLOCK_REALTIME, deadline);
 }
 
+// A loop of comparisons must end, where another thread changes what is compared.
+WAITPOINT_INTERPOSED int pthread_equal(pthread_t one, pthread_t other) noexcept {
+  if (is_simulated() && ++this_thread().comparisons >= operations_at_once) {
+    this_thread().comparisons = 0;
+    spend(cost_of_operation * operations_at_once);
+    pass(kernel::Operation::poll, nullptr);
+  }
+  return one == other ? 1 : 0;
+}
+
 WAITPOINT_INTERPOSED int pthread_detach(pthread_t id) noexcept {
   Thread* const thread = find(id);
   if (thread == nullptr) return ESRCH;

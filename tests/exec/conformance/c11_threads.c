@@ -250,3 +250,19 @@ CASE(tss_keys_run_out) {
   while ((result = tss_create(&key, NULL)) == thrd_success && made < 5000) ++made;
   EXPECT_IS(result, thrd_error);
 }
+
+static thrd_t current;
+static int change_current(void* unused) {
+  (void)unused;
+  current = thrd_current();
+  return 0;
+}
+CASE(a_loop_of_comparisons_ends) {
+  int (*volatile equal)(thrd_t, thrd_t) = thrd_equal;
+  thrd_t id;
+  current = thrd_current();
+  EXPECT_IS(thrd_create(&id, change_current, NULL), thrd_success);
+  while (equal(*(volatile thrd_t*)&current, thrd_current())) continue;
+  EXPECT(equal(current, id));
+  EXPECT_IS(thrd_join(id, NULL), thrd_success);
+}

@@ -240,3 +240,18 @@ CASE(errno_is_each_threads_own) {
   join(b);
   EXPECT_IS(errno, EDOM);
 }
+
+// The function: the header has it inline.
+static pthread_t current;
+static void* change_id(void* unused) {
+  current = pthread_self();
+  return unused;
+}
+CASE(a_loop_of_comparisons_ends) {
+  int (*volatile equal)(pthread_t, pthread_t) = pthread_equal;
+  current = pthread_self();
+  const pthread_t id = start(change_id, NULL);
+  while (equal(*(volatile pthread_t*)&current, pthread_self())) continue;
+  EXPECT(equal(current, id));
+  join(id);
+}
