@@ -2,7 +2,7 @@
 #include "fibers/posix/program/processor_timers.hpp"
 
 #include "core/error.hpp"
-#include "fibers/posix/program/computing.hpp"
+#include "fibers/posix/program/computing_watch.hpp"
 
 namespace waitpoint::posix {
 

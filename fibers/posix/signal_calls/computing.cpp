@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/program/computing.hpp"
+#include "fibers/posix/program/computing_watch.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/signals/signals.hpp"

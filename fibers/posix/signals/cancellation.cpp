@@ -4,7 +4,7 @@
 #include <cerrno>
 
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/program/computing.hpp"
+#include "fibers/posix/program/computing_watch.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {

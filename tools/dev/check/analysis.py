@@ -29,6 +29,15 @@ rule analyse
 """
 
 
+# Options of g++ that clang-tidy does not know, and that do not affect parsing.
+UNKNOWN_TO_CLANG = {"-fno-enforce-eh-specs"}
+
+
+def known_to_clang(entry):
+    words = [word for word in shlex.split(entry["command"]) if word not in UNKNOWN_TO_CLANG]
+    return {**entry, "command": shlex.join(words)}
+
+
 def flags(entry):
     """The compiler and the flags that affect parsing."""
     words = iter(shlex.split(entry["command"]))
@@ -82,7 +91,7 @@ def main():
     for source, entry in database:
         if wanted is not None and str(source.with_suffix("")) not in wanted:
             continue
-        first.setdefault(source, entry)
+        first.setdefault(source, known_to_clang(entry))
     folder, settings = build / "analysis", os.path.relpath(ROOT / ".clang-tidy", build)
     folder.mkdir(exist_ok=True)
     (folder / "compile_commands.json").write_text(json.dumps(list(first.values())))
