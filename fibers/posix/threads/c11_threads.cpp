@@ -43,7 +43,8 @@ WAITPOINT_INTERPOSED int thrd_join(thrd_t id, int* result) {
   if (error == 0 && result != nullptr) *result = static_cast<int>(reinterpret_cast<std::intptr_t>(value));
   return c11(error);
 }
-WAITPOINT_INTERPOSED int thrd_equal(thrd_t one, thrd_t other) { return pthread_equal(one, other); }
+extern "C" [[gnu::visibility("default")]] int waitpoint_thrd_equal(thrd_t one, thrd_t other) __asm__("thrd_equal");
+int waitpoint_thrd_equal(thrd_t one, thrd_t other) { return are_equal(one, other) ? 1 : 0; }
 WAITPOINT_INTERPOSED int thrd_detach(thrd_t id) { return c11(pthread_detach(id)); }
 WAITPOINT_INTERPOSED void thrd_exit(int result) {
   pthread_exit(reinterpret_cast<void*>(static_cast<std::intptr_t>(result)));

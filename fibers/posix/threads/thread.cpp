@@ -329,6 +329,15 @@ void end_running_thread() {
   scheduler.end_running_task();
 }
 
+bool are_equal(pthread_t one, pthread_t other) {
+  if (is_simulated() && ++this_thread().comparisons >= operations_at_once) {
+    this_thread().comparisons = 0;
+    spend(cost_of_operation * operations_at_once);
+    pass(kernel::Operation::poll, nullptr);
+  }
+  return one == other;
+}
+
 namespace {
 
 // Scope of a wait for the end of a thread; a handler may leave it by pthread_exit().
@@ -406,15 +415,10 @@ WAITPOINT_INTERPOSED int pthread_timedjoin_np(pthread_t id, void** result, const
   return pthread_clockjoin_np(id, result, CLOCK_REALTIME, deadline);
 }
 
-// A loop of comparisons must end, where another thread changes what is compared.
-WAITPOINT_INTERPOSED int pthread_equal(pthread_t one, pthread_t other) noexcept {
-  if (is_simulated() && ++this_thread().comparisons >= operations_at_once) {
-    this_thread().comparisons = 0;
-    spend(cost_of_operation * operations_at_once);
-    pass(kernel::Operation::poll, nullptr);
-  }
-  return one == other ? 1 : 0;
-}
+// The header may define the name inline, so it is given to the assembler.
+extern "C" [[gnu::visibility("default")]] int waitpoint_pthread_equal(pthread_t one, pthread_t other) noexcept
+    __asm__("pthread_equal");
+int waitpoint_pthread_equal(pthread_t one, pthread_t other) noexcept { return are_equal(one, other) ? 1 : 0; }
 
 WAITPOINT_INTERPOSED int pthread_detach(pthread_t id) noexcept {
   Thread* const thread = find(id);
