@@ -40,6 +40,7 @@ OWN_CASES = {
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],
     "exec, the command": [sys.executable, str(ROOT / "tests/exec/command_test.py"), BUILD],
     "exec, endless runs": [sys.executable, str(ROOT / "tests/exec/endless_test.py"), BUILD],
+    "exec, partners": [sys.executable, str(ROOT / "tests/exec/partners_test.py"), BUILD],
     "exec, families": [sys.executable, str(ROOT / "tests/exec/families_test.py"), BUILD],
     "exec, libc and children": [sys.executable, str(ROOT / "tests/exec/libc_and_children_test.py"), BUILD],
     "exec, ROS": [sys.executable, str(ROOT / "tests/exec/ros_test.py"), BUILD],

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/exec/program_conditions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +17,7 @@ namespace {
 using kernel::ClockKind;
 using kernel::ClockOptions;
 
-constexpr double idle_limit_s_max = 1e9;
+constexpr double idle_limit_s_max = 1e9, speed_max = 1e6;
 
 bool parse_cost(std::string_view text, Duration& cost) {
   double us = 0;
@@ -77,6 +79,7 @@ void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.trap_rdtsc = trap_rdtsc;
   settings.trap_library = trap_library;
   settings.simulates_started = children;
+  if (speed) settings.speed = *speed;
   if (idle_limit) settings.idle_limit = *idle_limit;
 }
 
@@ -95,6 +98,7 @@ std::string ProgramConditions::words() const {
   if (trap_rdtsc) all += " --trap-rdtsc";
   if (trap_library) all += " --trap-libc";
   if (!children) all += " --children native";
+  if (speed) all += fmt::format(" --speed {}", *speed);
   if (idle_limit) all += " --idle-limit " + to_string(Time() + *idle_limit);
   return all;
 }
@@ -108,6 +112,9 @@ void ConditionArguments::add_to(Command& command) {
   command.option("--children", children_, "KIND",
                  "mode of programs that it starts (exec, posix_spawn, system, popen): simulated, in one\n"
                  "schedule with it as its forked children are, or native (default: simulated)");
+  command.option("--speed", speed_, "X",
+                 "with partners outside of the simulation, at sockets: virtual time is no faster than X\n"
+                 "times real time; 0: it does not wait (default: 1)");
   command.option("--idle-limit", idle_limit_, "S",
                  "end the run after S seconds of virtual time in which only timers expire and no thread\n"
                  "wakes another; 0: never (default: 3600)");
@@ -129,6 +136,12 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   conditions.trap_library = trap_library_;
   conditions.children = children_ == "simulated";
   if (!conditions.children && children_ != "native") refuse("--children", "native or simulated", children_);
+  if (!speed_.empty()) {
+    double speed = 0;
+    if (!parse_number(speed_, speed) || !(speed >= 0 && speed <= speed_max))
+      refuse("--speed", "a number from 0 to 1e6", speed_);
+    conditions.speed = speed;
+  }
   if (!idle_limit_.empty()) {
     double seconds = 0;
     if (!parse_number(idle_limit_, seconds) || !(seconds >= 0 && seconds <= idle_limit_s_max))
@@ -144,6 +157,7 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
 
 std::string ConditionArguments::first_given() const {
   return !clock_.empty()            ? "--clock"
+         : !speed_.empty()          ? "--speed"
          : !idle_limit_.empty()     ? "--idle-limit"
          : isolate_                 ? "--isolate"
          : trap_rdtsc_              ? "--trap-rdtsc"

@@ -18,6 +18,7 @@ struct ProgramConditions {
   bool isolate = false;                       ///< calls that would leave the machine fail
   bool trap_rdtsc = false;                    ///< the time-stamp counter shows virtual time
   bool trap_library = false;                  ///< the C library's internal waits are simulated
+  std::optional<double> speed;                ///< of virtual time by real time, with partners outside; 0: no limit
   std::optional<Duration> idle_limit;         ///< a run that is idle for so long ends; 0: none does
   bool children = true;                       ///< programs that it starts are simulated, too
 
@@ -38,7 +39,7 @@ class ConditionArguments {
   std::string first_given() const;
 
  private:
-  std::string clock_, idle_limit_;
+  std::string clock_, idle_limit_, speed_;
   std::string children_ = "simulated";
   bool isolate_ = false, trap_rdtsc_ = false, trap_library_ = false;
 };

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -12,6 +13,8 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
+#include "fibers/posix/descriptors/pace.hpp"
+#include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/timer_firing.hpp"
@@ -29,6 +32,7 @@ struct Waiter {
   nfds_t count;
   bool outside;
   family::Changes awaited;
+  Partner partner = Partner::none;          // the nearest at a descriptor outside
   bool (*is_ready)(const void*) = nullptr;  // null: one of the descriptors
   const void* what = nullptr;
   Waiter* next = nullptr;
@@ -164,6 +168,29 @@ void wait_really(Duration longest) {
 
 }  // namespace
 
+namespace {
+
+// True if a thread of this process could act on an end inside before input from outside comes.
+bool can_others_act(const kernel::Scheduler& scheduler) {
+  if (family::has_others()) return true;
+  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
+    if (task->state == kernel::TaskState::blocked && !task->finite_wait) continue;
+    const Waiter* waiter = first;
+    while (waiter != nullptr && waiter->task != task) waiter = waiter->next;
+    if (waiter == nullptr || !waiter->outside) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool anybody_awaits_partner(const kernel::Scheduler& scheduler) {
+  Partner nearest = Partner::none;
+  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+    if (waiter->task->state == kernel::TaskState::blocked) nearest = std::max(nearest, waiter->partner);
+  return nearest == Partner::certain || (nearest == Partner::possible && !can_others_act(scheduler));
+}
+
 void (*before_look)() = nullptr;
 
 bool anybody_waits_outside() { return waiting_outside > 0; }
@@ -200,6 +227,9 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) 
     if (deadline <= task.local_time) return poll_now(descriptors, count);
     task.scheduler->enter(descriptors_object);
     Waiter waiter{&task, descriptors, count, outside, awaited_at(descriptors, count)};
+    for (nfds_t i = 0; i < count && outside; ++i)
+      waiter.partner = std::max(waiter.partner, partner_at(descriptors[i].fd));
+    if (waiter.partner != Partner::none) prepare_to_keep_pace();
     add(waiter);
     // While a thread waits outside, the run pauses at the end of each instant.
     if (outside) task.scheduler->pause();
@@ -232,7 +262,7 @@ int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restar
   kernel::Task& task = *kernel::running;
   while (!is_ready(what)) {
     task.scheduler->enter(outside_object);
-    Waiter waiter{&task, nullptr, 0, true, family::of_anything, is_ready, what};
+    Waiter waiter{&task, nullptr, 0, true, family::of_anything, Partner::none, is_ready, what};
     add(waiter);
     task.scheduler->pause();
     const Wait ended = wait_on(outside_object, Time::max());
@@ -247,7 +277,7 @@ Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(cons
   // Without other processes the thread that changes the object wakes the others; only the last change by a process that
   // has ended may not have been seen.
   if (is_ready(what)) return Wait::came;
-  Waiter waiter{kernel::running, nullptr, 0, false, family::of_objects, is_ready, what};
+  Waiter waiter{kernel::running, nullptr, 0, false, family::of_objects, Partner::none, is_ready, what};
   add(waiter);
   const Wait ended = wait_on(object, deadline);
   remove(waiter);

@@ -22,6 +22,9 @@ namespace waitpoint::posix {
 
 /// True if a thread waits for something outside.
 bool anybody_waits_outside();
+/// The same for descriptors with a partner outside (partners.hpp); with a possible one only if no other thread of the
+/// program could be at the other end.
+bool anybody_awaits_partner(const kernel::Scheduler& scheduler);
 
 /// In the child: no thread waits.
 void forget_waiters();

@@ -5,14 +5,20 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <ctime>
+#include <utility>
 
 #include "core/error.hpp"
+#include "fibers/posix/base/bounded_text.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/partners.hpp"
+#include "fibers/posix/family/order.hpp"
+#include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -22,10 +28,7 @@ namespace {
 pid_t* children = nullptr;
 std::size_t child_count = 0, child_room = 0;
 
-// A virtual time, and the real time that corresponds to it.
-Time virtual_begin;
-std::int64_t real_begin_ns = 0;
-bool has_begun = false;
+family::Pace& pace() { return family::family->pace; }
 
 std::int64_t real_ns() {
   timespec now{};
@@ -34,10 +37,12 @@ std::int64_t real_ns() {
   return now.tv_sec * 1'000'000'000 + now.tv_nsec;
 }
 
-void begin() {
-  has_begun = true;
-  virtual_begin = kernel::local_time(*kernel::running);
-  real_begin_ns = real_ns();
+void begin(Time now) { pace() = {true, now, real_ns()}; }
+
+// Of virtual time by real time; native children have their own pace.
+double speed() { return child_count > 0 || record->settings.speed <= 0 ? 1 : record->settings.speed; }
+std::int64_t passed_ns() {
+  return static_cast<std::int64_t>(static_cast<double>(real_ns() - pace().real_begin_ns) * speed());
 }
 
 bool lives(pid_t child) {
@@ -75,33 +80,63 @@ void note_native_child(pid_t child) {
   }
   children[child_count++] = child;
   prepare_to_look();
-  if (!has_begun) begin();
+  if (!pace().has_begun) begin(kernel::local_time(*kernel::running));
 }
 
 void forget_native_children() {
   child_count = 0;
-  has_begun = false;
   if (next_look.event.in_list()) kernel::running->scheduler->cancel(next_look.event);
 }
 
-bool is_paced() {
-  if (!has_begun) return false;
+void prepare_to_keep_pace() { prepare_to_look(); }
+
+bool is_paced(const kernel::Scheduler& scheduler) {
   const ErrorNumberKept kept;
   while (child_count > 0 && !lives(children[child_count - 1])) --child_count;
-  if (child_count == 0) has_begun = false;
-  return has_begun;
+  const bool has_any = has_partner() || anybody_awaits_partner(scheduler);
+  family::own->has_partner = child_count > 0 || (record->settings.speed > 0 && has_any);
+  const auto needs_pace = [](const family::Process& each) { return family::takes_turns(each) && each.has_partner; };
+  const bool is_needed = std::ranges::any_of(family::entries(), needs_pace);
+  if (!is_needed)
+    pace().has_begun = false;
+  else if (!pace().has_begun)
+    begin(scheduler.global_time());
+  return is_needed;
+}
+
+void report_if_ahead(const kernel::Scheduler& scheduler) {
+  static bool is_told = false, waits = false;
+  static Time virtual_at;  // the beginning of the wait
+  static std::int64_t real_at_ns = 0;
+  constexpr double far_s = 10;
+  if (is_told || record->settings.asked != nullptr) return;
+  const bool waited = std::exchange(waits, family::own->awaits_input);
+  if (!waits) return;
+  if (!waited) {
+    virtual_at = scheduler.global_time();
+    real_at_ns = real_ns();
+    return;
+  }
+  const std::int64_t ahead_ns = (scheduler.global_time() - virtual_at).ns() - (real_ns() - real_at_ns);
+  const double ahead_s = static_cast<double>(ahead_ns) * 1e-9;
+  if (ahead_s < far_s) return;
+  is_told = true;
+  char line[160];
+  BoundedText text(line, sizeof line);
+  text.add("waitpoint: virtual time is ahead of real time by %.1f s while a thread waits for input from outside\n",
+           ahead_s);
+  text.write();
 }
 
 Duration left_until(Time time) {
-  WAITPOINT_CHECK(has_begun, "virtual time is compared with real time before both were read");
-  const std::int64_t passed_ns = real_ns() - real_begin_ns;
-  const std::int64_t left_ns = (time - virtual_begin).ns() - passed_ns;
-  return Duration::from_ns(left_ns > 0 ? left_ns : 0);
+  WAITPOINT_CHECK(pace().has_begun, "virtual time is compared with real time before both were read");
+  const std::int64_t left_ns = (time - pace().virtual_begin).ns() - passed_ns();
+  return Duration::from_ns(left_ns > 0 ? static_cast<std::int64_t>(static_cast<double>(left_ns) / speed()) : 0);
 }
 
 Time look_at_pace(kernel::Scheduler& scheduler, Time next) {
-  WAITPOINT_CHECK(has_begun && scheduler.has_entered(next_look.object), "the check for input is not prepared");
-  Time now = later(virtual_begin, Duration::from_ns(real_ns() - real_begin_ns));
+  WAITPOINT_CHECK(pace().has_begun && scheduler.has_entered(next_look.object), "the check for input is not prepared");
+  Time now = later(pace().virtual_begin, Duration::from_ns(passed_ns()));
   if (now < scheduler.global_time()) now = scheduler.global_time();
   if (now >= next) return next;
   if (next_look.event.in_list()) scheduler.cancel(next_look.event);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/pace.hpp"
 #include "fibers/posix/exec/exploration.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -81,6 +82,29 @@ bool is_left_over(Time next) {
   return next > later(all.first_ended_at, family::left_over_at_most);
 }
 
+// True while the next event, of any process, must wait for real time.
+bool must_wait(const kernel::Scheduler& scheduler, Time next, Time now) {
+  return next > now && next != Time::max() && is_paced(scheduler) && left_until(next) > Duration();
+}
+
+// Waits for the next event in real time, in short parts, in which the other processes look outside, too. True if
+// something has come to this one.
+bool wait_for_pace(const kernel::Scheduler& scheduler, Time next, Time now) {
+  constexpr Duration part = Duration(std::chrono::milliseconds(2));
+  while (must_wait(scheduler, next, now)) {
+    wait_outside_for(std::min(left_until(next), part));
+    if (look_outside(false)) return true;
+    bool any = false;
+    for (Process& process : family::entries()) {
+      if (&process == family::own || !waits_outside(process)) continue;
+      family::ring(process);
+      any = true;
+    }
+    if (any) return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
@@ -95,6 +119,7 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
     const Time next = std::min(own, family::least_of_others().time);
     const Time now = std::max(all.now, scheduler.global_time());
     if (next > now && let_all_look(now)) break;
+    if (wait_for_pace(scheduler, next, now)) break;
     if (is_left_over(next)) {
       all.is_over = all.is_cut_off = true;
       return false;
@@ -112,7 +137,8 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
       all.is_over = true;
       return false;
     }
-  } while (family::own->is_rung && family::own->rung_at <= scheduler.next_event_time());
+  } while ((family::own->is_rung && family::own->rung_at <= scheduler.next_event_time()) ||
+           must_wait(scheduler, scheduler.next_event_time(), std::max(all.now, scheduler.global_time())));
   until = record->settings.until;
   if (next_waiting_outside() != nullptr || (anybody_listens() && may_have_unnoticed_output()))
     until = std::min(until, later(std::max(scheduler.next_event_time(), all.now), nanosecond));

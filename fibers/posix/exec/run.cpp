@@ -150,6 +150,7 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
     family::limit_window(scheduler);
     const kernel::RunState state = scheduler.run_before(std::min(until, next_idle_check()));
     if (state == kernel::RunState::stopped) break;
+    report_if_ahead(scheduler);
     if (is_idle(scheduler)) {
       family::family->is_over = family::family->is_idle = true;
       break;
@@ -164,7 +165,7 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
       continue;
     }
     const bool is_idle = state == kernel::RunState::idle;
-    if (is_paced() && (!is_idle || anybody_waits_outside())) {
+    if (is_paced(scheduler) && (!is_idle || anybody_waits_outside())) {
       until = keep_pace(scheduler);
     } else if (look_outside(is_idle)) {
       until = later(scheduler.global_time(), nanosecond);

@@ -23,7 +23,7 @@
 namespace waitpoint::posix::family {
 
 /// The parts of the layer with a state that the processes share.
-enum class Part { names, futexes, semaphores, memory, messages, inside_files, schedule, files, count };
+enum class Part { names, futexes, semaphores, memory, messages, inside_files, schedule, files, ports, count };
 
 inline constexpr int processes_max = 1024;
 /// The number of the first process; the others count on, with their threads.
@@ -75,6 +75,7 @@ struct Process {
   bool is_rung = false;                               ///< one of them did something since, first at `rung_at`
   Time rung_at;
   bool waits_outside = false;
+  bool has_partner = false;            ///< outside: virtual time waits for real time
   bool awaits_input = false;           ///< the same for descriptors alone
   Time looked_at = Time::from_ns(-1);  ///< the instant at whose end it last looked outside
   std::uint64_t looked_after = 0;      ///< the family's actions until then
@@ -107,6 +108,13 @@ struct Idleness {
 /// The date of the system, as it is written to files that are changed now.
 std::int64_t date_in_system_ns();
 
+/// A virtual time, and the real time that corresponds to it: see descriptors/pace.hpp.
+struct Pace {
+  bool has_begun = false;
+  Time virtual_begin;
+  std::int64_t real_begin_ns = 0;
+};
+
 struct alignas(Arena::alignment) Family {
   static constexpr std::uint64_t mark_of_version = 0x777066616D303032;  // "wpfam002"
   std::uint64_t mark = mark_of_version;
@@ -134,6 +142,7 @@ struct alignas(Arena::alignment) Family {
   std::uint64_t events_of_ended = 0, switches_of_ended = 0;
   Account account;
   Idleness idleness;
+  Pace pace;
   Process processes[processes_max];
 };
 

@@ -21,6 +21,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
+#include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/descriptors/signal_descriptors.hpp"
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/input_output/file_locks.hpp"
@@ -49,6 +50,7 @@ void forget(int closed) {
   forget_timer_descriptor(closed);
   forget_signal_descriptor(closed);
   close_stream_over_link(closed);
+  forget_watched(closed);
   note_inside(closed, false);
 }
 
@@ -129,7 +131,10 @@ WAITPOINT_INTERPOSED int epoll_create(int size) noexcept { return one(WAITPOINT_
 WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, epoll_event* event) noexcept {
   const int result = WAITPOINT_NEXT(epoll_ctl)(descriptor, operation, watched, event);
   if (result != 0 || !is_simulated()) return result;
-  if (operation != EPOLL_CTL_DEL && !is_inside(watched)) note_inside(descriptor, false);
+  if (operation != EPOLL_CTL_DEL && !is_inside(watched)) {
+    note_inside(descriptor, false);
+    note_watched(descriptor, watched);
+  }
   look_at_descriptors();
   return result;
 }

@@ -17,6 +17,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
+#include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
 #include "fibers/posix/links/datagram_links.hpp"
 #include "fibers/posix/links/loopback.hpp"
@@ -313,7 +314,9 @@ WAITPOINT_INTERPOSED int connect(int descriptor, const sockaddr* address, sockle
   if (is_forbidden(address)) return -1;
   if (can_be_read(address) && !leaves(address)) send_at_once(descriptor);
   pass(kernel::Operation::connect, nullptr);
-  if (class_of(descriptor) == DescriptorClass::socket && blocks(descriptor))
-    return connect_and_wait(descriptor, address, length);
-  return done([&] { return WAITPOINT_NEXT(connect)(descriptor, address, length); });
+  const bool waits = class_of(descriptor) == DescriptorClass::socket && blocks(descriptor);
+  const int result = waits ? connect_and_wait(descriptor, address, length)
+                           : done([&] { return WAITPOINT_NEXT(connect)(descriptor, address, length); });
+  note_own_port(descriptor);
+  return result;
 }

@@ -9,6 +9,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/partners.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -77,7 +78,9 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED int listen(int descriptor, int most) noexcept {
   if (!is_simulated() || !is_tcp(descriptor)) return WAITPOINT_NEXT(listen)(descriptor, most);
   send_at_once(descriptor);
-  return WAITPOINT_NEXT(listen)(descriptor, longest_queue);
+  const int result = WAITPOINT_NEXT(listen)(descriptor, longest_queue);
+  note_own_port(descriptor);
+  return result;
 }
 
 WAITPOINT_INTERPOSED int setsockopt(int descriptor, int level, int option, const void* value, socklen_t size) noexcept {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Partners of the program outside of the simulation: native processes, on this machine or others, at the far end of its
+// sockets. They live in real time.
+#pragma once
+
+#include <cstdint>
+
+namespace waitpoint::posix {
+
+enum class Partner : std::uint8_t {
+  none,
+  possible,  ///< a socket that listens, or is not connected; or a named pipe: the other end may be inside, too
+  certain,   ///< it is connected with a process that is not of the family
+};
+
+/// What is at the far end of a descriptor outside; with epoll, of any that it watches.
+Partner partner_at(int descriptor);
+
+/// True if a descriptor is open at which a certain partner was found.
+bool has_partner();
+
+/// The port of an internet socket is the family's.
+void note_own_port(int descriptor);
+/// `epoll` watches the descriptor outside from now on.
+void note_watched(int epoll, int descriptor);
+/// The descriptor is closed.
+void forget_watched(int descriptor);
+
+}  // namespace waitpoint::posix
