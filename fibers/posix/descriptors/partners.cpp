@@ -44,10 +44,18 @@ in_port_t port_of(const Address& address) {
   return of == AF_INET ? ntohs(address.internet.sin_port) : of == AF_INET6 ? ntohs(address.internet_6.sin6_port) : 0;
 }
 
-bool is_of_this_machine(const Address& address) {
-  if (address.any.sa_family == AF_INET) return ntohl(address.internet.sin_addr.s_addr) >> 24 == 127;
-  const in6_addr& host = address.internet_6.sin6_addr;
-  return IN6_IS_ADDR_LOOPBACK(&host) || (IN6_IS_ADDR_V4MAPPED(&host) && host.s6_addr[12] == 127);
+// Over the loopback, or by the machine's own address: then both ends have it.
+bool is_of_this_machine(int descriptor, const Address& peer) {
+  Address own{};
+  socklen_t size = sizeof own;
+  const bool is_known = getsockname(descriptor, &own.any, &size) == 0;
+  if (peer.any.sa_family == AF_INET) {
+    const in_addr_t host = peer.internet.sin_addr.s_addr;
+    return ntohl(host) >> 24 == 127 || (is_known && host == own.internet.sin_addr.s_addr);
+  }
+  const in6_addr& host = peer.internet_6.sin6_addr;
+  return IN6_IS_ADDR_LOOPBACK(&host) || (IN6_IS_ADDR_V4MAPPED(&host) && host.s6_addr[12] == 127) ||
+         (is_known && IN6_ARE_ADDR_EQUAL(&host, &own.internet_6.sin6_addr));
 }
 
 Partner peer_of_local(int descriptor) {
@@ -67,7 +75,7 @@ Partner partner_of_socket(int descriptor) {
   const in_port_t port = port_of(peer);
   const Ports* const own = ports();
   if (port == 0 || own == nullptr) return Partner::possible;
-  if (!is_of_this_machine(peer)) return Partner::certain;
+  if (!is_of_this_machine(descriptor, peer)) return Partner::certain;
   return (own->words[port / 64] >> (port % 64) & 1) != 0 ? Partner::none : Partner::certain;
 }
 
