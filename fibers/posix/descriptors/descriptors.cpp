@@ -13,7 +13,6 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
-#include "fibers/posix/descriptors/pace.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -192,6 +191,7 @@ bool anybody_awaits_partner(const kernel::Scheduler& scheduler) {
 }
 
 void (*before_look)() = nullptr;
+void (*before_partner)() = nullptr;
 
 bool anybody_waits_outside() { return waiting_outside > 0; }
 
@@ -229,7 +229,7 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) 
     Waiter waiter{&task, descriptors, count, outside, awaited_at(descriptors, count)};
     for (nfds_t i = 0; i < count && outside; ++i)
       waiter.partner = std::max(waiter.partner, partner_at(descriptors[i].fd));
-    if (waiter.partner != Partner::none) prepare_to_keep_pace();
+    if (waiter.partner != Partner::none && before_partner != nullptr) before_partner();
     add(waiter);
     // While a thread waits outside, the run pauses at the end of each instant.
     if (outside) task.scheduler->pause();

@@ -54,6 +54,8 @@ bool wait_for_reader(int descriptor, int patience_ms);
 
 /// Called, unless null, before each check of descriptors: a reader may have made room for data under way to it.
 extern void (*before_look)();
+/// Called, unless null, by a thread that is about to wait for a possible partner outside.
+extern void (*before_partner)();
 /// After an action on a descriptor: wakes the threads whose descriptors are ready.
 void look_at_descriptors(family::Changes changes = family::of_descriptors);
 

@@ -138,6 +138,7 @@ kernel::Scheduler& begin_run() {
     scheduler.set_watch(&record->trace->recorder);
   }
   begin_idle_watch(scheduler);
+  before_partner = prepare_to_keep_pace;
   record->running = &kernel::running;
   record->began = true;
   return scheduler;
