@@ -43,8 +43,9 @@ Digest digest_of(const posix::Record& record) {
   const Family& family = family_of(record);
   if (family.made < 2 && family.digest_of_ended == 0) return record.digest();
   std::uint64_t of_others = family.digest_of_ended;
-  for_each_other(family,
-                 [&of_others](const Process& process) { of_others += share_of_digest(process.id, process.digest); });
+  for_each_other(family, [&of_others](const Process& process) {
+    of_others += posix::family::share_of_digest(process.id, process.digest);
+  });
   Digest all;
   all.add(record.digest().value());
   all.add(of_others);
