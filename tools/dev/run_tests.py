@@ -44,6 +44,7 @@ OWN_CASES = {
     "exec, families": [sys.executable, str(ROOT / "tests/exec/families_test.py"), BUILD],
     "exec, libc and children": [sys.executable, str(ROOT / "tests/exec/libc_and_children_test.py"), BUILD],
     "exec, ROS": [sys.executable, str(ROOT / "tests/exec/ros_test.py"), BUILD],
+    "exec, repeatability": [sys.executable, str(ROOT / "tests/exec/repeatability_test.py"), BUILD],
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
     "exec: planted bugs": [sys.executable, str(ROOT / "tests/exec/zoo_test.py"), BUILD],
     "faults": [sys.executable, str(ROOT / "tests/faults/faults_test.py"), BUILD],

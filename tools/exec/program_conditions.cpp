@@ -76,7 +76,8 @@ void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.has_clock = clock.has_value();
   settings.clock = clock.value_or(kernel::ClockOptions());
   settings.isolate = isolate;
-  settings.trap_rdtsc = trap_rdtsc;
+  settings.trap_rdtsc = trap_rdtsc || strict;
+  settings.strict = strict;
   settings.trap_library = trap_library;
   settings.simulates_started = children;
   if (speed) settings.speed = *speed;
@@ -97,6 +98,7 @@ std::string ProgramConditions::words() const {
   if (isolate) all += " --isolate";
   if (trap_rdtsc) all += " --trap-rdtsc";
   if (trap_library) all += " --trap-libc";
+  if (strict) all += " --strict";
   if (!children) all += " --children native";
   if (speed) all += fmt::format(" --speed {}", *speed);
   if (idle_limit) all += " --idle-limit " + to_string(Time() + *idle_limit);
@@ -122,6 +124,9 @@ void ConditionArguments::add_to(Command& command) {
   command.flag("--trap-rdtsc", trap_rdtsc_,
                "show virtual time in the time-stamp counter, one nanosecond per tick, by trapping the\n"
                "instructions that read it (some microseconds each)");
+  command.flag("--strict", strict_,
+               "end the run, with the name and the place, when the program uses what does not repeat;\n"
+               "includes --trap-rdtsc");
   command.flag("--trap-libc", trap_library_,
                "simulate the C library's internal waits (its own locks, a FILE* on a pipe), too, by\n"
                "trapping its system calls (some microseconds each)");
@@ -134,6 +139,7 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   conditions.isolate = isolate_;
   conditions.trap_rdtsc = trap_rdtsc_;
   conditions.trap_library = trap_library_;
+  conditions.strict = strict_;
   conditions.children = children_ == "simulated";
   if (!conditions.children && children_ != "native") refuse("--children", "native or simulated", children_);
   if (!speed_.empty()) {
@@ -150,7 +156,8 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   }
   const bool is_measured = conditions.clock && (conditions.clock->kind == kernel::ClockKind::cpu ||
                                                 conditions.clock->kind == kernel::ClockKind::proportional);
-  if (is_measured && is_repeated)
+  if (strict_ && !conditions.children) throw BadInput("--strict", "cannot be used together with --children native");
+  if (is_measured && (is_repeated || strict_))
     refuse("--clock", "fixed:US, interval:US..US or counted[:NS], as measured clocks are not repeatable", clock_);
   return conditions;
 }

@@ -17,6 +17,7 @@ struct ProgramConditions {
   std::string clock_text;                     ///< as given
   bool isolate = false;                       ///< calls that would leave the machine fail
   bool trap_rdtsc = false;                    ///< the time-stamp counter shows virtual time
+  bool strict = false;                        ///< what does not repeat ends the run
   bool trap_library = false;                  ///< the C library's internal waits are simulated
   std::optional<double> speed;                ///< of virtual time by real time, with partners outside; 0: no limit
   std::optional<Duration> idle_limit;         ///< a run that is idle for so long ends; 0: none does
@@ -41,7 +42,7 @@ class ConditionArguments {
  private:
   std::string clock_, idle_limit_, speed_;
   std::string children_ = "simulated";
-  bool isolate_ = false, trap_rdtsc_ = false, trap_library_ = false;
+  bool isolate_ = false, trap_rdtsc_ = false, trap_library_ = false, strict_ = false;
 };
 
 }  // namespace waitpoint::tools

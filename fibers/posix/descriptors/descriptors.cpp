@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/descriptors/descriptors.hpp"
 
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -16,6 +19,7 @@
 #include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/repeatability.hpp"
 #include "fibers/posix/program/timer_firing.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -165,6 +169,18 @@ void wait_really(Duration longest) {
   std::free(all);
 }
 
+// Pipes and terminals of others; sockets are known by their addresses.
+void note_input_from(int descriptor) {
+  struct stat status {};
+  constexpr unsigned memory_devices = 1;  // /dev/null and the like
+  if (WAITPOINT_NEXT(fstat)(descriptor, &status) != 0) return;
+  const bool is_terminal = S_ISCHR(status.st_mode) && major(status.st_rdev) != memory_devices;
+  if (!S_ISFIFO(status.st_mode) && !is_terminal) return;
+  char source[64];
+  std::snprintf(source, sizeof source, "input from outside, from descriptor %d,", descriptor);
+  note_unrepeatable(source);
+}
+
 }  // namespace
 
 namespace {
@@ -220,7 +236,10 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) 
   bool outside = false;
   // A host does not look outside at the end of its instants: descriptors are checked when a guest acts on one.
   for (nfds_t i = 0; i < count && !has_host; ++i)
-    if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) outside = true;
+    if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) {
+      outside = true;
+      if (record->settings.strict && (descriptors[i].events & POLLIN) != 0) note_input_from(descriptors[i].fd);
+    }
   if (!outside)
     if (const int ready = poll_counted(descriptors, count); ready != 0) return ready;
   for (;;) {

@@ -139,6 +139,19 @@ void note_opened(int descriptor) {
   note_state_of(descriptor);
 }
 
+void note_copy(int from, int made) {
+  if (from >= 0 && from < descriptors_max && made >= 0 && made < descriptors_max)
+    may_be_written[made] = may_be_written[from];
+}
+
+void note_written(int descriptor) { note_state_of(descriptor); }
+
+void note_closing_all() {
+  constexpr int standard_streams = 3, looked_at = 256;
+  for (int descriptor = 0; descriptor < looked_at; ++descriptor)
+    if (descriptor < standard_streams || may_be_written[descriptor]) note_state_of(descriptor);
+}
+
 void note_closing(int descriptor) {
   if (descriptor < 0 || descriptor >= descriptors_max || !may_be_written[descriptor]) return;
   may_be_written[descriptor] = false;

@@ -42,7 +42,13 @@ std::uint64_t device_of(const struct statx& state);
 void replace_with_own(struct statx& state);
 /// The program has opened a file for writing, and may have made or truncated it.
 void note_opened(int descriptor);
-/// It is about to close a file; without an effect if it was not opened for writing.
+/// A descriptor is a copy of another one.
+void note_copy(int from, int made);
+/// The program is about to close a file; without an effect if it was not opened for writing.
 void note_closing(int descriptor);
+/// It has written to a file by a descriptor that may be another process's.
+void note_written(int descriptor);
+/// It is about to close all.
+void note_closing_all();
 
 }  // namespace waitpoint::posix

@@ -17,12 +17,14 @@
 #include "fibers/posix/base/system_call_words.hpp"
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/repeatability.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
 // In the order of the file system.
 long read_entries(const CallWords& words) {
+  note_unrepeatable("the order of getdents64()");
   const long size = WAITPOINT_NEXT(syscall)(SYS_getdents64, words.at[0], words.at[1], words.at[2]);
   struct statx state {};
   if (size <= 0 || ask_system(words.word<int>(0), "", AT_EMPTY_PATH, state) != 0) return size;

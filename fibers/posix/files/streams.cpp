@@ -17,6 +17,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __restrict mode) {
   if (!is_simulated()) return WAITPOINT_NEXT(fopen64)(path, mode);
+  note_use_of(path);
   const bool only_reads = mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
   const int generated = only_reads && is_in_proc(path)
                             ? open_generated(path, std::strchr(mode, 'e') != nullptr ? O_CLOEXEC : 0)

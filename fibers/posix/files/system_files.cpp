@@ -15,6 +15,7 @@
 #include "fibers/posix/files/text_file.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/randomness.hpp"
+#include "fibers/posix/program/repeatability.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
 namespace waitpoint::posix {
@@ -81,7 +82,32 @@ constexpr struct {
     {"/proc/sys/kernel/random/entropy_avail", write_entropy},
 };
 
+// Files and folders that are the system's, and differ.
+constexpr const char* unrepeatable[] = {
+    "/proc/buddyinfo", "/proc/diskstats",  "/proc/interrupts",   "/proc/kmsg",     "/proc/locks",  "/proc/net",
+    "/proc/pressure",  "/proc/schedstat",  "/proc/slabinfo",     "/proc/softirqs", "/proc/sys/fs", "/proc/vmstat",
+    "/proc/zoneinfo",  "/proc/timer_list", "/proc/pagetypeinfo", "/sys/block",     "/sys/kernel",  "/sys/class",
+    "/dev/hwrng",      "/dev/rtc",         "/dev/cpu",           "/dev/input",
+};
+constexpr const char* unrepeatable_of_process[] = {
+    "/net", "/numa_maps", "/pagemap", "/sched", "/smaps", "/smaps_rollup", "/stack", "/syscall",
+};
+
+bool begins_path(const char* beginning, const char* path) {
+  const std::size_t length = std::strlen(beginning);
+  return std::strncmp(path, beginning, length) == 0 && (path[length] == '\0' || path[length] == '/');
+}
+
 }  // namespace
+
+void note_use_of(const char* path) {
+  if (!is_simulated() || !record->settings.strict || path == nullptr || !can_be_read(path)) return;
+  for (const char* const each : unrepeatable)
+    if (begins_path(each, path)) note_unrepeatable(path);
+  const ProcessPath of_process(path);
+  for (const char* const each : unrepeatable_of_process)
+    if (of_process.process != nullptr && begins_path(each, of_process.rest)) note_unrepeatable(path);
+}
 
 int open_generated(const char* path, int flags) {
   if ((flags & O_ACCMODE) != O_RDONLY || (flags & (O_PATH | O_DIRECTORY)) != 0) return not_generated;

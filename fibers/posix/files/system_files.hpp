@@ -10,5 +10,7 @@ inline constexpr int not_generated = -2;
 /// Opens the text in place of the file of this path in /proc; as open(). `not_generated` for files that are the
 /// system's.
 int open_generated(const char* path, int flags);
+/// With --strict, ends the run if the contents of this file differ from run to run.
+void note_use_of(const char* path);
 
 }  // namespace waitpoint::posix

@@ -42,7 +42,7 @@ int one(int descriptor) {
 }
 
 int copy(int from, int made) {
-  if (made >= 0) note_duplicate(from, made), copy_asked(from, made);
+  if (made >= 0) note_duplicate(from, made), copy_asked(from, made), note_copy(from, made);
   return made;
 }
 
@@ -140,8 +140,12 @@ WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, e
 }
 
 WAITPOINT_INTERPOSED int dup(int descriptor) noexcept { return copy(descriptor, WAITPOINT_NEXT(dup)(descriptor)); }
-WAITPOINT_INTERPOSED int dup2(int from, int to) noexcept { return replaced(from, to, WAITPOINT_NEXT(dup2)(from, to)); }
+WAITPOINT_INTERPOSED int dup2(int from, int to) noexcept {
+  note_closing(from != to ? to : -1);
+  return replaced(from, to, WAITPOINT_NEXT(dup2)(from, to));
+}
 WAITPOINT_INTERPOSED int dup3(int from, int to, int flags) noexcept {
+  note_closing(to);
   return replaced(from, to, WAITPOINT_NEXT(dup3)(from, to, flags));
 }
 
@@ -204,8 +208,9 @@ WAITPOINT_INTERPOSED int fclose(FILE* stream) {
   const int descriptor = fileno(stream);
   if (descriptor >= 0 && __fwriting(stream) != 0) {
     WAITPOINT_NEXT(fflush)(stream);
-    note_closing(descriptor);
+    note_written(descriptor);
   }
+  note_closing(descriptor);
   const int result = WAITPOINT_NEXT(fclose)(stream);
   if (descriptor >= 0) forget(descriptor);
   look_at_descriptors();

@@ -117,6 +117,7 @@ mode_t mode_of(int flags, va_list more) {
 int open_at(int folder, const char* path, int flags, va_list more) {
   const mode_t mode = mode_of(flags, more);
   pass_cancellation_point();
+  note_use_of(path);
   if (is_simulated() && is_in_proc(path)) {
     const int generated = open_generated(path, flags);
     return generated != not_generated ? generated

@@ -23,6 +23,7 @@
 #include "fibers/posix/links/loopback.hpp"
 #include "fibers/posix/links/stream_links.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/repeatability.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -55,7 +56,9 @@ bool leaves(const sockaddr* address) {
 // Reports the first rejection only.
 bool is_forbidden(const sockaddr* address) {
   static bool is_told = false;
-  if (!is_simulated() || !record->settings.isolate || !leaves(address)) return false;
+  if (!is_simulated() || !leaves(address)) return false;
+  note_unrepeatable("traffic beyond this machine");
+  if (!record->settings.isolate) return false;
   if (!is_told) std::fprintf(stderr, "waitpoint: exec: --isolate: traffic beyond this machine is rejected (EACCES)\n");
   is_told = true;
   errno = EACCES;

@@ -12,6 +12,7 @@
 
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/turn.hpp"
+#include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/members/members.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -46,6 +47,7 @@ WAITPOINT_INTERPOSED void exit(int status) {
 
 WAITPOINT_INTERPOSED void _exit(int status) {
   if (runs_in_member()) end_member(status);
+  note_closing_all();
   family::leave(W_EXITCODE(status & 0xFF, 0));
   WAITPOINT_NEXT(_exit)(status);
   __builtin_unreachable();

@@ -34,7 +34,7 @@ class File {
   }
   bool gains_privileges() const {
     struct stat status {};
-    if (fstat(descriptor_, &status) != 0) return false;
+    if (WAITPOINT_NEXT(fstat)(descriptor_, &status) != 0) return false;
     return ((status.st_mode & S_ISUID) != 0 && status.st_uid != geteuid()) ||
            ((status.st_mode & S_ISGID) != 0 && status.st_gid != getegid());
   }

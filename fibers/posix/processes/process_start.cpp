@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +19,7 @@
 #include "fibers/posix/processes/children.hpp"
 #include "fibers/posix/processes/executable.hpp"
 #include "fibers/posix/processes/started_programs.hpp"
+#include "fibers/posix/program/repeatability.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
@@ -92,7 +94,13 @@ class Child {
   family::Process* process_;
 };
 
-bool is_to_be_simulated(const char* path) { return record->settings.simulates_started && can_be_simulated(path); }
+bool is_to_be_simulated(const char* path) {
+  if (record->settings.simulates_started && can_be_simulated(path)) return true;
+  char source[PATH_MAX + 64];
+  std::snprintf(source, sizeof source, "%s, which cannot be simulated,", path);
+  note_unrepeatable(source);
+  return false;
+}
 
 using Spawn = decltype(&posix_spawn);
 int spawn(Spawn real, const char* path, pid_t* child, const char* file, const posix_spawn_file_actions_t* actions,

@@ -3,6 +3,8 @@
 // process in it.
 #pragma once
 
+#include "fibers/posix/traps/processor_counter.hpp"
+
 namespace waitpoint::posix {
 
 namespace family {
@@ -23,6 +25,7 @@ class StartEnvironment {
  private:
   void place_at_random();
 
+  CounterReleased counter_;  ///< before its own library is loaded, the program reads it
   char* const* given_;
   char** made_ = nullptr;
   int persona_ = -1;  ///< of this process, if it has to be restored

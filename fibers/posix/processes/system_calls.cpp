@@ -43,6 +43,7 @@ extern "C" {
 #include "fibers/posix/base/system_call_words.hpp"
 #include "fibers/posix/processes/clones.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/repeatability.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/sync/futex.hpp"
 #include "fibers/posix/sync/futex_vectors.hpp"
@@ -259,6 +260,8 @@ long simulated_call(long number, const CallWords& words) {
   for (const auto about : {call_about_threads, call_about_scheduling, call_about_time, call_about_ipc,
                            call_about_processes, call_about_descriptors, call_about_sockets, call_about_files})
     if (const std::optional<long> result = about(number, words)) return *result;
+  if (number == SYS_io_uring_setup) note_unrepeatable("io_uring_setup()");
+  if (number == SYS_perf_event_open) note_unrepeatable("perf_event_open()");
   return call_system(number, words);
 }
 

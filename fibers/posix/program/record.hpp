@@ -62,6 +62,7 @@ struct Settings {
   bool instrumented = false;          ///< the program is compiled with -fsanitize=thread
   double speed = 1;                   ///< of virtual time by real time, with partners outside; 0: it does not wait
   Duration idle_limit = std::chrono::hours(1);  ///< 0: none; see exec/idle_watch.hpp
+  bool strict = false;                          ///< what does not repeat ends the run
   bool trap_library = false;                    ///< waits within the C library are simulated
   bool simulates_started = false;               ///< programs that it starts are simulations too
   bool reports_ending = false;                  ///< the watching process ends the run when a signal asks to
@@ -72,7 +73,7 @@ struct Settings {
 enum class Ending : std::uint8_t { own, deadlock, no_progress, idle, cut_off };
 
 struct alignas(Arena::alignment) Record {
-  static constexpr std::uint64_t mark_of_version = 0x7770657865633036;  // "wpexec06"
+  static constexpr std::uint64_t mark_of_version = 0x7770657865633037;  // "wpexec07"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;

@@ -110,7 +110,7 @@ namespace {
 bool is_socket(int descriptor) {
   struct stat status {};
   const ErrorNumberKept kept;
-  return fstat(descriptor, &status) == 0 && S_ISSOCK(status.st_mode);
+  return WAITPOINT_NEXT(fstat)(descriptor, &status) == 0 && S_ISSOCK(status.st_mode);
 }
 
 }  // namespace

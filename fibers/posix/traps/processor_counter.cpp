@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -29,6 +30,14 @@ void trap_processor_counter() {
   is_counter_trapped = true;
   install(SIGSEGV);
   prctl(PR_SET_TSC, PR_TSC_SIGSEGV, 0, 0, 0);
+}
+
+CounterReleased::CounterReleased() {
+  if (is_counter_trapped) prctl(PR_SET_TSC, PR_TSC_ENABLE, 0, 0, 0);
+}
+CounterReleased::~CounterReleased() {
+  const ErrorNumberKept kept;
+  if (is_counter_trapped) prctl(PR_SET_TSC, PR_TSC_SIGSEGV, 0, 0, 0);
 }
 
 bool emulate_processor_counter(void* context) {

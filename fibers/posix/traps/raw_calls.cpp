@@ -47,7 +47,11 @@ long call_system(long number, const CallWords& words) {
 }  // namespace
 
 void trap_raw_calls() {
-  if (has_sanitizer()) return;
+  if (has_sanitizer()) {
+    if (record->settings.strict)
+      refuse("--strict: the program has a sanitizer's runtime, whose calls are not simulated");
+    return;
+  }
   is_dispatched = true;
   layer = range_of_library_with(reinterpret_cast<const void*>(&trap_raw_calls));
   linker = range_of_library_with(reinterpret_cast<const void*>(&_dl_allocate_tls));
@@ -64,6 +68,8 @@ void trap_raw_calls_of_child() {
   if (WAITPOINT_NEXT(prctl)(PR_SET_SYSCALL_USER_DISPATCH, static_cast<long>(PR_SYS_DISPATCH_ON), exempt.begin,
                             exempt.end - exempt.begin, &raw_calls) == 0)
     return;
+  if (record->settings.strict)
+    refuse("--strict: the system does not let raw system calls be trapped (Linux 5.11 does)");
   is_dispatched = false;
   raw_calls = RawCalls::pass;
   install(SIGSYS);
