@@ -49,8 +49,9 @@ std::filesystem::path commands() {
   const RunMemory memory(settings_of(program, program.seed));
   std::vector<std::string> words = files.words;
   words.front() = files.program.string();
+  const std::string handled = "handle SIGSYS nostop noprint pass";  // raw system calls, which the layer answers
   const std::string wrapper = "set exec-wrapper env" + quoted(environment_of(files, memory));
-  become_gdb(options, {"-iex", "set breakpoint pending on", "-ex", wrapper}, words);
+  become_gdb(options, {"-iex", "set breakpoint pending on", "-ex", handled, "-ex", wrapper}, words);
 }
 
 }  // namespace

@@ -139,6 +139,14 @@ void note_opened(int descriptor) {
   note_state_of(descriptor);
 }
 
+void forget_files() {
+  auto* const table = static_cast<FileTable*>(family::common(family::Part::files, sizeof(FileTable)));
+  if (table == nullptr) return;
+  if (table->records != nullptr) family::give(table->records);
+  *table = {};
+  family::family->began_in_system_ns = family::date_in_system_ns();
+}
+
 void note_copy(int from, int made) {
   if (from >= 0 && from < descriptors_max && made >= 0 && made < descriptors_max)
     may_be_written[made] = may_be_written[from];

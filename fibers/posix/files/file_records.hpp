@@ -42,6 +42,8 @@ std::uint64_t device_of(const struct statx& state);
 void replace_with_own(struct statx& state);
 /// The program has opened a file for writing, and may have made or truncated it.
 void note_opened(int descriptor);
+/// Before a run in this process: files have no records, and were not changed by it.
+void forget_files();
 /// A descriptor is a copy of another one.
 void note_copy(int from, int made);
 /// The program is about to close a file; without an effect if it was not opened for writing.

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/preload.hpp"
+#include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/ipc/named_objects.hpp"
 #include "fibers/posix/links/robot_links.hpp"
 #include "fibers/posix/links/stream_links.hpp"
@@ -76,6 +77,7 @@ Guest* load_guest(const char* name, int argc, const char* const* argv, Guests::E
 bool start_guest(Guest& guest, kernel::Scheduler& scheduler, kernel::Robot& robot) {
   WAITPOINT_CHECK(kernel::running == nullptr, "a guest starts from within a task");
   guest.member.robot = &robot;
+  forget_files();
   scheduler.hooks().continues_after_cycle = continues_after_cycle;
   return start(guest.member, scheduler);
 }
