@@ -130,6 +130,12 @@ class Shells(Families):
             script.chmod(0o755)
             self.assertNative(script, PYTHON, "-c", "import threading; t = threading.Thread(target=print, args=[5]); t.start(); t.join()")
 
+    def test_named_pipes_read_by_streams_of_the_c_library(self):
+        script = "cd $0; mkfifo a b; (seq 3; sleep 1; seq 3) > a & sort < a; (seq 3; sleep 1; seq 3) > b & sort b; date +%S > time; rm a b"
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertNative("sh", "-c", script, folder)
+            self.assertEqual(pathlib.Path(folder, "time").read_text(), "02\n")
+
     def test_processes_left_over_are_ended(self):
         run = self.assertRepeats("sh", "-c", "(while sleep 1; do echo on; done) & echo off", seeds=[1])[0]
         self.assertEqual(run.output.split()[0], "off")

@@ -3,9 +3,11 @@
 
 #include <fcntl.h>
 #include <linux/futex.h>
+#include <linux/magic.h>
 #include <pthread.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/vfs.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -107,10 +109,15 @@ void answer_inherited_traps() {
 
 namespace {
 
-bool is_socket(int descriptor) {
+// Outside as it counts, but mostly with its other end in a process of the family: a socket, by the loopback, and a
+// named pipe. Other pipes outside are the user's.
+bool may_be_of_family(int descriptor) {
   struct stat status {};
+  struct statfs system {};
   const ErrorNumberKept kept;
-  return WAITPOINT_NEXT(fstat)(descriptor, &status) == 0 && S_ISSOCK(status.st_mode);
+  if (WAITPOINT_NEXT(fstat)(descriptor, &status) != 0) return false;
+  if (S_ISFIFO(status.st_mode)) return fstatfs(descriptor, &system) == 0 && system.f_type != PIPEFS_MAGIC;
+  return S_ISSOCK(status.st_mode);
 }
 
 }  // namespace
@@ -118,9 +125,8 @@ bool is_socket(int descriptor) {
 void trap_stream(int descriptor) {
   static const LibraryRange range = range_of_library_with(reinterpret_cast<const void*>(WAITPOINT_NEXT(abort)));
   static std::uint64_t trapped[known_descriptors_max / 64];
-  // The other end of a socket outside is mostly a process of the family, too, by the loopback.
-  if (descriptor < 0 || descriptor >= known_descriptors_max || (!is_inside(descriptor) && !is_socket(descriptor)))
-    return;
+  if (descriptor < 0 || descriptor >= known_descriptors_max) return;
+  if (!is_inside(descriptor) && !may_be_of_family(descriptor)) return;
   const std::uint64_t bit = std::uint64_t{1} << (descriptor % 64);
   std::uint64_t& word = trapped[descriptor / 64];
   if ((word & bit) != 0) return;

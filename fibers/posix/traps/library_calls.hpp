@@ -16,8 +16,8 @@ namespace waitpoint::posix {
 
 /// Traps those of the C library from now on.
 void trap_library_calls();
-/// The same for its reads from and writes to one descriptor, if that is inside or a socket: a FILE* of it is used.
-/// Without an effect if the system does not allow it.
+/// The same for its reads from and writes to one descriptor, if that is inside, a socket or a named pipe: a FILE* of it
+/// is used. Without an effect if the system does not allow it.
 void trap_stream(int descriptor);
 /// In a program that a process with traps has started: they apply to it, too.
 void answer_inherited_traps();

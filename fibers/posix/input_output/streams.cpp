@@ -11,9 +11,20 @@
 #include "fibers/posix/files/process_paths.hpp"
 #include "fibers/posix/files/random_devices.hpp"
 #include "fibers/posix/files/system_files.hpp"
+#include "fibers/posix/input_output/fifos.hpp"
 #include "fibers/posix/program/program.hpp"
 
 using namespace waitpoint::posix;
+
+namespace {
+
+int flags_of(const char* mode) {
+  const int closes = std::strchr(mode, 'e') != nullptr ? O_CLOEXEC : 0;
+  if (std::strchr(mode, '+') != nullptr) return O_RDWR | closes;
+  return (mode[0] == 'r' ? O_RDONLY : O_WRONLY) | closes;
+}
+
+}  // namespace
 
 WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __restrict mode) {
   if (!is_simulated()) return WAITPOINT_NEXT(fopen64)(path, mode);
@@ -24,6 +35,10 @@ WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __re
                             : not_generated;
   if (generated != not_generated) return generated < 0 ? nullptr : WAITPOINT_NEXT(fdopen)(generated, mode);
   const PathInSystem in_system(path);
+  if (const int flags = flags_of(mode); is_fifo_to_wait_for(AT_FDCWD, in_system.get(), flags)) {
+    const int opened = open_fifo(AT_FDCWD, in_system.get(), flags);
+    return opened < 0 ? nullptr : fdopen(opened, mode);
+  }
   FILE* const stream = WAITPOINT_NEXT(fopen64)(in_system.get(), mode);
   if (stream != nullptr && !only_reads) note_opened(fileno(stream));
   return with_own_bytes(stream, mode);
