@@ -13,7 +13,7 @@ import subprocess
 import sys
 import unittest
 
-from exec_case import ExecCase, Summary, WAITPOINT, execute
+from exec_case import ExecCase, HERE, Summary, WAITPOINT, execute
 
 LONG = "--long" in sys.argv and not sys.argv.remove("--long")
 INPUT_BYTES = 50_000_000 if LONG else 3_000_000
@@ -93,6 +93,52 @@ my @threads = map { threads->create(sub { while (defined(my $x = $queue->dequeue
 $queue->enqueue($_) for 1 .. 500; $queue->end(); $_->join() for @threads; print "sum $sum\\n";
 """
 
+REDIS = """
+redis-server --port 0 --unixsocket socket --save '' > /dev/null & server=$!
+until redis-cli -s socket ping > /dev/null 2>&1; do sleep 0.1; done
+redis-benchmark -s socket -n 1000 -c 10 -t set,get,incr,lpush -q > /dev/null
+redis-cli -s socket dbsize; redis-cli -s socket get counter:__rand_int__
+redis-cli -s socket shutdown nosave; wait $server; echo $?
+"""
+
+GIT = """
+export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_DATE='2024-01-01 00:00:00 +0000' GIT_COMMITTER_DATE='2024-01-01 00:00:00 +0000'
+export GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a@b GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a@b
+git init -q .; for i in 1 2 3 4 5; do echo $i > file$i; git add .; git commit -qm $i; done
+git gc -q; git fsck; git count-objects; git clone -q "file://$PWD" clone; git -C clone log --format=%H | cat
+"""
+
+MAKE = """
+for i in 1 2 3 4; do echo "int f$i(int x) { return x * $i; }" > f$i.c; done
+echo 'int f1(int), f2(int), f3(int), f4(int); int main(void) { return f1(1) + f2(1) + f3(1) + f4(1); }' > main.c
+printf 'parts = main.o f1.o f2.o f3.o f4.o\nprogram: $(parts)\n\tgcc -o $@ $^\n%%.o: %%.c\n\tgcc -c -o $@ $<\n' > Makefile
+make -s -j4; ./program; echo $?
+"""
+
+PERL_PROCESSES = r"""
+open(my $lines, "-|", "echo a; sleep 1; echo b") or die; print while <$lines>; close $lines;
+my $child = fork; if (!$child) { exit 3 } waitpid $child, 0; print $? >> 8, "\n"; system "exit 4"; print $? >> 8, `echo c`, time - $^T, "\n";
+"""
+
+SHELLS = """
+for shell in dash bash; do $shell -c 'for i in 3 1 2; do (sleep 0.$i; echo $i) & done; wait; (exit 4); echo $?; timeout 1 sleep 9; echo $?
+cat <<END | while read line; do echo "<$line>"; done
+one
+END'; done
+mkfifo pipe; (seq 3; sleep 1; seq 3) > pipe & sort pipe; seq 20 | xargs -P4 -n1 sh -c 'sleep 0.0$0; echo $0' | sort -n | tail -1
+"""
+
+SOCAT = """
+socat UNIX-LISTEN:socket,fork EXEC:'tr a-z A-Z' & server=$!; sleep 0.1
+for word in one two; do echo $word | socat - UNIX-CONNECT:socket; done; kill $server; wait
+"""
+
+SERVER = """
+python3 -m http.server 0 --bind 127.0.0.1 > log 2>&1 & server=$!
+until grep -q port log; do sleep 0.1; done; port=$(sed 's/.* port \\([0-9]*\\).*/\\1/' log)
+for i in 1 2 3; do curl -s http://127.0.0.1:$port/log | wc -l; done; kill $server; wait; echo end
+"""
+
 
 def native(*command):
     done = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True, timeout=300)
@@ -169,7 +215,52 @@ class Programs(Exec):
 
 
 class Processes(Exec):
-    """Children of a program, whose timing does not follow from the seed."""
+    """Programs of several processes: their output equals the native one, and the run depends on the seed alone."""
+
+    def check_script(self, script, *needed):
+        for program in needed:
+            if not shutil.which(program):
+                self.skipTest(f"there is no {program}")
+
+        def run(*words):
+            # In a folder of the same name, as its files are read and their names are printed.
+            folder = self.folder / "script"
+            folder.mkdir()
+            done = subprocess.run([*words, "sh", "-c", script], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, timeout=300)
+            shutil.rmtree(folder)
+            return done.returncode, done.stdout, done.stderr.decode(errors="replace")
+
+        expected = run()[:2]
+        digests = []
+        for seed in [1] * RUNS_OF_A_SEED + [2]:
+            *result, text = run(str(WAITPOINT), "exec", "--seed", str(seed), "--")
+            self.assertEqual(tuple(result), expected, f"seed {seed}: {text}")
+            digests.append(Summary(text).digest)
+        self.assertEqual(len(set(digests[:-1])), 1, "a seed came to several runs")
+
+    def test_redis_and_its_benchmark(self):
+        self.check_script(REDIS, "redis-server", "redis-benchmark")
+
+    def test_git(self):
+        self.check_script(GIT, "git")
+
+    def test_make_and_compilers(self):
+        self.check_script(MAKE, "make", "gcc")
+
+    def test_tar_and_a_compressor_with_threads(self):
+        self.check_script(f"tar c -C {HERE} . | zstd -q -T4 -B65536 | zstd -q -d | tar t | sort | wc -l", "zstd")
+
+    def test_shells(self):
+        self.check_script(SHELLS, "bash")
+
+    def test_perl(self):
+        self.check_script(f"perl -e '{PERL_PROCESSES}'", "perl")
+
+    def test_socat(self):
+        self.check_script(SOCAT, "socat")
+
+    def test_a_server_in_python_and_curl(self):
+        self.check_script(SERVER, "curl")
 
     @unittest.skipUnless(os.path.exists(PYTHON), "there is no Python of the system")
     def test_of_python_share_locks_queues_and_pools(self):
