@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The regression tests of pocolibs, LAAS's libraries under GenoM's modules, run by `waitpoint exec`:
+pocolibs_test.py BUILD SOURCES.
+
+SOURCES is its source folder, with its libraries and regression tests compiled as its README says. Each test passes, as
+natively, with one digest for a seed. Two threads of a test pass a turn in a strict order only if both are scheduled
+fairly: `--strategy fifo`. Two tests wait in loops without calls for a signal's handler, which end if they and the
+libraries are compiled with -fsanitize=thread.
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCES = pathlib.Path(sys.argv.pop()).resolve()
+
+from exec_case import ExecCase, Summary, WAITPOINT  # noqa: E402  takes the first argument
+
+SECONDS_MAX = 60
+LOOPS_WITHOUT_CALLS = {"tick", "h2timefromts"}
+
+
+def programs():
+    """The compiled tests: libtool's wrappers, which are scripts, or executables."""
+    regress = SOURCES / "src/regress"
+    return sorted(file.with_suffix("") for file in regress.glob("*Lib/*.c") if file.with_suffix("").exists())
+
+
+class Regression(ExecCase):
+    def run_test(self, program, *command):
+        # Its devices' list is a file, which a test may leave behind.
+        with tempfile.TemporaryDirectory() as folder:
+            words = [str(word) for word in (*command, program)]
+            return subprocess.run(words, env={"PATH": "/usr/bin:/bin", "H2DEV_DIR": folder}, stdin=subprocess.DEVNULL,
+                                  capture_output=True, text=True, errors="replace", timeout=SECONDS_MAX)
+
+    def test_pass_and_repeat(self):
+        tested = 0
+        for program in programs():
+            with self.subTest(program.name):
+                if program.name in LOOPS_WITHOUT_CALLS:
+                    print(f"{program.name}: left out, as it waits in a loop without calls", file=sys.stderr)
+                    continue
+                fair = self.run_test(program, WAITPOINT, "exec", "--strategy", "fifo", "--")
+                self.assertEqual(fair.returncode, 0, fair.stdout + fair.stderr)
+                runs = [self.run_test(program, WAITPOINT, "exec", "--seed", seed, "--") for seed in (1, 1, 2, 2)]
+                digests = [Summary(run.stderr).digest for run in runs]
+                self.assertEqual((digests[0], digests[2]), (digests[1], digests[3]), runs[0].stderr)
+                tested += 1
+        self.assertGreater(tested, 0, f"there are no compiled tests in {SOURCES}/src/regress")
+        print(f"{tested} tests of pocolibs pass, with one digest for a seed", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
