@@ -184,6 +184,7 @@ void stop(int signal) {
 }
 
 void let_execute_natively(bool natively) {
+  if (natively) ring(of_anything);  // its parent waits for it in the system from now on
   set_native(*own, natively);
   if (natively) {
     if (Process* const least = least_other(); least != nullptr) give_turn(*least);

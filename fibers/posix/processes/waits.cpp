@@ -105,6 +105,11 @@ Process* await_news(const Awaited& awaited) {
     const auto& asked = *static_cast<const Awaited*>(what);
     return child_with_news(asked) != nullptr || children_of(asked) == Among::none;
   };
+  // A child may have executed a native program in the meantime.
+  const auto is_ready_or_outside = [](const void* what) {
+    const auto& asked = *static_cast<const Awaited*>(what);
+    return child_with_news(asked) != nullptr || children_of(asked) != Among::family;
+  };
   for (;;) {
     if (Process* const child = child_with_news(awaited); child != nullptr) return child;
     const Among among = children_of(awaited);
@@ -119,7 +124,7 @@ Process* await_news(const Awaited& awaited) {
     }
     if (among == Among::natives_too) {
       if (wait_outside(is_ready, &awaited, Restart::if_asked) < 0) return nullptr;
-    } else if (wait_on_shared(object, Time::max(), is_ready, &awaited) == Wait::interrupted &&
+    } else if (wait_on_shared(object, Time::max(), is_ready_or_outside, &awaited) == Wait::interrupted &&
                is_interrupted(Restart::if_asked) && child_with_news(awaited) == nullptr) {
       errno = EINTR;
       return nullptr;
