@@ -2,9 +2,11 @@
 #include "modules/run/robot_program.hpp"
 
 #include <dlfcn.h>
+#include <unistd.h>
 
-#include <algorithm>
+#include <cstdlib>
 #include <memory>
+#include <sstream>
 
 #include "fibers/sync/signals.hpp"
 
@@ -27,12 +29,27 @@ bool carry(void* network, const kernel::Robot& from, const kernel::Robot& to, st
   return true;
 }
 
+bool has_programs(const scenario::Scenario& scenario, bool are_commands) {
+  for (const scenario::RobotScenario& robot : scenario.robots)
+    for (const scenario::ProgramScenario& program : robot.programs)
+      if (program.command.empty() != are_commands) return true;
+  return false;
+}
+
+// As execvp() finds it.
+bool is_executable(const std::string& name) {
+  if (name.find('/') != std::string::npos) return access(name.c_str(), X_OK) == 0;
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder.append("/") + name).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
 }  // namespace
 
-bool has_programs(const scenario::Scenario& scenario) {
-  return std::any_of(scenario.robots.begin(), scenario.robots.end(),
-                     [](const scenario::RobotScenario& robot) { return !robot.programs.empty(); });
-}
+bool has_shared_objects(const scenario::Scenario& scenario) { return has_programs(scenario, false); }
+bool has_commands(const scenario::Scenario& scenario) { return has_programs(scenario, true); }
 
 bool can_load_programs() { return guests() != nullptr; }
 
@@ -41,7 +58,22 @@ void RobotPrograms::set_network(io::Network& network) {
   if (can_load_programs()) guests()->set_carrier(&carrier_);
 }
 
+void RobotPrograms::start(const scenario::ProgramScenario& program, kernel::Robot& robot) {
+  const char* const library = std::getenv(library_variable);
+  if (library == nullptr) throw program.written.bad("expected no command: only the program `waitpoint` can start it");
+  if (!is_executable(program.command.front()))
+    throw program.written.bad("there is no program '" + program.command.front() + "'");
+  if (commands_ == nullptr) commands_ = std::make_unique<posix::HostedFamily>(scheduler_, library);
+  const int number = commands_->has_memory() ? commands_->start(program.name, program.command, robot) : -1;
+  if (number < 0) throw program.written.bad("the system makes no process for program '" + program.name + "'");
+  programs_.push_back({nullptr, number, &robot});
+}
+
 void RobotPrograms::add(const scenario::ProgramScenario& program, kernel::Robot& robot) {
+  for (const Loaded& other : programs_)
+    if ((other.guest == nullptr) != !program.command.empty())
+      throw program.written.bad("expected programs of one kind in a scenario, shared objects or commands, got both");
+  if (!program.command.empty()) return start(program, robot);
   if (!can_load_programs())
     throw program.written.bad("expected no programs: only the program `waitpoint` can load them");
   std::vector<const char*> words{program.file.c_str()};
@@ -49,7 +81,7 @@ void RobotPrograms::add(const scenario::ProgramScenario& program, kernel::Robot&
   posix::Guests::Error error;
   posix::Guest* const guest = guests()->load(program.name.c_str(), static_cast<int>(words.size()), words.data(), error);
   if (guest == nullptr) throw program.written.bad(error);
-  programs_.push_back({guest, &robot});
+  programs_.push_back({guest, 0, &robot});
   scheduler_.hooks().deliver_signals = deliver_signals;
   if (!guests()->start(*guest, scheduler_, robot))
     throw program.written.bad("not enough memory for the thread of program '" + program.name + "'");
@@ -59,9 +91,12 @@ void RobotPrograms::take_away() {
   if (carrier_.network != nullptr && can_load_programs()) guests()->set_carrier(nullptr);
   carrier_ = {};
   if (programs_.empty()) return;
-  for (const Loaded& program : programs_) guests()->take_away(program.guest, scheduler_);
+  const bool are_guests = commands_ == nullptr;
+  if (are_guests)
+    for (const Loaded& program : programs_) guests()->take_away(program.guest, scheduler_);
   programs_.clear();
-  guests()->forget_names();
+  if (are_guests) guests()->forget_names();
+  commands_.reset();
 }
 
 std::vector<std::optional<int>> RobotPrograms::exit_statuses(const kernel::Robot& robot) const {
@@ -69,7 +104,10 @@ std::vector<std::optional<int>> RobotPrograms::exit_statuses(const kernel::Robot
   for (const Loaded& program : programs_) {
     if (program.robot != &robot) continue;
     int status = 0;
-    statuses.push_back(guests()->has_ended(*program.guest, status) ? std::optional(status) : std::nullopt);
+    if (program.guest == nullptr)
+      statuses.push_back(commands_->exit_status(program.number));
+    else
+      statuses.push_back(guests()->has_ended(*program.guest, status) ? std::optional(status) : std::nullopt);
   }
   return statuses;
 }

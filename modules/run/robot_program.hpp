@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs of robots: shared objects with a main(), built from unmodified sources, whose threads are tasks of the
-// robot. They need the layer in front of the C library, which is present in processes that can load programs
+// Programs of robots, from unmodified sources: shared objects with a main(), whose threads are tasks of the robot, and
+// commands, which are processes of one family in the run's virtual time (fibers/posix/host/hosted_family.hpp). Shared
+// objects need the layer in front of the C library, which is present in processes that can load them
 // (fibers/posix/guests/guests.hpp).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "fibers/io/network.hpp"
 #include "fibers/posix/guests/guests.hpp"
+#include "fibers/posix/host/hosted_family.hpp"
 #include "modules/scenario/scenario.hpp"
 
 namespace waitpoint::run {
 
-/// True if any robot has a program.
-bool has_programs(const scenario::Scenario& scenario);
+/// True if any robot has a program of that kind.
+bool has_shared_objects(const scenario::Scenario& scenario);
+bool has_commands(const scenario::Scenario& scenario);
+/// The environment variable with the path of the library that is preloaded into commands.
+inline constexpr char library_variable[] = "WAITPOINT_COMMAND_LIBRARY";
 /// True if this process can load programs.
 bool can_load_programs();
 
@@ -30,7 +36,7 @@ class RobotPrograms {
   RobotPrograms(const RobotPrograms&) = delete;
   RobotPrograms& operator=(const RobotPrograms&) = delete;
 
-  /// Loads a program, which begins at the start of the run. A file that cannot be loaded is BadInput.
+  /// Loads or starts a program, which begins at the start of the run. What cannot be loaded or started is BadInput.
   void add(const scenario::ProgramScenario& program, kernel::Robot& robot);
   /// Abandons the programs where they are. Call before the run is unwound.
   void take_away();
@@ -39,12 +45,15 @@ class RobotPrograms {
 
  private:
   struct Loaded {
-    posix::Guest* guest;
+    posix::Guest* guest;  // null: a command
+    int number;           // of the command
     const kernel::Robot* robot;
   };
+  void start(const scenario::ProgramScenario& program, kernel::Robot& robot);
 
   kernel::Scheduler& scheduler_;
   std::vector<Loaded> programs_;
+  std::unique_ptr<posix::HostedFamily> commands_;
   posix::Carrier carrier_{};
 };
 

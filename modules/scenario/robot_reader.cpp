@@ -100,16 +100,31 @@ std::vector<std::string> read_processors(const YamlNode& node) {
   return names;
 }
 
+// A program with a '/' in its name is a file, relative to the scenario's.
+std::vector<std::string> read_command(const YamlNode& node) {
+  std::vector<std::string> words;
+  for (const YamlNode& word : read_list(node, "command")) words.push_back(read_lines(word, "a word of a command"));
+  if (words.empty() || words.front().empty()) throw node.written.bad("expected a program in the command, got none");
+  if (words.front().find('/') != std::string::npos) words.front() = node.written.resolve(words.front()).string();
+  return words;
+}
+
 std::vector<ProgramScenario> read_programs(const YamlNode& node) {
   std::vector<ProgramScenario> programs;
   for (const YamlNode& item : read_list(node, "programs")) {
-    const YamlMap map(item, "a program", {"name", "file", "arguments", "enabled"});
+    const YamlMap map(item, "a program", {"name", "file", "arguments", "command", "enabled"});
     ProgramScenario program;
     program.written = item.written;
     program.name = read_name(map.require("name"), "the name of a program");
-    const YamlNode& file = map.require("file");
     if (Confinement::exists()) throw item.written.bad("programs are not loaded with --confined");
-    program.file = file.written.resolve(read_text(file, "file"));
+    if (const YamlNode* command = map.find("command")) {
+      program.command = read_command(*command);
+      if (map.find("file") != nullptr || map.find("arguments") != nullptr)
+        throw item.written.bad("expected a file with arguments, or a command, in a program, got both");
+    } else {
+      const YamlNode& file = map.require("file");
+      program.file = file.written.resolve(read_text(file, "file"));
+    }
     if (const YamlNode* arguments = map.find("arguments"))
       for (const YamlNode& argument : read_list(*arguments, "arguments"))
         program.arguments.push_back(read_lines(argument, "an argument"));

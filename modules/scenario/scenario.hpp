@@ -67,11 +67,13 @@ struct ModuleScenario {
   Location written;
 };
 
-/// A program whose threads are tasks of the robot, instead of or beside modules.
+/// A program of the robot, instead of or beside modules: a shared object, whose threads are tasks of the robot, or a
+/// command, which is a process with all that it starts.
 struct ProgramScenario {
   std::string name;
-  std::filesystem::path file;  ///< a shared object with a main(): resolved
-  std::vector<std::string> arguments;
+  std::filesystem::path file;          ///< a shared object with a main(): resolved; empty for a command
+  std::vector<std::string> command;    ///< a program and its arguments; empty for a shared object
+  std::vector<std::string> arguments;  ///< of the shared object
   Location written;
 };
 

@@ -6,6 +6,7 @@ Their sources are independent of waitpoint (several/).
 """
 
 import ctypes.util
+import json
 import os
 import pathlib
 import random
@@ -321,6 +322,66 @@ class Robot(unittest.TestCase):
         run = office("check", programs="[{name: one}]")
         self.assertEqual(run.returncode, 2)
         self.assertIn("expected key 'file' in a program", run.stderr)
+
+
+def command(name, *words):
+    return f"{{name: {name}, command: {json.dumps([str(word) for word in words])}}}"
+
+
+class Commands(unittest.TestCase):
+    """Programs of a robot that are processes, with all that they start."""
+
+    SCRIPT = "for i in 1 2 3; do date +%T; sleep 1; done | while read line; do echo it is $line; done; exit 4"
+
+    def test_a_script_runs_in_the_time_of_the_robot(self):
+        runs = [office("run", "--until", "5", programs=f"[{command('clock', 'sh', '-c', self.SCRIPT)}]") for _ in range(3)]
+        for run in runs:
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(run.stderr, "")
+            self.assertIn("it is 00:00:00\nit is 00:00:01\nit is 00:00:02\n", run.stdout)
+            self.assertIn("  rackham: program clock ended with exit status 4\n", run.stdout)
+            self.assertEqual(digest_of_summary(run), digest_of_summary(runs[0]))
+        alone = office("run", "--until", "5", programs="[]")
+        self.assertNotEqual(digest_of_summary(runs[0]), digest_of_summary(alone))
+
+    def test_several_share_what_processes_share(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pipe = f"{folder}/pipe"
+            os.mkfifo(pipe)
+            programs = [command("reader", "sh", "-c", f"read word < {pipe}; echo heard $word at $(date +%S)"),
+                        command("writer", "sh", "-c", f"sleep 2; echo hello > {pipe}")]
+            for _ in range(2):
+                run = office("run", "--until", "5", programs=f"[{', '.join(programs)}]")
+                self.assertIn("heard hello at 02\n", run.stdout, run.stderr)
+                self.assertIn("program writer ended with exit status 0\n", run.stdout)
+
+    def test_what_has_not_ended_is_left_and_what_dies_is_noticed(self):
+        programs = [command("long", "sleep", "100"), command("dies", "sh", "-c", "kill -9 $$"),
+                    command("crashes", "sh", "-c", "sleep 1; kill -SEGV $$")]
+        run = office("run", "--until", "3", programs=f"[{', '.join(programs)}]")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("program long was running to the end\n", run.stdout)
+        self.assertIn("program dies ended with exit status 137\n", run.stdout)
+        self.assertIn("program crashes ended with exit status 139\n", run.stdout)
+
+    def test_a_run_with_them_checks_itself_and_is_explored(self):
+        programs = f"[{command('clock', 'sh', '-c', self.SCRIPT)}]"
+        run = office("run", "--until", "2", "--check", programs=programs)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        run = office("explore", "--until", "2", "--iterations", "3", programs=programs)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+
+    def test_what_cannot_be_started_is_bad_input(self):
+        for programs, line in ((command("one", "./nowhere"), "there is no program '.*nowhere'"),
+                               (command("one", "no-such-program"), "there is no program 'no-such-program'"),
+                               ("{name: one, command: []}", "expected a program in the command, got none"),
+                               ("{name: one, command: [ls], file: a.so}",
+                                "expected a file with arguments, or a command, in a program, got both"),
+                               (command("one", "true") + ", " + PROGRAMS_OF_ROBOT[1:-1],
+                                "expected programs of one kind in a scenario, shared objects or commands, got both")):
+            run = office("run", programs=f"[{programs}]")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertRegex(run.stderr, f"^waitpoint: --set .*: {line}\n$")
 
 
 class Apart(unittest.TestCase):

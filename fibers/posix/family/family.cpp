@@ -36,12 +36,6 @@ Family& memory() {
 
 }  // namespace
 
-std::int64_t date_in_system_ns() {
-  timespec date{};
-  call_directly(SYS_clock_gettime, CLOCK_REALTIME_COARSE, reinterpret_cast<long>(&date));
-  return date.tv_sec * std::int64_t{1'000'000'000} + date.tv_nsec;
-}
-
 void* take(std::size_t bytes) {
   void* const piece = memory().arena.take(bytes);
   if (piece != nullptr) std::memset(piece, 0, bytes);

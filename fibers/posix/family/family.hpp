@@ -7,7 +7,9 @@
 #pragma once
 
 #include <signal.h>
+#include <sys/syscall.h>
 #include <sys/types.h>
+#include <time.h>
 
 #include <atomic>
 #include <cstddef>
@@ -17,6 +19,7 @@
 #include "fibers/kernel/event.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/base/arena.hpp"
+#include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/family/account.hpp"
 #include "fibers/posix/program/record.hpp"
 
@@ -106,7 +109,11 @@ struct Idleness {
 };
 
 /// The date of the system, as it is written to files that are changed now.
-std::int64_t date_in_system_ns();
+inline std::int64_t date_in_system_ns() {
+  timespec date{};
+  call_directly(SYS_clock_gettime, CLOCK_REALTIME_COARSE, reinterpret_cast<long>(&date));
+  return date.tv_sec * std::int64_t{1'000'000'000} + date.tv_nsec;
+}
 
 /// A virtual time, and the real time that corresponds to it: see descriptors/pace.hpp.
 struct Pace {

@@ -6,11 +6,6 @@
 namespace waitpoint::posix::family {
 namespace {
 
-// A rung process comes before all tasks of the instant, in the order of the table.
-kernel::EventKey key_of_ring(const Process& process) {
-  return {process.rung_at, kernel::make_order(kernel::Phase::deliveries, index_of(process))};
-}
-
 // Ends the window of the run: the event of another process, or a ring of this one, is the least.
 void end_window(kernel::EventNode&) { record->scheduler.pause(); }
 kernel::EventNode limit{kernel::EventNode::absent, end_window};
@@ -32,27 +27,11 @@ kernel::EventKey limit_before(const Process& other, const kernel::Scheduler& sch
 
 std::uint32_t index_of(const Process& process) { return static_cast<std::uint32_t>(&process - family->processes); }
 
-bool takes_turns(const Process& process) { return process.state == Process::State::alive && !process.is_native; }
+kernel::EventKey key_of(const Process& process) { return key_of(*family, process); }
 
-kernel::EventKey key_of(const Process& process) {
-  if (!takes_turns(process)) return kernel::EventKey::never();
-  const kernel::EventKey ringing = key_of_ring(process);
-  return process.is_rung && ringing < process.next ? ringing : process.next;
-}
+bool precedes(const Process& a, const Process& b) { return precedes(*family, a, b); }
 
-bool precedes(const Process& a, const Process& b) {
-  const kernel::EventKey key_a = key_of(a), key_b = key_of(b);
-  return key_a < key_b || (!(key_b < key_a) && index_of(a) < index_of(b));
-}
-
-Process* least_other() {
-  Process* least = nullptr;
-  for (Process& process : entries()) {
-    if (&process == own || !takes_turns(process)) continue;
-    if (least == nullptr || precedes(process, *least)) least = &process;
-  }
-  return least;
-}
+Process* least_other() { return least_other(*family, *own); }
 
 kernel::EventKey least_of_others() {
   const Process* const least = least_other();
@@ -70,7 +49,7 @@ void limit_window(kernel::Scheduler& scheduler) {
   const Process* const least = has_others() ? least_other() : nullptr;
   kernel::EventKey key = kernel::EventKey::never();
   if (least != nullptr) key = limit_before(*least, scheduler);
-  if (own->is_rung && key_of_ring(*own) < key) key = key_of_ring(*own);
+  if (own->is_rung && key_of_ring(*family, *own) < key) key = key_of_ring(*family, *own);
   if (key.time != Time::max()) scheduler.schedule(limit, key);
 }
 

@@ -10,14 +10,12 @@
 #include <cstdint>
 
 #include "fibers/kernel/scheduler.hpp"
-#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/keys.hpp"
 
 namespace waitpoint::posix::family {
 
 /// The place in the table.
 std::uint32_t index_of(const Process& process);
-/// True if it is simulated and neither stopped nor ended.
-bool takes_turns(const Process& process);
 /// The key of its least event while it does not run; a ring is one.
 kernel::EventKey key_of(const Process& process);
 /// True if the event of `a` goes before that of `b`.

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/host/hosted_family.hpp"
+
+#include <fcntl.h>
+#include <linux/futex.h>
+#include <sys/mman.h>
+#include <sys/personality.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <new>
+
+#include "fibers/posix/base/direct_call.hpp"
+#include "fibers/posix/family/keys.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+using family::Family;
+using family::Process;
+
+// Directly: waits of the simulator's own are no misuse by a task.
+void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* timeout) {
+  call_directly(SYS_futex, reinterpret_cast<long>(&word), operation, value, reinterpret_cast<long>(timeout));
+}
+void sleep_really(const timespec& span) { call_directly(SYS_nanosleep, reinterpret_cast<long>(&span)); }
+
+// A zombie does not run.
+bool is_running(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string text;
+  if (!std::getline(file, text)) return false;
+  const std::size_t end = text.rfind(") ");
+  return end != std::string::npos && text[end + 2] != 'Z' && text[end + 2] != 'X';
+}
+
+}  // namespace
+
+HostedFamily::HostedFamily(kernel::Scheduler& scheduler, std::filesystem::path library)
+    : scheduler_(scheduler), library_(std::move(library)) {
+  file_ = memfd_create("waitpoint-family", MFD_CLOEXEC);
+  if (file_ < 0 || ftruncate(file_, run_bytes) != 0) return;
+  // Anywhere: a host has a family in each of its runs. In the programs it is at the address that its arena has.
+  void* const memory = mmap(nullptr, family_bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, file_,
+                            static_cast<off_t>(record_bytes));
+  if (memory == MAP_FAILED) return;
+  family_ = new (memory) Family();
+  // In the explored order the strategy decides between the host's tasks; the programs' order is drawn from the seed.
+  family_->settings.seed = scheduler.chooser().seed();
+  family_->settings.simulates_started = true;
+  family_->settings.idle_limit = Duration();
+  family_->file = {getpid(), file_};
+  family_->arena.start(reinterpret_cast<Family*>(family_address) + 1,
+                       reinterpret_cast<char*>(family_address + family_bytes));
+  Process& host = *add(nullptr);
+  host.real_id = getpid();
+  limit_.node.fire = fire;
+  limit_.family = this;
+}
+
+// The programs are left where they are.
+HostedFamily::~HostedFamily() {
+  if (limit_.node.in_list()) scheduler_.cancel(limit_.node);
+  const bool is_own =
+      family_ != nullptr && family_->file.watcher == getpid();  // else of the process that forked this one
+  if (is_own) {
+    for (const Process& process : std::span(family_->processes, family_->entries).subspan(1))
+      if (process.state != Process::State::none && process.state != Process::State::ended && process.real_id > 0)
+        kill(process.real_id, SIGKILL);
+    for (const Program& program : programs_) waitpid(program.in_system, nullptr, 0);
+  }
+  if (family_ != nullptr) munmap(family_, family_bytes);
+  if (file_ >= 0) close(file_);
+}
+
+Process* HostedFamily::add(const Process* parent) {
+  if (family_->entries == family::processes_max) return nullptr;
+  Process& made = *new (family_->processes + family_->entries++) Process();
+  made.state = Process::State::alive;
+  made.id = ++family_->last_id;
+  made.parent = parent != nullptr ? parent->id : family::no_parent;
+  made.group = made.session = parent != nullptr ? parent->group : made.id;
+  ++family_->made;
+  ++family_->alive;
+  return &made;
+}
+
+int HostedFamily::start(const std::string& name, const std::vector<std::string>& words, kernel::Robot& robot) {
+  Process* const process = add(&own());
+  if (process == nullptr) return -1;
+  const std::uint64_t tie =
+      Digest::mix(family_->settings.seed ^ Digest::mix(robot.id + static_cast<std::uint64_t>(process->id)));
+  process->next = {scheduler_.global_time(), kernel::make_order(kernel::Phase::tasks, tie)};
+  std::vector<std::string> environment = {"LD_PRELOAD=" + library_.string(), std::string(name_variable) + "=" + name};
+  char place[64];
+  // Of one length in every run: the addresses on the stack depend on it.
+  std::snprintf(place, sizeof place, "%s=%09d:%05d:%04d", record_variable, getpid(), file_,
+                static_cast<int>(process - family_->processes));
+  environment.emplace_back(place);
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  std::fflush(nullptr);
+  const pid_t host = getpid(), child = fork();
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != host) _exit(127);
+    const int persona = personality(0xFFFFFFFF);
+    if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
+    const int nothing = open("/dev/null", O_RDONLY);
+    if (nothing > 0) dup2(nothing, STDIN_FILENO);
+    for (std::string& variable : environment) putenv(variable.data());
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  if (child < 0) {
+    process->state = Process::State::none;
+    --family_->alive;
+    return -1;
+  }
+  process->real_id = child;
+  programs_.push_back({process, child, &robot});
+  set_limit();
+  return static_cast<int>(programs_.size()) - 1;
+}
+
+std::optional<int> HostedFamily::exit_status(int program) const {
+  const Process& process = *programs_[static_cast<std::size_t>(program)].process;
+  if (process.state != Process::State::ended) return std::nullopt;
+  return WIFEXITED(process.status) ? WEXITSTATUS(process.status) : 128 + WTERMSIG(process.status);
+}
+
+void HostedFamily::set_limit() {
+  if (limit_.node.in_list()) scheduler_.cancel(limit_.node);
+  const Process* const least = family::least_other(*family_, own());
+  kernel::EventKey key = least != nullptr ? family::key_of(*family_, *least) : kernel::EventKey::never();
+  if (key.time == Time::max()) return;
+  // In the explored order, behind the host's tasks of the instant.
+  if (scheduler_.chooser().order() == kernel::Order::explored)
+    key.order = kernel::make_order(kernel::Phase::processors, kernel::tie_mask);
+  if (key.time < scheduler_.global_time()) key.time = scheduler_.global_time();
+  scheduler_.schedule(limit_.node, key);
+}
+
+void HostedFamily::fire(kernel::EventNode& node) { reinterpret_cast<Limit&>(node).family->hand_over(); }
+
+void HostedFamily::hand_over() {
+  Family& all = *family_;
+  all.now = std::max(all.now, scheduler_.global_time());
+  own().next = scheduler_.next_key();
+  own().letters = 0;  // their statuses are in the table
+  Process* const least = family::least_other(all, own());
+  if (least != nullptr && family::key_of(all, *least).time != Time::max()) {
+    own().is_rung = false;
+    ++all.hand_overs;
+    all.holder = static_cast<std::uint32_t>(least - all.processes);
+    least->has_turn = 1;
+    futex(least->has_turn, FUTEX_WAKE, 1, nullptr);
+    await_turn();
+    own().is_rung = false;
+    programs_.front().robot->digest_in_use->add(digest(), static_cast<std::uint64_t>(all.now.ns()));
+  }
+  set_limit();
+}
+
+void HostedFamily::await_turn() {
+  constexpr timespec patience{0, 20'000'000};
+  while (own().has_turn.exchange(0) == 0) {
+    futex(own().has_turn, FUTEX_WAIT, 0, &patience);
+    if (own().has_turn == 0) take_from_killed();
+  }
+  await_end_of_leaving();
+}
+
+// A process that was killed while it had the turn, or has not got so far as to join.
+void HostedFamily::take_from_killed() {
+  Process& holder = family_->processes[family_->holder];
+  if (&holder == &own() || holder.real_id == 0 || is_running(holder.real_id)) return;
+  if (holder.state == Process::State::alive || holder.state == Process::State::stopped) {
+    const auto one = std::find_if(programs_.begin(), programs_.end(),
+                                  [&holder](const Program& each) { return each.process == &holder; });
+    siginfo_t information{};
+    if (one != programs_.end())
+      waitid(P_PID, static_cast<id_t>(one->in_system), &information, WEXITED | WNOHANG | WNOWAIT);
+    const bool has_exited = information.si_code == CLD_EXITED;
+    holder.status = has_exited ? information.si_status << 8 : information.si_pid != 0 ? information.si_status : SIGKILL;
+    holder.state = Process::State::ended;
+    holder.next = kernel::EventKey::never();
+    holder.listens_to = 0;
+    holder.is_rung = holder.waits_outside = false;
+    --family_->alive;
+  }
+  family_->holder = 0;
+  own().has_turn = 1;
+}
+
+// What the system does at a process's end must have happened when another continues.
+void HostedFamily::await_end_of_leaving() {
+  constexpr timespec soon{0, 20'000};
+  while (family_->leaving != 0 && is_running(family_->leaving)) sleep_really(soon);
+  family_->leaving = 0;
+}
+
+std::uint64_t HostedFamily::digest() const {
+  std::uint64_t sum = family_->digest_of_ended;
+  for (const Process& process : std::span(family_->processes, family_->entries))
+    if (process.state != Process::State::none) sum += family::share_of_digest(process.id, process.digest);
+  return sum;
+}
+
+}  // namespace waitpoint::posix
