@@ -45,15 +45,27 @@ class RobotPrograms {
 
  private:
   struct Loaded {
-    posix::Guest* guest;  // null: a command
-    int number;           // of the command
-    const kernel::Robot* robot;
+    scenario::ProgramScenario program;
+    kernel::Robot* robot;
+    posix::Guest* guest = nullptr;  // of a shared object
+    int number = -1;                // of a command
+    bool has_started = false;
   };
-  void start(const scenario::ProgramScenario& program, kernel::Robot& robot);
+  struct Look {
+    kernel::EventNode node;  // first: its address is the event's
+    RobotPrograms* programs = nullptr;
+  };
+  static void look(kernel::EventNode& node);
+  void load(Loaded& loaded);
+  void start(Loaded& loaded);
+  void start_those_due();
+  bool holds(const StartCondition& condition, const kernel::Robot& robot) const;
+  std::optional<int> exit_status(const Loaded& program) const;
 
   kernel::Scheduler& scheduler_;
   std::vector<Loaded> programs_;
   std::unique_ptr<posix::HostedFamily> commands_;
+  Look look_;  // for conditions of starts, each millisecond while a program waits
   posix::Carrier carrier_{};
 };
 

@@ -109,10 +109,49 @@ std::vector<std::string> read_command(const YamlNode& node) {
   return words;
 }
 
+std::vector<StartCondition> read_conditions(const YamlNode& node) {
+  std::vector<StartCondition> conditions;
+  for (const YamlNode& item : read_list(node, "after")) {
+    const std::string text = read_lines(item, "a condition");
+    if (!parse(text, conditions.emplace_back()))
+      throw item.written.bad("expected NAME, NAME.started, tcp:PORT or a path with a '/' in after, got '" + text + "'");
+  }
+  return conditions;
+}
+
+// Those on other programs must be of enabled ones of the robot, and without cycles.
+void check_conditions(const std::vector<ProgramScenario>& programs) {
+  std::vector<const ProgramScenario*> startable;
+  const auto is_among = [](const auto& all, const std::string& name, const auto& name_of) {
+    return std::any_of(all.begin(), all.end(), [&](const auto& each) { return name_of(each) == name; });
+  };
+  const auto is_startable = [&](const std::string& name) {
+    return is_among(startable, name, [](const ProgramScenario* each) { return each->name; });
+  };
+  for (const ProgramScenario& program : programs)
+    for (const StartCondition& condition : program.after)
+      if (condition.is_of_program() &&
+          !is_among(programs, condition.of, [](const ProgramScenario& each) { return each.name; }))
+        throw program.written.bad("after: the robot has no program '" + condition.of + "'");
+  for (std::size_t before = ~std::size_t{0}; before != startable.size();) {
+    before = startable.size();
+    for (const ProgramScenario& program : programs) {
+      if (is_startable(program.name)) continue;
+      if (std::all_of(program.after.begin(), program.after.end(), [&](const StartCondition& condition) {
+            return !condition.is_of_program() || is_startable(condition.of);
+          }))
+        startable.push_back(&program);
+    }
+  }
+  for (const ProgramScenario& program : programs)
+    if (!is_startable(program.name))
+      throw program.written.bad("'" + program.name + "' can never start: the conditions in after form a cycle");
+}
+
 std::vector<ProgramScenario> read_programs(const YamlNode& node) {
   std::vector<ProgramScenario> programs;
   for (const YamlNode& item : read_list(node, "programs")) {
-    const YamlMap map(item, "a program", {"name", "file", "arguments", "command", "enabled"});
+    const YamlMap map(item, "a program", {"name", "file", "arguments", "command", "after", "enabled"});
     ProgramScenario program;
     program.written = item.written;
     program.name = read_name(map.require("name"), "the name of a program");
@@ -128,6 +167,7 @@ std::vector<ProgramScenario> read_programs(const YamlNode& node) {
     if (const YamlNode* arguments = map.find("arguments"))
       for (const YamlNode& argument : read_list(*arguments, "arguments"))
         program.arguments.push_back(read_lines(argument, "an argument"));
+    if (const YamlNode* after = map.find("after")) program.after = read_conditions(*after);
     for (const ProgramScenario& other : programs)
       if (other.name == program.name)
         throw item.written.bad("there are two programs called '" + program.name + "', the first at " +
@@ -136,6 +176,7 @@ std::vector<ProgramScenario> read_programs(const YamlNode& node) {
     map.read("enabled", enabled);
     if (enabled) programs.push_back(std::move(program));
   }
+  check_conditions(programs);
   return programs;
 }
 

@@ -16,6 +16,7 @@
 
 #include "core/pose.hpp"
 #include "core/setting.hpp"
+#include "core/start_condition.hpp"
 #include "core/time.hpp"
 #include "fibers/io/medium.hpp"
 #include "modules/scenario/location.hpp"
@@ -74,6 +75,7 @@ struct ProgramScenario {
   std::filesystem::path file;          ///< a shared object with a main(): resolved; empty for a command
   std::vector<std::string> command;    ///< a program and its arguments; empty for a shared object
   std::vector<std::string> arguments;  ///< of the shared object
+  std::vector<StartCondition> after;   ///< its start waits for all; names are of the robot's programs
   Location written;
 };
 

@@ -355,6 +355,30 @@ class Commands(unittest.TestCase):
                 self.assertIn("heard hello at 02\n", run.stdout, run.stderr)
                 self.assertIn("program writer ended with exit status 0\n", run.stdout)
 
+    def test_conditions_order_their_starts(self):
+        def waiting(text, after):
+            return f"{text[:-1]}, after: {json.dumps(after)}}}"
+
+        with tempfile.TemporaryDirectory() as folder:
+            file = f"{folder}/there"
+            programs = [command("a", "sh", "-c", "sleep 1; echo first"), waiting(command("b", "echo", "second"), ["a"]),
+                        waiting(command("c", "sh", "-c", f"sleep 0.5; echo third > {file}"), ["b.started", "a"]),
+                        waiting(command("d", "cat", file), [file])]
+            for _ in range(2):
+                run = office("run", "--until", "5", programs=f"[{', '.join(programs)}]")
+                self.assertIn("first\nsecond\nthird\n", run.stdout, run.stderr)
+                os.remove(file)
+        chain = [f"{{name: {path.stem}, file: {path}, arguments: {arguments}}}" for path, *arguments in CHAIN]
+        chain[0] = waiting(chain[0], ["reader.started"])
+        run = office("run", "--until", "5", programs=f"[{', '.join(chain)}]")
+        self.assertIn("LINE 10 AT 1.0 S\n5 lines\n", run.stdout, run.stderr)
+        for after, line in ((["nobody"], "after: the robot has no program 'nobody'"),
+                            (["one"], "'one' can never start: the conditions in after form a cycle"),
+                            (["tcp:x"], "expected NAME, NAME.started, tcp:PORT or a path with a '/' in after, got 'tcp:x'")):
+            run = office("run", programs=f"[{waiting(command('one', 'true'), after)}]")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertRegex(run.stderr, f"^waitpoint: --set .*: {line}\n$")
+
     def test_what_has_not_ended_is_left_and_what_dies_is_noticed(self):
         programs = [command("long", "sleep", "100"), command("dies", "sh", "-c", "kill -9 $$"),
                     command("crashes", "sh", "-c", "sleep 1; kill -SEGV $$")]

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/start_condition.hpp"
 #include "tools/exec/program_file.hpp"
-#include "tools/session/start_condition.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -32,9 +32,9 @@ std::string name_of_file(const std::string& file) {
   return std::filesystem::path(file).stem().string().substr(0, letters_max);
 }
 
-session::StartCondition condition_of(const std::string& text) {
-  session::StartCondition condition;
-  if (!session::parse(text, condition))
+StartCondition condition_of(const std::string& text) {
+  StartCondition condition;
+  if (!parse(text, condition))
     throw BadInput(
         "exec",
         "expected after:NAME, after:NAME.started, after:tcp:PORT or after:PATH with a '/', got 'after:" + text + "'");
@@ -107,7 +107,7 @@ void ProgramList::check_conditions() const {
   };
   for (const Program& program : programs_) {
     for (const std::string& text : program.conditions) {
-      const session::StartCondition condition = condition_of(text);
+      const StartCondition condition = condition_of(text);
       if (condition.is_of_program() && !is_known(condition.of))
         throw BadInput("exec", "after:" + text + ": there is no program '" + condition.of + "'");
     }
@@ -117,7 +117,7 @@ void ProgramList::check_conditions() const {
     for (const Program& program : programs_) {
       if (is_startable(program.name)) continue;
       const bool is_free = std::all_of(program.conditions.begin(), program.conditions.end(), [&](const auto& text) {
-        const session::StartCondition condition = condition_of(text);
+        const StartCondition condition = condition_of(text);
         return !condition.is_of_program() || is_startable(condition.of);
       });
       if (is_free) startable.push_back(program.name);

@@ -4,7 +4,7 @@
 //   FILE ARGUMENTS :: after:CONDITION NAME=FILE ARGUMENTS :: ...
 //
 // A program is named after its file by default; equal default names are numbered. Programs are sorted by name, so that
-// a run does not depend on the order in which they are given. Conditions: see tools/session/start_condition.hpp.
+// a run does not depend on the order in which they are given. Conditions: see core/start_condition.hpp.
 #pragma once
 
 #include <string>

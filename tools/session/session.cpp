@@ -22,7 +22,7 @@
 #include <thread>
 #include <vector>
 
-#include "tools/session/start_condition.hpp"
+#include "core/start_condition.hpp"
 
 namespace waitpoint::session {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a program of a session waits for before its start:
+// What a program, of several, waits for before its start:
 //
 //   NAME          the program of this name has ended
 //   NAME.started  it has been started
@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace waitpoint::session {
+namespace waitpoint {
 
 struct StartCondition {
   enum class Kind : unsigned char { end, start, port, file };
@@ -27,4 +27,4 @@ bool parse(const std::string& text, StartCondition& condition);
 /// True if a condition on a port or a file is fulfilled.
 bool holds_outside(const StartCondition& condition);
 
-}  // namespace waitpoint::session
+}  // namespace waitpoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/session/start_condition.hpp"
+#include "core/start_condition.hpp"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
-namespace waitpoint::session {
+namespace waitpoint {
 namespace {
 
 constexpr std::string_view of_port = "tcp:", of_start = ".started";
@@ -54,4 +54,4 @@ bool holds_outside(const StartCondition& condition) {
   return is_listening_at(condition.port, "/proc/net/tcp") || is_listening_at(condition.port, "/proc/net/tcp6");
 }
 
-}  // namespace waitpoint::session
+}  // namespace waitpoint
