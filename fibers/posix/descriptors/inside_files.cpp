@@ -34,7 +34,7 @@ constexpr int page = 4096;
 
 // A table with open addressing, by inodes. The entry of this inode, or a free one for it; null if the table is full.
 InsideFile* place_of(ino_t inode) {
-  auto** const table = static_cast<InsideFile**>(family::common(family::Part::inside_files, sizeof(InsideFile*)));
+  auto** const table = static_cast<InsideFile**>(family::common(family::Part::inside_files, sizeof(void*)));
   if (table != nullptr && *table == nullptr)
     *table = static_cast<InsideFile*>(family::take_pages(files_max * sizeof(InsideFile)));
   if (table == nullptr || *table == nullptr) return nullptr;

@@ -42,7 +42,7 @@ bool add(Listing& listing, const dirent64& entry) {
   if (listing.count == listing.room) {
     const long room = listing.room > 0 ? 2 * listing.room : 16;
     auto* const larger =
-        static_cast<dirent64**>(std::realloc(listing.entries, static_cast<std::size_t>(room) * sizeof(dirent64*)));
+        static_cast<dirent64**>(std::realloc(listing.entries, static_cast<std::size_t>(room) * sizeof(void*)));
     if (larger == nullptr) return false;
     listing.entries = larger;
     listing.room = room;

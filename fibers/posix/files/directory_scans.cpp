@@ -27,7 +27,7 @@ struct Found {
   bool add(const dirent64& entry) {
     if (count == room) {
       const std::size_t larger = room > 0 ? 2 * room : 16;
-      auto** const moved = static_cast<dirent64**>(std::realloc(entries, larger * sizeof(dirent64*)));
+      auto** const moved = static_cast<dirent64**>(std::realloc(entries, larger * sizeof(void*)));
       if (moved == nullptr) return false;
       entries = moved;
       room = larger;
@@ -61,8 +61,7 @@ int scan(DIR* directory, dirent64*** result, Select select, Compare compare) {
   }
   errno = error_before;
   if (compare != nullptr && found.count > 0)
-    std::qsort(found.entries, found.count, sizeof(dirent64*),
-               reinterpret_cast<int (*)(const void*, const void*)>(compare));
+    std::qsort(found.entries, found.count, sizeof(void*), reinterpret_cast<int (*)(const void*, const void*)>(compare));
   *result = found.entries;
   return static_cast<int>(found.count);
 }

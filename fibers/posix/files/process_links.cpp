@@ -56,7 +56,7 @@ ssize_t read_link(int folder, const char* path, char* text, std::size_t size) {
   const std::size_t told_length = std::min(std::strlen(told), size);
   if (size == 0) return fail(EINVAL);
   if (!can_be_written(text, told_length)) return fail(EFAULT);
-  std::memcpy(text, told, told_length);
+  std::copy_n(told, told_length, text);  // no null at its end
   return static_cast<ssize_t>(told_length);
 }
 

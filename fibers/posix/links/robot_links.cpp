@@ -48,7 +48,8 @@ bool take_peers_address(int descriptor, SocketAddress& address) {
   return getpeername(descriptor, address.get(), &address.length) == 0;
 }
 
-static_assert(sizeof(sockaddr_in) <= sizeof(sockaddr_storage) && alignof(sockaddr_in) <= alignof(sockaddr_storage));
+static_assert(sizeof(sockaddr_in) <= sizeof(sockaddr_storage));
+static_assert(alignof(sockaddr_in) <= alignof(sockaddr_storage));
 
 bool is_at(const SocketAddress& bound, const SocketAddress& address) {
   WAITPOINT_CHECK(address.length <= sizeof address.bytes, "an address is longer than its memory");

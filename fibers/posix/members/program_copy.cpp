@@ -127,7 +127,8 @@ class Object {
     const std::uint64_t at = table + 16 + std::uint64_t{words} * 8;
     std::uint32_t last = 0;
     for (std::uint32_t i = 0; i < buckets; ++i)
-      if (const auto* bucket = loaded<std::uint32_t>(at + i * 4); bucket != nullptr && *bucket > last) last = *bucket;
+      if (const auto* bucket = loaded<std::uint32_t>(at + std::uint64_t{i} * 4); bucket != nullptr && *bucket > last)
+        last = *bucket;
     if (last < first_hashed) return first_hashed;
     const std::uint64_t chains = at + std::uint64_t{buckets} * 4;
     for (;; ++last) {
