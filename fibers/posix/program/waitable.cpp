@@ -76,7 +76,7 @@ void grow() {
   Waitable** const old = buckets;
   const std::size_t old_count = bucket_count;
   bucket_count = old_count == 0 ? 1024 : 2 * old_count;
-  buckets = static_cast<Waitable**>(pages(bucket_count * sizeof(Waitable*)));
+  buckets = static_cast<Waitable**>(pages(bucket_count * sizeof(void*)));
   std::size_t moved = 0;
   for (std::size_t i = 0; i < old_count; ++i)
     for (Waitable *w = old[i], *next = nullptr; w != nullptr; w = next) {
@@ -87,7 +87,7 @@ void grow() {
       ++moved;
     }
   WAITPOINT_CHECK(moved == kept && kept < bucket_count, "the table of primitives and its count disagree");
-  if (old != nullptr) munmap(old, old_count * sizeof(Waitable*));
+  if (old != nullptr) munmap(old, old_count * sizeof(void*));
 }
 
 void unlink(Waitable& waitable) {
