@@ -37,6 +37,7 @@ std::filesystem::path commands() {
   words.push_back("--args");
   words.insert(words.end(), program.begin(), program.end());
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   execvp("gdb", arguments.data());

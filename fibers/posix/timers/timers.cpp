@@ -106,7 +106,7 @@ int prepare(Timer& timer, sigevent* event) {
 int number_for_new() {
   for (std::size_t i = 0; i < timers_end; ++i)
     if (timers[i] == nullptr) return static_cast<int>(i);
-  auto** const more = static_cast<Timer**>(std::realloc(timers, (timers_end + 1) * sizeof(Timer*)));
+  auto** const more = static_cast<Timer**>(std::realloc(timers, (timers_end + 1) * sizeof(void*)));
   if (more == nullptr) return -1;
   timers = more;
   timers[timers_end] = nullptr;

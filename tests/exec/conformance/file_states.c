@@ -328,7 +328,7 @@ CASE(a_folder_can_be_read_again_and_from_a_position) {
   EXPECT((first = readdir(directory)->d_name) != NULL);
   char copy[300];
   strcpy(copy, first);
-  readdir(directory);
+  EXPECT(readdir(directory) != NULL);
   const long position = telldir(directory);
   strcpy(third, readdir(directory)->d_name);
   while (readdir(directory) != NULL) continue;
