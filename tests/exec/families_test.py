@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import unittest
 
-from exec_case import ExecCase, Summary, WAITPOINT
+from exec_case import BUILD, ExecCase, Summary, WAITPOINT
 
 PYTHON = "/usr/bin/python3"
 
@@ -189,6 +189,47 @@ class Programs(Families):
     def test_streams_of_the_c_library_over_sockets(self):
         run = self.assertNative(self.compile("socket_stream.c"))[0]
         self.assertEqual(run.output, "7\n14\n21\n")
+
+    def test_instrumented_programs_behind_scripts_and_beside_others(self):
+        if not (BUILD / "libwaitpoint-exec-races.so").exists():
+            self.skipTest("this build has no runtime for -fsanitize=thread")
+        racing = self.compile("racing.cpp", "-g", "-fsanitize=thread")
+        race = (r"data race at 0x\w+ .*\n  first: write of 4 bytes by task thread [12]#[12], after its event \d+\n"
+                r"    .* at .*racing\.cpp:20\n(    .*\n)*  second: read of 4 bytes by task thread [12]#[12], ")
+        script = f"{racing}; echo $?; exec {racing} locked"
+        for run in self.assertRepeats("sh", "-c", script):
+            self.assertEqual((run.status, run.output), (0, "2 seen\n0\n2 seen\n"), run.errors)
+            self.assertRegex(run.errors, r"data races of racing#\d+:\n" + race)
+            self.assertEqual(run.errors.count("data races of"), 1, run.errors)
+        for run in self.assertRepeats(racing, "locked", "::", "one=" + str(racing)):
+            self.assertEqual((run.status, run.output), (0, "2 seen\n2 seen\n"), run.errors)
+            self.assertRegex(run.errors, r"data races of one:\n" + race)
+            self.assertEqual(run.errors.count("data races of"), 1, run.errors)
+
+    def test_programs_started_by_instrumented_ones(self):
+        if not (BUILD / "libwaitpoint-exec-races.so").exists():
+            self.skipTest("this build has no runtime for -fsanitize=thread")
+        source = """
+            #include <cstdio>
+            #include <cstdlib>
+            #include <thread>
+            int main(int argc, char** argv) {
+              int status = 1;
+              std::thread([&] {
+                const char* const command = argc > 1 ? argv[1] : "echo ${LD_LIBRARY_PATH-none}:${LD_PRELOAD-none}; sleep 2; date +%S";
+                status = std::system(command);
+              }).join();
+              return status == 0 ? 0 : 1;
+            }
+        """
+        program = self.folder / "instrumented-starter"
+        subprocess.run(["g++", "-x", "c++", "-", "-fsanitize=thread", "-o", program], input=source, text=True, check=True)
+        for command in (program,), (program, program):
+            for run in self.assertRepeats(*command):
+                self.assertEqual((run.status, run.output), (0, "none:none\n02\n"), run.errors)
+        with_path = {**os.environ, "LD_LIBRARY_PATH": "/somewhere"}
+        for run in self.assertRepeats("sh", "-c", str(program), env=with_path):
+            self.assertEqual((run.status, run.output), (0, "/somewhere:none\n02\n"), run.errors)
 
     def test_a_killed_process_holds_up_nobody(self):
         run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")

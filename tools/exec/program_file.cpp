@@ -12,6 +12,8 @@
 #include <sstream>
 #include <vector>
 
+#include "fibers/posix/base/elf_file.hpp"
+
 namespace waitpoint::tools {
 namespace {
 
@@ -26,24 +28,19 @@ bool read(std::ifstream& file, std::uint64_t offset, T& value) {
   return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
-bool has_part(std::ifstream& file, const Elf64_Ehdr& header, std::uint32_t type) {
-  for (int i = 0; i < header.e_phnum; ++i) {
-    Elf64_Phdr part;
-    if (!read(file, header.e_phoff + static_cast<std::uint64_t>(i) * header.e_phentsize, part)) break;
-    if (part.p_type == type) return true;
-  }
-  return false;
-}
-
-bool is_x86_64(const Elf64_Ehdr& header) {
-  return header.e_ident[EI_CLASS] == ELFCLASS64 && header.e_machine == EM_X86_64;
+auto elf_of(std::ifstream& file) {
+  return posix::ElfFile([&file](void* to, std::size_t size, std::uint64_t from) {
+    file.clear();
+    file.seekg(static_cast<std::streamoff>(from));
+    return static_cast<bool>(file.read(static_cast<char*>(to), static_cast<std::streamsize>(size)));
+  });
 }
 
 // The dynamic linker, which preloads, is the program's interpreter.
 std::string trouble_of_elf(std::ifstream& file) {
-  Elf64_Ehdr header;
-  if (!read(file, 0, header) || !is_x86_64(header)) return "is not a program for x86-64";
-  if (has_part(file, header, PT_INTERP)) return "";
+  const auto elf = elf_of(file);
+  if (!elf.is_known()) return "is not a program for x86-64";
+  if (elf.has_part(PT_INTERP)) return "";
   return "is linked statically: nothing can be put in front of its C library";
 }
 
@@ -56,52 +53,6 @@ std::string trouble_of_script(std::ifstream& file) {
   return cannot_be_simulated(interpreter);
 }
 
-// The fields that the dynamic linker reads; empty for files that are not ELF or are truncated.
-struct Dynamic {
-  std::vector<Elf64_Phdr> parts;
-  std::vector<Elf64_Dyn> entries;
-
-  std::uint64_t value(std::int64_t tag) const {
-    for (const Elf64_Dyn& entry : entries)
-      if (entry.d_tag == tag) return entry.d_un.d_val;
-    return 0;
-  }
-};
-Dynamic dynamic_of(std::ifstream& file) {
-  Dynamic dynamic;
-  Elf64_Ehdr header{};
-  if (!read(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return {};
-  for (int i = 0; i < header.e_phnum; ++i)
-    if (!read(file, header.e_phoff + static_cast<std::uint64_t>(i) * sizeof(Elf64_Phdr), dynamic.parts.emplace_back()))
-      return {};
-  for (const Elf64_Phdr& part : dynamic.parts) {
-    if (part.p_type != PT_DYNAMIC) continue;
-    for (std::uint64_t at = 0; at + sizeof(Elf64_Dyn) <= part.p_filesz; at += sizeof(Elf64_Dyn))
-      if (!read(file, part.p_offset + at, dynamic.entries.emplace_back())) return {};
-  }
-  return dynamic;
-}
-
-// The names of its needed libraries.
-std::vector<std::string> libraries_of(std::ifstream& file) {
-  const Dynamic dynamic = dynamic_of(file);
-  std::uint64_t names = dynamic.value(DT_STRTAB);
-  // The file offset of that address.
-  for (const Elf64_Phdr& part : dynamic.parts)
-    if (part.p_type == PT_LOAD && names >= part.p_vaddr && names < part.p_vaddr + part.p_filesz) {
-      names = names - part.p_vaddr + part.p_offset;
-      break;
-    }
-  std::vector<std::string> libraries;
-  for (const Elf64_Dyn& entry : dynamic.entries) {
-    if (entry.d_tag != DT_NEEDED) continue;
-    file.clear();
-    file.seekg(static_cast<std::streamoff>(names + entry.d_un.d_val));
-    std::getline(file, libraries.emplace_back(), '\0');
-  }
-  return libraries;
-}
-
 }  // namespace
 
 std::filesystem::path find_program(const std::string& name) {
@@ -109,7 +60,7 @@ std::filesystem::path find_program(const std::string& name) {
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::filesystem::path file = std::filesystem::path(folder.empty() ? "." : folder) / name;
+    std::filesystem::path file = std::filesystem::path(folder.empty() ? "." : folder) / name;
     if (is_program(file)) return file;
   }
   return "";
@@ -118,10 +69,9 @@ std::filesystem::path find_program(const std::string& name) {
 // A static position-independent program has no interpreter either, but has a flag that says so.
 bool is_shared_object(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  Elf64_Ehdr header;
-  return read(file, 0, header) && std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 && is_x86_64(header) &&
-         header.e_type == ET_DYN && has_part(file, header, PT_DYNAMIC) && !has_part(file, header, PT_INTERP) &&
-         (dynamic_of(file).value(DT_FLAGS_1) & DF_1_PIE) == 0;
+  const auto elf = elf_of(file);
+  return elf.is_known() && elf.head().e_type == ET_DYN && elf.has_part(PT_DYNAMIC) && !elf.has_part(PT_INTERP) &&
+         (elf.value(DT_FLAGS_1) & DF_1_PIE) == 0;
 }
 
 std::string cannot_be_simulated(const std::filesystem::path& program) {
@@ -163,9 +113,7 @@ bool counts_blocks(const std::filesystem::path& path) {
 
 bool is_instrumented(const std::filesystem::path& program) {
   std::ifstream file(program, std::ios::binary);
-  for (const std::string& library : libraries_of(file))
-    if (library.starts_with("libtsan.so.")) return true;
-  return false;
+  return posix::is_instrumented(elf_of(file));
 }
 
 }  // namespace waitpoint::tools

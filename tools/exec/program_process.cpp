@@ -45,7 +45,7 @@ std::string put_first(const std::string& variable, const std::string& path) {
 
 // The path of a program that can be simulated.
 std::filesystem::path checked_program(const std::string& name) {
-  const std::filesystem::path program = find_program(name);
+  std::filesystem::path program = find_program(name);
   if (program.empty() && name.find('/') != std::string::npos && std::filesystem::exists(name))
     throw BadInput("exec", "'" + name + "' is not an executable file");
   if (program.empty()) throw BadInput("exec", "there is no program '" + name + "'");
@@ -86,7 +86,6 @@ std::vector<std::string> ProgramFiles::named() const {
 }
 
 std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemory& memory) {
-  memory.record().settings.instrumented = files.instrumented;
   std::vector<std::string> environment = {
       put_first("LD_PRELOAD", files.library.string()),
       std::string(posix::record_variable) + "=" + std::to_string(memory.descriptor()),

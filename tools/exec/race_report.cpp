@@ -1,18 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/exec/race_report.hpp"
 
+#include <map>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "fibers/explore/races/races.hpp"
 #include "fibers/posix/exec/race_log.hpp"
+#include "tools/exec/family_report.hpp"
 
 namespace waitpoint::tools {
+namespace {
+
+// Null without an instrumented program.
+const posix::RaceLog* log_of(const posix::Record& record) {
+  return static_cast<const posix::RaceLog*>(common_of(record, posix::family::Part::races));
+}
+
+}  // namespace
 
 std::string races_of(const posix::Record& record) {
+  if (!has_races(record)) return "";
+  // A process that executes several programs has several names.
+  std::map<std::pair<pid_t, std::string>, std::vector<races::LocatedRace>> of_processes;
+  for (const posix::RaceOfProcess& one : log_of(record)->races)
+    of_processes[{one.process, one.program}].push_back(one.race);
   std::ostringstream text;
-  if (record.race_log != nullptr)
-    for (const races::Race& race : races::in_words(record.race_log->races)) text << race;
+  for (const auto& [process, found] : of_processes) {
+    if (family_of(record).made > 1) text << "data races of " << process.second << ":\n";
+    for (const races::Race& race : races::in_words(found)) text << race;
+  }
   return text.str();
+}
+
+bool has_races(const posix::Record& record) {
+  const posix::RaceLog* const log = log_of(record);
+  return log != nullptr && !log->races.empty();
+}
+
+std::span<const std::uint64_t> code_of(const posix::Record& record) {
+  const posix::RaceLog* const log = log_of(record);
+  return log != nullptr ? std::span<const std::uint64_t>(log->code) : std::span<const std::uint64_t>();
 }
 
 }  // namespace waitpoint::tools

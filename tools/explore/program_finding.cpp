@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/posix/exec/exploration.hpp"
-#include "fibers/posix/exec/race_log.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/race_report.hpp"
@@ -121,7 +120,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   judge(memory, status, finding);
   if (!finding.passed() && !output.empty()) finding.words += "\n" + output;
   const posix::Record& record = memory.record();
-  if (finding.passed() && record.race_log != nullptr && !record.race_log->races.empty()) {
+  if (finding.passed() && has_races(record)) {
     finding.kind = Finding::Kind::unmet;
     finding.words = "a data race";
     if (request.places) finding.details = races_of(record);
@@ -138,7 +137,10 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
     finding.profile = explored.profile;
     finding.profile.finish(explored.explorer.steps());
   }
-  if (request.learn && record.race_log != nullptr) finding.profile.code = record.race_log->code;
+  if (request.learn) {
+    const std::span<const std::uint64_t> code = code_of(record);
+    finding.profile.code.assign(code.begin(), code.end());
+  }
   finding.tell(explored.narrator, request.decision.has_value(), request.words);
   if (request.events) finding.tell(explored.timeline, trace_too);
   if (request.log_from) finding.log = explored.log;

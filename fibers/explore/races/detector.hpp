@@ -66,6 +66,10 @@ class Detector {
   void name(Context& context, const char* name);
   void switch_to(Context& context);
   void end(Context& context);
+  /// From now on, over runs too, code outside of tasks is not the program's, and orders events only when it says so.
+  void set_outside_apart() { outside_is_apart_ = true; }
+  /// Not from within a task: all past events happen before all later ones.
+  void order_by_outside();
 
   // --- happens-before ---
 
@@ -197,6 +201,7 @@ class Detector {
   Context* outside_ = nullptr;
   VectorClock ended_;               // the clocks of ended tasks, for the code outside to acquire
   std::uint64_t outside_left_ = 0;  // counts the ends of code outside
+  bool outside_is_apart_ = false;
   Context* current_ = nullptr;
   std::uint64_t run_ = 0;
   std::uint32_t indices_ = 0;

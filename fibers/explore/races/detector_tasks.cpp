@@ -100,9 +100,9 @@ void Detector::name(Context& context, const char* name) {
 }
 
 void Detector::switch_to(Context& context) {
-  if (current_ == outside_) leave_outside();
+  if (current_ == outside_ && !outside_is_apart_) leave_outside();
   if (&context == outside_) {
-    enter_outside();
+    if (!outside_is_apart_) enter_outside();
   } else if (context.outside_known != outside_left_) {
     context.outside_known = outside_left_;
     join(context.clock, outside_->clock, clocks_);
@@ -122,6 +122,11 @@ void Detector::enter_outside() {
     next_epoch(*context);
   }
   next_epoch(*outside_);
+}
+
+void Detector::order_by_outside() {
+  enter_outside();
+  leave_outside();
 }
 
 void Detector::end(Context& context) {

@@ -44,6 +44,10 @@ struct Runtime {
   void (*forget_learned)();
   void (*know)(std::uint64_t place);       ///< adds a place, as if learned
   void (*tell)(const Listener& listener);  ///< sets the listener; it must outlive the runs
+  /// Code outside of tasks is the simulator's own from now on: it orders events only by order_by_outside(). Otherwise
+  /// all that tasks did happens before what is done outside, and that before all that tasks do later.
+  void (*set_outside_apart)();
+  void (*order_by_outside)();
 };
 
 }  // namespace waitpoint::races

@@ -19,6 +19,8 @@ const waitpoint::races::Runtime runtime = {
     [] { Detector::the().forget_learned(); },
     [](std::uint64_t place) { Detector::the().know(place); },
     [](const waitpoint::races::Listener& listener) { Detector::the().tell(listener); },
+    [] { Detector::the().set_outside_apart(); },
+    [] { Detector::the().order_by_outside(); },
 };
 
 }  // namespace

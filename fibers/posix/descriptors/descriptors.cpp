@@ -328,7 +328,11 @@ bool wait_outside_for(Duration longest) {
   return has_come_from_outside() || waiting_outside > 0;
 }
 
-bool look_outside(bool may_wait) {
+void (*note_what_came)() = nullptr;
+
+namespace {
+
+bool look_or_wait(bool may_wait) {
   const bool came = take_in_signals_from_outside();
   if (wake_ready(true, family::of_anything) || came) return true;
   if (!may_wait) return false;
@@ -337,6 +341,14 @@ bool look_outside(bool may_wait) {
   take_in_signals_from_outside();
   wake_ready(true, family::of_anything);
   return true;
+}
+
+}  // namespace
+
+bool look_outside(bool may_wait) {
+  const bool came = look_or_wait(may_wait);
+  if (came && note_what_came != nullptr) note_what_came();
+  return came;
 }
 
 }  // namespace waitpoint::posix

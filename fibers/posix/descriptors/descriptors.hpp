@@ -69,6 +69,9 @@ Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(cons
 /// At the end of an instant, outside all threads: checks the conditions of waiting threads, and waits in real time if
 /// `may_wait`. True if a thread may continue.
 bool look_outside(bool may_wait);
+/// Called when a thread may continue because of that. What has come from outside or from another process may follow
+/// from anything that a thread has done: for the detection of races. Null without it.
+extern void (*note_what_came)();
 /// Waits in real time for anything that threads wait for, at most `longest`; true if something may have come.
 bool wait_outside_for(Duration longest);
 

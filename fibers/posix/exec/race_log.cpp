@@ -1,31 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/exec/race_log.hpp"
 
+#include <new>
+
 #include "core/error.hpp"
+#include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/exec/memory.hpp"
+#include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
 RaceLog& log() {
-  WAITPOINT_CHECK(record->race_log != nullptr, "a race is found before there is a log");
-  return *record->race_log;
+  void* const known = family::common(family::Part::races, 0);
+  WAITPOINT_CHECK(known != nullptr, "a race is found before there is a log");
+  return *static_cast<RaceLog*>(known);
 }
 
 constexpr races::Listener listener = {
-    [](const races::FoundRace& race) { log().races.push_back(races::located(race)); },
-    [](std::uint64_t place) { log().code.push_back(place); },
+    [](const races::FoundRace& race) {
+      const NewInFamily memory;
+      log().races.push_back({family::own->id, record->robot.name, races::located(race)});
+    },
+    [](std::uint64_t place) {
+      const NewInFamily memory;
+      log().code.push_back(place);
+    },
 };
 
 }  // namespace
 
-RaceLog* start_race_log(bool learn, std::span<const std::uint64_t> code) {
-  if (&waitpoint_races_runtime == nullptr) return nullptr;
+bool has_race_runtime() { return &waitpoint_races_runtime != nullptr; }
+
+void begin_race_log(bool learn, std::span<const std::uint64_t> code) {
+  WAITPOINT_CHECK(has_race_runtime(), "a log of races begins without the runtime that finds them");
+  if (family::common(family::Part::races, 0) == nullptr) {
+    void* const memory = family::common(family::Part::races, sizeof(RaceLog));
+    if (memory == nullptr) refuse("there is no memory for the races of this run");
+    new (memory) RaceLog();
+  }
   const races::Runtime& runtime = *waitpoint_races_runtime();
   for (const std::uint64_t place : code) runtime.know(place);
   runtime.learn(learn);
   runtime.tell(listener);
-  return new RaceLog();
+  runtime.set_outside_apart();
+  note_what_came = runtime.order_by_outside;
 }
 
 }  // namespace waitpoint::posix

@@ -1,22 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data races of a run, if the program is compiled with -fsanitize=thread and the layer has the runtime for it:
-// logged as they are found, in the memory that is shared with the explorer's process.
+// The data races of a run, of all processes whose program is compiled with -fsanitize=thread: logged as they are found,
+// in the family's memory, so that the process that watches the run can report them however it ends.
 #pragma once
+
+#include <sys/types.h>
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fibers/explore/races/located_race.hpp"
 
 namespace waitpoint::posix {
 
+struct RaceOfProcess {
+  pid_t process;        ///< its number in the family
+  std::string program;  ///< as in other reports
+  races::LocatedRace race;
+};
+
+/// family::Part::races.
 struct RaceLog {
-  std::vector<races::LocatedRace> races;
+  std::vector<RaceOfProcess> races;
   std::vector<std::uint64_t> code;  ///< that accesses shared memory, if the run records it
 };
 
-/// Called before the scheduler is made; null in a layer without the runtime. `code` comes from an earlier run.
-RaceLog* start_race_log(bool learn, std::span<const std::uint64_t> code);
+/// True if this library is the one with the runtime, which instrumented programs load.
+bool has_race_runtime();
+/// From now on races of this process are logged. Called before the scheduler is made, where there is the runtime.
+/// `code` comes from an earlier run.
+void begin_race_log(bool learn, std::span<const std::uint64_t> code);
 
 }  // namespace waitpoint::posix

@@ -75,7 +75,7 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   const int joined = map_run(descriptor);
   WAITPOINT_NEXT(unsetenv)(record_variable);
   leave_preload();
-  if (record->settings.instrumented) leave_library_path();
+  if (has_race_runtime()) leave_library_path();
   inherit_signals();
   register_fork();
   if (joined >= 0) {
@@ -116,7 +116,12 @@ kernel::Scheduler& begin_run() {
   if (!family::is_joined()) family::begin();
   note_caught_signals();
   const Asked* const asked = record->settings.asked;
-  record->race_log = asked == nullptr ? start_race_log(false, {}) : start_race_log(asked->learn, asked->code);
+  if (has_race_runtime()) {
+    if (asked == nullptr)
+      begin_race_log(false, {});
+    else
+      begin_race_log(asked->learn, asked->code);
+  }
   if (!kernel::Scheduler::has_address_space())
     refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
   kernel::Scheduler& scheduler =

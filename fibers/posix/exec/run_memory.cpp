@@ -34,7 +34,7 @@ void make_record() {
   record = new (memory) Record();
   record->settings = family.settings;
   record->file = family.file;
-  record->settings.traced = record->settings.instrumented = false;
+  record->settings.traced = false;
 }
 
 }  // namespace

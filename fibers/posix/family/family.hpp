@@ -26,7 +26,7 @@
 namespace waitpoint::posix::family {
 
 /// The parts of the layer with a state that the processes share.
-enum class Part { names, futexes, semaphores, memory, messages, inside_files, schedule, files, ports, count };
+enum class Part { names, futexes, semaphores, memory, messages, inside_files, schedule, files, ports, races, count };
 
 inline constexpr int processes_max = 1024;
 /// The number of the first process; the others count on, with their threads.
@@ -123,7 +123,7 @@ struct Pace {
 };
 
 struct alignas(Arena::alignment) Family {
-  static constexpr std::uint64_t mark_of_version = 0x777066616D303032;  // "wpfam002"
+  static constexpr std::uint64_t mark_of_version = 0x777066616D303033;  // "wpfam003"
   std::uint64_t mark = mark_of_version;
   Settings settings;
   RunFile file;

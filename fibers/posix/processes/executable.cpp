@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "fibers/posix/base/elf_file.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 
@@ -43,14 +44,13 @@ class File {
   int descriptor_;
 };
 
-bool has_interpreter(const File& file, const Elf64_Ehdr& head) {
-  for (int i = 0; i < head.e_phnum; ++i) {
-    Elf64_Phdr part{};
-    const off_t at = static_cast<off_t>(head.e_phoff) + static_cast<off_t>(i) * head.e_phentsize;
-    if (file.read(&part, sizeof part, at) != sizeof part) return false;
-    if (part.p_type == PT_INTERP) return true;
-  }
-  return false;
+ProgramKind kind_of_elf(const File& file) {
+  const auto read = [&file](void* to, std::size_t size, std::uint64_t from) {
+    return file.read(to, size, static_cast<off_t>(from)) == static_cast<ssize_t>(size);
+  };
+  const ElfFile elf(read);
+  if (!elf.has_part(PT_INTERP)) return ProgramKind::native;
+  return is_instrumented(elf) ? ProgramKind::instrumented : ProgramKind::ordinary;
 }
 
 bool is_script(const char* text) { return text[0] == '#' && text[1] == '!'; }
@@ -75,30 +75,29 @@ FoundProgram::FoundProgram(const char* name) : path_(name) {
   }
 }
 
-bool can_be_simulated(const char* path) {
+ProgramKind kind_of(const char* path) {
   const ErrorNumberKept kept;
   char name[PATH_MAX];
-  if (path == nullptr || std::strlen(path) >= sizeof name) return true;
+  if (path == nullptr || std::strlen(path) >= sizeof name) return ProgramKind::ordinary;
   std::strcpy(name, path);
   for (int i = 0; i < interpreters_max; ++i) {
     const File file(name);
-    if (!file.is_open()) return access(name, X_OK) != 0;  // a program that may be executed, but not read
-    if (file.gains_privileges()) return false;
+    if (!file.is_open()) {  // a program that may be executed, but not read
+      return access(name, X_OK) != 0 ? ProgramKind::ordinary : ProgramKind::native;
+    }
+    if (file.gains_privileges()) return ProgramKind::native;
     char text[PATH_MAX] = {};
     const ssize_t size = file.read(text, sizeof text - 1, 0);
-    if (size >= static_cast<ssize_t>(sizeof(Elf64_Ehdr)) && std::memcmp(text, ELFMAG, SELFMAG) == 0) {
-      Elf64_Ehdr head{};
-      std::memcpy(&head, text, sizeof head);
-      return head.e_ident[EI_CLASS] == ELFCLASS64 && head.e_machine == EM_X86_64 && has_interpreter(file, head);
-    }
-    if (size < 3 || !is_script(text)) return true;  // executed by a shell, or not at all
+    if (size >= static_cast<ssize_t>(sizeof(Elf64_Ehdr)) && std::memcmp(text, ELFMAG, SELFMAG) == 0)
+      return kind_of_elf(file);
+    if (size < 3 || !is_script(text)) return ProgramKind::ordinary;  // executed by a shell, or not at all
     const char* const begin = text + 2 + std::strspn(text + 2, " \t");
     const std::size_t length = std::strcspn(begin, " \t\n");
-    if (length == 0 || length >= sizeof name) return true;
+    if (length == 0 || length >= sizeof name) return ProgramKind::ordinary;
     std::memcpy(name, begin, length);
     name[length] = '\0';
   }
-  return true;
+  return ProgramKind::ordinary;
 }
 
 }  // namespace waitpoint::posix

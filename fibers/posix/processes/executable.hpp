@@ -3,6 +3,7 @@
 #pragma once
 
 #include <climits>
+#include <cstdint>
 
 namespace waitpoint::posix {
 
@@ -17,8 +18,13 @@ class FoundProgram {
   const char* path_;
 };
 
-/// False for a program that is statically linked, for another machine, or gains privileges; for a script it is its
-/// interpreter that counts. True for files that cannot be executed at all.
-bool can_be_simulated(const char* path);
+enum class ProgramKind : std::uint8_t {
+  native,  ///< statically linked, for another machine, or gains privileges: it cannot be simulated
+  ordinary,
+  instrumented,  ///< compiled with -fsanitize=thread
+};
+
+/// For a script it is its interpreter that counts. Files that cannot be executed at all are ordinary.
+ProgramKind kind_of(const char* path);
 
 }  // namespace waitpoint::posix

@@ -94,12 +94,13 @@ class Child {
   family::Process* process_;
 };
 
-bool is_to_be_simulated(const char* path) {
-  if (record->settings.simulates_started && can_be_simulated(path)) return true;
+ProgramKind kind_in_simulation(const char* path) {
+  const ProgramKind kind = record->settings.simulates_started ? kind_to_start(path) : ProgramKind::native;
+  if (kind != ProgramKind::native) return kind;
   char source[PATH_MAX + 64];
   std::snprintf(source, sizeof source, "%s, which cannot be simulated,", path);
   note_unrepeatable(source);
-  return false;
+  return kind;
 }
 
 using Spawn = decltype(&posix_spawn);
@@ -107,9 +108,10 @@ int spawn(Spawn real, const char* path, pid_t* child, const char* file, const po
           const posix_spawnattr_t* attributes, char* const* words, char* const* environment) {
   if (!is_simulated()) return real(child, file, actions, attributes, words, environment);
   if (is_guest()) return ENOSYS;
-  Child made(is_to_be_simulated(path));
+  const ProgramKind kind = kind_in_simulation(path);
+  Child made(kind != ProgramKind::native);
   if (!made.has_room()) return EAGAIN;
-  const StartEnvironment started(environment, made.simulated());
+  const StartEnvironment started(environment, made.simulated(), kind);
   const RealMask mask;
   pid_t in_system = 0;
   const int error = real(&in_system, file, actions, attributes, words, started.get());
@@ -122,10 +124,11 @@ int spawn(Spawn real, const char* path, pid_t* child, const char* file, const po
 template <class Call>
 int execute(const char* path, char* const* environment, Call call) {
   if (!is_simulated() || family::own == nullptr) return call(environment);
-  const bool simulated = is_to_be_simulated(path);
+  const ProgramKind kind = kind_in_simulation(path);
+  const bool simulated = kind != ProgramKind::native;
   pass(kernel::Operation::start, nullptr);
   note_start(!simulated);
-  const StartEnvironment started(environment, simulated ? family::own : nullptr);
+  const StartEnvironment started(environment, simulated ? family::own : nullptr, kind);
   family::own->next.time = kernel::running->local_time;
   if (!simulated && family::has_others()) family::let_execute_natively(true);
   family::own->executes = simulated;

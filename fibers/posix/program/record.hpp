@@ -43,7 +43,6 @@ struct RunFile {
 
 struct Asked;
 struct Explored;
-struct RaceLog;
 struct Trace;
 
 struct Settings {
@@ -59,7 +58,6 @@ struct Settings {
   const Asked* asked = nullptr;       ///< the exploration's request, in Order::explored
   std::uint32_t looks_at_once = 1;    ///< uses of clocks and of sched_yield() that are charged together
   std::uint32_t batches_at_once = 1;  ///< the same for batches of uses of primitives: see waiting.hpp
-  bool instrumented = false;          ///< the program is compiled with -fsanitize=thread
   double speed = 1;                   ///< of virtual time by real time, with partners outside; 0: it does not wait
   Duration idle_limit = std::chrono::hours(1);  ///< 0: none; see exec/idle_watch.hpp
   bool strict = false;                          ///< what does not repeat ends the run
@@ -73,7 +71,7 @@ struct Settings {
 enum class Ending : std::uint8_t { own, deadlock, no_progress, idle, cut_off };
 
 struct alignas(Arena::alignment) Record {
-  static constexpr std::uint64_t mark_of_version = 0x7770657865633037;  // "wpexec07"
+  static constexpr std::uint64_t mark_of_version = 0x7770657865633038;  // "wpexec08"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;
@@ -84,8 +82,7 @@ struct alignas(Arena::alignment) Record {
   Ending ending = Ending::own;
   Explored* explored = nullptr;
   Trace* trace = nullptr;
-  RaceLog* race_log = nullptr;  ///< of an instrumented program
-  Arena arena;                  ///< the rest of the file, behind this record
+  Arena arena;  ///< the rest of the file, behind this record
   std::uint32_t threads_made = 0;
   std::uint32_t threads_most = 0;          ///< at once
   kernel::Task* const* running = nullptr;  ///< the program's kernel::running
